@@ -249,11 +249,11 @@ def decoding(count):
 def stopping(seconds, stops):
     """Latency from stop() to STOP at the sink, on a connection of its own, under load."""
     with Running(period=0.02, bytes_per_second=2e6, features=3) as sink, robot_at(sink) as robot:
-        ended = threading.Event()
+        finished = threading.Event()
         trajectory = still(400_000)
 
         def load():
-            while not ended.is_set():
+            while not finished.is_set():
                 try:
                     robot.execute(trajectory)
                 except (MotionStopped, RobotError):
@@ -265,17 +265,17 @@ def stopping(seconds, stops):
         channel = robot._carrier._channels[Port.CONTROL]
         latencies = []
         for _ in range(stops):
-            begun = time.monotonic_ns()
+            started = time.monotonic_ns()
             channel.send_urgent(STOP_FRAME, 1.0)
-            latencies.append((sink.stamps.get() - begun) / 1e6)
+            latencies.append((sink.stamps.get() - started) / 1e6)
             time.sleep(seconds / stops)
-        ended.set()
+        finished.set()
         robot._core.motion.stopping = True
         loader.join(5)
-    found = np.percentile(latencies, [50, 99, 100])
+    result = np.percentile(latencies, [50, 99, 100])
     print(
-        f"stop, own connection        p50 {found[0]:.3f} ms, p99 {found[1]:.3f} ms, "
-        f"worst {found[2]:.3f} ms over {stops} (p99 <= 1 ms)"
+        f"stop, own connection        p50 {result[0]:.3f} ms, p99 {result[1]:.3f} ms, "
+        f"worst {result[2]:.3f} ms over {stops} (p99 <= 1 ms)"
     )
 
 

@@ -35,13 +35,13 @@ class Slow:
         self.behind = port
         self.port = self._listen(port, control=True)
 
-    def _listen(self, behind: int, *, control: bool) -> int:
+    def _listen(self, after: int, *, control: bool) -> int:
         listener = socket.create_server(("127.0.0.1", 0))
 
         def accept() -> None:
             while True:
                 client, _ = listener.accept()
-                server = socket.create_connection(("127.0.0.1", behind))
+                server = socket.create_connection(("127.0.0.1", after))
                 for sock in (client, server):
                     sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
                 self._pipe(client, server, control=False)
@@ -79,19 +79,19 @@ class Slow:
             threading.Thread(target=work, daemon=True).start()
 
     def _told(self, block: bytes) -> bytes:
-        head, mark, rest = block.partition(b"227 ")
-        if not mark:
+        head, marker, remaining = block.partition(b"227 ")
+        if not marker:
             return block
-        numbers = rest[rest.index(b"(") + 1 : rest.index(b")")].split(b",")
+        numbers = remaining[remaining.index(b"(") + 1 : remaining.index(b")")].split(b",")
         port = self._listen(int(numbers[4]) * 256 + int(numbers[5]), control=False)
-        told = f"(127,0,0,1,{port // 256},{port % 256})".encode()
-        return head + mark + b"passive " + told + b".\r\n"
+        text = f"(127,0,0,1,{port // 256},{port % 256})".encode()
+        return head + marker + b"passive " + text + b".\r\n"
 
 
 def figures() -> None:
     """Print the figures."""
     os.environ["RAPIDGEN_PASSWORD"] = PASSWORD
-    wanted = desired_set("irb120")
+    desired = desired_set("irb120")
     with tempfile.TemporaryDirectory() as name, contextlib.ExitStack() as stack:
         urls, slow = [], []
         for number in range(COUNT + 1):
@@ -105,7 +105,7 @@ def figures() -> None:
 
         def deploy(chosen: list[str]) -> float:
             targets = tuple(parse_target(url) for url in chosen)
-            job = Job("deploy", targets, access, lambda _: wanted, parallel=COUNT)
+            job = Job("deploy", targets, access, lambda _: desired, parallel=COUNT)
             start = time.perf_counter()
             outcomes = apply_all(job, plan_all(job), lambda line: None)
             assert all(outcome.word == "done" for outcome in outcomes), outcomes
@@ -120,7 +120,7 @@ def figures() -> None:
         times = []
         for _ in range(5):
             start = time.perf_counter()
-            assert make_plan(transport, wanted).is_empty
+            assert make_plan(transport, desired).is_empty
             times.append(time.perf_counter() - start)
         transport.close()
         print(f"plan of an unchanged controller (at most 1 s)    {sorted(times)[2]:6.3f} s")

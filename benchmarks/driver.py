@@ -46,7 +46,7 @@ def drivers(folder):
 
 def per_point(config, system):
     """Simulated s for one more point."""
-    taken = []
+    in_use = []
     for count in (20, 90):
         bench = Bench(config, system)
         bench.run(1)
@@ -56,14 +56,14 @@ def per_point(config, system):
         start = bench.now
         link.send(data + STOP)
         bench.until(lambda got=link.frames: bool(got), 60, "STOP is answered")
-        taken.append(link.frames[0][0] - start)
+        in_use.append(link.frames[0][0] - start)
         bench.close()
-    return (taken[1] - taken[0]) / 70
+    return (in_use[1] - in_use[0]) / 70
 
 
 def stopping(config, system):
     """s from the last byte of STOP to the moment in which the robot is told to stop."""
-    found = []
+    result = []
     for delay in (0.5, 0.77, 1.03, 1.31, 1.6):
         bench = Bench(config, system)
         bench.run(1)
@@ -75,9 +75,9 @@ def stopping(config, system):
         link.send(STOP)
         start = bench.now
         bench.until(lambda g=group: g.stop_reasons or not g.legs, 5, "the robot is told to stop")
-        found.append(bench.now - start)
+        result.append(bench.now - start)
         bench.close()
-    return sorted(found)[len(found) // 2], max(found)
+    return sorted(result)[len(result) // 2], max(result)
 
 
 def read(path):
@@ -101,18 +101,18 @@ def follow(config, system, path, ramp):
     group = bench.controller.motion.group("rob1")
     begins = []
 
-    def heard(move):
+    def received(move):
         if max(abs(a - b) for a, b in zip(move.target, group.positions(), strict=True)) > MOVED:
             begins.append(bench.now)
 
-    group.listeners.append(heard)
+    group.listeners.append(received)
     link = bench.motion()
     link.send(bench.download(points))
     bench.run(2 + times[-1] * 1.5 + 12)
     if not begins:
         bench.close()
         return None
-    began, ended = begins[0], group.motion.end / 1e9
+    began, finished = begins[0], group.motion.end / 1e9
     way = [p for p, _ in points]
     apart, at = 0.0, 0
     for when, seen in bench.track:
@@ -127,7 +127,7 @@ def follow(config, system, path, ramp):
     last = next(t for t, p in zip(times, way, strict=True) if p == way[-1])
     if way[0] == way[-1]:
         last = next(t for t, p in list(zip(times, way, strict=True))[1:] if p == way[-1])
-    return abs((ended - began) - last), max(apart, lost)
+    return abs((finished - began) - last), max(apart, lost)
 
 
 def main(folder, ramp):
@@ -143,11 +143,11 @@ def main(folder, ramp):
             f"(worst {worst * 1e3:.1f})"
         )
         for path in sorted(TRAJECTORIES.glob("*.csv")):
-            found = own[path.stem]
-            if found is None:
+            result = own[path.stem]
+            if result is None:
                 print(f"  {path.stem:6} not moved")
             else:
-                print(f"  {path.stem:6} time {found[0]:8.4f} s  path {found[1]:.5f} rad")
+                print(f"  {path.stem:6} time {result[0]:8.4f} s  path {result[1]:.5f} rad")
     if folder is None:
         return
     theirs = results.pop("abb_driver")

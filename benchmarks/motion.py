@@ -39,14 +39,14 @@ def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tupl
     program = moves(group)
     controller = SimpleNamespace(dialect=Switches(), options=Options())
     task = Task(scheduler, TaskSpec("T_ROB1"), controller, Shared())
-    ended = 0
+    finished = 0
 
     def body() -> None:
-        nonlocal ended
+        nonlocal finished
         for move in program:
             task.charge(1_000_000)
             group.move(task, move)
-        ended = scheduler.now
+        finished = scheduler.now
 
     def look() -> None:
         group.positions()
@@ -58,7 +58,7 @@ def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tupl
         scheduler.after(0, look)
     start = time.process_time()
     scheduler.advance(stop=lambda: not task.alive)
-    return time.process_time() - start, ended, scheduler.switches
+    return time.process_time() - start, finished, scheduler.switches
 
 
 def joint_moves(count: int) -> Callable[[MotionGroup], list[Move]]:

@@ -70,13 +70,13 @@ def module(m, routines):
 
 def best(action, rounds=5):
     """CPU seconds of the fastest round."""
-    found = []
+    result = []
     for _ in range(rounds):
         gc.collect()
         started = time.process_time()
         action()
-        found.append(time.process_time() - started)
-    return min(found)
+        result.append(time.process_time() - started)
+    return min(result)
 
 
 def texts_of(folder):
@@ -105,10 +105,10 @@ def main():
     files = tuple(ModuleFile(f"m{m}", f"m{m}.mod", module(m, 12).encode()) for m in range(200))
     system = System("backup", (TaskSpec("T_ROB1", modules=files),))
     started = time.process_time()
-    found = check(system)
+    result = check(system)
     spent = time.process_time() - started
     total = sum(file.data.count(b"\n") for file in files)
-    print(f"check of 200 modules ({total:,} lines): {spent:.2f} s, {len(found)} findings")
+    print(f"check of 200 modules ({total:,} lines): {spent:.2f} s, {len(result)} findings")
 
 
 if __name__ == "__main__":

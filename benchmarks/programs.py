@@ -71,7 +71,7 @@ def reading() -> None:
         bench.run(0.5)
         pose = RawMove(RawInstruction.MOVE_L, place, reached(bench, place), zone=None)
         joints = replace(pose, kind=RawInstruction.MOVE_ABSJ, pose=None)
-        found = {}
+        result = {}
         for what, order in (("to a pose", pose), ("to joints", joints)):
             client.number += 1
             begin = RawStreamFlag.BEGIN | RawStreamFlag.WHOLE
@@ -80,7 +80,7 @@ def reading() -> None:
             since = bench.now
             for batch in range(10):
                 client.say(_bare(order) * 12, 12, RawStreamFlag.WHOLE, first=1 + 12 * batch)
-            found[what] = (bench.now - since) / 120
+            result[what] = (bench.now - since) / 120
             client.link.stop()
             bench.run(1)
         stream = Streamer(bench, client.link, number=100)
@@ -91,7 +91,7 @@ def reading() -> None:
             stream.put([(place, 0.1)] * 12)
         # Nothing of either moves meanwhile: reading alone is compared.
         point = (bench.now - since) / 120
-        for what, each in found.items():
+        for what, each in result.items():
             print(f"one instruction {what}: {1e3 * each:.2f} ms, {each / point:.2f} x a point")
 
 

@@ -34,15 +34,15 @@ def measure(own: Kinematics, poses: int) -> tuple[int, list[float], list[float]]
         start = time.thread_time()
         missed += next(own.found(pose, middle), None) is None
         afar.append(time.thread_time() - start)
-        beside = tuple(
+        adjacent = tuple(
             v + draw.uniform(-0.02, 0.02) * j.axis.startswith("rax")
             for j, v in zip(joints, posture, strict=True)
         )
-        moves.append((pose, beside))
+        moves.append((pose, adjacent))
     # Each once, and nothing between two of them: as along a way.
-    for pose, beside in moves:
+    for pose, adjacent in moves:
         start = time.thread_time()
-        own.follow(pose, beside)
+        own.follow(pose, adjacent)
         near.append(time.thread_time() - start)
     return missed, sorted(afar), sorted(near)
 
@@ -52,21 +52,21 @@ def configured(own: Kinematics, poses: int) -> tuple[int, float]:
     draw = random.Random(6)
     missed, times = 0, []
     for _ in range(poses):
-        posture, here = (
+        posture, current = (
             tuple(draw.uniform(j.lower, j.upper) for j in own.group.joints) for _ in range(2)
         )
-        pose, wanted = own.forward(posture), own.configuration(posture)
+        pose, expected = own.forward(posture), own.configuration(posture)
         if own.seventh < 0:
             rax = [j.axis.startswith("rax") for j in own.group.joints]
-            here = tuple(h if r else p for h, p, r in zip(here, posture, rax, strict=True))
+            current = tuple(h if r else p for h, p, r in zip(current, posture, rax, strict=True))
         angle = own.arm.arm_angle(posture) if own.seventh >= 0 else 0.0
         start = time.thread_time()
-        found = (
-            iter(own.solutions(pose, here, wanted))
+        result = (
+            iter(own.solutions(pose, current, expected))
             if own.seventh < 0
-            else own.at_arm_angle(pose, angle, here)
+            else own.at_arm_angle(pose, angle, current)
         )
-        missed += next((p for p in found if own.misfit(p, wanted) == 0.0), None) is None
+        missed += next((p for p in result if own.misfit(p, expected) == 0.0), None) is None
         times.append(time.thread_time() - start)
     return missed, sorted(times)[poses // 2]
 
@@ -76,17 +76,17 @@ def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("models", nargs="*", default=shipped_names())
     parser.add_argument("--poses", type=int, default=10_000)
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     bad = 0
-    for name in given.models:
+    for name in arguments.models:
         for group in load_config(name).groups:
             own = Kinematics.of(group)
-            missed, afar, near = measure(own, given.poses)
-            middle, most = given.poses // 2, int(given.poses * 0.99)
+            missed, afar, near = measure(own, arguments.poses)
+            middle, most = arguments.poses // 2, int(arguments.poses * 0.99)
             slow = not own.is_closed_form and (
                 afar[middle] > AFAR or afar[most] > AFAR_99 or near[middle] > NEAR
             )
-            unlike, took = configured(own, given.poses // 10)
+            unlike, took = configured(own, arguments.poses // 10)
             bad += bool(missed or slow or unlike)
             print(
                 f"{name:<13}{group.name:<7}{'formula' if own.is_closed_form else 'search':<9}"

@@ -57,8 +57,8 @@ def imports() -> float:
 def main(times: int, modules: list[str]) -> None:
     """Print both medians and the ratio."""
     if modules:
-        found = [ready(*modules) for _ in range(times + 1)][1:]
-        print(f"ready {statistics.median(found):.3f} s")
+        result = [ready(*modules) for _ in range(times + 1)][1:]
+        print(f"ready {statistics.median(result):.3f} s")
         return
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "server.mod"

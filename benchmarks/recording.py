@@ -44,15 +44,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--minutes", type=float, default=60)
     parser.add_argument("--keep", type=Path)
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        module, path = Path(folder) / "m.mod", given.keep or Path(folder) / "run.mcap"
+        module, path = Path(folder) / "m.mod", arguments.keep or Path(folder) / "run.mcap"
         module.write_text(PROGRAM)
-        bare = _simulate(module, min(given.minutes, 5), None) / (60 * min(given.minutes, 5))
-        with_it = _simulate(module, given.minutes, path) / (60 * given.minutes)
+        bare = _simulate(module, min(arguments.minutes, 5), None) / (60 * min(arguments.minutes, 5))
+        with_it = _simulate(module, arguments.minutes, path) / (60 * arguments.minutes)
         print(f"a simulated second   {1000 * bare:8.1f} ms, recorded {1000 * with_it:8.1f} ms")
         size = path.stat().st_size
-        print(f"{given.minutes:g} minutes           {size / 1e6:8.1f} MB")
+        print(f"{arguments.minutes:g} minutes           {size / 1e6:8.1f} MB")
         opening = min(_timed(lambda: RecordingFile(path).close()) for _ in range(5))
         print(f"opens in             {1000 * opening:8.1f} ms (limit 2000 for an hour)")
         chance = random.Random(1)
@@ -65,8 +65,8 @@ def main() -> None:
             near = [min(file.end, moments[0] + 0.05 * i) for i in range(50)]
             costs = sorted(_timed(lambda at=at: file.at(at)) for at in near)
             print(f"the next moment      {1000 * costs[25]:8.1f} ms")
-            whole = _timed(lambda: file.joints("rob1", file.begin, file.end))
-            print(f"a plot of all        {1000 * whole:8.1f} ms")
+            complete = _timed(lambda: file.joints("rob1", file.begin, file.end))
+            print(f"a plot of all        {1000 * complete:8.1f} ms")
             ten = _timed(lambda: file.joints("rob1", 0, min(10, file.end)))
             print(f"a plot of 10 s       {1000 * ten:8.1f} ms")
     raise SystemExit(1 if opening > 2 else 0)

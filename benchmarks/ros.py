@@ -50,10 +50,10 @@ class Noted:
         pass
 
 
-async def soon(s, asked):
+async def soon(s, requested):
     """s from the callback until the commanded position changes; the goal ends well."""
     began, before = s.loop.time(), s.joints
-    following = asyncio.ensure_future(s.follow(asked))
+    following = asyncio.ensure_future(s.follow(requested))
     while np.abs(s.joints - before).max() <= MOVED:
         assert not following.done(), following.result()
         await asyncio.sleep(LOOK)
@@ -65,12 +65,12 @@ async def soon(s, asked):
 
 def latencies(points, count, model):
     with station(name=model) as s:
-        found, here, there = [], 0.0, 0.004 * points
+        result, current, target = [], 0.0, 0.004 * points
         for _ in range(count):
-            rows = np.linspace(here, there, points)
-            found.append(s.run(soon(s, goal(*rows, seconds=0.1))))
-            here, there = there, here
-        return np.array(found) * 1e3
+            rows = np.linspace(current, target, points)
+            result.append(s.run(soon(s, goal(*rows, seconds=0.1))))
+            current, target = target, current
+        return np.array(result) * 1e3
 
 
 def spacings(model, seconds):
@@ -97,17 +97,18 @@ def main() -> int:
     parser.add_argument("--goals", type=int, default=20)
     parser.add_argument("--model", default="irb120")
     parser.add_argument("--seconds", type=float, default=60.0)
-    asked = parser.parse_args()
+    requested = parser.parse_args()
     missed = 0
     for points, limit in LIMITS.items():
-        found = latencies(points, asked.goals, asked.model)
-        good = found.max() <= limit * 1e3
+        result = latencies(points, requested.goals, requested.model)
+        good = result.max() <= limit * 1e3
         missed += not good
         print(
-            f"{points:3d} points: median {np.median(found):6.1f} ms, worst {found.max():6.1f} ms, "
+            f"{points:3d} points: median {np.median(result):6.1f} ms, "
+            f"worst {result.max():6.1f} ms, "
             f"at most {limit * 1e3:.0f}: {'kept' if good else 'MISSED'}"
         )
-    gaps, period = spacings(asked.model, asked.seconds)
+    gaps, period = spacings(requested.model, requested.seconds)
     off = np.quantile(np.abs(gaps - period), 0.99) / period
     good = off <= SPACING
     missed += not good

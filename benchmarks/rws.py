@@ -54,9 +54,9 @@ def serve(generation, pipe, strict):
         read_files([folder / "MainModule.mod"]), robotware=RELEASE[generation], signals=signals
     )
     groups = load_config("irb120").groups
-    with ControllerRunner(system, robots=groups, clock="real", autostart=False) as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, generation, strict=strict)
+    with ControllerRunner(system, robots=groups, clock="real", autostart=False) as runner:
+        runner.start()
+        service = serve_rws(runner, generation, strict=strict)
         pipe.send((service.port, service.host_key))
         while (word := pipe.recv()) != "end":
             if word == "cpu":
@@ -67,11 +67,11 @@ def serve(generation, pipe, strict):
             changed = threading.Event()
 
             def change(name=name, value=value, changed=changed):
-                cabinet.controller.signals[name] = value
+                runner.controller.signals[name] = value
                 changed.set()
 
             began = time.monotonic()
-            cabinet.post(change)
+            runner.post(change)
             changed.wait()
             pipe.send(began)
         service.close()
@@ -113,8 +113,8 @@ def requests(generation):
     """How many requests each operation takes on a warm session, and the first and last ones."""
     process = Process(generation)
     with process.client() as c:
-        found = {"connect": c.requests + 1}  # one more, that nobody answers for: who is there?
-        found |= {
+        result = {"connect": c.requests + 1}  # one more, that nobody answers for: who is there?
+        result |= {
             "one value": counted(c, lambda: c.symbol("T_ROB1/x")),
             "one signal": counted(c, lambda: c.signal("do0")),
             "set a signal": counted(c, lambda: c.set_signal("do0", 1)),
@@ -124,7 +124,7 @@ def requests(generation):
             ),
         }
     process.end()
-    return found
+    return result
 
 
 def cpu(generation, count=2000):
@@ -195,7 +195,7 @@ def ceiling(generation, threads=8, seconds=10.0):
 def events(generation, sockets, seconds):
     """ms that a websocket adds (p50, p99, most) to a change, events told, events lost."""
     process = Process(generation, strict=False)
-    heard, lost, threads = [], [], []
+    received, lost, threads = [], [], []
     ready = threading.Barrier(sockets + 1)
     changes = {}
     total = int(seconds * RATE)
@@ -220,7 +220,7 @@ def events(generation, sockets, seconds):
                 ready.wait()
                 for i in range(total):
                     message = socket.recv(30)
-                    heard.append((i, time.monotonic(), message))
+                    received.append((i, time.monotonic(), message))
             ready.wait()
 
     threads = [threading.Thread(target=listen) for _ in range(sockets)]
@@ -235,7 +235,7 @@ def events(generation, sockets, seconds):
     for thread in threads:
         thread.join()
     delays = []
-    for i, at, message in heard:
+    for i, at, message in received:
         began, name, value = changes[i]
         item = read_events(message.encode())[0]
         if (item.title, item.text("lvalue")) != (name, value):
@@ -244,8 +244,8 @@ def events(generation, sockets, seconds):
     delays.sort()
     process.end()
     return {
-        "events": len(heard),
-        "lost": sockets * total - len(heard) + len(lost),
+        "events": len(received),
+        "lost": sockets * total - len(received) + len(lost),
         "p50 ms": round(delays[len(delays) // 2], 2),
         "p99 ms": round(delays[int(len(delays) * 0.99)], 2),
         "most ms": round(delays[-1], 2),
@@ -263,8 +263,8 @@ def main():
         print(f"RWS {generation.value}, 8 threads: {json.dumps(ceiling(generation))}")
         print(f"RWS {generation.value}: {each:.2f} ms of CPU a request, {rate:.0f} a second")
     for generation in Generation:
-        told = events(generation, chosen.sockets, chosen.seconds)
-        print(f"RWS {generation.value}, {chosen.sockets} websockets: {json.dumps(told)}")
+        text = events(generation, chosen.sockets, chosen.seconds)
+        print(f"RWS {generation.value}, {chosen.sockets} websockets: {json.dumps(text)}")
 
 
 if __name__ == "__main__":

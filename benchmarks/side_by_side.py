@@ -196,26 +196,26 @@ def main() -> int:
     names = [measure.name for measure in MEASURES]
     parser.add_argument("--only", action="append", choices=names)
     parser.add_argument("--rounds", type=int, default=10)
-    given = parser.parse_args()
+    arguments = parser.parse_args()
     slower = []
-    for python in (given.old, given.new):
+    for python in (arguments.old, arguments.new):
         # Where bytecode is not written, the package would be compiled anew in every process.
         where = "import compileall, rapidgen; compileall.compile_dir(*rapidgen.__path__, quiet=2)"
         subprocess.run([python, "-c", where], cwd="/", check=True)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        inputs(folder, given.new)
+        inputs(folder, arguments.new)
         print(f"{'':16}{'old':>10}{'new':>10}{'ratio':>8}")
         for measure in MEASURES:
-            if given.only and measure.name not in given.only:
+            if arguments.only and measure.name not in arguments.only:
                 continue
             rounds = []
-            for number in range(given.rounds + 1):
-                both = [given.old, given.new]
+            for number in range(arguments.rounds + 1):
+                both = [arguments.old, arguments.new]
                 # By turns who is first: what slows the machine down hits either.
                 order = both if number % 2 else both[::-1]
-                told = {python: seconds(python, measure, folder) for python in order}
-                rounds.append((told[given.old], told[given.new]))
+                text = {python: seconds(python, measure, folder) for python in order}
+                rounds.append((text[arguments.old], text[arguments.new]))
             for what in rounds[0][0]:
                 old, new = ([pair[i][what] for pair in rounds[1:]] for i in (0, 1))
                 ratio = statistics.median(n / o for o, n in zip(old, new, strict=True))

@@ -50,19 +50,19 @@ def main():
             "rapidgen build irb120": [*rapidgen, "build", "irb120", "-o", f"{folder}/out"],
             "rapidgen build (URDF)": [*rapidgen, "build", str(from_urdf), "-o", f"{folder}/urdf"],
         }
-        found = {name: [] for name in cases}
+        result = {name: [] for name in cases}
         for turn in range(rounds + 1):
             for name, words in cases.items():
                 one = used(words, folder)
                 if turn:  # the first compiles
-                    found[name].append(one)
-        times = {name: [seconds for seconds, _ in ones] for name, ones in found.items()}
+                    result[name].append(one)
+        times = {name: [seconds for seconds, _ in ones] for name, ones in result.items()}
         base = statistics.median(times["import jinja2, pydantic"])
         for name, seconds in times.items():
             median = statistics.median(seconds)
             print(f"{name:28} {median * 1000:7.1f} ms  {median / base:5.2f} x")
         for name in ("rapidgen build irb120", "rapidgen build (URDF)"):
-            print(f"{name:28} peak {max(peak for _, peak in found[name]):.1f} MB")
+            print(f"{name:28} peak {max(peak for _, peak in result[name]):.1f} MB")
 
 
 if __name__ == "__main__":

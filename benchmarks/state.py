@@ -36,34 +36,34 @@ ROWS = (
 )
 
 
-def hello(wanted):
+def hello(expected):
     return struct.pack(
-        "<9i", 32, messages.HELLO.number, 2, 0, spec.PROTOCOL_VERSION, 0, 1, 0, wanted
+        "<9i", 32, messages.HELLO.number, 2, 0, spec.PROTOCOL_VERSION, 0, 1, 0, expected
     )
 
 
 def rounds_in(bench, clients, seconds):
     """Messages of the first client; all are read, so that nobody is held up."""
-    found = 0
+    result = 0
     for _ in range(round(seconds / 0.02)):
         bench.run(0.02)
-        told = [client.read() for client in clients]
-        found += sum(frame.number == STATUS for frame in told[0]) if told else 0
-    return found
+        text = [client.read() for client in clients]
+        result += sum(frame.number == STATUS for frame in text[0]) if text else 0
+    return result
 
 
-def round_time(config, clients, wanted, scale):
+def round_time(config, clients, expected, scale):
     """Simulated s of a round when there is no pause between them."""
     bench = Bench(config, make_system(config, build(config)), Setting(costs=Costs().scaled(scale)))
     linked = []
     for _ in range(clients):
         linked.append(bench.state())
         rounds_in(bench, linked, 0.5)
-        linked[-1].send(hello(wanted))
+        linked[-1].send(hello(expected))
     rounds_in(bench, linked, 0.5)
-    taken = 4 / rounds_in(bench, linked, 4)
+    in_use = 4 / rounds_in(bench, linked, 4)
     bench.close()
-    return taken
+    return in_use
 
 
 def straying(config, system):
@@ -72,7 +72,7 @@ def straying(config, system):
     bench.run(0.5)
     steady, motion = bench.state(), bench.motion()
     bench.run(1)
-    begun = bench.now
+    started = bench.now
     for n in range(20):
         motion.send(bench.download(bench.wave(20)))
         other = bench.state()
@@ -80,7 +80,7 @@ def straying(config, system):
         bench.run(15)
         other.close()
     stamps = [
-        when for when, f in steady.frames if when > begun and f.number == messages.STATUS.number
+        when for when, f in steady.frames if when > started and f.number == messages.STATUS.number
     ]
     period = config.state_period
     bench.close()
@@ -91,8 +91,8 @@ def main():
     config = load_config("irb120")
     eager = replace(config, state_period=0.0001)
     print(f"{'simulated ms a round':32}{'x1/4':>8}{'x1':>8}{'x4':>8}")
-    for name, clients, wanted in ROWS:
-        times = [round_time(eager, clients, wanted, scale) for scale in (0.25, 1, 4)]
+    for name, clients, expected in ROWS:
+        times = [round_time(eager, clients, expected, scale) for scale in (0.25, 1, 4)]
         print(f"{name:32}" + "".join(f"{1000 * t:8.2f}" for t in times))
     for rate in (10, 50, 100, 250):
         config = replace(config, state_period=1 / rate)

@@ -58,8 +58,8 @@ def main():
         for name, measure in measured.items():
             times[name].append(measure())
     least = statistics.median(times["import socket"])
-    for name, taken in times.items():
-        middle = statistics.median(taken)
+    for name, in_use in times.items():
+        middle = statistics.median(in_use)
         print(f"{name:<14} {middle * 1000:7.1f} ms  {middle / least:5.1f} x")
 
 

@@ -39,13 +39,13 @@ def stopping(config: RobotConfig, seed: int, *, loaded: bool) -> float:
     bench = booted(replace(config, state_period=0.02), seed=seed)
     client, control = bench.motion(), bench.control()
     watchers = [bench.watcher() for _ in range(3)]
-    first, rest = rest_of_stream()
+    first, remaining = rest_of_stream()
     client.send(first)
     reply(client)
     bench.wait_until_moving()
     bench.run(0.6 + 0.0137 * seed)
     if loaded:
-        client.at_once(rest)
+        client.at_once(remaining)
         for watcher in watchers:
             watcher.at_once(HELLOS * encode(HELLO, RawComm.REQUEST))
         bench.run(0.05 + 0.0031 * seed)
@@ -58,9 +58,9 @@ def stopping(config: RobotConfig, seed: int, *, loaded: bool) -> float:
         return [order.time for order in orders if order.instruction == "StopMove"]
 
     assert bench.controller.run_until(lambda: bool(stops()), timeout=2)
-    taken = stops()[0] - start
+    in_use = stops()[0] - start
     bench.close()
-    return taken
+    return in_use
 
 
 def main() -> int:
@@ -70,12 +70,12 @@ def main() -> int:
     config = load_config("irb120")
     highest = []
     for loaded in (False, True):
-        found = sorted(stopping(config, seed % 100, loaded=loaded) for seed in range(count))
-        highest.append(found[int(0.99 * (count - 1))])
+        result = sorted(stopping(config, seed % 100, loaded=loaded) for seed in range(count))
+        highest.append(result[int(0.99 * (count - 1))])
         print(
             f"STOP to StopMove, {'loaded' if loaded else 'idle'}: median "
-            f"{found[count // 2] * 1e3:.1f} ms, p99 {highest[-1] * 1e3:.1f} ms, worst "
-            f"{found[-1] * 1e3:.1f} ms"
+            f"{result[count // 2] * 1e3:.1f} ms, p99 {highest[-1] * 1e3:.1f} ms, worst "
+            f"{result[-1] * 1e3:.1f} ms"
         )
     print(f"p99 under load / idle: {highest[1] / highest[0]:.2f}")
     return highest[1] > 2 * highest[0]

@@ -71,9 +71,9 @@ def booted(config: RobotConfig, system: System | None = None, **setting) -> Benc
 
 def reply(link: RawLink) -> RawPointsAccepted:
     """The next acknowledgement."""
-    told = link.reply(POINTS, 10)
-    assert isinstance(told, RawPointsAccepted), told
-    return told
+    text = link.reply(POINTS, 10)
+    assert isinstance(text, RawPointsAccepted), text
+    return text
 
 
 def download(count: int, duration: float, joints: npt.NDArray) -> bytes:
@@ -99,9 +99,9 @@ def per_point(config: RobotConfig, scale: float, *, foreign: Path | None = None)
         client.send(b"".join(frames[1:9]))
         for _ in range(8):
             reply(client)
-        taken = (bench.now - start) / (8 * BATCH)
+        in_use = (bench.now - start) / (8 * BATCH)
         bench.close()
-        return taken
+        return in_use
     ends = []
     for count in (20, 90):
         bench = booted(config, read_system(foreign), costs=costs)
@@ -163,9 +163,9 @@ def first_motion(config: RobotConfig, count: int, seed: int) -> float:
     start = bench.now
     client.send(batches(count)[0])
     assert bench.controller.run_until(lambda: not bench.motion_group.is_standing, timeout=10)
-    taken = bench.now - start
+    in_use = bench.now - start
     bench.close()
-    return taken
+    return in_use
 
 
 def first_motion_of_a_download(config: RobotConfig, count: int) -> float:
@@ -176,9 +176,9 @@ def first_motion_of_a_download(config: RobotConfig, count: int) -> float:
     _, joints = wave(count)
     client.send(download(count, 0.1, joints))
     assert bench.controller.run_until(lambda: not bench.motion_group.is_standing, timeout=60)
-    taken = bench.now - start
+    in_use = bench.now - start
     bench.close()
-    return taken
+    return in_use
 
 
 def stopping(config: RobotConfig, seed: int) -> float:
@@ -197,9 +197,9 @@ def stopping(config: RobotConfig, seed: int) -> float:
     own.at_once(STOP)
     start = bench.now
     assert bench.controller.run_until(lambda: bench.motion_group.stop_reasons != (), timeout=2)
-    taken = bench.now - start
+    in_use = bench.now - start
     bench.close()
-    return taken
+    return in_use
 
 
 def endless(config: RobotConfig, count: int) -> None:
@@ -222,12 +222,13 @@ def endless(config: RobotConfig, count: int) -> None:
         if first * 3 // count > len(thirds):
             gc.collect()
             thirds.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
-    taken = bench.now - start
-    asked = 0.1 * (count - 1)
+    in_use = bench.now - start
+    requested = 0.1 * (count - 1)
     gc.collect()
     thirds.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
     print(
-        f"{count} points: {taken:.1f} s for {asked:.1f} s asked, {rests[0] - 1} rests before the "
+        f"{count} points: {in_use:.1f} s for {requested:.1f} s asked, "
+        f"{rests[0] - 1} rests before the "
         f"end, memory {' '.join(f'{m:.0f}' for m in thirds)} MB, complaints "
         f"{sum(e.type.name != 'INFO' for e in bench.controller.log)}, "
         f"{time.process_time() - began:.0f} s of CPU"
@@ -252,14 +253,14 @@ def main() -> None:
     print(f"socket calls of the motion server for a point: {socket_calls(config):.3f}")
     stream = sorted(first_motion(config, 1000, seed) for seed in range(15))
     short = sorted(first_motion(config, 60, seed) for seed in range(15))
-    whole = first_motion_of_a_download(config, 1000)
+    complete = first_motion_of_a_download(config, 1000)
     print(
         f"first motion of 1,000 points: {stream[7] * 1e3:.0f} ms (worst {stream[-1] * 1e3:.0f}), "
-        f"sent whole {whole * 1e3:.0f} ms: 1/{whole / stream[7]:.0f}; of 60 points "
+        f"sent whole {complete * 1e3:.0f} ms: 1/{complete / stream[7]:.0f}; of 60 points "
         f"{short[7] * 1e3:.0f} ms"
     )
-    found = sorted(stopping(config, seed) for seed in range(30))
-    print(f"STOP on its own connection: {found[15] * 1e3:.1f} ms, worst {found[-1] * 1e3:.1f} ms")
+    result = sorted(stopping(config, seed) for seed in range(30))
+    print(f"STOP on its own connection: {result[15] * 1e3:.1f} ms, worst {result[-1] * 1e3:.1f} ms")
     endless(config, options.points)
 
 

@@ -65,12 +65,12 @@ def offset(ready):
     with socket.create_connection(("127.0.0.1", ready["control"])) as control:
         lines = control.makefile("rw")
         for _ in range(50):
-            asked = time.time()
+            requested = time.time()
             lines.write('{"do": "status"}\n')
             lines.flush()
             now = json.loads(lines.readline())["result"]["time"]
-            took = time.time() - asked
-            best = min(best, (took, asked + took / 2 - now))
+            took = time.time() - requested
+            best = min(best, (took, requested + took / 2 - now))
     return best[1]
 
 
@@ -101,10 +101,10 @@ def browse(ready, seconds):
         chromium.close()
     rate = (after[0] - before[0]) / (after[1] - before[1]) * 1000
     late = (seen[:, 0] - seen[:, 1] - offset(ready)) * 1000
-    told = len(seen) / (seconds + 1)
+    text = len(seen) / (seconds + 1)
     median, last = np.median(late), np.percentile(late, 99)
     print(f"navigation to first state   {first:6.2f} s")
-    print(f"pictures a second           {rate:6.1f}   ({size[0]}x{size[1]}, {told:.1f} states/s)")
+    print(f"pictures a second           {rate:6.1f}   ({size[0]}x{size[1]}, {text:.1f} states/s)")
     print(f"state late by               {median:6.1f} ms median, {last:.1f} ms p99")
 
 

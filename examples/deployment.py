@@ -10,11 +10,11 @@ import tempfile
 TO = sys.argv[1] if sys.argv[1:] else f"dir://{tempfile.mkdtemp()}"
 
 
-def rapidgen(*words: str) -> None:
-    print("$ rapidgen", *words, flush=True)
-    done = subprocess.run([sys.executable, "-m", "rapidgen.cli", *words], check=False)
+def rapidgen(*text: str) -> None:
+    print("$ rapidgen", *text, flush=True)
+    done = subprocess.run([sys.executable, "-m", "rapidgen.cli", *text], check=False)
     # 2 of `plan --detailed-exitcode`: there is something to do.
-    if done.returncode not in ((0, 2) if words[0] == "plan" else (0,)):
+    if done.returncode not in ((0, 2) if text[0] == "plan" else (0,)):
         sys.exit(done.returncode)
 
 

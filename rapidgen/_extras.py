@@ -36,8 +36,8 @@ def named() -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as fault:
-        found = missing(fault)
-        if found is None:
+        result = missing(fault)
+        if result is None:
             raise
-        text = f"{found.message}: {found.help}"
+        text = f"{result.message}: {result.help}"
         raise ModuleNotFoundError(text, name=fault.name) from None

@@ -84,15 +84,15 @@ def _open_below(path: str, below: str) -> int:
     # The real path has no links: one that is met on the way was put there after `realpath`, and
     # O_NOFOLLOW refuses it.
     *folders, name = os.path.relpath(real, root).split(os.sep)
-    here = os.open(root, _STEP & ~os.O_NOFOLLOW)
+    current = os.open(root, _STEP & ~os.O_NOFOLLOW)
     try:
         for folder in folders:
-            inner = os.open(folder, _STEP, dir_fd=here)
-            os.close(here)
-            here = inner
-        return _open(name, here, _FLAGS | os.O_NOFOLLOW)
+            inner = os.open(folder, _STEP, dir_fd=current)
+            os.close(current)
+            current = inner
+        return _open(name, current, _FLAGS | os.O_NOFOLLOW)
     finally:
-        os.close(here)
+        os.close(current)
 
 
 def _check_regular(status: os.stat_result, path: StrPath) -> None:

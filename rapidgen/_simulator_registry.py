@@ -39,7 +39,7 @@ def published(simulator: Simulator) -> Iterator[bool]:
         yield False
         return
     path = os.path.join(own, f"sim-{simulator.pid}-{simulator.name.replace(os.sep, '_')}.json")
-    told = {
+    text = {
         "name": simulator.name,
         "pid": simulator.pid,
         "addresses": dict(simulator.addresses),
@@ -48,7 +48,7 @@ def published(simulator: Simulator) -> Iterator[bool]:
     with open(fresh, "w", encoding="utf-8") as file:
         # Locked and whole before it has its name: one that nobody holds is taken for left behind.
         fcntl.flock(file, fcntl.LOCK_EX)
-        json.dump(told, file)
+        json.dump(text, file)
         file.flush()
         os.rename(fresh, path)
         try:
@@ -65,7 +65,7 @@ def running() -> tuple[list[Simulator], list[str]]:
     own = folder()
     if not _is_own(own, make=False):
         return [], []
-    found, left = [], []
+    result, left = [], []
     names = sorted(os.listdir(own), key=lambda name: _made(os.path.join(own, name)))
     for name in names:
         path = os.path.join(own, name)
@@ -74,23 +74,23 @@ def running() -> tuple[list[Simulator], list[str]]:
         try:
             with open(path, encoding="utf-8") as file:
                 if _is_held(file.fileno()):
-                    found.append(_read(json.load(file)))
+                    result.append(_read(json.load(file)))
                 else:
                     os.unlink(path)
                     left.append(path)
         except (OSError, ValueError, KeyError, TypeError, AttributeError):
             # It ended, or wrote, this very moment.
             continue
-    return found, left
+    return result, left
 
 
-def _read(told: dict[str, object]) -> Simulator:
-    addresses = told["addresses"]
+def _read(text: dict[str, object]) -> Simulator:
+    addresses = text["addresses"]
     if not isinstance(addresses, dict):
         raise ValueError(addresses)
     return Simulator(
-        str(told["name"]),
-        int(str(told["pid"])),
+        str(text["name"]),
+        int(str(text["pid"])),
         {str(group): str(address) for group, address in addresses.items()},
     )
 

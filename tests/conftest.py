@@ -120,17 +120,17 @@ class Cost:
     def pytest_sessionfinish(self, session) -> None:
         if hasattr(session.config, "workeroutput"):
             session.config.workeroutput["cost"] = [
-                dict(told) for told in (self.seconds, self.tests, self.each)
+                dict(text) for text in (self.seconds, self.tests, self.each)
             ]
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node) -> None:
-        for mine, told in zip(
+        for mine, text in zip(
             (self.seconds, self.tests, self.each),
             getattr(node, "workeroutput", {}).get("cost", ()),
             strict=False,  # a worker that was killed has told nothing
         ):
-            mine.update(told)
+            mine.update(text)
 
     def pytest_terminal_summary(self, terminalreporter) -> None:
         terminalreporter.section("CPU time by folder")

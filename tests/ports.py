@@ -16,7 +16,7 @@ def own_address() -> str:
     return f"127.{random.randrange(1, 255)}.{random.randrange(256)}.{random.randrange(1, 255)}"
 
 
-def free_port(beside: int = 0) -> int:
+def free_port(adjacent: int = 0) -> int:
     """A port of loopback that nobody has, and that the system gives to nobody; so are the next
     `beside` ones.
 
@@ -24,8 +24,8 @@ def free_port(beside: int = 0) -> int:
     answers in place of the one that is awaited.
     """
     while True:
-        port = random.randrange(15_000, GIVEN_AWAY - beside)
-        if all(_is_free(each) for each in range(port, port + beside + 1)):
+        port = random.randrange(15_000, GIVEN_AWAY - adjacent)
+        if all(_is_free(each) for each in range(port, port + adjacent + 1)):
             return port
 
 

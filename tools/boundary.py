@@ -72,10 +72,10 @@ def main():
     started, count, failed = time.monotonic(), 0, 0
     of = f"{GIVEN.robot} {SYSTEM.build_id} share {GIVEN.share} seed {GIVEN.seed}"
     numbered = {str(number): piece for number, piece in enumerate(pieces)}
-    for key, found in outcomes(one, numbered, of, jobs=GIVEN.jobs, path=GIVEN.results):
+    for key, result in outcomes(one, numbered, of, jobs=GIVEN.jobs, path=GIVEN.results):
         count += len(numbered[key][2])
-        failed += len(found)
-        for text, why in found[:5]:
+        failed += len(result)
+        for text, why in result[:5]:
             print(f"{numbered[key][0]}; {text}: {why}", flush=True)
         if int(key) % 20 == 0:
             seconds = time.monotonic() - started

@@ -22,6 +22,6 @@ def outcomes(
             known = results.known(keys[number])
             return Call(number, one, pieces[keys[number]]) if known is None else CachedResult(known)
 
-        for key, found in zip(keys, in_order(workers, len(keys), make), strict=True):
-            results.add(key, found)
-            yield key, found
+        for key, result in zip(keys, in_order(workers, len(keys), make), strict=True):
+            results.add(key, result)
+            yield key, result

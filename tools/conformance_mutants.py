@@ -38,12 +38,12 @@ def main():
     options.add_argument("--share", type=float, default=10, help="per cent of programs, at most")
     options.add_argument("-v", action="store_true", help="show the mutant of each file")
     options.add_argument("file", metavar="NAME", nargs="*", help="names of programs")
-    given = options.parse_args()
+    arguments = options.parse_args()
     everything = conformance_files.all_files()
-    wanted = [f for f in everything if not given.file or f.program.name in given.file]
-    files = wanted[:: given.every]
+    expected = [f for f in everything if not arguments.file or f.program.name in arguments.file]
+    files = expected[:: arguments.every]
     started = time.monotonic()
-    campaign = Campaign(files, everything, given.share)
+    campaign = Campaign(files, everything, arguments.share)
     print(f"{len(files)} of {len(everything)} files; {campaign.limit} red at most", flush=True)
     for stage in (campaign.builtins, campaign.functions, campaign.tables):
         stage()
@@ -55,7 +55,7 @@ def main():
     for file in files:
         if file not in campaign.shown:
             print(f"NONE       {file.name}")
-        elif given.v:
+        elif arguments.v:
             mutant, count = campaign.shown[file]
             print(f"{count:4} red   {file.name}   {mutant}")
     return 1 if campaign.left else 0

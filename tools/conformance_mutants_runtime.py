@@ -27,20 +27,20 @@ def main():
     options.add_argument("--share", type=float, default=10, help="per cent of programs, at most")
     options.add_argument("-v", action="store_true", help="show the mutant of each file")
     options.add_argument("file", metavar="NAME", nargs="*", help="names of programs")
-    given = options.parse_args()
+    arguments = options.parse_args()
     everything = all_files()
-    wanted = [f for f in everything if not given.file or f.program.name in given.file]
-    files = wanted[:: given.every]
+    expected = [f for f in everything if not arguments.file or f.program.name in arguments.file]
+    files = expected[:: arguments.every]
     failing = [file for file in files if outcome(file) != GREEN]
     if failing:
         raise SystemExit("not green without a mutant: " + ", ".join(map(str, failing)))
     started = time.monotonic()
-    campaign = Campaign(files, everything, given.share)
+    campaign = Campaign(files, everything, arguments.share)
     print(f"{len(files)} of {len(everything)} files; {campaign.limit} red at most", flush=True)
 
     def tell(file):
         mutant, count = campaign.shown.get(file, (None, 0))
-        if given.v:
+        if arguments.v:
             print(f"{file}: {mutant} ({count} red)" if mutant else f"{file}: -", flush=True)
 
     campaign.search(tell)

@@ -57,8 +57,8 @@ class Covering:
             }
             for file in sorted(data.measured_files())
         }
-        found = {"tests": tests, "lines": lines}
-        self.output.write_text(json.dumps(found), encoding="utf-8")
+        result = {"tests": tests, "lines": lines}
+        self.output.write_text(json.dumps(result), encoding="utf-8")
 
 
 def pytest_configure(config) -> None:

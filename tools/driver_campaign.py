@@ -44,7 +44,7 @@ def frames_of(seed):
     bench = Bench(CONFIG, SYSTEM, Setting(seed=seed, dialect=STRICT))
     try:
         campaign(bench, CHUNK, boundary=0.5)
-        bench.healthy()
+        bench.assert_healthy()
     except FAILURES as error:
         return f"seed {seed}: {error}"
     finally:
@@ -87,7 +87,7 @@ def days(hours, share):
     while bench.now < hours * 3600:
         begun = bench.now
         link = bench.motion()
-        bench.moves_through(link, bench.wave(4))
+        bench.assert_moves_through(link, bench.wave(4))
         link.close()
         moved += 1
         reader = state if state is not None else bench.state()
@@ -115,17 +115,17 @@ def days(hours, share):
                     f"off, {time.monotonic() - started:.0f} s",
                     flush=True,
                 )
-    bench.healthy()
+    bench.assert_healthy()
     bench.close()
     # The first hour fills what is kept: caches, logs.
     later = sizes[1:] or sizes
     spread = max(later) - min(later)
-    taken = time.monotonic() - started
+    in_use = time.monotonic() - started
     print(
         f"{hours} simulated hours, {moved} trajectories, state read for {share:.0%} of the time: "
         f"worst STATUS {worst * 1000:.1f} ms off its turn (period {period * 1000:.0f} ms), memory "
-        f"{sizes[-1]:.1f} MB within {spread:.1f} MB; {taken:.0f} s, "
-        f"{hours * 3600 / taken:.0f} x real time"
+        f"{sizes[-1]:.1f} MB within {spread:.1f} MB; {in_use:.0f} s, "
+        f"{hours * 3600 / in_use:.0f} x real time"
     )
     return worst > period or spread > 10
 

@@ -64,19 +64,19 @@ def newest(results, key):
     """The key and the verdict of the last time that a mutant was judged, with what was tried at
     any time; None: it never was."""
     verdict, last, tried = None, "", ()
-    while (found := results.known(key)) is not None:
-        verdict, last = VERDICTS.validate_python(found, strict=False), key
+    while (result := results.known(key)) is not None:
+        verdict, last = VERDICTS.validate_python(result, strict=False), key
         tried += verdict.tried
         key += "+"
     return last, verdict and replace(verdict, tried=tried)
 
 
 def main():
-    wanted = [name.casefold() for name in ARGUMENTS.only]
+    expected = [name.casefold() for name in ARGUMENTS.only]
     chosen = [
         mutant
         for mutant in FOUND[ARGUMENTS.offset :: ARGUMENTS.every]
-        if not wanted or Path(mutant.path).stem.casefold() in wanted
+        if not expected or Path(mutant.path).stem.casefold() in expected
     ]
     started = time.monotonic()
     of = f"mutants of {ARGUMENTS.robot}"
@@ -99,8 +99,8 @@ def judge_all(chosen, known, rows, left, results):
     row = ARGUMENTS.row
     setting = settings(CONFIG, possible(CONFIG, assumptions(2)))[row]
     cases = [case for case in CHOSEN if not (row and case.once)]
-    given = grounds(CONFIG, SYSTEM, cases, hired, setting, f" [{row}]" if row else "")
-    learning = Learning(given.cases)
+    arguments = grounds(CONFIG, SYSTEM, cases, hired, setting, f" [{row}]" if row else "")
+    learning = Learning(arguments.cases)
     questions, keys = [], []
     for n in left:
         last, before = known[n]
@@ -110,7 +110,7 @@ def judge_all(chosen, known, rows, left, results):
     for n, verdict in enumerate(rows):
         if verdict is not None and n not in left:
             learning.learn(verdict)
-    with hired(given) as workers, Bars() as progress:
+    with hired(arguments) as workers, Bars() as progress:
         campaign = Campaign(workers, results, Limits(), progress)
         work = verdicts(questions, learning, keys.__getitem__)
         for n, verdict in zip(left, campaign.run(work), strict=True):

@@ -106,8 +106,8 @@ def long_run(robot, seeds, jobs, folder):
             f"a million: {used / new * 1e6 / 3600:.0f} h of CPU"
         )
     marks = [n for d in range(1, 7) for n in (10**d, 3 * 10**d) if n < report.schedules]
-    shown = " ".join(f"{n}:{at(report.curve, n)}" for n in (*marks, report.schedules))
-    print(f"  pairs: {shown}; the last new one in schedule {report.curve[-1][0]}")
+    displayed = " ".join(f"{n}:{at(report.curve, n)}" for n in (*marks, report.schedules))
+    print(f"  pairs: {displayed}; the last new one in schedule {report.curve[-1][0]}")
     for finding in report.findings:
         print(f"  --replay {finding.schedule}: {finding.detail}")
     sys.stdout.flush()
@@ -122,47 +122,50 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--of", nargs="+", metavar="ROBOT", default=())
     parser.add_argument("--results", type=Path, metavar="FOLDER")
-    given = parser.parse_args()
-    if given.of:
-        if given.results:
-            given.results.mkdir(parents=True, exist_ok=True)
-        found = [long_run(robot, given.seeds, given.jobs, given.results) for robot in given.of]
-        return any(found)
+    arguments = parser.parse_args()
+    if arguments.of:
+        if arguments.results:
+            arguments.results.mkdir(parents=True, exist_ok=True)
+        result = [
+            long_run(robot, arguments.seeds, arguments.jobs, arguments.results)
+            for robot in arguments.of
+        ]
+        return any(result)
     config = load_config("irb120")
     small = replace(config, trajectory=replace(config.trajectory, capacity=CAPACITY))
     for defect in DEFECTS:
         system, firsts, seconds = small_driver(defect), [], 0.0
-        with LocalPool(DriverUnderTest(small, system), given.jobs) as workers:
-            for campaign in range(given.campaigns):
-                found, count, spent, _ = explored(
-                    small, system, given.seeds, workers, 10_000 * campaign, bool
+        with LocalPool(DriverUnderTest(small, system), arguments.jobs) as workers:
+            for campaign in range(arguments.campaigns):
+                result, count, spent, _ = explored(
+                    small, system, arguments.seeds, workers, 10_000 * campaign, bool
                 )
-                firsts.append(min(found, default=count) + 1)
+                firsts.append(min(result, default=count) + 1)
                 seconds += spent
         each_one = " ".join(str(first) for first in sorted(firsts))
         print(
             f"{defect:10} schedule {statistics.median(firsts):4g} in the median, "
-            f"{seconds / given.campaigns:.1f} s: {each_one}",
+            f"{seconds / arguments.campaigns:.1f} s: {each_one}",
             flush=True,
         )
     for name, own, system in (
         ("no defect", small, small_driver()),
         ("generated", config, make_system(config, build(config))),
     ):
-        with LocalPool(DriverUnderTest(own, system), given.jobs) as workers:
-            found, count, seconds, guide = explored(own, system, given.seeds, workers)
-        print(f"{name:10} {len(found)} findings in {count} schedules, {seconds:.0f} s", flush=True)
+        with LocalPool(DriverUnderTest(own, system), arguments.jobs) as workers:
+            result, count, seconds, guide = explored(own, system, arguments.seeds, workers)
+        print(f"{name:10} {len(result)} findings in {count} schedules, {seconds:.0f} s", flush=True)
         print(f"           pairs: {' '.join(f'{n}:{pairs}' for n, pairs in guide.curve[::10])}")
-        for finding in found.values():
+        for finding in result.values():
             print(f"           --replay {finding.schedule}: {finding.detail}")
-    if given.folder is not None:
+    if arguments.folder is not None:
         foreign = replace(config, trajectory=replace(config.trajectory, capacity=ABB_CAPACITY))
-        system = read_system(given.folder)
-        with LocalPool(DriverUnderTest(foreign, system), given.jobs) as workers:
-            found, count, seconds, _ = explored(foreign, system, given.seeds, workers)
-        print(f"abb_driver {len(found)} findings in {count} schedules, {seconds:.0f} s")
+        system = read_system(arguments.folder)
+        with LocalPool(DriverUnderTest(foreign, system), arguments.jobs) as workers:
+            result, count, seconds, _ = explored(foreign, system, arguments.seeds, workers)
+        print(f"abb_driver {len(result)} findings in {count} schedules, {seconds:.0f} s")
         for kind in (*DEFECTS, "other"):
-            own = {seed: f for seed, f in found.items() if kind_of(f) == kind}
+            own = {seed: f for seed, f in result.items() if kind_of(f) == kind}
             if own:
                 first = min(own)
                 print(

@@ -127,8 +127,8 @@ def cartesian_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
             target = near(), turned
             try:
                 if kind == "joint":
-                    found = own.solutions(home, cell.group.path_target)
-                    cell.group.move(task, JointMove(target=found[0], **common))
+                    result = own.solutions(home, cell.group.path_target)
+                    cell.group.move(task, JointMove(target=result[0], **common))
                 else:
                     via = (near(), turned) if kind == "circle" else None
                     ends = cell.group.path_target
@@ -177,7 +177,7 @@ def run(seed: int, kind: str, ramp: float = MotionSettings().ramp_time) -> Outco
 
 def main(programs: int, first: int) -> int:
     """Run, report progress on stderr and the sum on stdout; 1 when a program failed."""
-    begun = time.process_time()
+    started = time.process_time()
     counts, moves = Counter[str](), 0
     worst: dict[str, tuple[float, float]] = {}
     failed = 0
@@ -198,7 +198,7 @@ def main(programs: int, first: int) -> int:
             f"{kind}: {counts[kind]} programs, at most {speed:.4f} of the axes' speed and "
             f"{acceleration:.4f} of their acceleration"
         )
-    spent = time.process_time() - begun
+    spent = time.process_time() - started
     print(f"{programs} programs, {moves} moves, {failed} failed, {spent:.0f} s of CPU")
     return int(failed > 0)
 

@@ -21,13 +21,13 @@ def main() -> int:
     parser.add_argument("--scenarios", type=int, default=3400)
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--jobs", type=int, default=2)
-    asked = parser.parse_args()
+    requested = parser.parse_args()
     began, ends, wrong = time.monotonic(), Counter(), []
-    seeds = range(asked.first, asked.first + asked.scenarios)
-    with ProcessPoolExecutor(asked.jobs) as pool:
-        for found in pool.map(play, seeds, chunksize=4):
-            ends.update(found.ends)
-            wrong += found.wrong
+    seeds = range(requested.first, requested.first + requested.scenarios)
+    with ProcessPoolExecutor(requested.jobs) as pool:
+        for result in pool.map(play, seeds, chunksize=4):
+            ends.update(result.ends)
+            wrong += result.wrong
     for end, count in ends.most_common():
         print(f"{count:7d}  {end}")
     print(f"{ends.total()} goals, {time.monotonic() - began:.0f} s, {len(wrong)} wrong")

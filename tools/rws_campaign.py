@@ -48,8 +48,8 @@ _READ = re.compile(r"""(?:field|form\.get)\(\s*"([\w-]+)\"""")
 @cache
 def fields(module: str) -> tuple[str, ...]:
     """Fields that handlers of a module read; nameless ones are subscriptions and attributes."""
-    found = _READ.findall(inspect.getsource(sys.modules[module]))
-    return (*dict.fromkeys(found), *MORE)
+    result = _READ.findall(inspect.getsource(sys.modules[module]))
+    return (*dict.fromkeys(result), *MORE)
 
 
 MORE = ("resources", "1", "1-p", "Type", "Name", "name1", "line", "startrow", "endcol", "wobj")
@@ -106,8 +106,8 @@ def answers(number: int, first: int) -> int:
 @cache
 def _routes(generation: Generation) -> tuple[tuple[Route, str], ...]:
     """How a generation spells what is served, and which module serves it."""
-    found = ((o.route(generation), h.__module__) for o, h in routing.served())
-    return tuple((route, module) for route, module in found if route)
+    result = ((o.route(generation), h.__module__) for o, h in routing.served())
+    return tuple((route, module) for route, module in result if route)
 
 
 def hostile(rng: random.Random, generation: Generation) -> tuple[str, str, bytes, dict[str, str]]:
@@ -145,11 +145,11 @@ def requests(number: int, first: int) -> int:
     for generation in Generation:
         with (
             tempfile.TemporaryDirectory() as folder,
-            make_cabinet(Path(folder), generation) as cabinet,
+            make_cabinet(Path(folder), generation) as runner,
         ):
-            desk = make_desk(cabinet, generation)
+            desk = make_desk(runner, generation)
             desk.sessions.is_too_fast = lambda: False
-            cabinet.controller.operator.ask("T_ROB1", "TPReadFK", "how many?", ("1", "2"), int)
+            runner.controller.operator.ask("T_ROB1", "TPReadFK", "how many?", ("1", "2"), int)
             for seed in range(first, first + number // 3):
                 rng = random.Random(seed)
                 method, target, body, headers = hostile(rng, generation)
@@ -175,14 +175,14 @@ def requests(number: int, first: int) -> int:
 def _sent(caller: Caller, request: tuple[str, str, bytes, dict[str, str]]) -> tuple[int, str]:
     """The status of a request, and what is wrong with that; without a session, too."""
     method, target, body, headers = request
-    begun = time.perf_counter()
+    started = time.perf_counter()
     try:
         status = caller.send(method, target, body=body, **headers).status
         caller.desk.handle(HttpRequest(method, target, {"authorization": target}, body))
     except Exception as fault:  # noqa: BLE001 - told, with the seed that makes it again
         return 0, repr(fault)
-    if time.perf_counter() - begun > SLOW:
-        return status, f"it took {time.perf_counter() - begun:.1f} s"
+    if time.perf_counter() - started > SLOW:
+        return status, f"it took {time.perf_counter() - started:.1f} s"
     broken = status == 500 and not target.startswith("/users/rmmp")
     return status, f"status {status}" if broken else ""
 
@@ -201,9 +201,9 @@ def _is_worse(desk) -> bool:
 
 def main(what: str, number: int, first: int) -> int:
     """1 when anything went wrong."""
-    begun = time.process_time()
+    started = time.process_time()
     failed = {"answers": answers, "requests": requests}[what](number, first)
-    spent = time.process_time() - begun
+    spent = time.process_time() - started
     print(f"{number} {what}, {failed} failed, {spent:.0f} s of CPU")
     return int(failed > 0)
 

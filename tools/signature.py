@@ -44,11 +44,11 @@ def runs():
     examples = sorted(
         BASE.parent.glob("*.yaml"), key=lambda p: (p.name.startswith("irb120"), p.name)
     )
-    found = [(path.stem, path, ()) for path in examples]
+    result = [(path.stem, path, ()) for path in examples]
     for row in covering(CHOICES)[1:]:
         overrides = tuple(text for texts in row.values() for text in texts.split())
-        found.append((" ".join(overrides), BASE, overrides))
-    return found
+        result.append((" ".join(overrides), BASE, overrides))
+    return result
 
 
 def tree():
@@ -70,14 +70,14 @@ def done(of):
 
 def proven(label, path, overrides, of):
     config = load_config(str(path), overrides=overrides)
-    kept = GIVEN.output.with_suffix("") / of / f"{label.replace(' ', '_')}-{GIVEN.together}.jsonl"
-    kept.parent.mkdir(parents=True, exist_ok=True)
+    saved = GIVEN.output.with_suffix("") / of / f"{label.replace(' ', '_')}-{GIVEN.together}.jsonl"
+    saved.parent.mkdir(parents=True, exist_ok=True)
     proof = run_suite(
         config,
         seeds=100,
         jobs=GIVEN.jobs,
         strength=GIVEN.together,
-        results=kept,
+        results=saved,
         resume=True,
     )
     if proof.broken_off:
@@ -133,9 +133,9 @@ def main():
         with GIVEN.output.open("a", encoding="utf-8") as file:
             file.write(json.dumps(reports[label]) + "\n")
         print(f"{label}: {reports[label]['elapsed']:.0f} s", flush=True)
-    found = [reports[label] for label, _, _ in every if label in reports]
-    show(found)
-    return any(not row["passed"] for row in found)
+    result = [reports[label] for label, _, _ in every if label in reports]
+    show(result)
+    return any(not row["passed"] for row in result)
 
 
 if __name__ == "__main__":

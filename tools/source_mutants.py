@@ -299,8 +299,8 @@ class Places(ast.NodeVisitor):
 
     def _change(self, kind: str, line: int, start: int, end: int, after: str) -> None:
         before, function = self._slice(start, end), ".".join(self.inside)
-        whole = self.data[self.lines[line - 1] : self.lines[line]].decode().strip()
-        what = "\0".join((self.file, function, kind, whole, before, after))
+        complete = self.data[self.lines[line - 1] : self.lines[line]].decode().strip()
+        what = "\0".join((self.file, function, kind, complete, before, after))
         self.same[what] += 1
         number = hashlib.sha256(f"{what}\0{self.same[what]}".encode()).hexdigest()[:10]
         changed = self.data[:start] + after.encode() + self.data[end:]
@@ -358,10 +358,10 @@ class Tests:
         file = cache / f"{name}-{digest.hexdigest()[:16]}.json"
         if not file.is_file():
             self._measure(package, file)
-        found = json.loads(file.read_text(encoding="utf-8"))
-        self.seconds: dict[str, float] = dict(found["tests"])
-        self.names = [name for name, _ in found["tests"]]
-        self.lines: dict[str, dict[str, list[int]]] = found["lines"]
+        result = json.loads(file.read_text(encoding="utf-8"))
+        self.seconds: dict[str, float] = dict(result["tests"])
+        self.names = [name for name, _ in result["tests"]]
+        self.lines: dict[str, dict[str, list[int]]] = result["lines"]
 
     def _measure(self, package: str, file: Path) -> None:
         print(f"which tests of {package} execute what ...", flush=True)
@@ -410,8 +410,8 @@ class Copy:
         """Try it: outcome, the test that noticed it, seconds."""
         path = self.folder / mutant.file
         data, began = path.read_bytes(), time.monotonic()
-        whole = data[: mutant.start] + mutant.after.encode() + data[mutant.end :]
-        _write(path, whole)
+        complete = data[: mutant.start] + mutant.after.encode() + data[mutant.end :]
+        _write(path, complete)
         try:
             first = tests.of(mutant)
             outcome, by = "survived", ""
@@ -440,15 +440,15 @@ class Copy:
             start_new_session=True,
         ) as run:
             try:
-                said, _ = run.communicate(timeout=limit)
+                message, _ = run.communicate(timeout=limit)
             except subprocess.TimeoutExpired:
                 os.killpg(run.pid, signal.SIGKILL)
                 run.communicate()
                 return "time-out", ""
-        failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", said, re.MULTILINE)
+        failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", message, re.MULTILINE)
         if run.returncode in (0, 5):  # 5: no test is left to run
             return "survived", ""
-        return "detected", failed[1] if failed else said[-200:]
+        return "detected", failed[1] if failed else message[-200:]
 
 
 def _write(path: Path, data: bytes) -> None:
@@ -521,24 +521,24 @@ def main() -> int:
     options.add_argument("--output", type=Path, default=ROOT / "build" / "source-mutants.jsonl")
     options.add_argument("--again", action="store_true", help="what survived in the output")
     options.add_argument("--list", action="store_true", help="only say what is drawn")
-    given = options.parse_args()
-    given.output.parent.mkdir(parents=True, exist_ok=True)
-    known, before = equivalent(), recorded(given.output)
-    if given.again:
-        every = {m.number: m for package in given.package for m in mutants_of(package)}
+    arguments = options.parse_args()
+    arguments.output.parent.mkdir(parents=True, exist_ok=True)
+    known, before = equivalent(), recorded(arguments.output)
+    if arguments.again:
+        every = {m.number: m for package in arguments.package for m in mutants_of(package)}
         open_ = {n for n, e in before.items() if e["outcome"] in ("survived", "unsure")} - {*known}
         chosen = drawn = [mutant for number, mutant in every.items() if number in open_]
     else:
-        drawn = list(draw(given.package, given.seed, given.count))
+        drawn = list(draw(arguments.package, arguments.seed, arguments.count))
         chosen = [mutant for mutant in drawn if mutant.number not in before]
-    if given.list:
+    if arguments.list:
         for mutant in drawn:
             print(shown(asdict(mutant)))
         return 0
-    cache = given.output.parent / "source-mutants"
+    cache = arguments.output.parent / "source-mutants"
     tests = {package: Tests(package, cache) for package in {m.package for m in chosen}}
     results = {number: before[number] for number in (m.number for m in drawn) if number in before}
-    for entry in tried(chosen, tests, given.jobs, given.output, given.seed):
+    for entry in tried(chosen, tests, arguments.jobs, arguments.output, arguments.seed):
         results[entry["number"]] = entry
         print(f"{entry['outcome']:9} {entry['seconds']:6.1f} s  {shown(entry)}", flush=True)
     survived = [e for n, e in results.items() if e["outcome"] == "survived" and n not in known]

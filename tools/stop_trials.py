@@ -63,8 +63,8 @@ def trial(state, seed):
             if not link.lost:
                 link.close()
         bench.run(1.5)
-        bench.moves_through(bench.motion(), bench.wave(4))
-        bench.healthy()
+        bench.assert_moves_through(bench.motion(), bench.wave(4))
+        bench.assert_healthy()
     except FAILURES as error:
         return [str(error), from_main, f"{state}; {'; '.join(told)}"]
     return ["", from_main, f"{state}; {'; '.join(told)}"]
@@ -97,8 +97,8 @@ def main():
     started, failed, from_main = time.monotonic(), 0, 0
     of = f"{GIVEN.robot} {SYSTEM.build_id} stop trials"
     pieces = {str(seed): seed for seed in seeds}
-    for seed, found in outcomes(one, pieces, of, jobs=GIVEN.jobs, path=GIVEN.results):
-        fault, main_needed, done = found
+    for seed, result in outcomes(one, pieces, of, jobs=GIVEN.jobs, path=GIVEN.results):
+        fault, main_needed, done = result
         failed += bool(fault)
         from_main += main_needed
         if fault or main_needed:

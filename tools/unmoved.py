@@ -125,24 +125,24 @@ def command(words: list[str], folder: Path) -> dict[str, object]:
 
 def builds(checkout: Path, folder: Path) -> dict[str, object]:
     """The hash of every file of every example."""
-    found: dict[str, object] = {}
+    result: dict[str, object] = {}
     for example in sorted((checkout / "robots" / "examples").glob("*.yaml")):
         out = folder / "builds" / example.stem
-        told = command(["build", str(example), "-o", str(out)], folder)
-        found[example.stem] = told["exit"]
+        text = command(["build", str(example), "-o", str(out)], folder)
+        result[example.stem] = text["exit"]
         for path in sorted(p for p in out.rglob("*") if p.is_file()):
             name = str(path.relative_to(folder / "builds"))
-            found[name] = hashlib.sha256(path.read_bytes()).hexdigest()
-    return found
+            result[name] = hashlib.sha256(path.read_bytes()).hexdigest()
+    return result
 
 
 def traces(checkout: Path) -> dict[str, object]:
     """Every statement of every conformance program, as a hash, and what it printed."""
-    found: dict[str, object] = {}
+    result: dict[str, object] = {}
     for folder in ("runtime/conformance", "runtime/builtins/conformance"):
         for file, name, text in programs(checkout / "tests" / folder):
-            found[f"{folder}/{file}/{name}"] = trace(name, text)
-    return found
+            result[f"{folder}/{file}/{name}"] = trace(name, text)
+    return result
 
 
 def programs(folder: Path) -> Iterator[tuple[str, str, str]]:
@@ -175,8 +175,8 @@ def trace(program: str, text: str) -> dict[str, object]:
     load_config = importlib.import_module("rapidgen.config").load_config
     model = importlib.import_module("rapidgen.system.model")
 
-    def marks(mark: str) -> list[str]:
-        return [m.strip() for m in re.findall(rf"^\s*! {mark}:(.*)$", text, re.MULTILINE)]
+    def marks(marker: str) -> list[str]:
+        return [m.strip() for m in re.findall(rf"^\s*! {marker}:(.*)$", text, re.MULTILINE)]
 
     starts = [m.start() for m in re.finditer(r"^MODULE", text, re.MULTILINE)]
     modules = tuple(
@@ -213,10 +213,10 @@ def trace(program: str, text: str) -> dict[str, object]:
         tracing.Trace(controller, stream)
         controller.operator.subscribe(lambda _, line: printed.append(line))
         controller.start_program()
-        ended = controller.run(max_time=60, max_statements=200_000)
+        finished = controller.run(max_time=60, max_statements=200_000)
     told = stream.getvalue()
     return {
-        "ended": ended,
+        "ended": finished,
         "printed": printed,
         "statements": told.count("\n"),
         "trace": hashlib.sha256(told.encode()).hexdigest(),
@@ -238,20 +238,20 @@ def record(checkout: Path) -> dict[str, dict[str, object]]:
                 lambda seed: command(["test", "irb120", "--replay", str(seed)], folder), SEEDS
             )
             explained = pool.map(lambda page: command(["explain", page], folder), pages)
-            found = {
+            result = {
                 "builds": builds(checkout, folder),
                 "stories": dict(zip(map(str, SEEDS), stories, strict=True)),
                 "explain": dict(zip(pages, explained, strict=True)),
             }
-        found["commands"] = {
+        result["commands"] = {
             line: command(line.split(), folder) for line in COMMANDS.split("\n") if line
         }
-        found["language"] = {
+        result["language"] = {
             path.name: command(["check", path.name, "--format", "json"], language)
             for path in sorted(language.iterdir())
         }
-        found["traces"] = traces(checkout)
-    return found
+        result["traces"] = traces(checkout)
+    return result
 
 
 def compare(before: Path, after: Path) -> int:
@@ -272,8 +272,8 @@ def compare(before: Path, after: Path) -> int:
 def main() -> int:
     match sys.argv[1:]:
         case ["record", checkout, path]:
-            told = json.dumps(record(Path(checkout).resolve()), indent=1)
-            Path(path).write_text(told, encoding="utf-8")
+            text = json.dumps(record(Path(checkout).resolve()), indent=1)
+            Path(path).write_text(text, encoding="utf-8")
             return 0
         case ["compare", before, after]:
             return 1 if compare(Path(before), Path(after)) else 0

@@ -50,9 +50,9 @@ class ArmAngle:
         """
         dot, cross = frames.dot, frames.cross
         shoulder, wrist = _foot(axes[0], axes[1]), _foot(axes[6], axes[5])
-        way = frames.subtract(wrist, shoulder)
-        length = frames.norm(way)
-        along = frames.scale(way, 1 / length)
+        path = frames.subtract(wrist, shoulder)
+        length = frames.norm(path)
+        along = frames.scale(path, 1 / length)
         across = cross(along, self.reference)
         over = cross(along, across)
         elbow = axes[3][1]
@@ -60,7 +60,7 @@ class ArmAngle:
         size = sine * sine + cosine * cosine
         if size == 0.0:
             return [0.0] * len(axes)
-        found = []
+        result = []
         for n, (point, axis) in enumerate(axes):
             moved = cross(axis, frames.subtract(wrist, point)) if n < 6 else frames.ORIGIN
             turned = cross(axis, elbow) if n < 3 else frames.ORIGIN
@@ -70,8 +70,8 @@ class ArmAngle:
             d_over = frames.add(cross(d_along, across), cross(along, d_across))
             d_sine = -dot(d_over, elbow) - dot(over, turned)
             d_cosine = -dot(d_across, elbow) - dot(across, turned)
-            found.append((cosine * d_sine - sine * d_cosine) / size)
-        return found
+            result.append((cosine * d_sine - sine * d_cosine) / size)
+        return result
 
     def cfx(self, axes: Sequence[Axis], second: float, fifth: float) -> int:
         """cfx of an arm whose axes lie so, with its axes 2 and 5 (rad) [code].
@@ -89,13 +89,13 @@ class ArmAngle:
         self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
     ) -> Iterator[tuple[float, ...]]:
         """Values of an arm that reach a pose with an arm angle, near ones of the start first."""
-        found = self._near(search, pose, angle, start)
-        if found is not None:
-            yield found
+        result = self._near(search, pose, angle, start)
+        if result is not None:
+            yield result
         for row in search.closest(pose, _STARTS):
-            found = self._near(search, pose, angle, row)
-            if found is not None:
-                yield found
+            result = self._near(search, pose, angle, row)
+            if result is not None:
+                yield result
 
     def _near(
         self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
@@ -108,8 +108,8 @@ class ArmAngle:
         for _ in range(_ROUNDS):
             flange, axes = search.lines(values)
             turned = angle - self.of(axes)
-            here = (*error(flange, pose), turned - 2 * pi * round(turned / (2 * pi)))
-            size = max(map(abs, here))
+            current = (*error(flange, pose), turned - 2 * pi * round(turned / (2 * pi)))
+            size = max(map(abs, current))
             if size < _EXACT:
                 return tuple(values)
             if size > 3 * last:
@@ -123,10 +123,10 @@ class ArmAngle:
             ]
             jacobian = search.by_value(columns, len(values))
             normal = jacobian.T @ jacobian + 1e-8 * size * np.eye(len(values))
-            step = solved(normal, jacobian.T @ np.array(here))
-            share = min(1.0, _LARGEST / max(1e-12, float(np.max(np.abs(step)))))
+            step = solved(normal, jacobian.T @ np.array(current))
+            fraction = min(1.0, _LARGEST / max(1e-12, float(np.max(np.abs(step)))))
             for n, change in enumerate(step):
-                values[n] += share * float(change)
+                values[n] += fraction * float(change)
         return None
 
 
@@ -134,6 +134,6 @@ def _foot(axis: Axis, other: Axis) -> Vector:
     """The point of an axis that is closest to another one."""
     (p, a), (q, b) = axis, other
     normal = frames.cross(a, b)
-    way = frames.subtract(q, p)
-    along = frames.dot(frames.cross(way, b), normal) / frames.dot(normal, normal)
+    path = frames.subtract(q, p)
+    along = frames.dot(frames.cross(path, b), normal) / frames.dot(normal, normal)
     return frames.add(p, frames.scale(a, along))

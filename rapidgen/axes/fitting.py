@@ -75,18 +75,18 @@ def sphere(points: Sequence[Vector]) -> Sphere:
 
     at = np.array(points)
     middle = at.mean(axis=0)
-    near = at - middle
-    spread = np.linalg.svd(near, compute_uv=False)
+    start = at - middle
+    spread = np.linalg.svd(start, compute_uv=False)
     if spread[2] <= _FLAT * spread[0]:
         raise NoFit("the points lie in a plane")
     # |p - c|^2 = r^2 is linear in c and r^2 - |c|^2.
-    matrix = np.column_stack([2 * near, np.ones(len(near))])
-    solved = np.linalg.lstsq(matrix, (near**2).sum(axis=1), rcond=None)[0]
-    found = float(np.sqrt(solved[3] + solved[:3] @ solved[:3]))
-    errors = np.abs(np.linalg.norm(near - solved[:3], axis=1) - found)
+    matrix = np.column_stack([2 * start, np.ones(len(start))])
+    solved = np.linalg.lstsq(matrix, (start**2).sum(axis=1), rcond=None)[0]
+    result = float(np.sqrt(solved[3] + solved[:3] @ solved[:3]))
+    errors = np.abs(np.linalg.norm(start - solved[:3], axis=1) - result)
     rms = float(np.sqrt((errors**2).mean()))
     centre = _vector(solved[:3] + middle)
-    return Sphere(centre, found, rms, float(errors.max()), int(errors.argmax()))
+    return Sphere(centre, result, rms, float(errors.max()), int(errors.argmax()))
 
 
 class Circle(NamedTuple):
@@ -110,18 +110,18 @@ def circle(points: Sequence[Vector]) -> Circle:
 
     at = np.array(points)
     middle = at.mean(axis=0)
-    near = at - middle
-    _, spread, axes = np.linalg.svd(near)
+    start = at - middle
+    _, spread, axes = np.linalg.svd(start)
     if spread[1] <= _FLAT * spread[0]:
         raise NoFit("the points lie on one line")
-    flat = near @ axes[:2].T
+    flat = start @ axes[:2].T
     matrix = np.column_stack([2 * flat, np.ones(len(flat))])
     solved = np.linalg.lstsq(matrix, (flat**2).sum(axis=1), rcond=None)[0]
     radius = float(np.sqrt(solved[2] + solved[:2] @ solved[:2]))
     centre = solved[:2] @ axes[:2]
     # Off the circle: across its plane, and along it.
     along = np.linalg.norm(flat - solved[:2], axis=1) - radius
-    errors = np.hypot(along, near @ axes[2])
+    errors = np.hypot(along, start @ axes[2])
     rms = float(np.sqrt((errors**2).mean()))
     normal = axes[2] if axes[2][int(np.abs(axes[2]).argmax())] > 0 else -axes[2]
     worst = int(errors.argmax())

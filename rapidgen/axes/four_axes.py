@@ -53,16 +53,16 @@ class Palletiser:
             return None
         reach = -sqrt(planar) if back else sqrt(planar)
         a1 = atan2(py, px) - atan2(self.hand[1], reach)
-        found = _two_links(
+        result = _two_links(
             reach - self.hand[0] - self.shoulder[0],
             pz - self.hand[2] - self.shoulder[1],
             self.upper,
             self.fore,
             over=elbow,
         )
-        if found is None:
+        if result is None:
             return None
-        a2, bend = found
+        a2, bend = result
         yaw = 2 * atan2(z, w)
         s1, s2, s3, s4 = self.signs
         return (
@@ -102,12 +102,12 @@ class Scara:
         hx, hy, _ = self.hand
         wx, wy = px - (c * hx - s * hy), py - (s * hx + c * hy)
         # Seen from above angles count upwards, in a plane that is upright downwards.
-        found = _two_links(
+        result = _two_links(
             wx, -wy, (self.upper[0], -self.upper[1]), (self.fore[0], -self.fore[1]), over=over
         )
-        if found is None:
+        if result is None:
             return None
-        a1, both = found
+        a1, both = result
         s1, s2, s3, s4 = self.signs
         return (
             s1 * _wrap(a1),
@@ -133,8 +133,8 @@ def _two_links(
         return None
     lift = acos(max(-1.0, min(1.0, cosine)))
     elevation = atan2(z, x) + (-lift if over else lift)
-    rest = atan2(z - length2 * sin(elevation), x - length2 * cos(elevation))
-    return rise2 - elevation, rise3 - rest
+    remaining = atan2(z - length2 * sin(elevation), x - length2 * cos(elevation))
+    return rise2 - elevation, rise3 - remaining
 
 
 def _wrap(angle: float) -> float:
@@ -183,10 +183,10 @@ def scara(points: Sequence[Vector], axes: Sequence[Vector], flange: Pose) -> Sca
 
 
 def _signs(axes: Sequence[Vector], along: Sequence[int]) -> tuple[int, int, int, int] | None:
-    found = []
+    result = []
     for axis, n in zip(axes, along, strict=True):
         if abs(abs(axis[n]) - 1.0) > _LEVEL:
             return None
-        found.append(1 if axis[n] > 0 else -1)
-    a, b, c, d = found
+        result.append(1 if axis[n] > 0 else -1)
+    a, b, c, d = result
     return a, b, c, d

@@ -116,7 +116,7 @@ def angle_between(a: Quaternion, b: Quaternion) -> float:
     return 2 * atan2(sqrt(x * x + y * y + z * z), abs(w))
 
 
-def slerp(a: Quaternion, b: Quaternion, share: float) -> Quaternion:
+def slerp(a: Quaternion, b: Quaternion, fraction: float) -> Quaternion:
     """From a to b at an even rate about one axis, the short way; share may leave 0..1."""
     cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
     if cosine < 0.0:
@@ -124,11 +124,11 @@ def slerp(a: Quaternion, b: Quaternion, share: float) -> Quaternion:
         cosine = -cosine
     if cosine > 1 - 1e-10:
         # So close together the chord is exact and there is no small sine to divide by.
-        w, x, y, z = (p + (q - p) * share for p, q in zip(a, b, strict=True))
+        w, x, y, z = (p + (q - p) * fraction for p, q in zip(a, b, strict=True))
         return normalise((w, x, y, z))
     angle = acos(min(1.0, cosine))
     size = 1 / sin(angle)
-    first, second = sin((1 - share) * angle) * size, sin(share * angle) * size
+    first, second = sin((1 - fraction) * angle) * size, sin(fraction * angle) * size
     return (
         first * a[0] + second * b[0],
         first * a[1] + second * b[1],

@@ -76,13 +76,13 @@ class Kinematics:
     def forward(self, posture: Posture) -> Pose:
         """Flange of a posture."""
         values = self.map.to_urdf(posture)
-        found = self._arm
-        if found is None:
+        result = self._arm
+        if result is None:
             return along(self.steps, values)
-        pose = found.arm.forward(self._robot_angles(values))
-        if not found.first:
+        pose = result.arm.forward(self._robot_angles(values))
+        if not result.first:
             return pose
-        return frames.compose(along(self.steps[: found.first], values), pose)
+        return frames.compose(along(self.steps[: result.first], values), pose)
 
     # -- inverse ----------------------------------------------------------------------------
 
@@ -91,43 +91,43 @@ class Kinematics:
         """Whether the inverse is a formula."""
         return self._arm is not None or self._four is not None
 
-    def follow(self, pose: Pose, near: Posture) -> Posture | None:
+    def follow(self, pose: Pose, start: Posture) -> Posture | None:
         """The posture on the same branch as `near`, turns as close to it as can be.
 
         External axes are those of `near`. None: out of reach, or the robot is on another
         branch there. Ranges are not looked at.
         """
-        values = self.map.to_urdf(near)
+        values = self.map.to_urdf(start)
         if self._four is not None:
             four = self._four
             return self._of_four(pose, values, four.arm.branch([values[i] for i in four.places]))
-        found = self._wrist
-        if found is None:
-            return self.arm.near(pose, near)
+        result = self._wrist
+        if result is None:
+            return self.arm.near(pose, start)
         angles, based = self._robot_angles(values), self._from_base(pose, values)
         if self._offset is None:
-            solved = found.arm.solve(based, found.arm.branch(angles), angles[3])
+            solved = result.arm.solve(based, result.arm.branch(angles), angles[3])
             return None if solved is None else self._as_posture(solved, angles, values)
         solved = self._offset.near(based, angles)
         # Where axis 6 alone does not lead there all axes may.
         if solved is None:
-            return self.arm.near(pose, near)
+            return self.arm.near(pose, start)
         return self._as_posture(solved, angles, values)
 
-    def beyond(self, pose: Pose, near: Posture) -> Iterator[Posture]:
+    def beyond(self, pose: Pose, start: Posture) -> Iterator[Posture]:
         """Postures that reach a pose, ranges apart; external axes as in `near`."""
-        values = self.map.to_urdf(near)
+        values = self.map.to_urdf(start)
         if self._four is not None:
             fours = (self._of_four(pose, values, branch) for branch in FOUR_BRANCHES)
             yield from (four for four in fours if four is not None)
             return
         yield from self._formulas(pose, values)
         if self._arm is None:
-            for postures in self.arm.rounds(pose, near):
+            for postures in self.arm.rounds(pose, start):
                 yield from postures
 
     def solutions(
-        self, pose: Pose, near: Posture, wanted: AxisConfiguration | None = None
+        self, pose: Pose, start: Posture, expected: AxisConfiguration | None = None
     ) -> list[Posture]:
         """All postures within the ranges that reach a pose, external axes as in `near`.
 
@@ -135,33 +135,35 @@ class Kinematics:
         Without a closed form: what iteration finds from `near` and from other starts, at least
         one if there is any; with `wanted` it looks longer for one of that configuration.
         """
-        values = self.map.to_urdf(near)
+        values = self.map.to_urdf(start)
         if self._four is not None:
             ways = (self._of_four(pose, values, branch) for branch in FOUR_BRANCHES)
             closed = [posture for posture in ways if posture is not None]
         else:
             closed = list(self._formulas(pose, values))
-        found: list[Posture] = []
+        result: list[Posture] = []
         for posture in closed:
-            found += [p for p in self._turned(posture) if not _known(p, found)]
-        if not found and not self.is_closed_form:
+            result += [p for p in self._turned(posture) if not _known(p, result)]
+        if not result and not self.is_closed_form:
             fits = False
-            for number, postures in enumerate(self.arm.rounds(pose, near)):
+            for number, postures in enumerate(self.arm.rounds(pose, start)):
                 for posture in postures:
-                    new = [p for p in self._turned(posture) if not _known(p, found)]
-                    found += new
-                    fits = fits or any(wanted is None or self.misfit(p, wanted) == 0.0 for p in new)
-                    if fits and len(found) >= _ENOUGH:
+                    new = [p for p in self._turned(posture) if not _known(p, result)]
+                    result += new
+                    fits = fits or any(
+                        expected is None or self.misfit(p, expected) == 0.0 for p in new
+                    )
+                    if fits and len(result) >= _ENOUGH:
                         break
-                if found and number >= (1 if fits else _LONGER):
+                if result and number >= (1 if fits else _LONGER):
                     break
-        found.sort(key=lambda posture: _apart(posture, near))
-        return found
+        result.sort(key=lambda posture: _apart(posture, start))
+        return result
 
     def _formulas(self, pose: Pose, values: Posture) -> Iterator[Posture]:
         """Postures of an arm with six axes on all branches, turns as close to URDF values."""
-        found = self._wrist
-        if found is None:
+        result = self._wrist
+        if result is None:
             return
         angles, based = self._robot_angles(values), self._from_base(pose, values)
         if self._offset is not None:
@@ -169,7 +171,7 @@ class Kinematics:
                 yield self._as_posture(solved, angles, values)
             return
         for branch in BRANCHES:
-            one = found.arm.solve(based, branch, angles[3])
+            one = result.arm.solve(based, branch, angles[3])
             if one is not None:
                 yield self._as_posture(one, angles, values)
 
@@ -193,22 +195,22 @@ class Kinematics:
             return pose
         return frames.within(along(self.steps[:first], values), pose)
 
-    def _as_posture(self, solved: Angles, near: Angles, values: Posture) -> Posture:
+    def _as_posture(self, solved: Angles, start: Angles, values: Posture) -> Posture:
         """Controller values of solved angles, each on the turn that is closest to `near`."""
         assert self._wrist is not None
         urdf = list(values)
         for angle, old, sign, place in zip(
-            solved, near, self._wrist.signs, self._wrist.places, strict=True
+            solved, start, self._wrist.signs, self._wrist.places, strict=True
         ):
             urdf[place] = sign * (angle + _TURN * round((old - angle) / _TURN))
         return self.map.to_controller(urdf)
 
-    def found(self, pose: Pose, near: Posture) -> Iterator[Posture]:
+    def found(self, pose: Pose, start: Posture) -> Iterator[Posture]:
         """Postures within the ranges that reach a pose, one after the other as they are found."""
         if self.is_closed_form or self._offset is not None:
-            yield from self.solutions(pose, near)
+            yield from self.solutions(pose, start)
             return
-        for postures in self.arm.rounds(pose, near):
+        for postures in self.arm.rounds(pose, start):
             for posture in postures:
                 yield from self._turned(posture)
 
@@ -222,25 +224,25 @@ class Kinematics:
         """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
         return self.arm.seventh
 
-    def at_arm_angle(self, pose: Pose, angle: float, near: Posture) -> Iterator[Posture]:
+    def at_arm_angle(self, pose: Pose, angle: float, start: Posture) -> Iterator[Posture]:
         """Postures within the ranges for a pose and an arm angle, as they are found from `near`."""
         place = self.seventh
         joint = self.group.joints[place]
         lower, upper = joint.lower - ROUNDING, joint.upper + ROUNDING
-        found: list[Posture] = []
-        for posture in self.arm.at_arm_angle(pose, angle, near):
+        result: list[Posture] = []
+        for posture in self.arm.at_arm_angle(pose, angle, start):
             value = posture[place] - _TURN * floor((posture[place] - lower) / _TURN)
             if value > upper:
                 continue
             placed = (*posture[:place], value, *posture[place + 1 :])
-            for turned in sorted(self._turned(placed), key=lambda turn: _apart(turn, near)):
-                if not _known(turned, found):
-                    found.append(turned)
+            for turned in sorted(self._turned(placed), key=lambda turn: _apart(turn, start)):
+                if not _known(turned, result):
+                    result.append(turned)
                     yield turned
 
     def _turned(self, posture: Posture) -> list[Posture]:
         """The posture with every turn of its axes that lies within the ranges."""
-        found: list[list[float]] = [[]]
+        result: list[list[float]] = [[]]
         for value, joint in zip(posture, self.group.joints, strict=True):
             low, high = joint.lower - ROUNDING, joint.upper + ROUNDING
             if joint.kind == "prismatic":
@@ -253,8 +255,8 @@ class Kinematics:
                 while first <= high:
                     turns.append(first)
                     first += _TURN
-            found = [[*head, turn] for head in found for turn in turns]
-        return [tuple(p) for p in found]
+            result = [[*head, turn] for head in result for turn in turns]
+        return [tuple(p) for p in result]
 
     # -- configuration ----------------------------------------------------------------------
 
@@ -278,21 +280,21 @@ class Kinematics:
             x = self.arm.cfx(posture)
         elif self._wrist is not None and self._tells_branches:
             angles = self._robot_angles(self.map.to_urdf(posture))
-            back, behind, _ = self._wrist.arm.branch(angles)
-            x = 4 * back + 2 * behind + (posture[self._axes["rax_5"]] < 0)
+            back, after, _ = self._wrist.arm.branch(angles)
+            x = 4 * back + 2 * after + (posture[self._axes["rax_5"]] < 0)
         return quarters[0], quarters[1], quarters[2], x
 
-    def misfit(self, posture: Posture, wanted: AxisConfiguration) -> float | None:
+    def misfit(self, posture: Posture, expected: AxisConfiguration) -> float | None:
         """Quarters (m) by which the worst of axes 1, 4 and 6 is outside its own; 0: none is.
 
         None: another cfx. With axis 5 at zero both its signs fit.
         """
         if self._tells_branches:
-            other = self.configuration(posture)[3] ^ wanted[3]
+            other = self.configuration(posture)[3] ^ expected[3]
             if other and not (other == 1 and abs(posture[self._axes["rax_5"]]) <= SINGULAR):
                 return None
         worst, early = 0.0, self._early
-        for axis, cf in zip(("rax_1", "rax_4", "rax_6"), wanted, strict=False):
+        for axis, cf in zip(("rax_1", "rax_4", "rax_6"), expected, strict=False):
             place = self._axes.get(axis)
             if place is not None:
                 at = (posture[place] + early) / (1.0 if self._linear[place] else pi / 2)
@@ -308,19 +310,19 @@ class Kinematics:
         return 1.5 if check == "turn" and self._tells_branches else 0.5
 
     def matches(
-        self, posture: Posture, wanted: AxisConfiguration, check: ConfigurationCheck = "turn"
+        self, posture: Posture, expected: AxisConfiguration, check: ConfigurationCheck = "turn"
     ) -> bool:
         """Whether a posture has a configuration."""
-        misfit = self.misfit(posture, wanted)
+        misfit = self.misfit(posture, expected)
         return misfit is not None and misfit <= self.room(check) + _NEAR
 
     def fitting(
-        self, postures: Sequence[Posture], wanted: AxisConfiguration, check: ConfigurationCheck
+        self, postures: Sequence[Posture], expected: AxisConfiguration, check: ConfigurationCheck
     ) -> Posture | None:
         """Of the postures that have a configuration the best one, the first of equal ones."""
         best, least = None, self.room(check) + _NEAR
         for posture in postures:
-            misfit = self.misfit(posture, wanted)
+            misfit = self.misfit(posture, expected)
             if misfit is not None and misfit < least:
                 best, least = posture, misfit - _NEAR
         return best
@@ -348,18 +350,18 @@ class Kinematics:
     @cached_property
     def _arm(self) -> SixAxes | None:
         """The closed form of an arm whose wrist axes meet."""
-        found = self._wrist
-        return None if found is None or any(found.offset) else found
+        result = self._wrist
+        return None if result is None or any(result.offset) else result
 
     @cached_property
     def _offset(self) -> "OffsetWrist | None":
         """What finds the postures of an arm whose axis 6 passes beside axes 4 and 5."""
-        found = self._wrist
-        if found is None or not any(found.offset):
+        result = self._wrist
+        if result is None or not any(result.offset):
             return None
         from rapidgen.axes.offset_wrist import OffsetWrist  # numpy: where there is no formula
 
-        return OffsetWrist(found.arm, found.offset)
+        return OffsetWrist(result.arm, result.offset)
 
     @cached_property
     def _wrist(self) -> SixAxes | None:
@@ -398,9 +400,9 @@ def _apart(posture: Posture, other: Posture) -> float:
     return sum(abs(a - b) for a, b in zip(posture, other, strict=True))
 
 
-def _known(posture: Posture, found: list[Posture]) -> bool:
+def _known(posture: Posture, result: list[Posture]) -> bool:
     return any(
-        max(abs(a - b) for a, b in zip(posture, other, strict=True)) < 1e-6 for other in found
+        max(abs(a - b) for a, b in zip(posture, other, strict=True)) < 1e-6 for other in result
     )
 
 

@@ -79,7 +79,7 @@ class Search:
         """The flange, and place and direction of each moving link's axis."""
         place: Vector = (0.0, 0.0, 0.0)
         q = frames.UNIT
-        found = []
+        result = []
         for link in self.links:
             (x, y, z), turned = link.fixed
             if x or y or z:
@@ -93,12 +93,12 @@ class Search:
                 if weight:
                     amount += value * weight
             direction = frames.rotate(q, link.axis)
-            found.append((place, direction))
+            result.append((place, direction))
             if link.slides:
                 place = frames.add(place, frames.scale(direction, amount))
             else:
                 q = multiply(q, frames.about(link.axis, amount))
-        return (place, q), found
+        return (place, q), result
 
     def near(self, pose: Pose, start: Sequence[float]) -> Values | None:
         """Values that reach a pose, on the branch of a start; None: Newton does not get there."""
@@ -118,21 +118,21 @@ class Search:
             normal.flat[:: self.free + 1] += _DAMPING * size
             step = solved(normal, jacobian.T @ np.array(error))
             longest = float(np.max(np.abs(step)))
-            share = _LARGEST / longest if longest > _LARGEST else 1.0
+            fraction = _LARGEST / longest if longest > _LARGEST else 1.0
             for n in range(self.free):
-                values[n] += share * float(step[n])
+                values[n] += fraction * float(step[n])
         return tuple(values) if last < 100 * _EXACT else None
 
     def columns(self, flange: Pose, axes: Sequence[Axis]) -> list[tuple[float, ...]]:
         """How the flange moves and turns with each moving link's joint, of what `lines` gave."""
-        found: list[tuple[float, ...]] = []
+        result: list[tuple[float, ...]] = []
         for link, (at, direction) in zip(self._moving, axes, strict=True):
             if link.slides:
-                found.append((*direction, 0.0, 0.0, 0.0))
+                result.append((*direction, 0.0, 0.0, 0.0))
             else:
                 across = frames.cross(direction, subtract(flange[0], at))
-                found.append((*across, *direction))
-        return found
+                result.append((*across, *direction))
+        return result
 
     def by_value(self, columns: Sequence[Sequence[float]], count: int) -> Floats:
         """What changes by so much with each moving link's joint, by each of the first values."""
@@ -159,23 +159,23 @@ class Search:
         """
         arrived = [0]
 
-        def told(found: Values | None) -> Iterator[Values]:
-            if found is not None:
+        def report(result: Values | None) -> Iterator[Values]:
+            if result is not None:
                 arrived[0] += 1
-                yield found
+                yield result
 
         order = self._closest(pose, start)
         singly = self._samples[0][order[:_SINGLY]]
 
         def one_by_one() -> Iterator[Values]:
-            yield from told(self.near(pose, start))
+            yield from report(self.near(pose, start))
             for row in singly.tolist():
-                yield from told(self.near(pose, (*row[: self.free], *start[self.free :])))
+                yield from report(self.near(pose, (*row[: self.free], *start[self.free :])))
 
         def together(values: Floats) -> Iterator[Values]:
             values[:, self.free :] = start[self.free :]
             for row in self._together(pose, values):
-                yield from told(self.near(pose, tuple(row)))
+                yield from report(self.near(pose, tuple(row)))
 
         yield one_by_one()
         begin = _SINGLY
@@ -329,9 +329,9 @@ def _quaternions(rotations: Floats) -> Floats:
         ],
         axis=1,
     )
-    found = choices[np.arange(len(m)), largest]
-    found = found / np.linalg.norm(found, axis=1)[:, None]
-    made: Floats = np.where(found[:, :1] < 0, -found, found)
+    result = choices[np.arange(len(m)), largest]
+    result = result / np.linalg.norm(result, axis=1)[:, None]
+    made: Floats = np.where(result[:, :1] < 0, -result, result)
     return made
 
 

@@ -79,19 +79,19 @@ class OffsetWrist:
         side = (-1.0 if back else 1.0, -1.0 if over else 1.0)
         start = last = angles[5]
         new = start + 1e-4
-        before, here = wrist.value(side, last), wrist.value(side, new)
+        before, current = wrist.value(side, last), wrist.value(side, new)
         for _ in range(12):
-            if before is None or here is None or abs(new - start) > _CLOSE:
+            if before is None or current is None or abs(new - start) > _CLOSE:
                 return None
-            if abs(here) < _EXACT:
+            if abs(current) < _EXACT:
                 return wrist.angles(side, new)
-            if here == before:
+            if current == before:
                 return None
-            step = here * (new - last) / (here - before)
+            step = current * (new - last) / (current - before)
             if abs(step * (new - last)) < _EXACT_STEPS:
                 return wrist.angles(side, new - step)
             last, new = new, new - step
-            before, here = here, wrist.value(side, new)
+            before, current = current, wrist.value(side, new)
         return None
 
 
@@ -114,8 +114,8 @@ class _Wrist(NamedTuple):
 
     def value(self, side: Side, a6: float) -> float | None:
         """The equation at an angle; None: out of the arm's reach."""
-        found, planar, bent = self._equation(side, cos(a6), sin(a6), _root)
-        return found if planar >= 0.0 and bent >= 0.0 else None
+        result, planar, bent = self._equation(side, cos(a6), sin(a6), _root)
+        return result if planar >= 0.0 and bent >= 0.0 else None
 
     def _equation(
         self, side: Side, c: Number, s: Number, root: Callable[[Number], Number]
@@ -196,19 +196,19 @@ class _Wrist(NamedTuple):
 
     def _between(self, side: Side, a: float, b: float) -> float:
         """The root between two angles where the equation has different signs (Illinois)."""
-        before, here = self.value(side, a), self.value(side, b)
+        before, current = self.value(side, a), self.value(side, b)
         for _ in range(_HALVINGS):
-            if not before or not here or abs(here) < _EXACT:
+            if not before or not current or abs(current) < _EXACT:
                 break
-            c = b - here * (b - a) / (here - before)
-            there = self.value(side, c)
-            if there is None:
+            c = b - current * (b - a) / (current - before)
+            target = self.value(side, c)
+            if target is None:
                 break
-            if there * here < 0.0:
-                a, before = b, here
+            if target * current < 0.0:
+                a, before = b, current
             else:
                 before /= 2
-            b, here = c, there
+            b, current = c, target
         return a if before == 0.0 else b
 
     def _grazing(self, side: Side, a: float, b: float) -> Iterator[float]:
@@ -244,7 +244,7 @@ class _Wrist(NamedTuple):
                 beyond = middle
             else:
                 within = middle
-        steps = [first + share * (within - first) for share in _SHARES]
+        steps = [first + fraction * (within - first) for fraction in _SHARES]
         values = [self.value(side, angle) or 0.0 for angle in steps]
         for n in range(len(steps) - 1):
             if values[n] * values[n + 1] <= 0.0:
@@ -282,8 +282,8 @@ def _root(value: float) -> float:
 
 
 def _roots(values: Floats) -> Floats:
-    found: Floats = np.sqrt(np.maximum(values, 0.0))
-    return found
+    result: Floats = np.sqrt(np.maximum(values, 0.0))
+    return result
 
 
 def _wrap(angle: float) -> float:

@@ -38,18 +38,18 @@ class Line:
         """rad"""
         return frames.angle_between(self.start[1], self.end[1])
 
-    def position(self, share: float) -> Vector:
+    def position(self, fraction: float) -> Vector:
         """m"""
         (ax, ay, az), (bx, by, bz) = self.start[0], self.end[0]
-        return ax + (bx - ax) * share, ay + (by - ay) * share, az + (bz - az) * share
+        return ax + (bx - ax) * fraction, ay + (by - ay) * fraction, az + (bz - az) * fraction
 
     def tangent(self, _share: float) -> Vector:
         """m per share"""
         return frames.subtract(self.end[0], self.start[0])
 
-    def orientation(self, share: float) -> Quaternion:
+    def orientation(self, fraction: float) -> Quaternion:
         """Unit quaternion."""
-        return frames.slerp(self.start[1], self.end[1], share)
+        return frames.slerp(self.start[1], self.end[1], fraction)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,23 +84,25 @@ class Arc:
         rows = [self.orientation(k / 8) for k in range(9)]
         return sum(frames.angle_between(a, b) for a, b in pairwise(rows))
 
-    def position(self, share: float) -> Vector:
+    def position(self, fraction: float) -> Vector:
         """m"""
         arm = frames.subtract(self.start[0], self.centre)
         return frames.add(
-            self.centre, frames.rotate(frames.about(self.normal, self.sweep * share), arm)
+            self.centre, frames.rotate(frames.about(self.normal, self.sweep * fraction), arm)
         )
 
-    def tangent(self, share: float) -> Vector:
+    def tangent(self, fraction: float) -> Vector:
         """m per share"""
-        arm = frames.subtract(self.position(share), self.centre)
+        arm = frames.subtract(self.position(fraction), self.centre)
         return frames.scale(frames.cross(self.normal, arm), self.sweep)
 
-    def orientation(self, share: float) -> Quaternion:
+    def orientation(self, fraction: float) -> Quaternion:
         """Unit quaternion."""
-        turned = frames.add(frames.scale(self.turn, share), frames.scale(self.bend, share * share))
+        turned = frames.add(
+            frames.scale(self.turn, fraction), frames.scale(self.bend, fraction * fraction)
+        )
         own = frames.multiply(self.start[1], _about(turned))
-        return frames.multiply(frames.about(self.normal, self.swept * share), own)
+        return frames.multiply(frames.about(self.normal, self.swept * fraction), own)
 
 
 def arc_through(
@@ -128,7 +130,7 @@ def arc_through(
     centre = frames.add(a, frames.scale(frames.add(first, second), 1 / (2 * area)))
     normal = frames.unit(normal)
     sweep = _turned(frames.subtract(a, centre), frames.subtract(c, centre), normal)
-    share = _turned(frames.subtract(a, centre), frames.subtract(b, centre), normal) / sweep
+    fraction = _turned(frames.subtract(a, centre), frames.subtract(b, centre), normal) / sweep
     swept = 0.0 if mode is CircleMode.OBJECT else sweep
 
     def own(orientation: Quaternion, at: float) -> Vector:
@@ -142,13 +144,13 @@ def arc_through(
         return Arc(start, end, centre, normal, sweep, swept, turn)
     angle = frames.norm(turn)
     long = frames.scale(turn, 1 - 2 * pi / angle) if angle > 1e-9 else turn
-    ways = [Arc(start, end, centre, normal, sweep, swept, way) for way in (turn, long)]
-    best = min(ways, key=lambda way: frames.angle_between(way.orientation(share), via[1]))
+    ways = [Arc(start, end, centre, normal, sweep, swept, path) for path in (turn, long)]
+    best = min(ways, key=lambda path: frames.angle_between(path.orientation(fraction), via[1]))
     if mode is CircleMode.PATH:
         return best
     # turn * s + bend * s^2 is that of the circle point at `share` and that of the end at 1.
-    off = frames.subtract(own(via[1], share), frames.scale(best.turn, share))
-    bend = frames.scale(off, 1 / (share * share - share))
+    off = frames.subtract(own(via[1], fraction), frames.scale(best.turn, fraction))
+    bend = frames.scale(off, 1 / (fraction * fraction - fraction))
     turn = frames.subtract(best.turn, bend)
     return Arc(start, end, centre, normal, sweep, swept, turn, bend)
 

@@ -34,14 +34,14 @@ class ArmSearch:
         values = self.search(start).near(pose, tuple(start[i] for i in self._places))
         return None if values is None else self._posture(self._places, values, start)
 
-    def rounds(self, pose: Pose, near: Posture) -> Iterator[Iterator[Posture]]:
+    def rounds(self, pose: Pose, start: Posture) -> Iterator[Iterator[Posture]]:
         """Postures for a pose as they are found, in rounds of starts farther and farther away."""
-        for found in self.search(near).rounds(pose, tuple(near[i] for i in self._places)):
-            yield (self._posture(self._places, values, near) for values in found)
+        for result in self.search(start).rounds(pose, tuple(start[i] for i in self._places)):
+            yield (self._posture(self._places, values, start) for values in result)
 
     def at_arm_angle(self, pose: Pose, angle: float, near: Posture) -> Iterator[Posture]:
         """Postures for a pose and an arm angle (rad), as they are found from `near`."""
-        search = self.search(near, whole=True)
+        search = self.search(near, complete=True)
         start = tuple(near[i] for i in self._order)
         for values in self._angle.postures(search, pose, angle, start):
             yield self._posture(self._order, values, near)
@@ -62,12 +62,12 @@ class ArmSearch:
     def arm_angle(self, posture: Posture) -> float:
         """What eax_a of a robtarget is in a posture of an arm with seven axes (rad)."""
         values = tuple(posture[i] for i in self._order)
-        return self._angle.of(self.search(posture, whole=True).lines(values)[1])
+        return self._angle.of(self.search(posture, complete=True).lines(values)[1])
 
     def cfx(self, posture: Posture) -> int:
         """cfx of a robtarget in a posture of an arm with seven axes."""
         values = tuple(posture[i] for i in self._order)
-        axes = self.search(posture, whole=True).lines(values)[1]
+        axes = self.search(posture, complete=True).lines(values)[1]
         by_axis = {joint.axis: v for joint, v in zip(self.group.joints, posture, strict=True)}
         return self._angle.cfx(axes, by_axis["rax_2"], by_axis["rax_5"])
 
@@ -76,25 +76,25 @@ class ArmSearch:
         """Places of the arm's axes in the order of the chain."""
         return tuple(s.joint for s in self.steps if s.joint in (*self._own, *self._inner))
 
-    def search(self, near: Posture, *, whole: bool = False) -> "Search":
+    def search(self, start: Posture, *, complete: bool = False) -> "Search":
         """The search of this arm, with what carries it as in `near`; `whole`: with its seventh."""
-        key = whole, tuple(near[i] for i in self._outside)
+        key = complete, tuple(start[i] for i in self._outside)
         if key not in self._searches:
-            for old in [k for k in self._searches if k[0] == whole]:
+            for old in [k for k in self._searches if k[0] == complete]:
                 del self._searches[old]
-            places = self._order if whole else (*self._own, *self._inner)
-            free = len(places) if whole else len(self._own)
-            self._searches[key] = self._make_search(near, places, free)
+            places = self._order if complete else (*self._own, *self._inner)
+            free = len(places) if complete else len(self._own)
+            self._searches[key] = self._make_search(start, places, free)
         return self._searches[key]
 
-    def _make_search(self, near: Posture, places: tuple[int, ...], free: int) -> "Search":
+    def _make_search(self, start: Posture, places: tuple[int, ...], free: int) -> "Search":
         from rapidgen.axes.numeric_ik import (  # numpy: where there is no formula
             Link,
             Search,
             linear,
         )
 
-        weights, constants = linear(self.map.to_urdf, near, places)
+        weights, constants = linear(self.map.to_urdf, start, places)
         links = []
         for step in self.steps:
             parts = ((step.joint, 1.0),) if step.joint >= 0 else step.follows
@@ -144,12 +144,12 @@ class ArmSearch:
         return (*self._own, *self._inner)
 
     def _posture(
-        self, places: tuple[int, ...], values: tuple[float, ...], near: Posture
+        self, places: tuple[int, ...], values: tuple[float, ...], start: Posture
     ) -> Posture:
-        whole = list(near)
+        complete = list(start)
         for place, value in zip(places, values, strict=True):
-            whole[place] = value
+            complete[place] = value
         return tuple(
             v + _TURN * round((n - v) / _TURN) if j.kind == "revolute" else v
-            for v, n, j in zip(whole, near, self.group.joints, strict=True)
+            for v, n, j in zip(complete, start, self.group.joints, strict=True)
         )

@@ -12,14 +12,14 @@ _LOOKED_AT = 8
 
 
 def unreached(
-    kinematics: Kinematics, flange: Pose, near: Posture, arm_angle: float | None = None
+    kinematics: Kinematics, flange: Pose, start: Posture, arm_angle: float | None = None
 ) -> tuple[bool, str]:
     """Whether a posture, beyond the axis ranges or not, would reach the pose, and a sentence for
     people. `arm_angle` (rad) is the one that was asked for, of an arm with seven axes."""
     group = kinematics.group
     place = ", ".join(f"{v * 1000:.1f}" for v in flange[0])
     robot = group.model or group.name
-    postures = list(islice(kinematics.beyond(flange, near), _LOOKED_AT))
+    postures = list(islice(kinematics.beyond(flange, start), _LOOKED_AT))
     if not postures:
         return False, f"{robot}: the flange cannot be at [{place}] mm with this orientation"
     worst = []

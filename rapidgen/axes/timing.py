@@ -59,33 +59,33 @@ def parametrise(positions: Array, speed: Array, acceleration: Array) -> Array:
     shortest = np.maximum(np.max(np.abs(deltas) / limits[0], axis=1), 1e-3)
     rates = deltas / shortest[:, None]
     ramps = 4 if len(deltas) == 1 else 2
-    share = np.ones(len(deltas))
+    fraction = np.ones(len(deltas))
     for end in (0, -1):
         ramp = np.sqrt(ramps * np.max(np.abs(deltas[end]) / limits[1]))
-        share[end] = min(1.0, shortest[end] / ramp) if ramp > 0 else 1.0
+        fraction[end] = min(1.0, shortest[end] / ramp) if ramp > 0 else 1.0
     with np.errstate(divide="ignore"):
         turn = np.max(np.abs(np.diff(rates, axis=0)) / limits[1], axis=1)
         corner = np.sqrt((shortest[1:] + shortest[:-1]) / 2 / turn)
-    share[1:] = np.minimum(share[1:], corner)
-    share[:-1] = np.minimum(share[:-1], corner)
-    for k in range(1, len(share)):
+    fraction[1:] = np.minimum(fraction[1:], corner)
+    fraction[:-1] = np.minimum(fraction[:-1], corner)
+    for k in range(1, len(fraction)):
         reach = _next_share(
-            rates[k - 1], rates[k], shortest[k - 1], shortest[k], share[k - 1], limits[1]
+            rates[k - 1], rates[k], shortest[k - 1], shortest[k], fraction[k - 1], limits[1]
         )
-        share[k] = min(share[k], reach)
-    for k in range(len(share) - 2, -1, -1):
+        fraction[k] = min(fraction[k], reach)
+    for k in range(len(fraction) - 2, -1, -1):
         reach = _next_share(
-            rates[k + 1], rates[k], shortest[k + 1], shortest[k], share[k + 1], limits[1]
+            rates[k + 1], rates[k], shortest[k + 1], shortest[k], fraction[k + 1], limits[1]
         )
-        share[k] = min(share[k], reach)
-    periods = shortest / share
+        fraction[k] = min(fraction[k], reach)
+    periods = shortest / fraction
     periods = periods * max(1.0, float(np.sqrt(_demand(periods, deltas, *limits).worst)))
     result: Array = np.concatenate(([0.0], np.cumsum(periods)))
     return result
 
 
 def _next_share(
-    before: Array, rate: Array, period_before: float, period: float, share: float, limit: Array
+    before: Array, rate: Array, period_before: float, period: float, fraction: float, limit: Array
 ) -> float:
     """Largest share of a segment whose neighbour has `share`, by the acceleration between them.
 
@@ -94,7 +94,7 @@ def _next_share(
     """
     sign = np.where(rate < 0, -1.0, 1.0)
     square = np.maximum(np.abs(rate), 1e-12)
-    linear = sign * before * share + limit * period_before / (2 * share)
+    linear = sign * before * fraction + limit * period_before / (2 * fraction)
     roots = (linear + np.sqrt(linear**2 + 2 * square * limit * period)) / (2 * square)
     return float(roots.min())
 
@@ -146,8 +146,8 @@ def decimate(times: Array, positions: Array, shortest: float, tolerance: float) 
 
 def _is_straight(stamps: Array, points: Array, start: int, end: int, tolerance: float) -> bool:
     inner = slice(start + 1, end)
-    share = (stamps[inner] - stamps[start]) / (stamps[end] - stamps[start])
-    line = points[start] + share[:, None] * (points[end] - points[start])
+    fraction = (stamps[inner] - stamps[start]) / (stamps[end] - stamps[start])
+    line = points[start] + fraction[:, None] * (points[end] - points[start])
     return bool(np.abs(points[inner] - line).max() <= tolerance)
 
 

@@ -78,10 +78,10 @@ _OPTIONAL_VALUES = {"--profile": "--profile=-"}
 
 def run(arguments: list[str] | None = None) -> None:
     """Entry point: run one verb and leave with its exit code."""
-    words = sys.argv[1:] if arguments is None else arguments
+    text = sys.argv[1:] if arguments is None else arguments
     _prepare_streams()
     try:
-        code = main([_OPTIONAL_VALUES.get(word, word) for word in words])
+        code = main([_OPTIONAL_VALUES.get(word, word) for word in text])
     except BrokenPipeError:
         # While it said what was wrong: that reader has gone, too.
         code = _unheard()
@@ -90,26 +90,26 @@ def run(arguments: list[str] | None = None) -> None:
     sys.exit(code)
 
 
-def main(words: list[str]) -> int:
+def main(text: list[str]) -> int:
     """Run one verb; its exit code."""
-    as_json = asks_json(words)
+    as_json = asks_json(text)
     # There 2 means that there is something to do.
-    usage = 1 if "--detailed-exitcode" in words else 2
-    words = set_up(words)
-    if "" in words:
+    usage = 1 if "--detailed-exitcode" in text else 2
+    text = set_up(text)
+    if "" in text:
         _show((_empty_argument(),), as_json)
         return usage
-    command = typer.main.get_command(_app(words))
+    command = typer.main.get_command(_app(text))
     # Who types nothing wants to know what there is.
-    words = words or ["--help"]
+    text = text or ["--help"]
     try:
-        result = command.main(args=words, prog_name="rapidgen", standalone_mode=False)
+        result = command.main(args=text, prog_name="rapidgen", standalone_mode=False)
         sys.stdout.flush()
     except DiagnosticError as fault:
         _show(fault.diagnostics, as_json)
         return min(fault.exit_code, usage)
     except TyperException as fault:
-        _show((_usage(fault, words),), as_json)
+        _show((_usage(fault, text),), as_json)
         return usage
     except (_GivenUp, KeyboardInterrupt, typer.Abort):
         if as_json:
@@ -147,9 +147,9 @@ def _prepare_streams() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-def _app(words: list[str]) -> typer.Typer:
+def _app(text: list[str]) -> typer.Typer:
     """The command with the asked verb as it is, and the others by name and sentence only."""
-    wanted = next((word for word in words if not word.startswith("-")), "")
+    requested = next((word for word in text if not word.startswith("-")), "")
     completing = "_RAPIDGEN_COMPLETE" in os.environ
     app = typer.Typer(
         name="rapidgen",
@@ -161,9 +161,9 @@ def _app(words: list[str]) -> typer.Typer:
     )
     app.callback()(_root)
     for verb, sentence in VERBS.items():
-        whole = completing or verb == wanted
+        complete = completing or verb == requested
         app.command(verb, cls=PlainCommand)(
-            _interruptible(function(verb)) if whole else _named(sentence)
+            _interruptible(function(verb)) if complete else _named(sentence)
         )
     return app
 
@@ -185,8 +185,8 @@ def _interruptible(verb: Callable[..., object]) -> Callable[..., object]:
 
 def function(verb: str) -> Callable[..., object]:
     """The function behind a verb."""
-    found: Callable[..., object] = getattr(import_module(f"rapidgen.cli.{verb}"), verb)
-    return found
+    result: Callable[..., object] = getattr(import_module(f"rapidgen.cli.{verb}"), verb)
+    return result
 
 
 def _named(sentence: str) -> Callable[[], None]:
@@ -197,8 +197,8 @@ def _named(sentence: str) -> Callable[[], None]:
     return verb
 
 
-def _version(wanted: bool) -> None:
-    if wanted:
+def _version(requested: bool) -> None:
+    if requested:
         typer.echo(f"rapidgen {__version__}")
         raise typer.Exit
 
@@ -230,15 +230,15 @@ def _unheard() -> int:
 def _refused(fault: OSError, as_json: bool) -> int:
     """Say what the operating system refused; the exit code."""
     if fault.filename is not None:
-        message, mend = f"cannot use {fault.filename}", "free it, or name another one"
+        message, help = f"cannot use {fault.filename}", "free it, or name another one"
     elif fault.errno in _MACHINE:
         # What could not be written to stdout must not be tried again when Python ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        message, mend = "cannot go on", "look at where the output goes, and at the disk"
+        message, help = "cannot go on", "look at where the output goes, and at the disk"
     else:
-        message, mend = "cannot go on", "is the folder that you are in still there?"
+        message, help = "cannot go on", "is the folder that you are in still there?"
     text = f"{message}: {fault.strerror}"
-    _show((error("RG903", None, text, mend),), as_json)
+    _show((error("RG903", None, text, help),), as_json)
     return 2 if fault.errno in _BAD_PATH else 1
 
 
@@ -255,22 +255,22 @@ def _empty_argument() -> Diagnostic:
     )
 
 
-def asks_json(words: Sequence[str]) -> bool:
+def asks_json(text: Sequence[str]) -> bool:
     """Whether stdout is read by a program: then errors are JSON there, too."""
-    return "--json" in words
+    return "--json" in text
 
 
-def _show(found: tuple[Diagnostic, ...], as_json: bool) -> None:
+def _show(findings: tuple[Diagnostic, ...], as_json: bool) -> None:
     if as_json:
-        sys.stdout.write(json.dumps({"errors": as_data(found)}, ensure_ascii=False) + "\n")
+        sys.stdout.write(json.dumps({"errors": as_data(findings)}, ensure_ascii=False) + "\n")
     else:
-        sys.stderr.write(render(found, colour=use_colour()))
+        sys.stderr.write(render(findings, colour=use_colour()))
 
 
-def _usage(fault: TyperException, words: list[str]) -> Diagnostic:
+def _usage(fault: TyperException, text: list[str]) -> Diagnostic:
     context = getattr(fault, "ctx", None)
     # An option without its value is told without a context: then by what was typed.
-    typed = " ".join(["rapidgen", *(word for word in words[:1] if not word.startswith("-"))])
+    typed = " ".join(["rapidgen", *(word for word in text[:1] if not word.startswith("-"))])
     path = context.command_path if context is not None else typed
     # pydantic's words where a type is checked; they are no user's.
     message = (fault.format_message() or "nothing to do").rstrip(".").replace("Value error, ", "")

@@ -35,32 +35,32 @@ def backup(
 
     if output.exists():
         raise refusal("RG660", None, f"{output} is there already", "name a folder that is not")
-    with controller(host, user, secrets, fingerprint) as found:
-        place = found.backup(f"rapidgen_{datetime.now():%Y%m%d_%H%M%S}")
+    with controller(host, user, secrets, fingerprint) as result:
+        place = result.backup(f"rapidgen_{datetime.now():%Y%m%d_%H%M%S}")
         # Whole or not at all: a backup that was cut is none.
         part = output.with_name(f"{output.name}.part")
         part.mkdir(parents=True)
         try:
-            count = _fetch(found, place, part)
+            count = _fetch(result, place, part)
             part.rename(output)
         finally:
             shutil.rmtree(part, ignore_errors=True)
         if not keep:
-            found.delete_file(place)
+            result.delete_file(place)
     typer.echo(f"{output}: {count} files")
     return 0
 
 
-def _fetch(found: "Controller", place: str, folder: Path) -> int:
+def _fetch(result: "Controller", place: str, folder: Path) -> int:
     """Files below a place, into a folder; how many. Names that lead elsewhere are refused."""
     count = 0
-    for entry in found.list_files(place):
+    for entry in result.list_files(place):
         if Path(entry.name).name != entry.name or entry.name in ("", ".", ".."):
             raise refusal("RG653", None, f"the controller lists a file named {entry.name!r}")
         if entry.is_folder:
             (folder / entry.name).mkdir()
-            count += _fetch(found, f"{place}/{entry.name}", folder / entry.name)
+            count += _fetch(result, f"{place}/{entry.name}", folder / entry.name)
         else:
-            (folder / entry.name).write_bytes(found.read_file(f"{place}/{entry.name}"))
+            (folder / entry.name).write_bytes(result.read_file(f"{place}/{entry.name}"))
             count += 1
     return count

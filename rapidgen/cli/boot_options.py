@@ -35,7 +35,7 @@ def chosen(
     """
     from rapidgen.controller.boot_targets import BootOptions, load_target
 
-    wishes = BootOptions(
+    options = BootOptions(
         _tasks(tasks or ()),
         robot=robot,
         robotware=_release(robotware),
@@ -45,19 +45,19 @@ def chosen(
         backup=backup,
         overrides=tuple(overrides or ()),
     )
-    found = load_target(targets, wishes)
-    if found.notes:
-        sys.stderr.write(render(found.notes, colour=use_colour()))
-    if found.likely is not None:
-        one = found.likely
+    result = load_target(targets, options)
+    if result.notes:
+        sys.stderr.write(render(result.notes, colour=use_colour()))
+    if result.likely is not None:
+        one = result.likely
         reach = f"reaches {one.reached} of {one.targets} targets that its program names"
         sys.stderr.write(f"guessed robot: {one.model}, which {reach}\n")
-    if found.guessed is not None:
-        sys.stderr.write(_table("guessed", found.guessed.named))
-        sys.stderr.write(_table("nobody declares, and it was not guessed", found.guessed.unknown))
+    if result.guessed is not None:
+        sys.stderr.write(_table("guessed", result.guessed.named))
+        sys.stderr.write(_table("nobody declares, and it was not guessed", result.guessed.unknown))
     if check:
-        _refuse_unloadable(found)
-    return found
+        _refuse_unloadable(result)
+    return result
 
 
 def _release(text: str) -> tuple[int, int] | None:
@@ -92,8 +92,8 @@ def _numbers(text: str) -> tuple[float, ...]:
     try:
         return tuple(float(part) for part in text.strip("[] ").split(",")) if text else ()
     except ValueError as fault:
-        mend = "such as --start 0,0,0,0,30,0"
-        raise refusal("RG901", None, f"--start '{text}' is no list of numbers", mend) from fault
+        help = "such as --start 0,0,0,0,30,0"
+        raise refusal("RG901", None, f"--start '{text}' is no list of numbers", help) from fault
 
 
 def _table(title: str, rows: "Sequence[UndeclaredName]") -> str:
@@ -120,19 +120,19 @@ def inference_report(guessed: "InferenceLog") -> str:
     )
 
 
-def _counted(title: str, between: str, said: "Iterable[Said]") -> str:
+def _counted(title: str, between: str, message: "Iterable[Said]") -> str:
     given = [
         f"{name}{between}{value if isinstance(value, str) else f'{value:g}'}"
         + (f" ({count} times)" if count > 1 else "")
-        for (name, value), count in Counter(said).items()
+        for (name, value), count in Counter(message).items()
     ]
     return f"{title}: {', '.join(given)}\n" if given else ""
 
 
-def _refuse_unloadable(found: "Bootable") -> None:
+def _refuse_unloadable(result: "Bootable") -> None:
     """Names that nothing declares are found when reached; warnings are `check`'s business."""
     from rapidgen.rapid import check
 
-    errors = [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR]
+    errors = [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR]
     if errors:
         raise DiagnosticError(errors)

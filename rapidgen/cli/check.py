@@ -66,16 +66,16 @@ def check(
     dialect = _dialect(robotware)
     payload = _payload(robot)
     cell = _cell(backup)
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     modules: list[Path] = []
     for given in paths:
         path = Path(given)
         is_name = not path.exists() and not path.suffix and len(path.parts) == 1
         try:
             if is_name or path.suffix.lower() in _CONFIG_SUFFIXES:
-                found += _configuration(given, cell)
+                findings += _configuration(given, cell)
             elif path.is_dir():
-                found += _folder(path, dialect, backup, payload)
+                findings += _folder(path, dialect, backup, payload)
             elif not path.exists():
                 raise _nothing(given)
             elif path.suffix.lower() == ".cfg":
@@ -85,14 +85,14 @@ def check(
         except DiagnosticError as fault:
             if not path.exists():
                 raise
-            found += fault.diagnostics
-    found += _files(modules, dialect, payload)
+            findings += fault.diagnostics
+    findings += _files(modules, dialect, payload)
     import sys
 
-    typer.echo(render(found, format, colour=use_colour(sys.stdout)), nl=False)
-    errors = sum(d.severity is Severity.ERROR for d in found)
+    typer.echo(render(findings, format, colour=use_colour(sys.stdout)), nl=False)
+    errors = sum(d.severity is Severity.ERROR for d in findings)
     if format is Format.FULL:
-        warnings = sum(d.severity is Severity.WARNING for d in found)
+        warnings = sum(d.severity is Severity.WARNING for d in findings)
         typer.echo(f"{errors} error(s), {warnings} warning(s)", err=True)
     return 1 if errors else 0
 
@@ -111,8 +111,8 @@ def _payload(robot: str) -> "Payload":
     from rapidgen.config.plausibility import LARGEST_PAYLOAD
     from rapidgen.rapid.checks import Payload
 
-    found = _payload_of(robot, _robots(robot)) if robot else None
-    return found or Payload("any robot of ABB", LARGEST_PAYLOAD)
+    result = _payload_of(robot, _robots(robot)) if robot else None
+    return result or Payload("any robot of ABB", LARGEST_PAYLOAD)
 
 
 def _robots(name: str) -> "Sequence[GroupConfig]":
@@ -203,13 +203,13 @@ def _files(paths: list[Path], dialect: "Dialect | None", payload: "Payload") -> 
     from rapidgen.rapid import check as check_rapid
 
     modules: list[Module] = []
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for path in paths:
         try:
             modules += _parsed([path], dialect)
         except DiagnosticError as fault:
-            found += fault.diagnostics
-    return found + check_rapid(modules, dialect=dialect, payloads={"": payload})
+            findings += fault.diagnostics
+    return findings + check_rapid(modules, dialect=dialect, payloads={"": payload})
 
 
 def _folder(
@@ -226,31 +226,33 @@ def _folder(
     _search(path, groups, systems)
     if not groups and not systems:
         raise _nothing(str(path))
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for system in systems:
-        found += _system(system, dialect, backup, payload)
-    parsed = [_rapid(_parsed(files, dialect), found) for files in groups]
+        findings += _system(system, dialect, backup, payload)
+    parsed = [_rapid(_parsed(files, dialect), findings) for files in groups]
     declared = [{_name(d).lower() for m in modules for d in m.declarations} for modules in parsed]
     for k, modules in enumerate(parsed):
         elsewhere = frozenset().union(*declared[:k], *declared[k + 1 :])
-        found += check_rapid(modules, dialect=dialect, elsewhere=elsewhere, payloads={"": payload})
-    return found
+        findings += check_rapid(
+            modules, dialect=dialect, elsewhere=elsewhere, payloads={"": payload}
+        )
+    return findings
 
 
-def _rapid(modules: "list[Module]", found: list[Diagnostic]) -> "list[Module]":
+def _rapid(modules: "list[Module]", findings: list[Diagnostic]) -> "list[Module]":
     """The modules of a folder that are RAPID; of the others a note is made."""
     from rapidgen.rapid.syntax.text import is_rapid
 
-    kept = []
+    saved = []
     for module in modules:
         wrong = any(d.severity is Severity.ERROR for d in module.diagnostics)
         if is_rapid(module) or not wrong:
-            kept.append(module)
+            saved.append(module)
         else:
             at = Span(module.source.path, 1, 1)
-            said = "the file is named like a module, but it is no RAPID: left out"
-            found.append(error("RG208", at, said, severity=Severity.INFO))
-    return kept
+            message = "the file is named like a module, but it is no RAPID: left out"
+            findings.append(error("RG208", at, message, severity=Severity.INFO))
+    return saved
 
 
 def _name(declaration: "Declaration") -> str:
@@ -272,12 +274,12 @@ def _system(
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
     carried = _of_backup(system, payload)
-    found = [
+    result = [
         *notes,
         *check_rapid(system, dialect=dialect, gaps=bool(notes), payloads=carried),
     ]
     dialect = dialect or Dialect(system.robotware, some=not system.robotware_told)
-    return [*found, *_not_loaded(path, system, dialect, payload)]
+    return [*result, *_not_loaded(path, system, dialect, payload)]
 
 
 def _of_backup(system: "System", otherwise: "Payload") -> "dict[str, Payload]":
@@ -303,16 +305,16 @@ def _not_loaded(
     if system.home is None:
         return []
     loaded = {file.path for task in system.tasks for file in task.modules}
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for folder in (system.home, *(f for f in sorted(system.home.rglob("*")) if f.is_dir())):
         try:
             files = [file for file in module_files(folder) if str(file) not in loaded]
         except DiagnosticError as fault:
-            found += fault.diagnostics
+            findings += fault.diagnostics
             continue
         for file in files:
-            found += _files([file], dialect, payload)
-    return [d for d in found if d.severity is Severity.ERROR]
+            findings += _files([file], dialect, payload)
+    return [d for d in findings if d.severity is Severity.ERROR]
 
 
 def _search(folder: Path, groups: list[list[Path]], systems: list[Path]) -> None:

@@ -102,16 +102,16 @@ def _trajectory(robot: "Robot") -> "Trajectory":
     from rapidgen.client import Trajectory
 
     group = robot.group
-    here = np.array(robot.state.joints)
+    current = np.array(robot.state.joints)
     times = np.arange(0, 6.01, 0.2)
     swing = np.sin(np.pi * times / times[-1])
     room = np.array([min(0.5, 0.25 * (j.upper - j.lower)) for j in group.joints])
     side = np.where(
-        [h + r < j.upper for h, r, j in zip(here, room, group.joints, strict=True)], 1, -1
+        [h + r < j.upper for h, r, j in zip(current, room, group.joints, strict=True)], 1, -1
     )
-    waves = [np.sin(2 * np.pi * times / times[-1] * (1 + i % 3)) for i in range(len(here))]
+    waves = [np.sin(2 * np.pi * times / times[-1] * (1 + i % 3)) for i in range(len(current))]
     offsets = np.stack([0.5 * (1 + w) * swing for w in waves], axis=1)
-    return Trajectory(times, here + side * room * offsets, group.names)
+    return Trajectory(times, current + side * room * offsets, group.names)
 
 
 def _report(
@@ -126,8 +126,10 @@ def _report(
 
     table = Table("joint", "commanded", "reached", "difference", box=None)
     stands = robot.group.from_wire(reached)
-    for name, asked, stood in zip(robot.group.names, trajectory.positions[-1], stands, strict=True):
-        table.add_row(name, f"{asked:.4f}", f"{stood:.4f}", f"{abs(asked - stood):.4f}")
+    for name, requested, stood in zip(
+        robot.group.names, trajectory.positions[-1], stands, strict=True
+    ):
+        table.add_row(name, f"{requested:.4f}", f"{stood:.4f}", f"{abs(requested - stood):.4f}")
     console = Console(highlight=False)
     console.print(table)
     times = recording.times

@@ -50,7 +50,7 @@ def deploy(
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.target import Access
 
-    wanted = desired_set(config, overrides or ())
+    desired = desired_set(config, overrides or ())
     access = Access(
         user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
     )
@@ -59,7 +59,7 @@ def deploy(
         "deploy",
         targets,
         access,
-        lambda _: wanted,
+        lambda _: desired,
         overwrite,
         parallel,
         backup,

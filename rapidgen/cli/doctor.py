@@ -51,7 +51,7 @@ def doctor(
         ),
         desired_set(config, overrides or ()),
         hello=hello,
-        told=error_reason,
+        text=error_reason,
         robot_host=host,
         backup=backup,
     )
@@ -61,6 +61,6 @@ def doctor(
         width = max(len(check.area) for check in checks)
         for check in checks:
             typer.echo(f"{check.verdict:<7}  {check.area:<{width}}  {check.found}")
-            if check.mend and check.verdict != "ok":
-                typer.echo(f"{'':<7}  {'':<{width}}  -> {check.mend}")
+            if check.help and check.verdict != "ok":
+                typer.echo(f"{'':<7}  {'':<{width}}  -> {check.help}")
     return 1 if any(check.verdict == "fail" for check in checks) else 0

@@ -11,13 +11,13 @@ def run() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
     gc.set_threshold(200_000, 20, 50)
-    words = sys.argv[1:]
-    if words[:1] == ["stop"]:
+    text = sys.argv[1:]
+    if text[:1] == ["stop"]:
         from rapidgen.cli.send_stop import send
 
-        send(words[1:])
+        send(text[1:])
     from rapidgen._interruption import raise_on_signals
-    from rapidgen.cli.app import run as whole
+    from rapidgen.cli.app import run as complete
 
     raise_on_signals()
-    whole()
+    complete()

@@ -17,12 +17,12 @@ def explain(
         for known in codes():
             typer.echo(f"{known}  {title(known)}")
         return
-    wanted = code.upper()
-    if wanted not in codes():
+    requested = code.upper()
+    if requested not in codes():
         raise refusal(
             "RG902",
             None,
             f"no diagnostic has the code '{code}'",
-            suggest(wanted, codes()) or "`rapidgen explain all` lists them",
+            suggest(requested, codes()) or "`rapidgen explain all` lists them",
         )
-    typer.echo(page(wanted), nl=False)
+    typer.echo(page(requested), nl=False)

@@ -47,8 +47,8 @@ def fmt(
         changed += 1
         ends = _line_ends(before)
         if len(ends) > 1:
-            shown = ", ".join(f"{number} {name}" for name, number in ends)
-            typer.echo(f"{path} mixes line ends ({shown}): all become {ends[0][0]}", err=True)
+            displayed = ", ".join(f"{number} {name}" for name, number in ends)
+            typer.echo(f"{path} mixes line ends ({displayed}): all become {ends[0][0]}", err=True)
         if diff:
             typer.echo(_difference(path, before, after), nl=False)
         elif check:
@@ -64,12 +64,12 @@ def fmt(
 def _line_ends(data: bytes) -> list[tuple[str, int]]:
     """Names and numbers of the line ends that a file has, the commonest first."""
     pairs, feeds, returns = data.count(b"\r\n"), data.count(b"\n"), data.count(b"\r")
-    found = {"CRLF": pairs, "LF": feeds - pairs, "CR": returns - pairs}
-    return sorted(((k, v) for k, v in found.items() if v), key=lambda pair: -pair[1])
+    result = {"CRLF": pairs, "LF": feeds - pairs, "CR": returns - pairs}
+    return sorted(((k, v) for k, v in result.items() if v), key=lambda pair: -pair[1])
 
 
 def _files(paths: list[Path]) -> list[Path]:
-    found: list[Path] = []
+    result: list[Path] = []
     for path in paths:
         if path.is_dir():
             inside = sorted(
@@ -78,14 +78,14 @@ def _files(paths: list[Path]) -> list[Path]:
                 if file.suffix.lower() in _SUFFIXES and file.is_file()
             )
             if not inside:
-                mend = f"RAPID files end in {', '.join(sorted(_SUFFIXES))}"
-                raise refusal("RG904", None, f"no RAPID file is in {path}", mend)
-            found += inside
+                help = f"RAPID files end in {', '.join(sorted(_SUFFIXES))}"
+                raise refusal("RG904", None, f"no RAPID file is in {path}", help)
+            result += inside
         elif path.exists():
-            found.append(path)
+            result.append(path)
         else:
             raise refusal("RG904", None, f"there is no {path}", "name RAPID files or folders")
-    return found
+    return result
 
 
 def _difference(path: Path, before: bytes, after: bytes) -> str:

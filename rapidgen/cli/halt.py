@@ -23,9 +23,9 @@ def halt(
     """
     from rapidgen.cli.rws_session import controller
 
-    with controller(host, user, secrets, fingerprint) as found:
-        found.stop(everything=everything)
+    with controller(host, user, secrets, fingerprint) as result:
+        result.stop(everything=everything)
         if motors_off:
-            found.motors(False)
+            result.motors(False)
         typer.echo(f"{host}: the program stands")
     return 0

@@ -36,11 +36,11 @@ def io(
 
     rapidgen io cell.yaml gripper 1 --to sim
     """
-    wanted = _number(value) if value else None
+    requested = _number(value) if value else None
     if "://" in target:
-        read = _over_web_services(target, name, wanted, yes, user, secrets, fingerprint)
+        read = _over_web_services(target, name, requested, yes, user, secrets, fingerprint)
     else:
-        read = _over_driver(target, name, wanted, to, group)
+        read = _over_driver(target, name, requested, to, group)
     if as_json:
         typer.echo(json.dumps([asdict(signal) for signal in read]))
         return 0
@@ -87,13 +87,13 @@ def _over_web_services(
     from rapidgen.cli.plan_execution import confirm_plan
     from rapidgen.cli.rws_session import controller
 
-    with controller(host, user, secrets, fingerprint) as found:
+    with controller(host, user, secrets, fingerprint) as result:
         if value is not None:
-            if not found.identity().is_virtual:
+            if not result.identity().is_virtual:
                 confirm_plan(f"set {name} to {_shown(value)} at {host}?", yes=yes)
-            signals = [found.set_signal(name, value)]
+            signals = [result.set_signal(name, value)]
         else:
-            signals = [found.signal(name)] if name else list(found.signals())
+            signals = [result.signal(name)] if name else list(result.signals())
     return [_Read(s.path, s.type, s.value, s.simulated) for s in signals]
 
 

@@ -50,11 +50,11 @@ def jog(
     units = Units(rad)
     if speed < 0 or not math.isfinite(speed):
         raise typer.BadParameter(f"must be above 0, not {speed}", param_hint="--speed")
-    asked = _read(by)
+    requested = _read(by)
     robot = Robot(config, address=to or None, group=group)
     must_ask = permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
-        steps = _steps(robot, units, asked)
+        steps = _steps(robot, units, requested)
         if must_ask:
             confirm_at(robot)
         with report_interruption(robot, units):
@@ -76,17 +76,17 @@ def _read(by: list[str]) -> Figures:
     return read_figures(",".join(by), _PLACE)
 
 
-def _steps(robot: "Robot", units: Units, asked: Figures) -> dict[str, float]:
+def _steps(robot: "Robot", units: Units, requested: Figures) -> dict[str, float]:
     """Steps in rad and m by joint or direction. Raises typer.BadParameter."""
     from rapidgen.client.flows.program import DIRECTIONS, LONGEST_JOG
 
     kinds = {joint.name: joint.kind for joint in robot.group.joints}
-    if not set(asked.names) & set(kinds) and set(asked.names) <= set(DIRECTIONS):
+    if not set(requested.names) & set(kinds) and set(requested.names) <= set(DIRECTIONS):
         kinds = {name: "prismatic" for name in DIRECTIONS}
     nothing = [0.0] * len(kinds)
-    found = named_of(asked, units, kinds, nothing, _PLACE)
+    result = named_of(requested, units, kinds, nothing, _PLACE)
     steps = {}
-    for name, step in zip(kinds, found, strict=True):
+    for name, step in zip(kinds, result, strict=True):
         most = LONGEST_JOG[kinds[name]]
         if abs(step) > most:
             unit, factor, _ = units.joint(kinds[name])

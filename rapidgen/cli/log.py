@@ -34,9 +34,9 @@ def log(
     from rapidgen.client.errors import ConnectionFailed, ConnectionLost
     from rapidgen.client.rws.model import LogEvent
 
-    with controller(host, user, secrets, fingerprint) as found:
+    with controller(host, user, secrets, fingerprint) as result:
         last: LogEvent | None = None
-        events = found.log(domain=domain, count=count)
+        events = result.log(domain=domain, count=count)
         while True:
             for event in events:
                 typer.echo(json.dumps(asdict(event)) if as_json else event)
@@ -45,10 +45,10 @@ def log(
                 return 0
             time.sleep(1.0)
             try:
-                events = found.log(domain=domain, after=last.number if last else 0, count=_ALL)
+                events = result.log(domain=domain, after=last.number if last else 0, count=_ALL)
             except (ConnectionFailed, ConnectionLost):
-                found.wait_ready()
+                result.wait_ready()
                 # Numbers may have begun anew: what was shown is known by all that it says.
-                events = found.log(domain=domain, count=_ALL)
+                events = result.log(domain=domain, count=_ALL)
                 if last in events:
                     events = events[events.index(last) + 1 :]

@@ -27,10 +27,10 @@ def at_most(megabytes: int) -> Iterator[None]:
     import resource
 
     soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
-    wanted = megabytes * MB
+    requested = megabytes * MB
     if hard != resource.RLIM_INFINITY:
-        wanted = min(wanted, hard)
-    resource.setrlimit(resource.RLIMIT_DATA, (wanted, hard))
+        requested = min(requested, hard)
+    resource.setrlimit(resource.RLIMIT_DATA, (requested, hard))
     full = False
     try:
         yield

@@ -47,8 +47,8 @@ def monitor(
                 width, place = screen.console.width, str(robot.address)
                 screen.update(state_lines.as_table(state, watcher, robot.group, place, width))
             else:
-                told = state_lines.as_json(state, watcher) if as_json else None
-                typer.echo(told or state_lines.as_line(state, watcher, robot.group))
+                text = state_lines.as_json(state, watcher) if as_json else None
+                typer.echo(text or state_lines.as_line(state, watcher, robot.group))
             if number == count:
                 break
     return 0

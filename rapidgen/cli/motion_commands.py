@@ -38,14 +38,14 @@ def confirm_at(robot: "Robot") -> None:
     typer.confirm(f"Move the robot at {robot.address}?", abort=True, err=True)
 
 
-def execute_motion(robot: "Robot", trajectory: "Trajectory", way: "Way", units: Units) -> "Result":
+def execute_motion(robot: "Robot", trajectory: "Trajectory", path: "Way", units: Units) -> "Result":
     """Execute a trajectory. Ctrl-C stops the robot, and tells where it stands and how far it came.
 
     Raises as `Robot.execute` and `Execution.result`, KeyboardInterrupt.
     """
-    with report_interruption(robot, units) as under_way:
-        execution = robot.execute(trajectory, way=way)
-        under_way.append(execution)
+    with report_interruption(robot, units) as in_progress:
+        execution = robot.execute(trajectory, mode=path)
+        in_progress.append(execution)
         return follow(execution)
 
 
@@ -53,12 +53,12 @@ def execute_motion(robot: "Robot", trajectory: "Trajectory", way: "Way", units: 
 def report_interruption(robot: "Robot", units: Units) -> "Iterator[list[Execution]]":
     """Around a motion, which goes into the list once it is under way: Ctrl-C, which stops the
     robot, is told with where it stands and how far it came. Raises StopFailed where it does not."""
-    under_way: list[Execution] = []
+    in_progress: list[Execution] = []
     try:
-        yield under_way
+        yield in_progress
     except KeyboardInterrupt:
         far = ""
-        for execution in under_way:
+        for execution in in_progress:
             progress = execution.progress
             far = f", {progress.reached} of {progress.total} points reached"
         # Again, and until it stands: a STOP more does no harm.

@@ -101,7 +101,7 @@ def move(
     units = Units(rad)
     asked = _from_file(points) if points is not None else None
     figures = read_figures(joints) if joints else None
-    wanted = read_pose(pose, units) if pose else None
+    requested = read_pose(pose, units) if pose else None
     robot = Robot(config, address=to or None, group=group, watch=dry_run)
     must_ask = not dry_run and permitted(robot, to, yes=yes, real_robot=move_real_robot)
     with robot:
@@ -111,8 +111,8 @@ def move(
         elif figures is not None:
             trajectory = _straight(robot, _joints(robot, units, figures), used)
         else:
-            assert wanted is not None, "_one_goal has seen to it"
-            trajectory = _straight(robot, _posture(robot, *wanted), used)
+            assert requested is not None, "_one_goal has seen to it"
+            trajectory = _straight(robot, _posture(robot, *requested), used)
         if resample is not None:
             trajectory = _resampled(trajectory, resample)
         if approach is not None:
@@ -144,7 +144,7 @@ def move(
 
 
 def _one_goal(points: Path | None, joints: str, pose: str, approach: float | None) -> None:
-    given = [name for name, said in (("--joints", joints), ("--pose", pose)) if said]
+    given = [name for name, message in (("--joints", joints), ("--pose", pose)) if message]
     if points is not None:
         given.insert(0, "a file")
     if len(given) != 1:
@@ -184,10 +184,10 @@ def _joints(robot: "Robot", units: Units, figures: Figures) -> tuple[float, ...]
 def _posture(robot: "Robot", place: "Vector", turn: "Quaternion | None") -> tuple[float, ...]:
     """The posture nearest to where the robot stands; without a turn it keeps its own."""
     pose = (place, robot.pose[1] if turn is None else turn)
-    found = robot.joints_for(pose)
-    if not found:
+    result = robot.joints_for(pose)
+    if not result:
         raise _unreached(robot, pose)
-    return found[0]
+    return result[0]
 
 
 def _straight(robot: "Robot", goal: "Sequence[float]", speed: float) -> "Trajectory":
@@ -209,12 +209,13 @@ def within_limits(group: "Group", goal: "Sequence[float]", units: Units) -> None
     for joint, value in zip(group.joints, wire, strict=True):
         if not joint.lower - ROUNDING <= value <= joint.upper + ROUNDING:
             unit, factor, digits = units.joint(joint.kind)
-            asked, lower, upper = (
+            requested, lower, upper = (
                 figure(v, factor, digits) for v in (value, joint.lower, joint.upper)
             )
             raise InvalidTrajectory.because(
                 "RG614",
-                f"{joint.name} is outside its limits: axis {joint.axis} would be at {asked} {unit}",
+                f"{joint.name} is outside its limits: "
+                f"axis {joint.axis} would be at {requested} {unit}",
                 f"{joint.axis} goes from {lower} to {upper} {unit}",
             )
 
@@ -222,10 +223,11 @@ def within_limits(group: "Group", goal: "Sequence[float]", units: Units) -> None
 def _unreached(robot: "Robot", pose: "Pose") -> "InvalidTrajectory":
     from rapidgen.client import InvalidTrajectory
 
-    here = robot.group.map.to_controller(robot.state.joints)
+    current = robot.group.map.to_controller(robot.state.joints)
     return InvalidTrajectory.because(
         "RG614",
-        f"no posture within the limits reaches the pose: {robot.group.poses.why_not(pose, here)}",
+        f"no posture within the limits reaches the pose: "
+        f"{robot.group.poses.why_not(pose, current)}",
         "`rapidgen pose` tells where the tool is now",
     )
 
@@ -268,13 +270,13 @@ def _show_plan(
     for title in ("now", "least", "most", "end", "lower", "upper", ""):
         table.add_column(title, justify="right" if title else "left")
     ordered = trajectory.reordered(robot.group.names)
-    here = robot.state
+    current = robot.state
     for index, joint in enumerate(robot.group.joints):
         column = ordered.positions[:, index]
         unit, factor, digits = units.joint(joint.kind)
-        values = (here.joints[index], column.min(), column.max(), column[-1])
-        shown = (figure(value, factor, digits) for value in (*values, joint.lower, joint.upper))
-        table.add_row(joint.name, *shown, unit)
+        values = (current.joints[index], column.min(), column.max(), column[-1])
+        displayed = (figure(value, factor, digits) for value in (*values, joint.lower, joint.upper))
+        table.add_row(joint.name, *displayed, unit)
     console.print(table)
 
 
@@ -295,10 +297,10 @@ def _report_dry(trajectory: "Trajectory", way: "Way", as_json: bool) -> None:
         typer.echo(f"dry run: {len(trajectory)} points would be executed; nothing was sent")
 
 
-def _say_json(told: dict[str, object]) -> None:
+def _say_json(text: dict[str, object]) -> None:
     import json
 
-    typer.echo(json.dumps(told))
+    typer.echo(json.dumps(text))
 
 
 def _report(robot: "Robot", result: "Result", units: Units, as_json: bool) -> None:

@@ -102,7 +102,7 @@ def new(
     else:
         described = urdf
         assert described is not None
-        said = DescriptionChoices(
+        message = DescriptionChoices(
             joints=assignments([*(joint or ()), *(track or ())]),
             ignore=tuple(ignore or ()),
             tips=tuple(tip or ()),
@@ -126,13 +126,13 @@ def new(
             )
 
         if is_terminal():
-            said = ask_open(make, said)
-        text = make(said)
+            message = ask_open(make, message)
+        text = make(message)
     try:
         notes = write_new(file, text, package_paths=package_path or (), force=force)
-    except DiagnosticError as found:
+    except DiagnosticError as result:
         # It is there as it is meant, or it was there before (RG020).
-        if file.exists() and all(d.code != "RG020" for d in found.diagnostics):
+        if file.exists() and all(d.code != "RG020" for d in result.diagnostics):
             typer.echo(f"wrote {file}, which is not complete:", err=True)
         raise
     for note in notes:

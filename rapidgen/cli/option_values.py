@@ -55,15 +55,15 @@ def _plainly(parameter: T) -> T:
 
 def _processed(
     parameter: Parameter,
-    whole: Callable[..., object],
+    complete: Callable[..., object],
     read: Callable[[object], object],
     ctx: Context,
     value: object,
 ) -> object:
-    found = read(value)
-    if found is _NOT_PLAIN:
-        return whole(ctx, value)
-    return found if parameter.callback is None else parameter.callback(ctx, parameter, found)
+    result = read(value)
+    if result is _NOT_PLAIN:
+        return complete(ctx, value)
+    return result if parameter.callback is None else parameter.callback(ctx, parameter, result)
 
 
 def _read(parameter: Parameter, annotation: object, info: ParameterInfo, value: object) -> object:
@@ -77,8 +77,8 @@ def _read(parameter: Parameter, annotation: object, info: ParameterInfo, value: 
     if get_origin(annotation) is not list or not isinstance(value, (list, tuple)):
         return _NOT_PLAIN
     (kind,) = get_args(annotation)
-    found = [plain(kind, info, one) for one in value]
-    return _NOT_PLAIN if _NOT_PLAIN in found else found
+    result = [plain(kind, info, one) for one in value]
+    return _NOT_PLAIN if _NOT_PLAIN in result else result
 
 
 def plain(kind: object, info: ParameterInfo, value: object) -> object:
@@ -105,7 +105,7 @@ def _number(kind: object, info: ParameterInfo, value: object) -> object:
 
 
 def _path(path: Path, info: ParameterInfo) -> object:
-    asked = info.exists or info.writable or info.resolve_path or info.path_type is not None
+    requested = info.exists or info.writable or info.resolve_path or info.path_type is not None
     some = info.file_okay and info.dir_okay
     unread = info.readable and not os.access(path, os.R_OK) and path.exists()
-    return _NOT_PLAIN if asked or unread or not some else path
+    return _NOT_PLAIN if requested or unread or not some else path

@@ -47,7 +47,7 @@ def plan(
 
     if out is not None:
         refuse_unwritable([out])
-    wanted = desired_set(config, overrides or ())
+    requested = desired_set(config, overrides or ())
     access = Access(
         user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
     )
@@ -55,7 +55,7 @@ def plan(
         "deploy",
         parse_targets(to),
         access,
-        lambda _: wanted,
+        lambda _: requested,
         parallel=parallel,
         backup=backup,
     )

@@ -99,5 +99,5 @@ def _recording(path: Path) -> "Recording":
     try:
         return read_recording(path)
     except ValueError as raised:
-        mend = "record again with `controller.record()` and `write_csv`"
-        raise DiagnosticError(error("RG610", Span(str(path), 1, 1), str(raised), mend)) from None
+        help = "record again with `controller.record()` and `write_csv`"
+        raise DiagnosticError(error("RG610", Span(str(path), 1, 1), str(raised), help)) from None

@@ -43,8 +43,8 @@ def pose(
             known, at = robot.group, robot.state.joints
             where = robot.pose_of(at)
     if as_json:
-        told = {"position": where[0], "orientation": where[1]}
-        typer.echo(json.dumps({**told, "joints": dict(zip(known.names, at, strict=True))}))
+        text = {"position": where[0], "orientation": where[1]}
+        typer.echo(json.dumps({**text, "joints": dict(zip(known.names, at, strict=True))}))
         return 0
     typer.echo(f"pose    {pose_text(units, where)}  ({units.length[0]}, quaternion)")
     typer.echo(f"joints  {joints_text(units, known, at)}  ({units.said})")

@@ -56,8 +56,8 @@ class Bars:
 
     def _step(self, what: str, done: int, total: int) -> None:
         now = self._clock()
-        begun, before = self._begun.setdefault(what, (now, done))
-        rate = (done - before) / (now - begun) if now > begun else 0.0
+        started, before = self._begun.setdefault(what, (now, done))
+        rate = (done - before) / (now - started) if now > started else 0.0
         if self._terminal:
             self._show(what, done, total, rate)
         elif now - self._told >= EVERY and not is_quiet():
@@ -69,11 +69,11 @@ class Bars:
     def _show(self, what: str, done: int, total: int, rate: float) -> None:
         if what not in self._tasks:
             self._tasks[what] = self._bars.add_task(what, total=total, rate="")
-        told = f"{rate:.3g}/s" if rate else ""
-        self._bars.update(self._tasks[what], completed=done, rate=told)
+        text = f"{rate:.3g}/s" if rate else ""
+        self._bars.update(self._tasks[what], completed=done, rate=text)
 
 
 def _time(seconds: float) -> str:
-    minutes, rest = divmod(round(seconds), 60)
+    minutes, remaining = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes} min" if hours else f"{minutes} min {rest} s"
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min {remaining} s"

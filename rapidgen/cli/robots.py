@@ -6,7 +6,7 @@ import typer
 
 
 def robots(
-    words: Annotated[
+    text: Annotated[
         list[str] | None,
         typer.Argument(help="Words that a line has to hold; or `show NAME` for one in figures."),
     ] = None,
@@ -21,11 +21,11 @@ def robots(
     from rapidgen.config.variant_model import missing_figures, model_name, names
     from rapidgen.diagnostics import refusal
 
-    if words and words[0] == "show":
-        for variant in variant_named(" ".join(words[1:])):
+    if text and text[0] == "show":
+        for variant in variant_named(" ".join(text[1:])):
             typer.echo(variant_text(variant))
         return
-    wanted = [word.casefold() for word in words or ()]
+    requested = [word.casefold() for word in text or ()]
     models = shipped_models()
     if as_json:
         import json
@@ -37,16 +37,16 @@ def robots(
     for model in models:
         versions = ", ".join(f"RW{g}" for g in model.generations)
         lines.append(f"{model.name:<{width}}  {model.description} ({versions})")
-    if known or wanted:
+    if known or requested:
         for variant in (v for v in variants() if not v.model):
             missing = missing_figures(variant)
             name = "-" if missing else model_name(variant)
             lines.append(f"{name:<{width}}  ABB {variant.name}" + _shown(missing))
-    shown = [line for line in lines if all(word in line.casefold() for word in wanted)]
-    if not shown:
-        said = f"no robot has {' and '.join(words or ())} in its line"
-        raise refusal("RG009", None, said, "`rapidgen robots --all` lists all that are known")
-    for line in shown:
+    displayed = [line for line in lines if all(word in line.casefold() for word in requested)]
+    if not displayed:
+        message = f"no robot has {' and '.join(text or ())} in its line"
+        raise refusal("RG009", None, message, "`rapidgen robots --all` lists all that are known")
+    for line in displayed:
         typer.echo(line)
 
 

@@ -60,12 +60,12 @@ def rollback(
     if list_backups:
         rows = []
         for target in targets:
-            kept = history(target, access, name)
-            if not kept:
+            saved = history(target, access, name)
+            if not saved:
                 typer.echo(f"{target.shown}  no backup of {name}", err=True)
-            for past in kept:
-                found = {"id": past.id, "time": past.time, "build_id": past.build_id}
-                rows.append({"target": target.shown, **found})
+            for past in saved:
+                result = {"id": past.id, "time": past.time, "build_id": past.build_id}
+                rows.append({"target": target.shown, **result})
         if as_json:
             typer.echo(json.dumps(rows))
         for row in () if as_json else rows:

@@ -52,11 +52,11 @@ def ros2(
 def _place(text: str) -> tuple[float, ...]:
     """m and rad. Raises BadParameter."""
     try:
-        found = tuple(float(number) for number in text.split(","))
+        result = tuple(float(number) for number in text.split(","))
     except ValueError:
-        found = ()
-    if len(found) not in (3, 6) or not all(map(math.isfinite, found)):
+        result = ()
+    if len(result) not in (3, 6) or not all(map(math.isfinite, result)):
         raise typer.BadParameter(
             f"'{text}' is not X,Y,Z or X,Y,Z,ROLL,PITCH,YAW in m and rad", param_hint="--at"
         )
-    return (*found, 0.0, 0.0, 0.0)[:6]
+    return (*result, 0.0, 0.0, 0.0)[:6]

@@ -87,10 +87,10 @@ def run(
     from rapidgen.machine.operator import read_answers
 
     _limits(max_time, max_statements)
-    wanted = Outputs(trace, profile, tuple(coverage or ()), tuple(plot or ()))
-    wanted.refuse_unwritable()
+    requested = Outputs(trace, profile, tuple(coverage or ()), tuple(plot or ()))
+    requested.refuse_unwritable()
     _no_configuration(files)
-    found = chosen(
+    result = chosen(
         list(map(str, files)),
         tasks=task,
         robot=robot,
@@ -104,12 +104,12 @@ def run(
     with (
         at_most(max_memory),
         VirtualController.boot(
-            found,
+            result,
             seed=seed,
             cycle=cycle,
             schedule="round-robin" if schedule == "round-robin" else "random",
             switch_at_pers=schedule == "pers",
-            tracing=wanted.tracing,
+            tracing=requested.tracing,
             dialect=_dialect(dialect),
             answers=read_answers(answers) if answers is not None else None,
             autostart=False,
@@ -118,7 +118,7 @@ def run(
         controller.operator.subscribe(_print)
         warnings = [d for d in controller.diagnostics if d.severity is not Severity.ERROR]
         sys.stderr.write(render(warnings))
-        observed = Observed(controller, wanted)
+        observed = Observed(controller, requested)
         controller.start_program()
         wrong = _run(controller, max_time, max_statements, cell)
         sys.stderr.write(inference_report(controller.guessed))
@@ -172,15 +172,15 @@ def _run(
     """Run to the end; what went wrong."""
     from rapidgen.controller.inference.restarts import run_past_stops
 
-    ended = run_past_stops(controller, max_time=max_time, max_statements=max_statements)
-    found = [
+    finished = run_past_stops(controller, max_time=max_time, max_statements=max_statements)
+    findings = [
         _fault(task.name, task.fault, cell)
         for task in controller.tasks.values()
         if task.fault is not None
     ]
     where = tuple(controller.where())
-    if ended == "deadlock":
-        found.append(
+    if finished == "deadlock":
+        findings.append(
             error(
                 "RG405",
                 None,
@@ -189,11 +189,11 @@ def _run(
                 notes=where,
             )
         )
-    elif ended != "finished":
-        limit = f"{max_time:g} s" if ended == "time" else f"{max_statements} statements"
+    elif finished != "finished":
+        limit = f"{max_time:g} s" if finished == "time" else f"{max_statements} statements"
         groups = controller.motion.groups.values()
         moving = (f"{g.name}: its robot moves" for g in groups if not g.is_standing)
-        found.append(
+        findings.append(
             error(
                 "RG406",
                 None,
@@ -202,7 +202,7 @@ def _run(
                 notes=(*where, *moving),
             )
         )
-    return found
+    return findings
 
 
 def _mend(fault: "FatalError", cell: str) -> str:

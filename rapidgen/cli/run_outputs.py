@@ -103,26 +103,26 @@ class Observed:
 
 
 @contextmanager
-def observing(cabinet: "ControllerRunner", wanted: Outputs) -> "Iterator[None]":
+def observing(runner: "ControllerRunner", requested: Outputs) -> "Iterator[None]":
     """Write what was asked for when a controller is switched off, and when it restarts: then under
     names of their own, `F-1.html`, since nothing of before is in it any more."""
-    now = Observed(cabinet.controller, wanted)
+    now = Observed(runner.controller, requested)
 
     def before() -> None:
         now.wanted = replace(
-            wanted, coverage=numbered(wanted.coverage), plots=numbered(wanted.plots)
+            requested, coverage=numbered(requested.coverage), plots=numbered(requested.plots)
         )
         now.write()
 
     def numbered(paths: tuple[Path, ...]) -> tuple[Path, ...]:
-        return tuple(path.with_stem(f"{path.stem}-{cabinet.restarts + 1}") for path in paths)
+        return tuple(path.with_stem(f"{path.stem}-{runner.restarts + 1}") for path in paths)
 
     def again() -> None:
         nonlocal now
-        now = Observed(cabinet.controller, wanted)
+        now = Observed(runner.controller, requested)
 
-    cabinet.on_restart.append(before)
-    cabinet.on_boot.append(again)
+    runner.on_restart.append(before)
+    runner.on_boot.append(again)
     try:
         yield
     finally:

@@ -30,27 +30,27 @@ def controller(
     login = find_password(
         Credentials(address.user or user), address.host, address.port, secrets=secrets, ask=True
     )
-    found = Controller(
+    result = Controller(
         host,
         user=login.user or "Default User",
         password=login.password.get(),
         fingerprint=fingerprint,
         confirm=agree(),
     )
-    with found:
-        yield found
+    with result:
+        yield result
 
 
-def ask_pendant(found: "Controller", privilege: str, mode: str) -> None:
+def ask_pendant(result: "Controller", privilege: str, mode: str) -> None:
     """In manual mode the pendant's user is asked, which is announced. Raises RG661, RG659."""
     if mode == "AUTO":
         return
     typer.echo(
-        f"{found.where} is in manual mode: its pendant asks now whether this may be. "
+        f"{result.where} is in manual mode: its pendant asks now whether this may be. "
         f"Press Grant there within {_PROMPT:g} s",
         err=True,
     )
-    found.ask_rmmp(privilege, wait=_PROMPT)
+    result.ask_rmmp(privilege, wait=_PROMPT)
 
 
 def agree() -> Callable[[str, str], bool] | None:

@@ -42,7 +42,7 @@ Ports = tuple[int, int, int]
 Place = tuple[str, Ports]
 
 
-def send(words: Sequence[str]) -> None:
+def send(text: Sequence[str]) -> None:
     """Send STOP to all ports that the words behind `stop` name, at once; says nothing.
 
     A port that refuses or does not answer keeps no other waiting. The whole way tells what was
@@ -50,72 +50,72 @@ def send(words: Sequence[str]) -> None:
     """
     opening = [
         link
-        for host, port in (*addresses(words), *control_addresses(words))
+        for host, port in (*addresses(text), *control_addresses(text))
         for link in _opening(host, port)
     ]
-    links, asked = [*opening], list[socket.socket]()
+    links, requested = [*opening], list[socket.socket]()
     until = time.monotonic() + _CONNECT
     hung_up = until + _ANSWER
-    while opening or asked:
+    while opening or requested:
         now = time.monotonic()
         if now >= until:
             opening = []
-        if now >= hung_up or not (opening or asked):
+        if now >= hung_up or not (opening or requested):
             break
         end = until if opening else hung_up
-        answered, open_now, _ = select.select(asked, opening, [], max(0.0, end - now))
+        answered, open_now, _ = select.select(requested, opening, [], max(0.0, end - now))
         for link in open_now:
             opening.remove(link)
             with suppress(OSError):
                 link.send(STOP)
-                asked.append(link)
+                requested.append(link)
                 until = min(until, time.monotonic() + _OTHERS)
                 hung_up = time.monotonic() + _ANSWER
-        asked = [link for link in asked if link not in answered]
+        requested = [link for link in requested if link not in answered]
     for link in links:
         link.close()
 
 
 def _opening(host: str, port: int) -> list[socket.socket]:
     """A connection that is being opened to each address of a host."""
-    found = []
+    result = []
     with suppress(OSError, UnicodeError):
         for family, kind, protocol, _, address in socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM
         ):
             link = socket.socket(family, kind, protocol)
-            found.append(link)
+            result.append(link)
             link.setblocking(False)
             link.connect_ex(address)
-    return found
+    return result
 
 
-def addresses(words: Sequence[str]) -> list[tuple[str, int]]:
+def addresses(text: Sequence[str]) -> list[tuple[str, int]]:
     """Host and motion port of every group meant; none where that takes more than a glance."""
-    return [(host, ports[0]) for host, ports in _places(words)]
+    return [(host, ports[0]) for host, ports in _places(text)]
 
 
-def control_addresses(words: Sequence[str]) -> list[tuple[str, int]]:
+def control_addresses(text: Sequence[str]) -> list[tuple[str, int]]:
     """Host and control port of every group meant that is known to have one."""
-    return [(host, ports[2]) for host, ports in _places(words) if ports[2]]
+    return [(host, ports[2]) for host, ports in _places(text) if ports[2]]
 
 
 def _places(words: Sequence[str]) -> list[Place]:
-    told: dict[str, str] = {}
-    rest = list(words)
-    while rest:
-        word = rest.pop(0)
+    text: dict[str, str] = {}
+    remaining = list(words)
+    while remaining:
+        word = remaining.pop(0)
         name, equals, value = word.partition("=")
         if name in ("--to", "--group"):
-            value = value if equals else rest.pop(0) if rest else ""
+            value = value if equals else remaining.pop(0) if remaining else ""
         elif word.startswith("-") and word not in ("--json", "--rad"):
             return []
         elif not word.startswith("-"):
             name, value = "target", word
-        if name in told:
+        if name in text:
             return []
-        told[name] = value
-    return _groups(told.get("target", ""), told.get("--to", ""), told.get("--group", ""))
+        text[name] = value
+    return _groups(text.get("target", ""), text.get("--to", ""), text.get("--group", ""))
 
 
 def _groups(target: str, to: str, group: str) -> list[Place]:
@@ -136,8 +136,8 @@ def _at(address: str, ports: list[Ports]) -> list[Place]:
     hit = _ADDRESS.fullmatch(address)
     if hit is None:
         return []
-    wanted = [_addressed(ports[0] if len(ports) == 1 else _PORTS, hit)] if hit[2] else ports
-    return [(hit[1].strip("[]"), three) for three in wanted if 0 < three[0] < 65_536]
+    requested = [_addressed(ports[0] if len(ports) == 1 else _PORTS, hit)] if hit[2] else ports
+    return [(hit[1].strip("[]"), three) for three in requested if 0 < three[0] < 65_536]
 
 
 def _addressed(own: Ports, hit: re.Match[str]) -> Ports:
@@ -155,11 +155,11 @@ def _addressed(own: Ports, hit: re.Match[str]) -> Ports:
 def _simulated(groups: list[str]) -> list[Place]:
     from rapidgen._simulator_registry import running
 
-    found, _ = running()
-    if len(found) != 1:
+    result, _ = running()
+    if len(result) != 1:
         return []
-    told = found[0].addresses
-    return [place for name in groups or told if name in told for place in _at(told[name], [_PORTS])]
+    text = result[0].addresses
+    return [place for name in groups or text if name in text for place in _at(text[name], [_PORTS])]
 
 
 def _shipped(name: str) -> str:
@@ -177,7 +177,7 @@ def group_ports(path: str) -> dict[str, Ports]:
     """The ports of every group of a configuration; none where that takes a closer look."""
     keys = _keys(path) or {}
     groups = list(dict.fromkeys(names[1] for names in keys if names[0] == "groups"))
-    found: dict[str, Ports] = {}
+    result: dict[str, Ports] = {}
     for index, group in enumerate(groups):
         texts = [
             keys.get(("groups", group, "ports", name), str(default + _STEP * index))
@@ -186,8 +186,8 @@ def group_ports(path: str) -> dict[str, Ports]:
         if not all(re.fullmatch(r"\d{1,5}", text) for text in texts):
             return {}
         motion, state, control = map(int, texts)
-        found[group] = motion, state, control
-    return found
+        result[group] = motion, state, control
+    return result
 
 
 def _keys(path: str) -> Keys | None:
@@ -217,7 +217,7 @@ def _keys(path: str) -> Keys | None:
 
 def read_keys(text: str) -> Keys | None:
     """Groups, ports and model by their path, of YAML that is written line by line."""
-    found: Keys = {}
+    result: Keys = {}
     path: list[tuple[int, str]] = []
     for line in text.splitlines():
         bare = line.lstrip(" ")
@@ -237,13 +237,13 @@ def read_keys(text: str) -> Keys | None:
                 return None
             continue
         is_group = names[0] == "groups"
-        if names in found or (is_group and len(names) == 2 and value):
+        if names in result or (is_group and len(names) == 2 and value):
             return None
         if names[-1] == "ports" and value:
             if _FLOW.fullmatch(value) is None:
                 return None
-            found |= {(*names, name): number for name, number in _PAIR.findall(value)}
+            result |= {(*names, name): number for name, number in _PAIR.findall(value)}
             value = ""
         if not is_group or len(names) == 2 or names[2] == "ports":
-            found[names] = value
-    return found
+            result[names] = value
+    return result

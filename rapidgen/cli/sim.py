@@ -112,9 +112,9 @@ def sim(
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
-    wanted = Outputs(coverage=tuple(coverage or ()), plots=tuple(plot or ()))
-    wanted.refuse_unwritable()
-    found = chosen(
+    requested = Outputs(coverage=tuple(coverage or ()), plots=tuple(plot or ()))
+    requested.refuse_unwritable()
+    result = chosen(
         targets or (),
         tasks=task,
         robot=robot,
@@ -130,20 +130,20 @@ def sim(
     plan = read_plan(faults) if faults is not None else FaultPlan() if view else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
-    _check_release(found, rws)
+    _check_release(result, rws)
     denied = _denied(rws_deny or ())
-    if ports is None and found.driver:
-        _check_ports(found, host, port_offset)
-    look = _look(found) if view or record is not None else None
+    if ports is None and result.driver:
+        _check_ports(result, host, port_offset)
+    look = _look(result) if view or record is not None else None
     with ControllerRunner.boot(
-        found,
+        result,
         clock="real",
         speed=speed,
         host=host,
         ports=ports or port_offset,
         faults=plan,
         answers=script,
-        tracing=wanted.tracing,
+        tracing=requested.tracing,
         autostart=not cold,
     ) as cabinet:
         _tell(cabinet.controller.diagnostics)
@@ -154,13 +154,13 @@ def sim(
             _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
             _page(cabinet, look if view else None, host, view_port) as page,
             _recording(cabinet, look, record, watch or ()),
-            observing(cabinet, wanted),
+            observing(cabinet, requested),
         ):
-            return _serve(cabinet, found, host, speed, {**control, **faces, **page})
+            return _serve(cabinet, result, host, speed, {**control, **faces, **page})
 
 
 def _serve(
-    cabinet: "ControllerRunner", target: "Bootable", host: str, speed: float, faces: "Members"
+    runner: "ControllerRunner", target: "Bootable", host: str, speed: float, faces: "Members"
 ) -> int:
     """Run until a signal comes; the exit code."""
     import json
@@ -170,37 +170,37 @@ def _serve(
     from rapidgen.cli.readiness import PATIENCE, Readiness
     from rapidgen.cli.termination import on_signal
 
-    ended = False
+    finished = False
 
     def end() -> None:
         # At once, since nothing can be posted while it restarts; what is posted wakes it.
-        nonlocal ended
-        ended = True
-        cabinet.post(lambda: None)
+        nonlocal finished
+        finished = True
+        runner.post(lambda: None)
 
     def follow() -> None:
-        cabinet.controller.log.subscribe(lambda event: typer.echo(event, err=True))
-        cabinet.controller.operator.subscribe(
+        runner.controller.log.subscribe(lambda event: typer.echo(event, err=True))
+        runner.controller.operator.subscribe(
             lambda task, text: typer.echo(f"{task}: {letters(text)}", err=True)
         )
-        for event in cabinet.controller.log:
+        for event in runner.controller.log:
             typer.echo(event, err=True)
 
     follow()
-    cabinet.on_boot.append(follow)
-    controller = cabinet.controller
+    runner.on_boot.append(follow)
+    controller = runner.controller
     scheduler = controller.scheduler
     scheduler.rebase()
     with on_signal(end):
         readiness = Readiness(controller, target)
-        patience = scheduler.now + round(PATIENCE * speed * 1e9)
-        scheduler.advance(patience, lambda: ended or readiness.decided)
-        if ended:
+        timeout = scheduler.now + round(PATIENCE * speed * 1e9)
+        scheduler.advance(timeout, lambda: finished or readiness.decided)
+        if finished:
             return 0
         if not readiness.up:
             raise readiness.refusal()
         addresses = _addresses(controller, target, host)
-        found = {
+        result = {
             "name": target.name,
             "host": host,
             "ports": _ports(controller, target),
@@ -213,19 +213,19 @@ def _serve(
                 typer.echo(place, err=True)
         own = Simulator(target.name, os.getpid(), addresses)
         with published(own):
-            typer.echo(f"ready {json.dumps(found)}")
-            cabinet.run(lambda: ended)
+            typer.echo(f"ready {json.dumps(result)}")
+            runner.run(lambda: finished)
     return 0
 
 
 @contextmanager
-def _control(cabinet: "ControllerRunner") -> "Iterator[Members]":
+def _control(runner: "ControllerRunner") -> "Iterator[Members]":
     """The control socket, again after each restart; its port and token."""
     from rapidgen.servers.control_commands import READABLE, commands, subscribe
     from rapidgen.servers.control_socket import ControlSocket
 
     def opened(port: int, token: str) -> ControlSocket:
-        controller = cabinet.controller
+        controller = runner.controller
         # Loopback whatever `--host` says.
         return ControlSocket(
             controller.scheduler,
@@ -246,8 +246,8 @@ def _control(cabinet: "ControllerRunner") -> "Iterator[Members]":
     def down() -> None:
         control.close()
 
-    cabinet.on_restart.append(down)
-    cabinet.on_boot.append(again)
+    runner.on_restart.append(down)
+    runner.on_boot.append(again)
     try:
         yield {"control": port, "token": token}
     finally:
@@ -256,7 +256,7 @@ def _control(cabinet: "ControllerRunner") -> "Iterator[Members]":
 
 @contextmanager
 def _faces(
-    cabinet: "ControllerRunner",
+    runner: "ControllerRunner",
     host: str,
     ftp: int | None,
     sftp: int | None,
@@ -271,12 +271,12 @@ def _faces(
 
     from rapidgen.servers import serve_ftp, serve_sftp
 
-    told: Members = {}
+    text: Members = {}
     with ExitStack() as stack:
         for name, serve, at in (("ftp", serve_ftp, ftp), ("sftp", serve_sftp, sftp)):
             if at is None:
                 continue
-            service = serve(cabinet.controller.files.path("HOME:"), host, at)
+            service = serve(runner.controller.files.path("HOME:"), host, at)
             stack.callback(service.close)
             # The login is new in every run and good on this machine only.
             login: Members = {
@@ -286,7 +286,7 @@ def _faces(
             }
             if service.host_key:
                 login["host_key"] = service.host_key
-            told[name] = login
+            text[name] = login
         generation, port, strict, denied = rws
         if generation is not None:
             from rapidgen.servers.rws.context import Accounts
@@ -297,13 +297,13 @@ def _faces(
             users = {"Default User": own, "Admin": own}
             accounts = Accounts(users, denied)
             which = Generation(int(generation))
-            service = serve_rws(cabinet, which, host, port, accounts, strict=strict)
+            service = serve_rws(runner, which, host, port, accounts, strict=strict)
             stack.callback(service.close)
             scheme = "rws" if which is Generation.ONE else "rwss"
-            told["rws"] = f"{scheme}://{service.host}:{service.port}"
+            text["rws"] = f"{scheme}://{service.host}:{service.port}"
             if service.host_key:
-                told["fingerprint"] = service.host_key
-        yield told
+                text["fingerprint"] = service.host_key
+        yield text
 
 
 def _look(target: "Bootable") -> "Appearance":
@@ -318,7 +318,7 @@ def _look(target: "Bootable") -> "Appearance":
 
 @contextmanager
 def _page(
-    cabinet: "ControllerRunner", look: "Appearance | None", host: str, port: int
+    runner: "ControllerRunner", look: "Appearance | None", host: str, port: int
 ) -> "Iterator[Members]":
     """The page that shows the robot; what `ready` tells of it.
 
@@ -330,8 +330,8 @@ def _page(
     from rapidgen.viewer.server import serve_page
     from rapidgen.viewer.simulator.simulation import Simulation
 
-    page = serve_page(Simulation(cabinet, look), host, port, look.files)
-    cabinet.on_boot.append(page.renew)
+    page = serve_page(Simulation(runner, look), host, port, look.files)
+    runner.on_boot.append(page.renew)
     try:
         yield {"view": page.url}
     finally:
@@ -340,7 +340,7 @@ def _page(
 
 @contextmanager
 def _recording(
-    cabinet: "ControllerRunner",
+    runner: "ControllerRunner",
     look: "Appearance | None",
     path: Path | None,
     watches: "Iterable[str]",
@@ -348,8 +348,8 @@ def _recording(
     """A recording while it runs, another one after each restart. Raises OSError."""
     pairs = [(task, text) for task, _, text in (watch.partition(":") for watch in watches)]
     for task, text in pairs:
-        if not text or task not in cabinet.controller.rapid_tasks:
-            known = ", ".join(cabinet.controller.rapid_tasks)
+        if not text or task not in runner.controller.rapid_tasks:
+            known = ", ".join(runner.controller.rapid_tasks)
             raise typer.BadParameter(f"--watch takes TASK:EXPRESSION; tasks are {known}")
     if path is None or look is None:
         if pairs:
@@ -359,22 +359,22 @@ def _recording(
     from rapidgen.viewer.recording.appearance import carried
     from rapidgen.viewer.recording.writer import record
 
-    kept = carried(look)
-    for fault in kept.faults[len(look.faults) :]:
+    saved = carried(look)
+    for fault in saved.faults[len(look.faults) :]:
         typer.echo(f"not recorded as described: {letters(fault)}", err=True)
     serial = 1
-    end = record(cabinet.controller, path, pairs, kept)
+    end = record(runner.controller, path, pairs, saved)
 
     def again() -> None:
         nonlocal end, serial
         serial += 1
-        end = record(cabinet.controller, path.with_stem(f"{path.stem}-{serial}"), pairs, kept)
+        end = record(runner.controller, path.with_stem(f"{path.stem}-{serial}"), pairs, saved)
 
     def stop() -> None:
         end()
 
-    cabinet.on_restart.append(stop)
-    cabinet.on_boot.append(again)
+    runner.on_restart.append(stop)
+    runner.on_boot.append(again)
     try:
         yield
     finally:
@@ -412,12 +412,12 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
 
 def _addresses(controller: "VirtualController", target: "Bootable", host: str) -> dict[str, str]:
     """HOST:MOTION,STATE[,CONTROL] of every group, for clients on this machine."""
-    here = "127.0.0.1" if host == "0.0.0.0" else host
-    found = {}
+    current = "127.0.0.1" if host == "0.0.0.0" else host
+    result = {}
     for group, ports in _ports(controller, target).items():
-        told = [str(ports[role]) for role in ("motion", "state", "control") if role in ports]
-        found[group] = f"{here}:{','.join(told)}"
-    return found
+        text = [str(ports[role]) for role in ("motion", "state", "control") if role in ports]
+        result[group] = f"{current}:{','.join(text)}"
+    return result
 
 
 def _check_host(host: str) -> None:
@@ -455,9 +455,9 @@ def _check_release(target: "Bootable", rws: str | None) -> None:
                 f"nothing tells that {target.name} is for a RobotWare that serves --rws {rws}",
                 "say so: --robotware 7.6",
             )
-        wanted = "1" if major <= 6 else "2 or 8"
+        requested = "1" if major <= 6 else "2 or 8"
         raise typer.BadParameter(
-            f"{target.name} is for RobotWare {major}.{minor}, which serves --rws {wanted}"
+            f"{target.name} is for RobotWare {major}.{minor}, which serves --rws {requested}"
         )
 
 
@@ -493,9 +493,9 @@ def _check_ports(target: "Bootable", host: str, offset: int) -> None:
                 ) from fault
 
 
-def _tell(found: "Iterable[object]") -> None:
+def _tell(result: "Iterable[object]") -> None:
     import sys
 
-    notes = [d for d in found if isinstance(d, Diagnostic)]
+    notes = [d for d in result if isinstance(d, Diagnostic)]
     if notes:
         sys.stderr.write(render(notes, colour=use_colour()))

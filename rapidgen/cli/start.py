@@ -29,16 +29,16 @@ def start(
     from rapidgen.cli.rws_session import ask_pendant, controller
     from rapidgen.cli.status import show, state
 
-    with controller(host, user, secrets, fingerprint) as found:
-        told = state(found)
-        show(told)
+    with controller(host, user, secrets, fingerprint) as result:
+        text = state(result)
+        show(text)
         first = " with all program pointers at main" if main else ""
         confirm_plan(f"THE ROBOT MAY MOVE: start the program at {host}{first}?", yes=yes)
-        ask_pendant(found, "exec", str(told["mode"]))
+        ask_pendant(result, "exec", str(text["mode"]))
         if main:
-            found.pp_to_main()
-        if told["state"] != "motoron":
-            found.motors(True)
-        found.start(cycle=cycle)
+            result.pp_to_main()
+        if text["state"] != "motoron":
+            result.motors(True)
+        result.start(cycle=cycle)
         typer.echo(f"{host}: the program runs")
     return 0

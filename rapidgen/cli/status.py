@@ -27,26 +27,26 @@ def status(
 
     from rapidgen.cli.rws_session import controller
 
-    with controller(host, user, secrets, fingerprint) as found:
-        told = state(found)
+    with controller(host, user, secrets, fingerprint) as result:
+        text = state(result)
     if as_json:
-        typer.echo(json.dumps(told, indent=2))
+        typer.echo(json.dumps(text, indent=2))
     else:
-        show(told)
+        show(text)
     return 0
 
 
-def state(found: "Controller") -> dict[str, object]:
+def state(result: "Controller") -> dict[str, object]:
     """What there is to tell: nine requests and one for each task, with login and logout."""
-    who, panel, execution = found.identity(), found.panel(), found.execution()
+    who, panel, execution = result.identity(), result.panel(), result.execution()
     tasks = []
-    for task in found.tasks():
-        at = found.pointer(task.name)
+    for task in result.tasks():
+        at = result.pointer(task.name)
         place = f"{at.module}/{at.routine}:{at.row}" if at.module else ""
-        told = {"name": task.name, "type": task.kind, "execution": task.execution}
-        tasks.append({**told, "selected": task.active, "pointer": place})
+        text = {"name": task.name, "type": task.kind, "execution": task.execution}
+        tasks.append({**text, "selected": task.active, "pointer": place})
     return {
-        "host": found.where,
+        "host": result.where,
         "name": who.name,
         "id": who.id,
         "robotware": who.robotware,
@@ -83,25 +83,25 @@ def _is_driver(task: str) -> bool:
     return task.upper().startswith("T_ROS_")
 
 
-def show(told: dict[str, object]) -> None:
+def show(text: dict[str, object]) -> None:
     """The same for people, on stdout."""
-    kind = "virtual controller" if told["virtual"] else "controller"
-    typer.echo(f"{told['name']} at {told['host']}: {kind}, RobotWare {told['robotware']}")
-    program = "runs" if told["running"] else "stands"
+    kind = "virtual controller" if text["virtual"] else "controller"
+    typer.echo(f"{text['name']} at {text['host']}: {kind}, RobotWare {text['robotware']}")
+    program = "runs" if text["running"] else "stands"
     typer.echo(
-        f"{told['mode']}, {told['state']}, speed {told['speed']} %, program {program}"
-        f" ({told['cycle']})"
+        f"{text['mode']}, {text['state']}, speed {text['speed']} %, program {program}"
+        f" ({text['cycle']})"
     )
-    tasks = told["tasks"]
+    tasks = text["tasks"]
     assert isinstance(tasks, list)
     width = max((len(task["name"]) for task in tasks), default=0)
     for task in tasks:
-        mark = "*" if task["selected"] else " "
+        marker = "*" if task["selected"] else " "
         typer.echo(
-            f"{mark} {task['name']:<{width}}  {task['type']:<11} {task['execution']:<13}"
+            f"{marker} {task['name']:<{width}}  {task['type']:<11} {task['execution']:<13}"
             f" {task['pointer']}".rstrip()
         )
-    fixes = told["fixes"]
+    fixes = text["fixes"]
     assert isinstance(fixes, list)
     for fix in fixes:
         typer.echo(f"! {fix}")

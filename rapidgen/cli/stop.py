@@ -30,11 +30,11 @@ def stop(
         cell.stop()
     finally:
         cell.close()
-    told = {}
+    text = {}
     for name in names:
         with Robot(config, address=to or None, group=name, watch=True) as watcher:
             state = watcher.wait_until(lambda s: not s.is_moving, timeout=5)
-            told[name] = state.by_name
+            text[name] = state.by_name
             if not as_json:
                 label = f"{name}: " if name else ""
                 where = named_text(Units(rad), watcher.group, state.joints)
@@ -42,5 +42,5 @@ def stop(
     if as_json:
         import json
 
-        typer.echo(json.dumps({"stopped": True, "groups": told}))
+        typer.echo(json.dumps({"stopped": True, "groups": text}))
     return 0

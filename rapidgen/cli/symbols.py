@@ -40,19 +40,19 @@ def symbols(
         raise typer.BadParameter(f"'{value}' is no RAPID literal") from fault
     if value and len(parts) < 2:
         raise typer.BadParameter(f"'{name}' is no datum: TASK/MODULE/NAME")
-    with controller(host, user, secrets, fingerprint) as found:
+    with controller(host, user, secrets, fingerprint) as result:
         if literal is not None:
-            if not found.identity().is_virtual:
+            if not result.identity().is_virtual:
                 confirm_plan(f"set {name} to {value} at {host}?", yes=yes)
-            ask_pendant(found, "modify", found.panel().mode)
-            found.set_symbol(name, literal)
+            ask_pendant(result, "modify", result.panel().mode)
+            result.set_symbol(name, literal)
         if len(parts) == 3:
-            text = found.symbol_text(name)
+            text = result.symbol_text(name)
             typer.echo(json.dumps({"path": name, "value": text}) if as_json else text)
             return 0
-        tasks = parts[:1] or [task.name for task in found.tasks()]
+        tasks = parts[:1] or [task.name for task in result.tasks()]
         module = parts[1] if len(parts) == 2 else ""
-        all_of = [s for t in tasks for s in found.symbols(t, module=module, kind=kind)]
+        all_of = [s for t in tasks for s in result.symbols(t, module=module, kind=kind)]
     if module and not all_of:
         hint = f"`rapidgen symbols {host} {parts[0]} --kind any` lists what there is"
         raise typer.BadParameter(f"no data of kind {kind} in {name}: {hint}")

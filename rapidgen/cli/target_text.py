@@ -54,11 +54,11 @@ def joints_text(units: Units, group: "Group", values: Sequence[float]) -> str:
 
 def named_text(units: Units, group: "Group", values: Sequence[float]) -> str:
     """Joints with names and units, for people."""
-    told = []
+    text = []
     for joint, value in zip(group.joints, values, strict=True):
         unit, factor, digits = units.joint(joint.kind)
-        told.append(f"{joint.name} {figure(value, factor, digits)} {unit}")
-    return ", ".join(told)
+        text.append(f"{joint.name} {figure(value, factor, digits)} {unit}")
+    return ", ".join(text)
 
 
 def figure(value: float, factor: float = 1.0, digits: int = 2) -> str:
@@ -104,7 +104,7 @@ def joints_of(
     figures: Figures,
     units: Units,
     group: "Group",
-    here: Sequence[float],
+    current: Sequence[float],
     option: str = "--joints",
 ) -> tuple[float, ...]:
     """All joints in the robot's order, those without a value where they are (`here`); rad, m.
@@ -113,7 +113,7 @@ def joints_of(
     """
     if figures.names:
         kinds = {joint.name: joint.kind for joint in group.joints}
-        return named_of(figures, units, kinds, here, option)
+        return named_of(figures, units, kinds, current, option)
     if len(figures.values) != len(group.names):
         raise typer.BadParameter(
             f"{len(figures.values)} values for {len(group.names)} joints: give all of them "
@@ -127,19 +127,19 @@ def joints_of(
 
 
 def named_of(
-    figures: Figures, units: Units, kinds: Mapping[str, str], here: Sequence[float], option: str
+    figures: Figures, units: Units, kinds: Mapping[str, str], current: Sequence[float], option: str
 ) -> tuple[float, ...]:
     """All of `kinds`, those without a value where they are (`here`); rad, m.
 
     Raises typer.BadParameter.
     """
-    found = dict(zip(kinds, here, strict=True))
+    result = dict(zip(kinds, current, strict=True))
     for name, value in zip(figures.names, figures.values, strict=True):
         if name not in kinds:
-            mend = suggest(name, list(kinds)) or f"its joints are: {', '.join(kinds)}"
-            raise typer.BadParameter(f"there is no joint '{name}': {mend}", param_hint=option)
-        found[name] = value / units.joint(kinds[name])[1]
-    return tuple(found.values())
+            help = suggest(name, list(kinds)) or f"its joints are: {', '.join(kinds)}"
+            raise typer.BadParameter(f"there is no joint '{name}': {help}", param_hint=option)
+        result[name] = value / units.joint(kinds[name])[1]
+    return tuple(result.values())
 
 
 def read_pose(

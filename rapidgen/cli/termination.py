@@ -18,11 +18,11 @@ def on_signal(end: Callable[[], None]) -> Iterator[None]:
     descriptor that Python writes to is told of any (docs of signal.set_wakeup_fd).
     """
     numbers = heeded_signals()
-    told, tells = socket.socketpair()
+    text, tells = socket.socketpair()
     tells.setblocking(False)
 
     def watch() -> None:
-        while number := told.recv(1):
+        while number := text.recv(1):
             if number[0] in numbers:
                 end()
 
@@ -38,4 +38,4 @@ def on_signal(end: Callable[[], None]) -> Iterator[None]:
         signal.set_wakeup_fd(other)
         tells.close()
         watcher.join()
-        told.close()
+        text.close()

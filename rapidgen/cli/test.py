@@ -170,8 +170,8 @@ def _nothing(report: "SuiteResult") -> DiagnosticError:
     """What was asked for is about what this driver does not have."""
     names = ", ".join(dict.fromkeys(f"'{o.case}'" for o in report.outcomes))
     whys = ", ".join(dict.fromkeys(o.untried for o in report.outcomes))
-    mend = "ask for another case, or for a driver that has it; `--list` shows the cases"
-    return refusal("RG811", None, f"of {names} there is nothing to prove: {whys}", mend)
+    help = "ask for another case, or for a driver that has it; `--list` shows the cases"
+    return refusal("RG811", None, f"of {names} there is nothing to prove: {whys}", help)
 
 
 def _fitted(model: "RobotConfig", backup: Path) -> "RobotConfig":
@@ -244,16 +244,16 @@ def _seconds(budget: str | None) -> float:
 
     if budget is None:
         return math.inf
-    told = re.fullmatch(r"(\d+(?:\.\d+)?) ?(s|min|h|d)", budget)
-    if told is None:
-        mend = f"write a number and one of {', '.join(_UNITS)}: --budget 30min"
-        raise refusal("RG806", None, f"'{budget}' is no time", mend)
-    return float(told[1]) * _UNITS[told[2]]
+    text = re.fullmatch(r"(\d+(?:\.\d+)?) ?(s|min|h|d)", budget)
+    if text is None:
+        help = f"write a number and one of {', '.join(_UNITS)}: --budget 30min"
+        raise refusal("RG806", None, f"'{budget}' is no time", help)
+    return float(text[1]) * _UNITS[text[2]]
 
 
 def _resumes_nothing() -> DiagnosticError:
-    mend = "name the file that has them: --results FILE --resume"
-    return refusal("RG805", None, "--resume goes on with results, and no file was named", mend)
+    help = "name the file that has them: --results FILE --resume"
+    return refusal("RG805", None, "--resume goes on with results, and no file was named", help)
 
 
 def _list(as_json: bool) -> int:

@@ -15,9 +15,9 @@ _LOG = logging.getLogger("rapidgen")
 """Above those of all rooms."""
 
 
-def set_up(words: Sequence[str]) -> list[str]:
+def set_up(text: Sequence[str]) -> list[str]:
     """Log to stderr what the words ask for, warnings by default; the words without those."""
-    own = [word for word in words if word in _LEVELS]
+    own = [word for word in text if word in _LEVELS]
     again = own.count("-v") + own.count("--verbose") > 1
     _LOG.setLevel(
         logging.DEBUG if again else min(map(_LEVELS.__getitem__, own), default=logging.WARNING)
@@ -28,7 +28,7 @@ def set_up(words: Sequence[str]) -> list[str]:
             logging.Formatter("%(asctime)s.%(msecs)03d %(name)s: %(message)s", "%H:%M:%S")
         )
         _LOG.addHandler(handler)
-    return [word for word in words if word not in own]
+    return [word for word in text if word not in own]
 
 
 def is_quiet() -> bool:

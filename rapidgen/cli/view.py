@@ -92,12 +92,12 @@ def _serve(viewed: "Subject", host: str, port: int, files: "Mapping[str, bytes]"
     from rapidgen.cli.termination import on_signal
     from rapidgen.viewer.server import serve_page
 
-    ended = threading.Event()
-    with on_signal(ended.set):
+    finished = threading.Event()
+    with on_signal(finished.set):
         page = serve_page(viewed, host, port, files)
         try:
             typer.echo(f"ready {json.dumps({'view': page.url})}")
-            ended.wait()
+            finished.wait()
         finally:
             page.close()
     return 0
@@ -137,8 +137,8 @@ def _known(target: str, group: str, robot: "Robot") -> "GroupConfig":
     from rapidgen.config.model import GroupConfig, Ports
 
     if group:
-        found = {own.name: own for own in load_config(target).groups}
-        return found[group]
+        result = {own.name: own for own in load_config(target).groups}
+        return result[group]
     return GroupConfig(robot.group.name or "robot", "", "", robot.group.map.joints, Ports())
 
 

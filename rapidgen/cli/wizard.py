@@ -55,8 +55,8 @@ def ask_open(
     typer.echo(drawn(text), err=True)
     while left := [joint for joint, axis in _axes(text) if axis == OPEN]:
         joint = left[0]
-        taken = {axis for _, axis in _axes(text)}
-        usual = next((axis for axis in _AXES if axis not in taken), "ignore")
+        in_use = {axis for _, axis in _axes(text)}
+        usual = next((axis for axis in _AXES if axis not in in_use), "ignore")
         given = _choice(f"Axis of {joint}", _AXES, usual)
         if given == "ignore":
             answers = replace(answers, ignore=(*answers.ignore, joint))
@@ -108,8 +108,8 @@ def _ranges(text: str) -> dict[str, tuple[float, float]]:
 
 def _choice(question: str, choices: tuple[str, ...], usual: str) -> str:
     while True:
-        shown = f"{question} [{' '.join(choices)}]"
-        given = str(typer.prompt(shown, default=usual or None, err=True))
+        displayed = f"{question} [{' '.join(choices)}]"
+        given = str(typer.prompt(displayed, default=usual or None, err=True))
         if given in choices:
             return given
         typer.echo(f"one of {' '.join(choices)}", err=True)

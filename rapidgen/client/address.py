@@ -63,13 +63,13 @@ def parse_address(text: str, ports: Ports | None = None) -> Address:
     port moves along with the others: where they are moved alike it is too, else it is not known.
     Raises InvalidTarget (RG607).
     """
-    found = _FORM.fullmatch(text.strip())
+    match = _FORM.fullmatch(text.strip())
     own = ports or Ports()
-    if found:
-        host = found["host"].strip("[]")
-        motion = int(found["motion"] or own.motion)
-        state = int(found["state"] or (motion + 2 if found["motion"] else own.state))
-        control = _control(own, motion, state) if found["control"] is None else found["control"]
+    if match:
+        host = match["host"].strip("[]")
+        motion = int(match["motion"] or own.motion)
+        state = int(match["state"] or (motion + 2 if match["motion"] else own.state))
+        control = _control(own, motion, state) if match["control"] is None else match["control"]
         if all(0 < port < 65536 for port in (motion, state)) and 0 <= int(control) < 65536:
             return Address(host, motion, state, int(control))
     raise InvalidTarget.because(

@@ -114,7 +114,7 @@ class AsyncFlowRunner:
     def _pump(self) -> None:
         """Send what is due, as far as there is room for it."""
         core = self.core
-        stops = core.blind_stops()
+        stops = core.unmonitored_stops()
         for port, link in self._links.items():
             if link.transport is None:
                 continue

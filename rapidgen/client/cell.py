@@ -29,7 +29,7 @@ class _Start:
 
     def __init__(self, cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]) -> None:
         """Every trajectory is checked, and the faults of all are told."""
-        found: list[Diagnostic] = []
+        findings: list[Diagnostic] = []
         self._cores = cores
         self._checked: dict[str, CheckedTrajectory] = {}
         for name, trajectory in trajectories.items():
@@ -37,15 +37,15 @@ class _Start:
             try:
                 self._checked[name] = cores[name].check_whole(trajectory)
             except InvalidTrajectory as error:
-                found += error.diagnostics
-        if found:
-            raise InvalidTrajectory(found)
+                findings += error.diagnostics
+        if findings:
+            raise InvalidTrajectory(findings)
         self.sendings: dict[str, DownloadInProgress] = {}
 
     def begin(self) -> None:
         """Every motion begins."""
         self.sendings = {
-            n: DownloadInProgress(self._cores[n], whole) for n, whole in self._checked.items()
+            n: DownloadInProgress(self._cores[n], complete) for n, complete in self._checked.items()
         }
 
     def phases(self) -> Iterator[dict[str, Flow[None]]]:

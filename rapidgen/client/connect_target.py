@@ -53,9 +53,9 @@ def resolve(
     return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
 
 
-def _no_text(given: object, what: str, mend: str) -> InvalidTarget:
-    said = f"the {what} is a text, not {type(given).__name__}"
-    return InvalidTarget.because("RG607", said, mend, exit_code=2)
+def _no_text(value: object, what: str, help: str) -> InvalidTarget:
+    message = f"the {what} is a text, not {type(value).__name__}"
+    return InvalidTarget.because("RG607", message, help, exit_code=2)
 
 
 def _by_name(text: str) -> Address:
@@ -88,7 +88,7 @@ def _group(config: RobotConfig, name: str) -> GroupConfig:
     for group in config.groups:
         if group.name == name:
             return group
-    said = f"'{config.name}' has no motion group '{name}'" if name else "which motion group?"
+    message = f"'{config.name}' has no motion group '{name}'" if name else "which motion group?"
     raise InvalidTarget.because(
-        "RG608", said, suggest(name, names) or f"the groups are: {', '.join(names)}", exit_code=2
+        "RG608", message, suggest(name, names) or f"the groups are: {', '.join(names)}", exit_code=2
     )

@@ -56,9 +56,9 @@ class RobotError(DiagnosticError):
         self.states = tuple(states)
 
     @classmethod
-    def because(cls, code: str, message: str, mend: str = "", *notes: str, **told: Any) -> Self:  # noqa: ANN401
+    def because(cls, code: str, message: str, help: str = "", *notes: str, **report: Any) -> Self:  # noqa: ANN401
         """One with a finding that has no place in a text; `told` is what its kind takes."""
-        return cls(fault(code, message, mend, *notes), **told)
+        return cls(fault(code, message, help, *notes), **report)
 
     def amend(self, message: str, help: str) -> None:
         """Add to the message what has become of the robot since, and replace the help."""
@@ -187,15 +187,15 @@ def not_reached(where: str, raised: OSError, timeout: float) -> ConnectionFailed
     """Nobody answers at `where` (host and port); `timeout` in s is what a TimeoutError waited."""
     if isinstance(raised, TimeoutError):
         message = f"no answer from {where} within {timeout:g} s"
-        mend = "is the controller on, and this machine in its network?"
+        help = "is the controller on, and this machine in its network?"
     else:
         message = f"cannot connect to {where}: {os_reason(raised)}"
-        mend = "is the driver's task running? `rapidgen sim` starts a virtual controller"
+        help = "is the driver's task running? `rapidgen sim` starts a virtual controller"
     if isinstance(raised, socket.gaierror):
-        mend = "mend the name of the host; for a configuration give its file, with the suffix .yaml"
+        help = "mend the name of the host; for a configuration give its file, with the suffix .yaml"
     # Who named no address meant this machine, and what runs there may have other ports.
     notes = _simulators() if where.startswith("127.0.0.1 ") else ()
-    return ConnectionFailed.because("RG601", message, mend, *notes)
+    return ConnectionFailed.because("RG601", message, help, *notes)
 
 
 def _simulators() -> tuple[str, ...]:

@@ -52,11 +52,11 @@ def _read(path: Path) -> str:
             exit_code=2,
         ) from raised
     except UnicodeDecodeError as raised:
-        mend = "save it as UTF-8"
+        help = "save it as UTF-8"
         if raised.object.startswith(_MCAP):
-            mend = f"it is a recording: `rapidgen view {path} --csv FILE.csv` writes its positions"
+            help = f"it is a recording: `rapidgen view {path} --csv FILE.csv` writes its positions"
         raise InvalidTrajectory.because(
-            "RG610", f"{path} is not text in UTF-8", mend, exit_code=2
+            "RG610", f"{path} is not text in UTF-8", help, exit_code=2
         ) from raised
 
 
@@ -67,7 +67,7 @@ def read_csv(path: Path) -> Content:
     names: list[str] = []
     rows: list[list[float]] = []
     lines: list[int] = []
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for number, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
@@ -80,11 +80,11 @@ def read_csv(path: Path) -> Content:
                     exit_code=2,
                 )
             double = sorted({name for name in names if names.count(name) > 1})
-            found += [_bad(f"column '{name}' is there twice", path, number) for name in double]
+            findings += [_bad(f"column '{name}' is there twice", path, number) for name in double]
             continue
         if len(cells) != len(names):
             message = f"{len(cells)} values, the header has {len(names)}"
-            found.append(_bad(message, path, number, help=help if not found else ""))
+            findings.append(_bad(message, path, number, help=help if not findings else ""))
             continue
         row = []
         column = 1
@@ -94,19 +94,21 @@ def read_csv(path: Path) -> Content:
             except ValueError:
                 message = f"'{cell.strip()}' is not a number"
                 place = (path, number, column)
-                help = "s, rad and m, with a decimal point" if not found else ""
-                found.append(_bad(message, *place, width=max(1, len(cell)), help=help))
+                help = "s, rad and m, with a decimal point" if not findings else ""
+                findings.append(_bad(message, *place, width=max(1, len(cell)), help=help))
             column += len(cell) + 1
         if len(row) == len(names):
             rows.append(row)
             lines.append(number)
     if not names:
         raise InvalidTrajectory(_bad("the file is empty", path, help=help), exit_code=2)
-    if found:
-        if len(found) > _SHOWN:
-            rest = fault("RG610", f"{len(found) - _SHOWN} more faults of this kind in {path}")
-            found = [*found[:_SHOWN], rest]
-        raise InvalidTrajectory(found, exit_code=2)
+    if findings:
+        if len(findings) > _SHOWN:
+            remaining = fault(
+                "RG610", f"{len(findings) - _SHOWN} more faults of this kind in {path}"
+            )
+            findings = [*findings[:_SHOWN], remaining]
+        raise InvalidTrajectory(findings, exit_code=2)
     table = np.array(rows, dtype=np.float64).reshape(len(rows), len(names))
     return Content(table[:, 0], table[:, 1:], tuple(names[1:]), str(path), tuple(lines))
 
@@ -176,21 +178,21 @@ def from_ros(message: Mapping[str, Any], *, path: str = "") -> Content:
     names = _names(message.get("joint_names", []), path)
     times: list[float] = []
     positions: list[list[float]] = []
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for index, point in enumerate(points):
         try:
             times.append(_seconds(point["time_from_start"]))
             row = [float(value) for value in point["positions"]]
         except (KeyError, TypeError, ValueError) as raised:
             what = f"{raised} is missing" if isinstance(raised, KeyError) else str(raised)
-            found.append(fault("RG610", f"point {index}{where}: {what}"))
+            findings.append(fault("RG610", f"point {index}{where}: {what}"))
             continue
         if positions and len(row) != len(positions[0]):
-            found.append(fault("RG610", f"point {index}{where}: {len(row)} positions"))
+            findings.append(fault("RG610", f"point {index}{where}: {len(row)} positions"))
             continue
         positions.append(row)
-    if found:
-        raise InvalidTrajectory(found[:_SHOWN], exit_code=2)
+    if findings:
+        raise InvalidTrajectory(findings[:_SHOWN], exit_code=2)
     width = len(positions[0]) if positions else len(names)
     return Content(times, np.array(positions).reshape(len(positions), width), names, path)
 
@@ -206,9 +208,9 @@ def _names(names: object, path: str) -> tuple[str, ...]:
 
 def _seconds(value: object) -> float:
     if isinstance(value, Mapping):
-        for whole, part in (("secs", "nsecs"), ("sec", "nanosec")):
-            if whole in value:
-                return float(value[whole]) + 1e-9 * float(value.get(part, 0))
+        for complete, part in (("secs", "nsecs"), ("sec", "nanosec")):
+            if complete in value:
+                return float(value[complete]) + 1e-9 * float(value.get(part, 0))
         raise ValueError("time_from_start has neither secs nor sec")
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)

@@ -55,11 +55,11 @@ def method(
         steps = cast("Generator[Never, object, T]", flow(subject(self), *args, **options))
         return self._carrier.run(steps)
 
-    told = inspect.signature(flow)
-    first, *others = told.parameters.values()
-    signature = told.replace(
+    report = inspect.signature(flow)
+    first, *others = report.parameters.values()
+    signature = report.replace(
         parameters=[first.replace(name="self", annotation=first.empty), *others],
-        return_annotation=get_args(told.return_annotation)[-1],
+        return_annotation=get_args(report.return_annotation)[-1],
     )
     update_wrapper(run, flow).__dict__["__signature__"] = signature
     return cast("Method[P, T]", run)

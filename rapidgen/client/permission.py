@@ -27,10 +27,10 @@ def need_confirmation(address: Address, *, yes: bool, real_robot: str) -> bool:
     if address.is_loopback:
         return not yes
     if real_robot != address.host:
-        said = f", not {real_robot}" if real_robot else ""
+        message = f", not {real_robot}" if real_robot else ""
         raise NotReady.because(
             "RG640",
-            f"{address.host} may be a real robot{said}: nothing was sent",
+            f"{address.host} may be a real robot{message}: nothing was sent",
             f"when the area is clear: --move-real-robot {address.host}",
             "--yes answers on this machine only",
             exit_code=2,

@@ -26,15 +26,15 @@ _TIME = "time", "seconds, such as 1.5"
 _LENGTH = "length of a pulse", "m, such as 0.01"
 
 
-def _malformed(message: str, mend: str) -> InvalidProgram:
-    return InvalidProgram.because("RG670", message, mend, exit_code=2)
+def _malformed(message: str, help: str) -> InvalidProgram:
+    return InvalidProgram.because("RG670", message, help, exit_code=2)
 
 
-def _number(value: object, what: str, mend: str) -> float:
+def _number(value: object, what: str, help: str) -> float:
     """A plain number. Raises InvalidProgram for anything else, texts of numbers too."""
     if isinstance(value, SupportsFloat):
         return float(value)
-    raise _malformed(f"{value!r} is no {what}", mend)
+    raise _malformed(f"{value!r} is no {what}", help)
 
 
 @dataclass(frozen=True, slots=True)
@@ -431,8 +431,8 @@ def joints_of(joints: Sequence[float]) -> tuple[float, ...]:
     try:
         return tuple(map(float, joints))
     except (TypeError, ValueError) as error:
-        mend = "joints are numbers in rad and m, one for each, such as [0, 0.1, 0, 0, 0.5, 0]"
-        raise _malformed(f"{joints!r} are no joints", mend) from error
+        help = "joints are numbers in rad and m, one for each, such as [0, 0.1, 0, 0, 0.5, 0]"
+        raise _malformed(f"{joints!r} are no joints", help) from error
 
 
 def pose_of(pose: Pose) -> Pose:
@@ -441,5 +441,5 @@ def pose_of(pose: Pose) -> Pose:
         (x, y, z), (w, a, b, c) = pose
         return (float(x), float(y), float(z)), (float(w), float(a), float(b), float(c))
     except (TypeError, ValueError) as error:
-        mend = "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first"
-        raise _malformed(f"{pose!r} is no pose", mend) from error
+        help = "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first"
+        raise _malformed(f"{pose!r} is no pose", help) from error

@@ -40,11 +40,11 @@ class JointRecording:
     def begins(self) -> tuple[float, ...]:
         """When the controller took each motion meanwhile, s as `times`; by the client's clock
         from the message before, and so about as exact as the messages are regular."""
-        found = []
+        result = []
         for time in self._taken:
             before = [sample for sample in self._samples if sample.time <= time][-1:]
-            found += [self._at(s) - self._at(self._samples[0]) + time - s.time for s in before]
-        return tuple(found)
+            result += [self._at(s) - self._at(self._samples[0]) + time - s.time for s in before]
+        return tuple(result)
 
     @staticmethod
     def _at(sample: Sample) -> float:

@@ -78,7 +78,7 @@ class SyncFlowRunner:
     def _pump(self) -> None:
         """Send what is due, as far as it goes without waiting. The lock is held."""
         core = self.core
-        stops = core.blind_stops()
+        stops = core.unmonitored_stops()
         for port, channel in self._channels.items():
             try:
                 if port in stops:

@@ -82,8 +82,8 @@ class Trajectory:
                 "RG611", f"joint names are there twice: {', '.join(twice)}", exit_code=2
             )
         times.flags.writeable = positions.flags.writeable = False
-        told = {"times": times, "positions": positions, "names": tuple(names)}
-        for name, value in {**told, "path": path, "lines": tuple(lines)}.items():
+        report = {"times": times, "positions": positions, "names": tuple(names)}
+        for name, value in {**report, "path": path, "lines": tuple(lines)}.items():
             object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
@@ -219,10 +219,10 @@ class Trajectory:
         """
         if not 0 < seconds < float("inf"):
             raise ValueError(f"seconds must be above 0, not {seconds}")
-        here = [state[name] for name in self.names] if self.names else list(state.joints)
+        current = [state[name] for name in self.names] if self.names else list(state.joints)
         first = float(self.times[0]) if len(self) else 0.0
         times = np.concatenate([[0.0], self.times - first + seconds])
-        positions = np.concatenate([[here], self.positions])
+        positions = np.concatenate([[current], self.positions])
         return replace(self, times=times, positions=positions, lines=())
 
     def timed(self, robot: "Group", speed: float = 1.0) -> "Trajectory":

@@ -104,8 +104,8 @@ def display_path(path: Path) -> str:
 
 
 def _read(path: Path, made: Assembly) -> MappingNode:
-    shown = display_path(path)
-    return _parsed(path.name, read_bytes(path, shown), shown, made)
+    displayed = display_path(path)
+    return _parsed(path.name, read_bytes(path, displayed), displayed, made)
 
 
 def _model(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
@@ -117,16 +117,16 @@ def _model(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
     return _parsed(f"{name}.yaml", model_text(variant).encode(), label(name), made)
 
 
-def _parsed(name: str, data: bytes, shown: str, made: Assembly) -> MappingNode:
+def _parsed(name: str, data: bytes, displayed: str, made: Assembly) -> MappingNode:
     made.inputs.append((name, data))
-    root, faults = keys_of(data, shown)
+    root, faults = keys_of(data, displayed)
     made.found += faults
     return root
 
 
 def keys_of(
     data: bytes,
-    shown: str,
+    displayed: str,
     what: str = "a configuration",
     such: str = "such as `model: irb120`; `rapidgen schema` has them all",
 ) -> tuple[MappingNode, list[Diagnostic]]:
@@ -134,7 +134,7 @@ def keys_of(
 
     Raises DiagnosticError (RG002, RG003, RG006).
     """
-    root, faults = parse(decode(data, shown), shown)
+    root, faults = parse(decode(data, displayed), displayed)
     if isinstance(root, ScalarNode) and root.value is None:
         return MappingNode({}, root.span), faults
     if not isinstance(root, MappingNode):
@@ -176,8 +176,8 @@ def _group_models(made: Assembly) -> None:
                 base = _group(below, chosen)
                 made.bases[name] = ShippedBasis(model, _figures(base))
                 # What belongs to a place on a controller is not the model's to say.
-                kept = {k: v for k, v in base.entries.items() if k not in _IDENTITY}
-                group = merge(MappingNode(kept, base.span), group, ("groups", name))
+                saved = {k: v for k, v in base.entries.items() if k not in _IDENTITY}
+                group = merge(MappingNode(saved, base.span), group, ("groups", name))
             else:
                 made.found.append(
                     error(
@@ -189,5 +189,5 @@ def _group_models(made: Assembly) -> None:
                     )
                 )
         groups[name] = (place, group)
-    whole = MappingNode(groups, entry[1].span)
-    made.root = MappingNode({**made.root.entries, "groups": (entry[0], whole)}, made.root.span)
+    complete = MappingNode(groups, entry[1].span)
+    made.root = MappingNode({**made.root.entries, "groups": (entry[0], complete)}, made.root.span)

@@ -65,10 +65,10 @@ def held_axes(
                 key=True,
             )
         elif unkept:
-            shown = ", ".join(unkept)
+            displayed = ", ".join(unkept)
             report.error(
                 "RG021",
-                f"{shown} of the arm {'has' if len(unkept) == 1 else 'have'} no joint",
+                f"{displayed} of the arm {'has' if len(unkept) == 1 else 'have'} no joint",
                 where,
                 f"drives {', '.join(sorted(driven))}",
                 "map a joint to each, or let the robot hold them where they stand when a "

@@ -94,8 +94,8 @@ def build(
 
 
 def _name_of(path: Path) -> str:
-    kept = "".join(c if c.isascii() and (c.isalnum() or c in "_-") else "_" for c in path.stem)
-    return (kept if kept[:1].isalpha() else f"robot_{kept}")[:40]
+    saved = "".join(c if c.isascii() and (c.isalnum() or c in "_-") else "_" for c in path.stem)
+    return (saved if saved[:1].isalpha() else f"robot_{saved}")[:40]
 
 
 def _check_controller(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
@@ -133,16 +133,16 @@ def _check_profile(configuration: schema.ConfigurationKeys, report: DraftFinding
     """What is asked for has to be there: the basic profile has no control server."""
     if configuration.profile == "full":
         return
-    asked: list[KeyPath] = [("signals",)] if configuration.signals else []
-    asked += [
+    requested: list[KeyPath] = [("signals",)] if configuration.signals else []
+    requested += [
         ("groups", name, "ports", "control")
         for name, group in configuration.groups.items()
         if group.ports.control
     ]
-    asked += [
+    requested += [
         ("groups", name, "data") for name, group in configuration.groups.items() if group.data
     ]
-    for path in asked:
+    for path in requested:
         report.error(
             "RG014",
             f"`{path[-1]}` is of the full profile",
@@ -209,7 +209,7 @@ def _group(
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = joints_of(keys, draft, path, report)
-    kept = held_axes(draft, dict(keys.keep.items()), path, report)
+    saved = held_axes(draft, dict(keys.keep.items()), path, report)
     names = {joint.name for joint in draft.joints}
     _check_ceiling(keys.tcp_speed_limit, (*path, "tcp_speed_limit"), report)
     if report.is_faulty((*path, "joints")):
@@ -252,8 +252,8 @@ def _group(
         joints=joints,
         ports=model.Ports(
             *(
-                given if given is not None else default + PORT_STEP * index
-                for given, default in zip(
+                value if value is not None else default + PORT_STEP * index
+                for value, default in zip(
                     (ports.motion, 0 if basic else ports.control, ports.state),
                     DEFAULT_PORTS,
                     strict=True,
@@ -284,7 +284,7 @@ def _group(
         positioners=tuple(
             model.Positioner(unit, tuple(chain)) for unit, chain in draft.positioners.items()
         ),
-        kept=kept,
+        kept=saved,
         max_payload=draft.max_payload,
     )
 
@@ -372,7 +372,7 @@ def _check_ports(
 ) -> None:
     users: dict[int, str] = {}
     for group in groups:
-        given = configuration.groups[group.name].ports
+        value = configuration.groups[group.name].ports
         for name in ("motion", "control", "state"):
             port = getattr(group.ports, name)
             if not port:
@@ -386,7 +386,7 @@ def _check_ports(
                     help="give one of the two another one under `ports:` of its group",
                 )
             users.setdefault(port, f"{group.name}.{name}")
-            if getattr(given, name) is not None and port > _PLAIN_PORTS_END:
+            if getattr(value, name) is not None and port > _PLAIN_PORTS_END:
                 report.add(
                     "RG018",
                     Severity.INFO,

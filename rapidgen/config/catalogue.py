@@ -58,13 +58,15 @@ def model_description(name: str) -> str:
 
 def variant_named(name: str) -> tuple[Variant, ...]:
     """The variants of a shipped model's name, or of a type; raises DiagnosticError (RG009)."""
-    wanted = name.casefold().replace(" ", "")
+    expected = name.casefold().replace(" ", "")
     every = variants()
-    found = [v for v in every if wanted in (v.model, v.name.casefold().replace(" ", ""))]
-    found = found or [v for v in every if wanted == model_name(v)]
-    found = found or [v for v in every if wanted and wanted in v.name.casefold().replace(" ", "")]
-    if found:
-        return tuple(found)
+    result = [v for v in every if expected in (v.model, v.name.casefold().replace(" ", ""))]
+    result = result or [v for v in every if expected == model_name(v)]
+    result = result or [
+        v for v in every if expected and expected in v.name.casefold().replace(" ", "")
+    ]
+    if result:
+        return tuple(result)
     known = [*shipped_names(), *(v.name for v in every)]
     raise refusal(
         "RG009",
@@ -84,8 +86,8 @@ def variant_text(variant: Variant) -> str:
         span = "?" if axis.lower is None else f"{axis.lower:g}..{axis.upper:g} {unit}"
         speed = "? " if axis.speed is None else f"{axis.speed:g} {unit}/s"
         at = ", ".join(f"{v * 1000:g}" for v in line.point)
-        mark = f"   unsure: {', '.join(axis.unsure)}" if axis.unsure else ""
-        lines.append(f"  {axis.axis:<6} {span:<20} {speed:<12} at {at} mm{mark}")
+        marker = f"   unsure: {', '.join(axis.unsure)}" if axis.unsure else ""
+        lines.append(f"  {axis.axis:<6} {span:<20} {speed:<12} at {at} mm{marker}")
     lines.append(f"  reach  {reach(variant) * 1000:.0f} mm from axis 1 to the last wrist axis")
     end = ", ".join(f"{v * 1000:g}" for v in variant.skeleton.end)
     lines.append(f"  flange at {end} mm with every axis at 0")

@@ -209,12 +209,12 @@ def load_cell(path: Path) -> CellDescription:
     Raises DiagnosticError (RG001..RG009, RG014, RG070, RG071) with everything that is wrong;
     warnings are in its `diagnostics`.
     """
-    shown = display_path(path)
+    displayed = display_path(path)
     such = "such as `signals: {doGrip: {kind: DO}}`; `rapidgen schema --cell` has them all"
-    root, found = keys_of(read_bytes(path, shown), shown, "a cell file", such)
+    root, result = keys_of(read_bytes(path, displayed), displayed, "a cell file", such)
     keys, faults, removed = valid_subset(root, CellKeys)
     report = DraftFindings(root, removed)
-    report.found = found + faults
+    report.found = result + faults
     arm = _arm(keys)
     cell = CellDescription(
         {
@@ -226,18 +226,18 @@ def load_cell(path: Path) -> CellDescription:
         keys.signals,
         tuple(
             tool_of(
-                ToolKeys(given.held, given.frame, given.load, name), ("tools", name), report, arm
+                ToolKeys(value.held, value.frame, value.load, name), ("tools", name), report, arm
             )
-            for name, given in keys.tools.items()
+            for name, value in keys.tools.items()
         ),
         tuple(
             work_object_of(
-                WorkObjectKeys(given.held, given.user_frame, given.object_frame, name),
+                WorkObjectKeys(value.held, value.user_frame, value.object_frame, name),
                 ("work_objects", name),
                 report,
                 arm,
             )
-            for name, given in keys.work_objects.items()
+            for name, value in keys.work_objects.items()
         ),
         {name: load_of(load, ("loads", name), report, arm) for name, load in keys.loads.items()},
         keys.devices,

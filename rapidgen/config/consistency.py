@@ -198,7 +198,7 @@ def _figures(
     path: KeyPath,
     report: DraftFindings,
 ) -> None:
-    here: KeyPath = (*path, "joints", joint.name)
+    current: KeyPath = (*path, "joints", joint.name)
     unit = "mm" if joint.unit == "mm" else "deg"
     lower, upper = joint.lower, joint.upper
     span = (known.lower, known.upper)
@@ -207,7 +207,7 @@ def _figures(
             "RG048",
             f"joint '{joint.name}': {lower:g}..{upper:g} {unit} is the mirror of the range of "
             f"{variant.name}, {known.lower:g}..{known.upper:g} {unit}",
-            here,
+            current,
             "mirrored",
             f"its axis turns as {variant.name}'s does, so the range is wrong:\n"
             + _lines(draft, joint, f"lower: {known.lower:g}, upper: {known.upper:g}"),
@@ -221,7 +221,7 @@ def _figures(
             "RG049",
             Severity.WARNING,
             f"joint '{joint.name}' is beyond what is known of {variant.name}: {'; '.join(wider)}",
-            here,
+            current,
             "",
             "keep it only if the data sheet of your robot says so, and give `source:`",
         )

@@ -83,30 +83,30 @@ def describe(
     urdf: Path,
     folder: Path,
     package_paths: Sequence[Path],
-    given: schema.UrdfKeys,
+    value: schema.UrdfKeys,
     answers: DescriptionChoices,
 ) -> tuple[schema.UrdfKeys, list[GroupText], Mapping[str, Path]]:
     """The groups of a description, and the packages that were used.
 
     Raises DiagnosticError for what is no description, no tree or no robot of ABB.
     """
-    given = _with_macro(urdf, given)
-    wanted = request(given, folder, package_paths, None)
-    description = expand(wanted)
+    value = _with_macro(urdf, value)
+    expected = request(value, folder, package_paths, None)
+    description = expand(expected)
     robot = read_robot(description, None)
-    graph, found = build_graph(robot, None)
+    graph, result = build_graph(robot, None)
     names = (robot.name, description.path.name)
     said = {**dict.fromkeys(answers.ignore, ""), **answers.joints}
     around = (*description.path.resolve().parts[-5:-1], *_PACKAGE.findall(description.text))
     claimed = bool(said or answers.tips) or mentions_abb(*names, *around, description.text)
     cell = replace(read_cell(graph, names, said), around=around, is_claimed=claimed)
-    faults = [d for d in found if d.severity is Severity.ERROR]
+    faults = [d for d in result if d.severity is Severity.ERROR]
     # What moves behind an arm is a gripper, and left out.
     left = {*answers.ignore, *(joint.name for arm in cell.arms for joint in arm.behind)}
     faults += [
         check_axis(joint, None)
         for joint in robot.joints
-        if joint.is_actuated and joint.is_aimless and joint.name not in left
+        if joint.is_actuated and joint.has_zero_axis and joint.name not in left
     ]
     refused = list(no_robot(cell, None))
     if refused and refused[0].message.startswith("a delta"):
@@ -116,26 +116,26 @@ def describe(
     _check_names(cell, answers)
     arms = _chosen(cell, answers)
     groups = [_group(cell, arm, arms, number, answers) for number, arm in enumerate(arms)]
-    return given, groups, wanted.packages.used
+    return value, groups, expected.packages.used
 
 
-def _with_macro(urdf: Path, given: schema.UrdfKeys) -> schema.UrdfKeys:
+def _with_macro(urdf: Path, value: schema.UrdfKeys) -> schema.UrdfKeys:
     """A file that only defines macros is called through the one that is a robot's."""
     text, _ = read_xml(urdf)
     defined = macros(text)
-    if given.macro or not defined or "<link" in text.split("<xacro:macro", 1)[0]:
-        return given
+    if value.macro or not defined or "<link" in text.split("<xacro:macro", 1)[0]:
+        return value
     outside = text
     for part in text.split("<xacro:macro")[1:]:
         outside = outside.replace(part.split("</xacro:macro>")[0], "")
     if "<link" in outside or any(f"<xacro:{m.name}" in outside for m in defined):
-        return given
+        return value
     if "<xacro:include" in outside and any(
         f"<xacro:{word}" in outside for word in ("irb", "crb", "abb", "robot")
     ):
-        return given
+        return value
     robots = [m for m in defined if m.joints >= 4]
-    return replace(given, macro=robots[0].name) if len(robots) == 1 else given
+    return replace(value, macro=robots[0].name) if len(robots) == 1 else value
 
 
 def _check_names(cell: Cell, answers: DescriptionChoices) -> None:
@@ -180,18 +180,20 @@ def _group(
     same = variant is not None and (not own_family or own_family == variant.family)
     if arm.alignment and variant:
         others = "".join(f", or {name}" for name in arm.alignment.others[:3])
-        said = f"This is an {variant.name}{others}, by its axes in space."
+        message = f"This is an {variant.name}{others}, by its axes in space."
         if arm.alignment.rough:
-            said = f"By its name an {variant.name}; some of its axes are up to 10 mm off. Check it."
+            message = (
+                f"By its name an {variant.name}; some of its axes are up to 10 mm off. Check it."
+            )
         if not same:
-            said = f"Its axes lie as those of an {variant.name}; the file calls it {own_family}."
-        head.append(f"# {said}")
+            message = f"Its axes lie as those of an {variant.name}; the file calls it {own_family}."
+        head.append(f"# {message}")
     else:
         head.append("# No known variant has these axes: check every line against the data sheet.")
         if not cell.is_claimed:
             head.append("# Nothing in the description says that it is a robot of ABB.")
-    taken = {*answers.joints.values(), *(("eax_a",) if "eax_a" in arm.axes else ())}
-    free = [axis for axis in _EXTERNAL if axis not in taken]
+    in_use = {*answers.joints.values(), *(("eax_a",) if "eax_a" in arm.axes else ())}
+    free = [axis for axis in _EXTERNAL if axis not in in_use]
     mapped = [(joint, axis) for joint, axis in zip(arm.joints, arm.axes, strict=True)]
     mapped += [(joint, "") for joint in arm.under]
     if number == 0:
@@ -223,7 +225,8 @@ def _group(
     tip = cell.graph.tip_link(arm.joints[-1])
     own = {line.name for line in lines} | set(answers.ignore)
     needs_tip = any(
-        j.is_actuated and not j.is_stuck and j.name not in own for j in cell.graph.robot.joints
+        j.is_actuated and not j.has_empty_range and j.name not in own
+        for j in cell.graph.robot.joints
     )
     name = _name(arm, arms, number)
     return GroupText(
@@ -285,18 +288,23 @@ def _line(
     known = variant.axis(axis) if variant and axis else None
     is_linear = joint.kind == "prismatic"
     unit = "mm" if is_linear else "deg"
-    found = limits.fill(draft, joint, None)
-    bad = {d.code for d in found if d.severity is not Severity.INFO}
+    result = limits.fill(draft, joint, None)
+    bad = {d.code for d in result if d.severity is not Severity.INFO}
     lower, upper, speed = draft.lower, draft.upper, draft.speed
     endless = joint.kind == "continuous"
     range_of_file = lower is not None and upper is not None and not endless and "RG041" not in bad
     mirrored = bool(known and is_mirror((lower, upper), (known.lower, known.upper)))
     comments = []
-    said = answers.ranges.get(joint.name)
-    if said is None and not range_of_file and not is_linear and (not known or known.lower is None):
-        said = answers.ranges.get("")
-    if said:
-        line.keys += [f"lower: {said[0]:g}", f"upper: {said[1]:g}"]
+    message = answers.ranges.get(joint.name)
+    if (
+        message is None
+        and not range_of_file
+        and not is_linear
+        and (not known or known.lower is None)
+    ):
+        message = answers.ranges.get("")
+    if message:
+        line.keys += [f"lower: {message[0]:g}", f"upper: {message[1]:g}"]
         comments.append("range as said")
     elif known and known.lower is not None and (not range_of_file or mirrored):
         line.keys += [f"lower: {known.lower:g}", f"upper: {known.upper:g}"]

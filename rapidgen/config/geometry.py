@@ -118,16 +118,16 @@ def _along(
     """Each joint's place and direction along a chain, and its end with its orientation."""
     place: Vector = (0.0, 0.0, 0.0)
     turned = IDENTITY
-    found = []
+    result = []
     for step in chain:
         place = add(place, apply(turned, step.xyz))
         turned = times(turned, from_rpy(step.rpy))
         if step.joint:
-            found.append((step, place, apply(turned, step.axis)))
+            result.append((step, place, apply(turned, step.axis)))
         amount = at[step.joint] if step.joint else sum(at[n] * k for n, k in step.follows)
         if amount:
             turned = times(turned, turn(step.axis, amount))
-    return found, place, turned
+    return result, place, turned
 
 
 def distance(a: Line, b: Line) -> float:
@@ -190,19 +190,19 @@ def compare(arm: ArmAxes, known: ArmAxes) -> Difference | None:
     there = in_axis_frame(known)
     best: tuple[float, Difference] | None = None
     for flips in product((1, -1), (1, -1)):
-        here = in_axis_frame(arm, flips)
-        found = _difference(here, there)
-        badness = found.distance + found.angle
+        current = in_axis_frame(arm, flips)
+        result = _difference(current, there)
+        badness = result.distance + result.angle
         if best is None or badness < best[0] - 1e-9:
-            best = badness, found
+            best = badness, result
     assert best is not None
     return best[1]
 
 
-def _difference(here: ArmAxes, there: ArmAxes) -> Difference:
+def _difference(current: ArmAxes, there: ArmAxes) -> Difference:
     worst, axis, far, wide = -1.0, "", 0.0, 0.0
     turned = []
-    for a, b in zip(here.lines, there.lines, strict=True):
+    for a, b in zip(current.lines, there.lines, strict=True):
         cosine = dot(a.direction, b.direction)
         if cosine < 0:
             turned.append(a.axis)
@@ -211,8 +211,8 @@ def _difference(here: ArmAxes, there: ArmAxes) -> Difference:
         far, wide = max(far, apart), max(wide, angle)
         if apart + angle > worst:
             worst, axis = apart + angle, a.axis
-    end = norm(subtract(here.end, there.end))
-    return Difference(axis, far, wide, tuple(turned), end, _apart(here.facing, there.facing))
+    end = norm(subtract(current.end, there.end))
+    return Difference(axis, far, wide, tuple(turned), end, _apart(current.facing, there.facing))
 
 
 def _apart(a: Matrix | None, b: Matrix | None) -> float:

@@ -35,20 +35,20 @@ def joints_of(
     seen: dict[str, str] = {}
     joints = []
     for joint in draft.joints:
-        here: KeyPath = (*where, joint.name)
+        current: KeyPath = (*where, joint.name)
         if joint.axis in seen:
             report.error(
                 "RG013",
                 f"joints '{seen[joint.axis]}' and '{joint.name}' both drive {joint.axis}",
-                (*here, "axis"),
+                (*current, "axis"),
                 "second time",
                 "one joint drives an axis: give the other the `axis:` that it drives",
             )
         if joint.axis:
             seen.setdefault(joint.axis, joint.name)
         for key, message, help in axis_doubts(joint):
-            report.add("RG071", Severity.WARNING, message, (*here, key), help=help)
-        made = _joint(joint, keys.acceleration_time, here, report)
+            report.add("RG071", Severity.WARNING, message, (*current, key), help=help)
+        made = _joint(joint, keys.acceleration_time, current, report)
         if made:
             joints.append(made)
     return tuple(joints)

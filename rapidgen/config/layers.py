@@ -65,21 +65,21 @@ def canonical(root: MappingNode, known: tuple[str, ...]) -> Layer:
     own = {k: v for k, v in pruned.entries.items() if k in GROUP_KEYS and k not in _SHARED_KEYS}
     if not own:
         return Layer(MappingNode(top, pruned.span))
-    given = top.get("groups")
+    value = top.get("groups")
     names = tuple(dict.fromkeys((*known, *group_names(MappingNode(top, pruned.span)))))
-    if len(names) > 1 or (given and not known):
-        shown = names[0] if names else DEFAULT_GROUP
-        found = [
+    if len(names) > 1 or (value and not known):
+        displayed = names[0] if names else DEFAULT_GROUP
+        result = [
             error(
                 "RG010",
                 place,
                 f"'{key}' belongs to a group",
-                f"write it as groups.{shown}.{key}",
+                f"write it as groups.{displayed}.{key}",
                 label=f"which of {', '.join(names)}?" if len(names) > 1 else "beside 'groups'",
             )
             for key, (place, _) in own.items()
         ]
-        return Layer(MappingNode(top, pruned.span), found)
+        return Layer(MappingNode(top, pruned.span), result)
     name = names[0] if names else DEFAULT_GROUP
     first = next(iter(own.values()))[0]
     group = MappingNode({name: (first, MappingNode(own, pruned.span))}, pruned.span)
@@ -172,7 +172,7 @@ def override_tree(overrides: Overrides) -> tuple[MappingNode, tuple[tuple[str, b
     """`--set` texts, or a mapping of key paths to values, as one raw tree with its inputs."""
     root = MappingNode({}, Span("--set", 1, 1))
     inputs: list[tuple[str, bytes]] = []
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     pairs: Sequence[tuple[str, object, bool]]
     if isinstance(overrides, str):
         raise TypeError(f"overrides are a list, or a mapping of keys to values: [{overrides!r}]")
@@ -185,29 +185,29 @@ def override_tree(overrides: Overrides) -> tuple[MappingNode, tuple[tuple[str, b
             if equals and given.strip():
                 pairs.append((name, given, True))
             else:
-                found.append(_bad_override(text))
+                findings.append(_bad_override(text))
     for key, value, is_text in pairs:
         span = Span(f"--set {key}={value}", 1, 1)
         keys = _split(key)
         if not keys:
-            found.append(_bad_override(f"{key}={value}"))
+            findings.append(_bad_override(f"{key}={value}"))
             continue
         try:
             if is_text:
                 node, faults = parse(str(value), span.path, at=span)
-                found += faults
+                findings += faults
             else:
                 node = from_python(value, span)
         except DiagnosticError as fault:
-            found += fault.diagnostics
+            findings += fault.diagnostics
             continue
         for part in reversed(keys):
             node = MappingNode({part: (span, node)}, span)
         assert isinstance(node, MappingNode)
         root = merge(root, node)
         inputs.append(("--set", f"{key}={value}".encode()))
-    if found:
-        raise DiagnosticError(found)
+    if findings:
+        raise DiagnosticError(findings)
     return root, tuple(inputs)
 
 

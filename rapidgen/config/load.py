@@ -50,18 +50,18 @@ def load_config(
     _report_unknown(drafts, groups, report)
     _report_wider(drafts, report)
     for draft in drafts:
-        given = groups[draft.name].urdf
-        if given:
+        value = groups[draft.name].urdf
+        if value:
             others = {j.name for other in drafts if other is not draft for j in other.joints}
-            _read_urdf(draft, given, others, [Path(p) for p in package_paths], assembly, report)
+            _read_urdf(draft, value, others, [Path(p) for p in package_paths], assembly, report)
         contradictions(draft, ("groups", draft.name), draft.names, report)
         _report_unsure(draft, groups[draft.name], report)
     config = build(valid.configuration, drafts, assembly.path, report)
-    found = tuple(in_order(report.found))
+    result = tuple(in_order(report.found))
     if config is None:
-        raise DiagnosticError(limit_findings(found))
+        raise DiagnosticError(limit_findings(result))
     _LOG.info("%s: %s, read from %d files", path_or_name, config.name, len(assembly.inputs))
-    return replace(config, inputs=tuple(assembly.inputs), diagnostics=tuple(limit_findings(found)))
+    return replace(config, inputs=tuple(assembly.inputs), diagnostics=tuple(limit_findings(result)))
 
 
 def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:
@@ -74,17 +74,17 @@ def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:
     ]
 
 
-def in_order(found: list[Diagnostic]) -> list[Diagnostic]:
+def in_order(findings: list[Diagnostic]) -> list[Diagnostic]:
     """Findings by place; those without one come first."""
     return sorted(
-        dict.fromkeys(found),
+        dict.fromkeys(findings),
         key=lambda d: (d.span.path, d.span.line, d.span.column) if d.span else ("", 0, 0),
     )
 
 
 def _read_urdf(
     draft: GroupDraft,
-    given: schema.UrdfKeys,
+    value: schema.UrdfKeys,
     elsewhere: set[str],
     package_paths: list[Path],
     assembly: Assembly,
@@ -94,10 +94,10 @@ def _read_urdf(
 
     place = report.span(("groups", draft.name, "urdf", "file"))
     folder = assembly.path.parent
-    found, inputs = complete(draft, given, folder, package_paths, frozenset(elsewhere), place)
-    report.found += found
+    result, inputs = complete(draft, value, folder, package_paths, frozenset(elsewhere), place)
+    report.found += result
     assembly.inputs += inputs
-    if any(d.severity is Severity.ERROR for d in found):
+    if any(d.severity is Severity.ERROR for d in result):
         report.mute(("groups", draft.name, "joints"))
 
 

@@ -25,19 +25,19 @@ def shipped_groups(name: str) -> tuple[GroupConfig, ...]:
     source = find_shipped(name)
     if source.stem != name:
         raise ValueError(f"{name} is no shipped model")
-    kept = _FOLDER / "__pycache__" / f"{name}.{sys.implementation.cache_tag}.json"
+    saved = _FOLDER / "__pycache__" / f"{name}.{sys.implementation.cache_tag}.json"
     key = _key(source)
     try:
-        found = json.loads(kept.read_text(encoding="utf-8"))
-        if found["key"] == key:
-            return tuple(group_from_manifest(group, source) for group in found["groups"])
+        result = json.loads(saved.read_text(encoding="utf-8"))
+        if result["key"] == key:
+            return tuple(group_from_manifest(group, source) for group in result["groups"])
     except (OSError, ValueError, KeyError, TypeError):
         pass  # Not there, of another time, or damaged: it is made anew.
     from rapidgen.config.load import load_config
 
     groups = load_config(name).groups
     if not sys.dont_write_bytecode:
-        _keep(kept, {"key": key, "groups": [group_to_manifest(group) for group in groups]})
+        _keep(saved, {"key": key, "groups": [group_to_manifest(group) for group in groups]})
     return groups
 
 
@@ -53,12 +53,12 @@ def _key(source: Path) -> str:
     return "\n".join(parts)
 
 
-def _keep(path: Path, found: object) -> None:
+def _keep(path: Path, result: object) -> None:
     """Write it whole or not at all."""
     half = path.with_name(f"{path.name}.{os.getpid()}")
     try:
         path.parent.mkdir(exist_ok=True)
-        half.write_text(json.dumps(found), encoding="utf-8")
+        half.write_text(json.dumps(result), encoding="utf-8")
         half.replace(path)
     except OSError:
         half.unlink(missing_ok=True)

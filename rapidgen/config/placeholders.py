@@ -10,21 +10,21 @@ OPEN = '"???"'
 
 def extract_placeholders(root: MappingNode) -> tuple[MappingNode, list[Diagnostic]]:
     """The tree without its open values, and a finding for each."""
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
 
     def walk(node: Node, path: tuple[str, ...]) -> Node | None:
         if isinstance(node, MappingNode):
             entries = {}
             for key, (place, value) in node.entries.items():
-                kept = walk(value, (*path, key))
-                if kept is not None:
-                    entries[key] = (place, kept)
+                saved = walk(value, (*path, key))
+                if saved is not None:
+                    entries[key] = (place, saved)
             return MappingNode(entries, node.span)
         if isinstance(node, SequenceNode):
             items = [walk(item, (*path, str(n))) for n, item in enumerate(node.items, 1)]
             return SequenceNode(tuple(item for item in items if item is not None), node.span)
         if isinstance(node, ScalarNode) and node.value == OPEN[1:-1]:
-            found.append(
+            findings.append(
                 error(
                     "RG022",
                     node.span,
@@ -38,4 +38,4 @@ def extract_placeholders(root: MappingNode) -> tuple[MappingNode, list[Diagnosti
 
     made = walk(root, ())
     assert isinstance(made, MappingNode)
-    return made, found
+    return made, findings

@@ -143,7 +143,7 @@ def _centre_doubts(mass: float, centre: Vector, arm: Arm) -> Iterator[Doubt]:
 
 def _inertia_doubts(mass: float, inertia: Vector, arm: Arm) -> Iterator[Doubt]:
     least, middle, most = sorted(inertia)
-    shown = ", ".join(f"{moment:g}" for moment in inertia)
+    displayed = ", ".join(f"{moment:g}" for moment in inertia)
     if least < 0:
         yield Doubt(
             "inertia",
@@ -153,13 +153,14 @@ def _inertia_doubts(mass: float, inertia: Vector, arm: Arm) -> Iterator[Doubt]:
         )
         return
     if most and mass <= 0:
-        yield Doubt("inertia", True, f"[{shown}] kg m² without a mass", "give the `mass:` too")
+        yield Doubt("inertia", True, f"[{displayed}] kg m² without a mass", "give the `mass:` too")
         return
     if most > (least + middle) * _MEASURED + _ROUND:
         yield Doubt(
             "inertia",
             True,
-            f"[{shown}] kg m²: no body has a moment of inertia larger than the sum of the others",
+            f"[{displayed}] kg m²: "
+            "no body has a moment of inertia larger than the sum of the others",
             "give all three, about the centre of gravity; [0, 0, 0] is a point mass",
         )
     radius = math.sqrt(most / mass) if most else 0.0
@@ -179,10 +180,10 @@ def frame_doubt(position: Vector, arm: Arm, *, tool: bool) -> tuple[bool, str, s
     """
     away = math.hypot(*position)
     if 0 < away < _SMALL:
-        shown = ", ".join(f"{v * 1000:g}" for v in position)
+        displayed = ", ".join(f"{v * 1000:g}" for v in position)
         metres = ", ".join(f"{v * 1e6:g}" for v in position)
-        reason = f"[{shown}] is a shift of {_mm(away)}"
-        return False, reason, f"the unit is mm: [{shown}] m are [{metres}]"
+        reason = f"[{displayed}] is a shift of {_mm(away)}"
+        return False, reason, f"the unit is mm: [{displayed}] m are [{metres}]"
     if tool and away > arm.longest:
         reason = f"a frame {_mm(away)} from the flange; the arm reaches {_mm(arm.longest)}"
         return away > _FAR_TOOL * arm.longest, reason, "the unit is mm"

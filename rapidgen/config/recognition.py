@@ -55,32 +55,32 @@ def align(lines: Sequence[Line], *names: str) -> Alignment | None:
 
 
 def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Alignment | None:
-    wanted = [_of_size(v.skeleton, len(lines)) for v in variants()]
+    expected = [_of_size(v.skeleton, len(lines)) for v in variants()]
     if len(lines) == _WITHOUT_LAST and [line.slides for line in lines] == [False, False, True]:
         # Where the quill turns is where it slides: with axis 4 left out that tells the forearm.
         lines = [replace(line, slides=False) for line in lines]
     known = {
         v.name: skeleton
-        for v, skeleton in zip(variants(), wanted, strict=True)
+        for v, skeleton in zip(variants(), expected, strict=True)
         if skeleton and _is_like(lines, skeleton.lines, within)
     }
     hits = [v for v in variants() if v.name in known]
     if within > SAME_PLACE:
         hits = [v for v in hits if v.family == family(*names)]
-    said = family(*names)
-    hits.sort(key=lambda v: (v.family == said, closeness(v, *names)), reverse=True)
+    message = family(*names)
+    hits.sort(key=lambda v: (v.family == message, closeness(v, *names)), reverse=True)
     for variant in hits:
-        found = sorted(
+        result = sorted(
             _postures(lines, known[variant.name], within),
             key=lambda f: _plainness(f, lines[0].direction),
         )
-        if not found:
+        if not result:
             continue
-        signs, values = found[0]
+        signs, values = result[0]
         up = lines[0].direction[2] * signs[0] > 0
         rivals = [
             other
-            for other, v in found[1:]
+            for other, v in result[1:]
             if other != signs
             and _effort(v) < _effort(values) + 0.02
             and (lines[0].direction[2] * other[0] > 0) == up
@@ -120,10 +120,10 @@ def _effort(values: Sequence[float]) -> float:
 
 
 def _plainness(
-    found: tuple[tuple[int, ...], tuple[float, ...]], first: Vector
+    result: tuple[tuple[int, ...], tuple[float, ...]], first: Vector
 ) -> tuple[float, bool, int]:
     """Zeros of the file first, then an arm that stands upright in it, then its senses."""
-    signs, values = found
+    signs, values = result
     upright = first[2] * signs[0] > -1e-6
     return round(_effort(values), 2), not upright, sum(sign < 0 for sign in signs)
 
@@ -158,10 +158,10 @@ def _postures(
     """Signs, and the joint values at which the axes lie as the variant's do at its zero."""
     there = in_axis_frame(known).lines
     for flips in product((1, -1), (1, -1)):
-        here = in_axis_frame(ArmAxes(tuple(lines), (0.0, 0.0, 0.0)), flips).lines
-        if not _lies_on(here[1], there[1], within):
+        current = in_axis_frame(ArmAxes(tuple(lines), (0.0, 0.0, 0.0)), flips).lines
+        if not _lies_on(current[1], there[1], within):
             continue
-        for values, posed in _turned(here, there, 1, within):
+        for values, posed in _turned(current, there, 1, within):
             signs = tuple(
                 1 if dot(a.direction, b.direction) > 0 else -1
                 for a, b in zip(posed, there, strict=True)
@@ -170,41 +170,41 @@ def _postures(
 
 
 def _turned(
-    here: Sequence[Line], there: Sequence[Line], place: int, within: float
+    current: Sequence[Line], there: Sequence[Line], place: int, within: float
 ) -> Iterator[tuple[tuple[float, ...], Sequence[Line]]]:
     """Values of the joints from `place` on but for the last one, and the axes as they then lie."""
-    if place == len(here) - 1:
-        yield (), here
+    if place == len(current) - 1:
+        yield (), current
         return
-    for value in _values(here[place], here[place + 1], there[place + 1]):
+    for value in _values(current[place], current[place + 1], there[place + 1]):
         posed = [
-            *here[: place + 1],
-            *(_moved(here[place], line, value) for line in here[place + 1 :]),
+            *current[: place + 1],
+            *(_moved(current[place], line, value) for line in current[place + 1 :]),
         ]
         if _lies_on(posed[place + 1], there[place + 1], within):
-            for rest, whole in _turned(posed, there, place + 1, within):
-                yield (value, *rest), whole
+            for remaining, complete in _turned(posed, there, place + 1, within):
+                yield (value, *remaining), complete
 
 
-def _values(about: Line, line: Line, wanted: Line) -> Iterator[float]:
+def _values(about: Line, line: Line, expected: Line) -> Iterator[float]:
     """Values of a joint that may bring the next axis to where it is wanted."""
     yield 0.0
     if about.slides:
         return
-    found = []
+    result = []
     if abs(dot(line.direction, about.direction)) < 1 - 1e-5:
         for flip in (1, -1):
-            found.append(_angle(about, line.direction, scale(wanted.direction, flip)))
+            result.append(_angle(about, line.direction, scale(expected.direction, flip)))
     else:
         foot, goal = (
             subtract(
                 end.point,
                 scale(about.direction, dot(subtract(end.point, about.point), about.direction)),
             )
-            for end in (line, wanted)
+            for end in (line, expected)
         )
-        found.append(_angle(about, subtract(foot, about.point), subtract(goal, about.point)))
-    for angle in found:
+        result.append(_angle(about, subtract(foot, about.point), subtract(goal, about.point)))
+    for angle in result:
         if angle is not None and abs(angle) > _EXACT / 4:
             near = _STEP * round(angle / _STEP)
             yield near if abs(angle - near) < _EXACT else angle
@@ -228,8 +228,8 @@ def _moved(about: Line, line: Line, value: float) -> Line:
     return Line(line.axis, point, apply(rotation, line.direction), line.slides)
 
 
-def _lies_on(line: Line, wanted: Line, within: float) -> bool:
-    angle = math.acos(min(1.0, abs(dot(line.direction, wanted.direction))))
+def _lies_on(line: Line, expected: Line, within: float) -> bool:
+    angle = math.acos(min(1.0, abs(dot(line.direction, expected.direction))))
     return angle <= 2 * SAME_TURN and (
-        line.slides or wanted.slides or distance(wanted, line) <= 2 * within
+        line.slides or expected.slides or distance(expected, line) <= 2 * within
     )

@@ -56,8 +56,8 @@ class Rule:
         """The core schema narrowed by this rule."""
         if schema["type"] == "nullable":
             return {**schema, "schema": self.apply(schema["schema"])}
-        given = {name: getattr(self, name) for name in _BOUNDS}
-        schema = {**schema, **{k: v for k, v in given.items() if v is not None}}
+        value = {name: getattr(self, name) for name in _BOUNDS}
+        schema = {**schema, **{k: v for k, v in value.items() if v is not None}}
         if self.before:
             return {
                 "type": "function-before",

@@ -44,17 +44,17 @@ _GROUP_OPTIONS = """# ports: {motion: 11000, control: 11001, state: 11002}
 """
 
 
-def from_model(name: str, said: DescriptionChoices | None = None) -> str:
+def from_model(name: str, message: DescriptionChoices | None = None) -> str:
     """Configuration text for a shipped model, or for a known variant."""
     find_shipped(name)
     variant = named(name)
     if variant:
-        return _from_variant(variant, said or DescriptionChoices())
+        return _from_variant(variant, message or DescriptionChoices())
     config = load_config(name)
     lines = [
         f"# {model_description(name)}",
         f"model: {name}",
-        *_controller(said or DescriptionChoices(), _delivered(config)),
+        *_controller(message or DescriptionChoices(), _delivered(config)),
     ]
     text = "\n".join(lines) + "\n" + _OPTIONS
     if len(config.groups) == 1:
@@ -69,15 +69,15 @@ def from_model(name: str, said: DescriptionChoices | None = None) -> str:
     )
 
 
-def _from_variant(variant: Variant, said: DescriptionChoices) -> str:
+def _from_variant(variant: Variant, message: DescriptionChoices) -> str:
     """What the list does not say of the controller and the speeds is said, or left open."""
     lines = [
         f"# ABB {variant.name}, from public sources: `rapidgen robots show {model_name(variant)}`.",
         f"model: {model_name(variant)}",
-        *_controller(said, _of_family(variant.family)),
+        *_controller(message, _of_family(variant.family)),
     ]
     slow = [axis.axis for axis in variant.axes if axis.speed is None]
-    speed = OPEN if said.speed is None else f"{said.speed:g}"
+    speed = OPEN if message.speed is None else f"{message.speed:g}"
     if slow:
         lines.append("joints:                    # no public source has their speeds, deg/s")
         lines += [f"  joint_{axis[-1]}: {{speed: {speed}}}" for axis in slow]
@@ -99,17 +99,17 @@ def _of_family(known: str) -> tuple[str, str]:
     return _IRC5
 
 
-def _controller(said: DescriptionChoices, own: tuple[str, str]) -> list[str]:
+def _controller(message: DescriptionChoices, own: tuple[str, str]) -> list[str]:
     """What a person says, completed by what the robot comes with."""
-    if said.controller:
-        is_omnicore = said.controller == "omnicore"
-    elif said.robotware:
-        is_omnicore = said.robotware.partition(".")[0] in ("7", "8")
+    if message.controller:
+        is_omnicore = message.controller == "omnicore"
+    elif message.robotware:
+        is_omnicore = message.robotware.partition(".")[0] in ("7", "8")
     else:
         is_omnicore = own[0] == "omnicore"
     if is_omnicore != (own[0] == "omnicore"):
         own = _OMNICORE if is_omnicore else _IRC5
-    name, version = said.controller or own[0], said.robotware or own[1]
+    name, version = message.controller or own[0], message.robotware or own[1]
     return [
         "controller:",
         f"  type: {name:<20}# irc5, irc5_compact, omnicore",
@@ -139,7 +139,7 @@ def from_urdf(
     What cannot be known is marked `???`. Raises DiagnosticError for what is no description of a
     robot of ABB.
     """
-    said = answers or DescriptionChoices()
+    message = answers or DescriptionChoices()
     if not str(urdf).isprintable():
         raise refusal(
             "RG020",
@@ -147,24 +147,24 @@ def from_urdf(
             f"the name {urdf.name!a} has characters that are not printed",
             "give the file another name",
         )
-    given = schema.UrdfKeys(
+    value = schema.UrdfKeys(
         file=_relative(urdf, folder),
         macro=macro,
         macro_args=dict(macro_arguments or {}),
         args=dict(arguments or {}),
     )
-    given, groups, used = describe(urdf, folder, package_paths, given, said)
+    value, groups, used = describe(urdf, folder, package_paths, value, message)
     packages = {name: _relative(path, folder) for name, path in sorted(used.items())}
     lines = [
-        f"# Made from {Path(given.file).name}. Check every axis against the robot before it moves.",
-        *_controller(said, _of_family(groups[0].family)),
+        f"# Made from {Path(value.file).name}. Check every axis against the robot before it moves.",
+        *_controller(message, _of_family(groups[0].family)),
     ]
-    source = [f"  file: {yaml_flow(given.file)}"]
-    source += [f"  macro: {yaml_text(given.macro)}"] if given.macro else []
-    source += [f"  macro_args: {yaml_flow(given.macro_args)}"] if given.macro_args else []
-    source += [f"  args: {yaml_flow(given.args)}"] if given.args else []
+    source = [f"  file: {yaml_flow(value.file)}"]
+    source += [f"  macro: {yaml_text(value.macro)}"] if value.macro else []
+    source += [f"  macro_args: {yaml_flow(value.macro_args)}"] if value.macro_args else []
+    source += [f"  args: {yaml_flow(value.args)}"] if value.args else []
     source += [f"  packages: {yaml_flow(packages)}"] if packages else []
-    source += [f"  ignore_joints: {yaml_flow(said.ignore)}"] if said.ignore else []
+    source += [f"  ignore_joints: {yaml_flow(message.ignore)}"] if message.ignore else []
     several = len(groups) > 1
     lines += ["groups:"] if several else []
     for group in groups:

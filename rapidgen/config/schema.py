@@ -65,8 +65,8 @@ def _robotware(value: object) -> object:
         raise ValueError("write a RobotWare version such as 6.15")
     if not re.fullmatch(r"[0-9]{1,3}(\.[0-9]{1,5}){0,4}", str(text)):
         raise ValueError("write a RobotWare version such as 6.15")
-    main, _, rest = str(text).partition(".")
-    version = int(main), int(rest.partition(".")[0] or 0)
+    main, _, remaining = str(text).partition(".")
+    version = int(main), int(remaining.partition(".")[0] or 0)
     if not (5, 15) <= version < (9, 0):
         raise ValueError("RobotWare 5.15 to 8 is supported")
     return version

@@ -58,7 +58,7 @@ def _schema_of(sections: tuple[type, ...], title: str) -> dict[str, Any]:
     from pydantic import TypeAdapter
 
     written = json.dumps(TypeAdapter(sections[0]).json_schema())
-    made = json.loads(re.sub(r"\b(\w+Keys)\b", lambda found: _shown(found[0]), written))
+    made = json.loads(re.sub(r"\b(\w+Keys)\b", lambda result: _shown(result[0]), written))
     parts = {_shown(sections[0].__name__): made, **made["$defs"]}
     for section in sections:
         # pydantic drops the words beside a reference to another part.

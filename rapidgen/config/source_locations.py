@@ -14,8 +14,8 @@ def place_of_value(config: RobotConfig, group: str, path: KeyPath, value: str) -
     if data is None:
         return None
     root, _ = keys_of(data, display_path(config.path))
-    for whole in (("groups", group, *path), path):
-        node = _at(root, whole)
+    for complete in (("groups", group, *path), path):
+        node = _at(root, complete)
         if isinstance(node, ScalarNode) and node.value == value:
             return node.span
     return None

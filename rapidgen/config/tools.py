@@ -93,11 +93,11 @@ def load_of(load: schema.LoadKeys, path: KeyPath, report: DraftFindings, arm: Ar
 
 
 def work_object_of(
-    given: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings, arm: Arm
+    value: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings, arm: Arm
 ) -> model.WorkObject:
     """The work object of the moves."""
     is_named = not report.is_faulty((*path, "name"))
-    if is_named and given.name == "wobj0" and given != schema.WorkObjectKeys():
+    if is_named and value.name == "wobj0" and value != schema.WorkObjectKeys():
         report.error(
             "RG014",
             "wobj0 is the controller's own and cannot be described",
@@ -106,23 +106,23 @@ def work_object_of(
             key=True,
         )
     return model.WorkObject(
-        given.name,
-        given.declared == "elsewhere",
-        given.held,
-        placement_of(given.user_frame, (*path, "user_frame"), report, arm, tool=given.held),
-        placement_of(given.object_frame, (*path, "object_frame"), report, arm, tool=given.held),
+        value.name,
+        value.declared == "elsewhere",
+        value.held,
+        placement_of(value.user_frame, (*path, "user_frame"), report, arm, tool=value.held),
+        placement_of(value.object_frame, (*path, "object_frame"), report, arm, tool=value.held),
     )
 
 
 def routine_of(
     name: str,
-    given: schema.RoutineKeys,
+    value: schema.RoutineKeys,
     path: KeyPath,
     report: DraftFindings,
     has_chain: bool,
 ) -> model.UserRoutine:
     """A procedure or function that a program may call."""
-    for number, parameter in enumerate(given.parameters):
+    for number, parameter in enumerate(value.parameters):
         if parameter.type == "robtarget" and not has_chain:
             report.error(
                 "RG014",
@@ -130,26 +130,26 @@ def routine_of(
                 (*path, "parameters", number, "type"),
                 help="a robtarget needs the group's `chain`; a jointtarget does not",
             )
-    if given.returns and len(given.parameters) == _MOST_PARAMETERS:
+    if value.returns and len(value.parameters) == _MOST_PARAMETERS:
         report.error(
             "RG014",
             f"function '{name}' has {_MOST_PARAMETERS} parameters",
             (*path, "parameters"),
             help=f"at most {_MOST_PARAMETERS - 1}: its value comes behind them",
         )
-    if given.returns:
+    if value.returns:
         report.add(
             "RG069",
             Severity.WARNING,
-            f"function '{given.call}' is linked to the driver: where it is missing, or has other "
+            f"function '{value.call}' is linked to the driver: where it is missing, or has other "
             "parameters, the motion task has a reference error and does not run",
             (*path, "returns"),
             help="a procedure with an INOUT parameter is found when it is called",
         )
     parameters = tuple(
-        model.RoutineParameter(p.name, p.type, p.mode == "inout") for p in given.parameters
+        model.RoutineParameter(p.name, p.type, p.mode == "inout") for p in value.parameters
     )
-    return model.UserRoutine(name, given.call, parameters, given.returns)
+    return model.UserRoutine(name, value.call, parameters, value.returns)
 
 
 def data_of(
@@ -164,16 +164,16 @@ def data_of(
             (*path, "data"),
             help="leave out `ports: {control: 0}`, or this",
         )
-    found: dict[str, str] = {}
+    result: dict[str, str] = {}
     for name in keys.data:
         plain = name.partition(":")[2].casefold()
-        if plain in found:
+        if plain in result:
             report.error(
                 "RG014",
-                f"'{name}' and '{found[plain]}' are one name to RAPID",
+                f"'{name}' and '{result[plain]}' are one name to RAPID",
                 (*path, "data", name),
                 help="data of two modules of a task are global under two names only",
                 key=True,
             )
-        found[plain] = name
+        result[plain] = name
     return tuple(model.UserDatum(name, d.type, d.access) for name, d in keys.data.items())

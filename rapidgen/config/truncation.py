@@ -12,16 +12,16 @@ _WHOLE = 3000
 """Characters of all texts, beyond which only messages are kept."""
 
 
-def limit_findings(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+def limit_findings(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
     """The findings with their texts cut where a hostile file made them long."""
-    kept: list[Diagnostic] = []
+    saved: list[Diagnostic] = []
     counts: dict[str, int] = {}
     first: dict[str, Diagnostic] = {}
     length = 0
-    for d in found:
+    for d in findings:
         counts[d.code] = counts.get(d.code, 0) + 1
         first.setdefault(d.code, d)
-        if counts[d.code] > _OF_A_KIND or len(kept) >= _TOGETHER:
+        if counts[d.code] > _OF_A_KIND or len(saved) >= _TOGETHER:
             continue
         short = replace(
             d,
@@ -30,13 +30,13 @@ def limit_findings(found: Iterable[Diagnostic]) -> list[Diagnostic]:
             help=truncate(d.help, _HELP),
         )
         length += len(short.message) + len(short.help) + len(short.label)
-        kept.append(short if length <= _WHOLE else replace(short, help="", label=""))
+        saved.append(short if length <= _WHOLE else replace(short, help="", label=""))
     for code, count in counts.items():
-        left = count - sum(d.code == code for d in kept)
+        left = count - sum(d.code == code for d in saved)
         if left:
             one = first[code]
-            kept.append(error(code, one.span, f"and {left} more", severity=one.severity))
-    return kept
+            saved.append(error(code, one.span, f"and {left} more", severity=one.severity))
+    return saved
 
 
 def truncate(text: str, most: int) -> str:

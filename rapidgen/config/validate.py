@@ -42,11 +42,11 @@ def valid_subset(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic],
     """A tree as `kind` of the schema, as far as it is sound; faults, and the paths taken out."""
     data = to_python(root)
     validator = SchemaValidator(core(kind))
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     removed: set[Path] = set()
     while True:
         try:
-            return validator.validate_python(data), found, removed
+            return validator.validate_python(data), findings, removed
         except ValidationError as fault:
             faults = fault.errors(include_url=False, include_context=True)
         paths: set[Path] = set()
@@ -55,10 +55,10 @@ def valid_subset(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic],
             if item["type"] == "missing":
                 # What was taken out as faulty is no second fault.
                 if item["loc"] not in removed:
-                    found.append(_missing(root, item["loc"]))
+                    findings.append(_missing(root, item["loc"]))
                 path = path if len(path) < len(item["loc"]) else path[:-1]
             elif path not in paths:
-                found.append(_translate(root, kind, path, is_key, item))
+                findings.append(_translate(root, kind, path, is_key, item))
             paths.add(path)
         removed |= paths
         for path in sorted(paths, key=len, reverse=True):
@@ -145,24 +145,24 @@ def _form(item: ErrorDetails) -> tuple[str, str]:
     return FORMS[item["ctx"]["pattern"]]
 
 
-def _short(given: object) -> str:
+def _short(value: object) -> str:
     """A text of the file as a message may hold it."""
-    text = str(given)
+    text = str(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _input(item: ErrorDetails) -> str:
-    given = item.get("input")
-    if isinstance(given, dict):
+    value = item.get("input")
+    if isinstance(value, dict):
         return "a mapping"
-    if isinstance(given, list):
+    if isinstance(value, list):
         return "a list"
     return ""
 
 
 def _reason(item: ErrorDetails, is_key: bool) -> str:
     kind, context = item["type"], item.get("ctx", {})
-    given = item.get("input")
+    value = item.get("input")
     fixed = {
         "float_type": "must be a number",
         "int_type": "must be a whole number",
@@ -174,12 +174,12 @@ def _reason(item: ErrorDetails, is_key: bool) -> str:
         "finite_number": "must be a finite number",
     }
     if kind in fixed:
-        tail = f", not '{_short(given)}'" if isinstance(given, str) else ""
+        tail = f", not '{_short(value)}'" if isinstance(value, str) else ""
         return fixed[kind] + tail
     if kind == "literal_error":
         words = [w.strip("'") for w in context["expected"].replace(" or ", ", ").split(", ")]
-        meant = suggest(str(given), words)
-        return f"'{_short(given)}' is none of {', '.join(words)}" + (f"; {meant}" if meant else "")
+        meant = suggest(str(value), words)
+        return f"'{_short(value)}' is none of {', '.join(words)}" + (f"; {meant}" if meant else "")
     bounds = {
         "greater_than": ("gt", "more than"),
         "greater_than_equal": ("ge", "at least"),
@@ -188,7 +188,7 @@ def _reason(item: ErrorDetails, is_key: bool) -> str:
     }
     if kind in bounds:
         name, phrase = bounds[kind]
-        return f"must be {phrase} {context[name]:g}, not {_short(given)}"
+        return f"must be {phrase} {context[name]:g}, not {_short(value)}"
     if kind in ("too_short", "too_long"):
         bound = context["min_length" if kind == "too_short" else "max_length"]
         phrase = "at least" if kind == "too_short" else "at most"
@@ -216,15 +216,15 @@ _POINT_LIMIT = ("max_points", "point_limit", "max_traj_length")
 """What else the limit is called; the last in abb_driver (ROS_common, MAX_TRAJ_LENGTH)."""
 
 
-def _belongs(name: str, given: Path) -> str:
+def _belongs(name: str, value: Path) -> str:
     """Where a key stands that was given at another path; empty if nowhere, or at several places."""
     if name.lower() in _POINT_LIMIT:
         return "the limit of points is `capacity:` in `trajectory:`"
-    if given and name in TOP_KEYS:
+    if value and name in TOP_KEYS:
         return f"`{name}:` stands at the top of the file"
-    if given and name in GROUP_KEYS:
+    if value and name in GROUP_KEYS:
         return f"`{name}:` stands in a group, or at the top where there is one group"
-    sections = [at for at in TOP_KEYS if at != "groups" and at not in given]
+    sections = [at for at in TOP_KEYS if at != "groups" and at not in value]
     there = [at for at in sections if name in _keys_at(ConfigurationKeys, (at,))]
     return f"`{name}:` stands in `{there[0]}:`" if len(there) == 1 else ""
 

@@ -23,18 +23,18 @@ ASSUMED_SPEED = 100.0
 
 def variants_of(robot_type: str) -> tuple[Variant | None, tuple[Variant, ...]]:
     """The very variant of a type in MOC.cfg, and all variants of its number."""
-    asked = _TYPE.match(robot_type)
-    if asked is None:
+    requested = _TYPE.match(robot_type)
+    if requested is None:
         return None, ()
     very, kin = None, []
     for variant in variants():
         own = _NAME.match(variant.name)
-        if own is None or own[1].lower() != asked[1].lower():
+        if own is None or own[1].lower() != requested[1].lower():
             continue
         kin.append(variant)
-        if asked[2] and (float(own[3]), float(own[2])) == (
-            float(f"{asked[2]}.{asked[3]}"),
-            float(asked[4]),
+        if requested[2] and (float(own[3]), float(own[2])) == (
+            float(f"{requested[2]}.{requested[3]}"),
+            float(requested[4]),
         ):
             very = variant
     return very, tuple(kin)

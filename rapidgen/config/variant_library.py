@@ -94,8 +94,8 @@ class Match:
 def closeness(variant: Variant, *names: str) -> tuple[int, bool]:
     """How much of a variant's name is in other names: its figures, and whether it is shipped."""
     own = {figure.replace(".", "").strip("0") for figure in re.findall(r"[\d.]+", variant.name)}
-    said = {figure.replace(".", "").strip("0") for name in names for figure in _figures(name)}
-    return len((own & said) - {""}), bool(variant.model)
+    message = {figure.replace(".", "").strip("0") for name in names for figure in _figures(name)}
+    return len((own & message) - {""}), bool(variant.model)
 
 
 def _figures(name: str) -> list[str]:
@@ -106,10 +106,10 @@ def recognise(arm: ArmAxes, *names: str) -> Match | None:
     """The variant that an arm is, by its axes in space; of equal ones the one that is named."""
     hits = []
     for variant in variants():
-        found = compare(arm, variant.skeleton)
-        if found and found.distance <= SAME_PLACE and found.angle <= SAME_TURN:
-            rank = (len(found.turned), *(-int(part) for part in closeness(variant, *names)))
-            hits.append((rank, round(found.distance, 4), Match(variant, found)))
+        result = compare(arm, variant.skeleton)
+        if result and result.distance <= SAME_PLACE and result.angle <= SAME_TURN:
+            rank = (len(result.turned), *(-int(part) for part in closeness(variant, *names)))
+            hits.append((rank, round(result.distance, 4), Match(variant, result)))
     return min(hits, key=lambda hit: hit[:2])[2] if hits else None
 
 

@@ -33,10 +33,10 @@ def names() -> tuple[str, ...]:
 
 def named(name: str) -> Variant | None:
     """The variant that has a model's or a type's name and is no shipped model."""
-    wanted = name.casefold().replace(" ", "")
+    expected = name.casefold().replace(" ", "")
     for variant in variants():
         own = (model_name(variant), variant.name.casefold().replace(" ", ""))
-        if not variant.model and wanted in own:
+        if not variant.model and expected in own:
             return variant
     return None
 
@@ -44,16 +44,16 @@ def named(name: str) -> Variant | None:
 def missing_figures(variant: Variant) -> list[str]:
     """What keeps a variant from being a model."""
     sources = dict(variant.sources)
-    found = []
+    result = []
     if tuple(axis.axis for axis in variant.axes) != _SIX:
-        found.append("it is no arm with six axes: its rods and passive joints are not known")
+        result.append("it is no arm with six axes: its rods and passive joints are not known")
     if len(sources.get("chain", "").split(";")) < 2 or "chain" in variant.unsure:
-        found.append("a second source of its dimensions")
+        result.append("a second source of its dimensions")
     if len(sources.get("limits", "").split(";")) < 2:
-        found.append("a second source of its ranges")
+        result.append("a second source of its ranges")
     if variant.coupling is None:
-        found.append("the coupling of axes 2 and 3")
-    return found
+        result.append("the coupling of axes 2 and 3")
+    return result
 
 
 def label(name: str) -> str:
@@ -72,8 +72,8 @@ def model_text(variant: Variant) -> str:
         }
         if axis.unsure:
             figures["unsure"] = f"[{', '.join(axis.unsure)}]"
-        shown = ", ".join(f"{key}: {value}" for key, value in figures.items())
-        lines.append(f"  joint_{axis.axis[-1]}: {{{shown}}}")
+        displayed = ", ".join(f"{key}: {value}" for key, value in figures.items())
+        lines.append(f"  joint_{axis.axis[-1]}: {{{displayed}}}")
     lines.append(f"coupling: {variant.coupling:g}")
     if variant.max_payload:
         lines.append(f"max_payload: {variant.max_payload:g}")

@@ -72,7 +72,7 @@ class MappingNode:
 Node = ScalarNode | SequenceNode | MappingNode
 
 
-def read_bytes(path: Path, shown: str) -> bytes:
+def read_bytes(path: Path, displayed: str) -> bytes:
     """The file's bytes, or one finding that says why not (RG001, RG002)."""
     try:
         return read_foreign(path, MAX_BYTES)
@@ -80,28 +80,28 @@ def read_bytes(path: Path, shown: str) -> bytes:
         raise refusal(
             "RG002",
             None,
-            f"{shown} is larger than {MAX_BYTES:,} bytes",
+            f"{displayed} is larger than {MAX_BYTES:,} bytes",
             "a configuration is a few kilobytes: is this the right file?",
         ) from None
     except OSError as fault:
         raise refusal(
-            "RG001", None, f"cannot read {shown}: {fault.strerror}", "give the path of a file"
+            "RG001", None, f"cannot read {displayed}: {fault.strerror}", "give the path of a file"
         ) from None
 
 
-def data_of(data: bytes, shown: str) -> Json:
+def data_of(data: bytes, displayed: str) -> Json:
     """Plain data of YAML within the limits of a configuration.
 
     Raises DiagnosticError (RG002 to RG004) for what cannot be read.
     """
-    root, faults = parse(decode(data, shown), shown)
+    root, faults = parse(decode(data, displayed), displayed)
     doubles = [fault for fault in faults if fault.code == "RG004"]
     if doubles:
         raise DiagnosticError(doubles)
     return to_python(root)
 
 
-def decode(data: bytes, shown: str) -> str:
+def decode(data: bytes, displayed: str) -> str:
     """UTF-8 text; anything else is one finding with its place (RG002)."""
     try:
         return data.decode("utf-8-sig")
@@ -110,8 +110,8 @@ def decode(data: bytes, shown: str) -> str:
         column = fault.start - data.rfind(b"\n", 0, fault.start)
         raise refusal(
             "RG002",
-            Span(shown, line, column),
-            f"{shown} is not UTF-8 text",
+            Span(displayed, line, column),
+            f"{displayed} is not UTF-8 text",
             "save the file as UTF-8",
             label=f"byte 0x{data[fault.start]:02x}",
         ) from None
@@ -120,7 +120,7 @@ def decode(data: bytes, shown: str) -> str:
 _CLOSE: Final = {"{": "}", "[": "]", '"': '"', "'": "'"}
 
 
-def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[Diagnostic]]:
+def parse(text: str, displayed: str, *, at: Span | None = None) -> tuple[Node, list[Diagnostic]]:
     """The tree of one YAML document and the faults that do not hinder it (duplicate keys).
 
     `at` is the place given to everything when the text is not a file's (an override).
@@ -131,32 +131,34 @@ def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[
 
     # Lines cost the most: without values there is no other limit on them.
     if text.count("\n") > MAX_LINES:
-        message = f"{shown} has more than {MAX_LINES:,} lines"
+        message = f"{displayed} has more than {MAX_LINES:,} lines"
         help = "a configuration has a few hundred: is this the right file?"
-        raise refusal("RG002", at or Span(shown, 1, 1), message, help)
+        raise refusal("RG002", at or Span(displayed, 1, 1), message, help)
     try:
-        return _Builder(YAML(typ="safe", pure=True).parse(text), shown, at).document()
+        return _Builder(YAML(typ="safe", pure=True).parse(text), displayed, at).document()
     except YAMLError as fault:
-        raise DiagnosticError(_syntax(fault, text, shown, at)) from None
+        raise DiagnosticError(_syntax(fault, text, displayed, at)) from None
     except (ValueError, OverflowError) as fault:  # an escape that ruamel does not check
-        raise refusal("RG003", at or Span(shown, 1, 1), f"not YAML: {fault}") from None
+        raise refusal("RG003", at or Span(displayed, 1, 1), f"not YAML: {fault}") from None
 
 
-def _syntax(fault: Any, text: str, shown: str, at: Span | None) -> Diagnostic:
-    mark = getattr(fault, "problem_mark", None) or getattr(fault, "context_mark", None)
+def _syntax(fault: Any, text: str, displayed: str, at: Span | None) -> Diagnostic:
+    marker = getattr(fault, "problem_mark", None) or getattr(fault, "context_mark", None)
     problem = getattr(fault, "problem", None) or getattr(fault, "reason", None) or "not YAML"
     context = getattr(fault, "context", None)
     began = getattr(fault, "context_mark", None)
     opened = text[began.index : began.index + 1] if began else ""
-    if mark and began and opened in _CLOSE and mark.line > began.line:
+    if marker and began and opened in _CLOSE and marker.line > began.line:
         return error(
             "RG003",
-            at or Span(shown, began.line + 1, began.column + 1),
+            at or Span(displayed, began.line + 1, began.column + 1),
             f"not YAML: `{opened}` is opened here and not closed",
-            f"close it with `{_CLOSE[opened]}`, or see what is wrong in line {mark.line + 1}: "
+            f"close it with `{_CLOSE[opened]}`, or see what is wrong in line {marker.line + 1}: "
             f"{problem}",
         )
-    span = at or (Span(shown, mark.line + 1, mark.column + 1) if mark else Span(shown, 1, 1))
+    span = at or (
+        Span(displayed, marker.line + 1, marker.column + 1) if marker else Span(displayed, 1, 1)
+    )
     return error(
         "RG003",
         span,
@@ -168,9 +170,9 @@ def _syntax(fault: Any, text: str, shown: str, at: Span | None) -> Diagnostic:
 class _Builder:
     """Events to nodes, with limits. A stack of its own: depth costs no Python frames."""
 
-    def __init__(self, events: Iterator[Any], shown: str, at: Span | None) -> None:
+    def __init__(self, events: Iterator[Any], displayed: str, at: Span | None) -> None:
         self._events = events
-        self._shown = shown
+        self._shown = displayed
         self._at = at
         self._anchors: dict[str, Node] = {}
         self._weights: dict[str, int] = {}

@@ -73,39 +73,39 @@ class Bootable:
     """What stands around it."""
 
 
-def load_target(targets: Sequence[Source], wishes: BootOptions | None = None) -> Bootable:
+def load_target(targets: Sequence[Source], options: BootOptions | None = None) -> Bootable:
     """Read what is to be booted. Raises DiagnosticError with what is wrong."""
-    wishes = wishes or BootOptions()
-    first = Path(targets[0]) if len(targets) == 1 and not wishes.tasks else None
+    options = options or BootOptions()
+    first = Path(targets[0]) if len(targets) == 1 and not options.tasks else None
     if first is not None and is_configuration(first):
-        _only_of_folders(str(first), wishes)
-        _only_of_files(str(first), wishes, "--set controller.robotware=7.6 changes it")
+        _only_of_folders(str(first), options)
+        _only_of_files(str(first), options, "--set controller.robotware=7.6 changes it")
         from rapidgen.generate import build, make_system
 
-        config = load_config(str(targets[0]), overrides=wishes.overrides)
+        config = load_config(str(targets[0]), overrides=options.overrides)
         system = make_system(config, build(config))
-        made = _driver(config, system, tuple(config.diagnostics), wishes)
+        made = _driver(config, system, tuple(config.diagnostics), options)
         named = [group.name for group in config.groups if is_path(str(first))]
         described = dict.fromkeys(named, first)
-        return replace(made, described=described, overrides=wishes.overrides)
+        return replace(made, described=described, overrides=options.overrides)
     notes: list[Diagnostic] = []
     folder = first if first is not None and first.is_dir() else None
     if folder is not None and files.is_generated(folder):
-        _only_of_files(str(first), wishes, "build it for another one")
+        _only_of_files(str(first), options, "build it for another one")
         config = from_manifest(files.read_manifest(folder)["configuration"])
-        system = files.read_folder(folder, wishes.backup, notes=notes)
-        return _driver(config, system, tuple(notes), wishes)
-    _only_of_folders(" ".join(map(str, targets)), wishes)
+        system = files.read_folder(folder, options.backup, notes=notes)
+        return _driver(config, system, tuple(notes), options)
+    _only_of_folders(" ".join(map(str, targets)), options)
     if folder is not None and files.is_backup(folder):
         from rapidgen.system.backup import backup_cfg
 
-        _only_of_files(str(first), wishes, "leave it out")
-        system = _entered(files.read_backup(folder, notes=notes), wishes.entry)
-        found = _foreign(system, notes, wishes)
-        return replace(found, cfg=backup_cfg(folder, system.robotware, []))
+        _only_of_files(str(first), options, "leave it out")
+        system = _entered(files.read_backup(folder, notes=notes), options.entry)
+        result = _foreign(system, notes, options)
+        return replace(result, cfg=backup_cfg(folder, system.robotware, []))
     # Loose files have no mechanics that could be told.
-    found = _foreign(_loose(targets, wishes), None, wishes)
-    return replace(found, cfg=_delivered(found))
+    result = _foreign(_loose(targets, options), None, options)
+    return replace(result, cfg=_delivered(result))
 
 
 def is_configuration(target: Path) -> bool:
@@ -115,38 +115,38 @@ def is_configuration(target: Path) -> bool:
     return not target.exists() and not target.suffix and len(target.parts) == 1
 
 
-def _loose(targets: Sequence[Source], wishes: BootOptions) -> System:
-    if not targets and not any(wishes.tasks.values()):
+def _loose(targets: Sequence[Source], options: BootOptions) -> System:
+    if not targets and not any(options.tasks.values()):
         raise refusal(
             "RG901",
             None,
             "nothing to run",
             "name a module, a folder with modules, a generated folder or a backup",
         )
-    by_task = {task: list(names) for task, names in wishes.tasks.items()}
+    by_task = {task: list(names) for task, names in options.tasks.items()}
     only = Path(targets[0]) if len(targets) == 1 and not by_task else None
     if only is not None and only.is_dir() and (folders := files.task_folders(only)):
-        return _read(folders, only.resolve().name, wishes)
+        return _read(folders, only.resolve().name, options)
     if targets:
         own = by_task.pop("T_ROB1", [])
         by_task = {"T_ROB1": [*own, *targets], **by_task}
     name = Path(next(names[0] for names in by_task.values() if names)).resolve().stem
-    return _read(by_task, name, wishes)
+    return _read(by_task, name, options)
 
 
-def _read(tasks: Mapping[str, Sequence[Source]], name: str, wishes: BootOptions) -> System:
-    entry, robotware = wishes.entry or "main", wishes.robotware or UNTOLD
+def _read(tasks: Mapping[str, Sequence[Source]], name: str, options: BootOptions) -> System:
+    entry, robotware = options.entry or "main", options.robotware or UNTOLD
     return files.read_files(tasks, entry=entry, name=name, robotware=robotware)
 
 
-def _delivered(found: Bootable) -> "ControllerCfg":
+def _delivered(result: Bootable) -> "ControllerCfg":
     """The cfg of a delivered controller with these robots, tasks and signals."""
     from rapidgen.system.base import Robot, base_system
     from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
 
-    robots = [Robot(g.task, g.mechanical_unit, tuple(g.external_units)) for g in found.groups]
-    base = base_system(found.system.robotware, robots)
-    own = (sys_cfg(found.system), eio_cfg(found.system))
+    robots = [Robot(g.task, g.mechanical_unit, tuple(g.external_units)) for g in result.groups]
+    base = base_system(result.system.robotware, robots)
+    own = (sys_cfg(result.system), eio_cfg(result.system))
     domains = {text.domain: text for text in (*base.domains, *own)}
     return replace(base, domains=tuple(domains.values()))
 
@@ -166,30 +166,30 @@ def _entered(system: System, entry: str) -> System:
 
 
 def _driver(
-    config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], wishes: BootOptions
+    config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], options: BootOptions
 ) -> Bootable:
     """A generated driver's robots are those of its configuration; they start at 0."""
     from rapidgen.controller.cell import in_its_cell
 
-    if wishes.robot:
+    if options.robot:
         raise refusal(
             "RG901",
             None,
             f"{config.name} has its own robot, and --robot is for programs that name none",
             "leave it out",
         )
-    system = _entered(in_its_cell(system, config), wishes.entry)
-    cell = _described(wishes)
-    found = Bootable(config.name, system, config.groups, True, (*notes, *_warned(cell)))
-    return _surrounded(found, cell, wishes)
+    system = _entered(in_its_cell(system, config), options.entry)
+    cell = _described(options)
+    result = Bootable(config.name, system, config.groups, True, (*notes, *_warned(cell)))
+    return _surrounded(result, cell, options)
 
 
-def _foreign(system: System, notes: list[Diagnostic] | None, wishes: BootOptions) -> Bootable:
-    cell = _described(wishes)
+def _foreign(system: System, notes: list[Diagnostic] | None, options: BootOptions) -> Bootable:
+    cell = _described(options)
     robots = cell.robots if cell is not None else {}
     system = _moving(system, robots)
-    robot, model = wishes.robot, None
-    if str(wishes.cell) == GUESS and not robot and not system.robot_types:
+    robot, model = options.robot, None
+    if str(options.cell) == GUESS and not robot and not system.robot_types:
         from rapidgen.controller.inference.robot_model import infer_robot_model
 
         model = infer_robot_model(system, DEFAULT_ROBOT)
@@ -197,35 +197,35 @@ def _foreign(system: System, notes: list[Diagnostic] | None, wishes: BootOptions
     groups, which = mechanics(system, robot, robots)
     if model is not None:
         groups = of_unknown_payload(groups)
-    told = _warned(cell) if notes is None else (*notes, *which, *_warned(cell))
+    report = _warned(cell) if notes is None else (*notes, *which, *_warned(cell))
     models = {task.casefold(): keys.model for task, keys in robots.items()}
     chosen = {group.name: models.get(group.task.casefold()) or robot for group in groups}
     described = {name: Path(model) for name, model in chosen.items() if is_path(model)}
-    found = Bootable(system.name, system, groups, False, told, likely=model, described=described)
-    return _surrounded(found, cell, wishes)
+    result = Bootable(system.name, system, groups, False, report, likely=model, described=described)
+    return _surrounded(result, cell, options)
 
 
-def _described(wishes: BootOptions) -> "CellDescription | None":
-    if str(wishes.cell) in ("", GUESS):
+def _described(options: BootOptions) -> "CellDescription | None":
+    if str(options.cell) in ("", GUESS):
         return None
     from rapidgen.config.cell import load_cell
 
-    return load_cell(Path(wishes.cell))
+    return load_cell(Path(options.cell))
 
 
 def _warned(cell: "CellDescription | None") -> tuple[Diagnostic, ...]:
     return () if cell is None else cell.diagnostics
 
 
-def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: BootOptions) -> Bootable:
+def _surrounded(result: Bootable, cell: "CellDescription | None", options: BootOptions) -> Bootable:
     guessed = None
-    if str(wishes.cell) == GUESS:
+    if str(options.cell) == GUESS:
         from rapidgen.controller.inference.cell import guess
 
-        units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
-        first, *others = found.groups
+        units = [u for g in result.groups for u in (g.mechanical_unit, *g.external_units)]
+        first, *others = result.groups
         table = table_pose(first)
-        guessed = guess(found.system, units, table, stands(first))
+        guessed = guess(result.system, units, table, stands(first))
         cell = guessed.cell
         stands_still = (ChainLink("", table, (0.0, 0.0, 0.0)),)
         carriers = [Positioner(unit, stands_still) for unit in guessed.units]
@@ -234,19 +234,19 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: BootOpt
             external_units=(*first.external_units, *guessed.units),
             positioners=(*first.positioners, *carriers),
         )
-        found = replace(found, groups=(first, *others))
-    usual = not found.driver
+        result = replace(result, groups=(first, *others))
+    usual = not result.driver
     if cell is None:
-        starts = dict(_starts(found.groups, {}, wishes.start, usual=usual))
-        return replace(found, surroundings=CellSetup(starts))
+        starts = dict(_starts(result.groups, {}, options.start, usual=usual))
+        return replace(result, surroundings=CellSetup(starts))
     return replace(
-        found,
+        result,
         cell=cell,
-        system=apply_cell(found.system, cell)
+        system=apply_cell(result.system, cell)
         if guessed is None
-        else apply_cell(found.system, cell, guessed.data, guessed.routines),
+        else apply_cell(result.system, cell, guessed.data, guessed.routines),
         surroundings=CellSetup(
-            dict(_starts(found.groups, cell.robots, wishes.start, usual=usual)),
+            dict(_starts(result.groups, cell.robots, options.start, usual=usual)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             guessed.driven if guessed is not None else frozenset(),
             guessed.polled if guessed is not None else (),
@@ -257,7 +257,9 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: BootOpt
             frozenset(guessed.divisors if guessed is not None else ()),
             guessed.blank if guessed is not None else (),
             is_guess=guessed is not None,
-            is_any_robot=guessed is not None and not wishes.robot and not found.system.robot_types,
+            is_any_robot=guessed is not None
+            and not options.robot
+            and not result.system.robot_types,
         ),
         guessed=guessed,
     )
@@ -300,17 +302,17 @@ def _starts(
             yield group.name, usual_start(group)
 
 
-def _only_of_files(target: str, wishes: BootOptions, mend: str) -> None:
+def _only_of_files(target: str, options: BootOptions, help: str) -> None:
     """What tells its release is not given another one."""
-    if wishes.robotware is not None:
+    if options.robotware is not None:
         raise refusal(
-            "RG901", None, f"'{target}' tells its RobotWare, and --robotware says another one", mend
+            "RG901", None, f"'{target}' tells its RobotWare, and --robotware says another one", help
         )
 
 
-def _only_of_folders(target: str, wishes: BootOptions) -> None:
+def _only_of_folders(target: str, options: BootOptions) -> None:
     """What is no generated folder is loaded onto no backup."""
-    if wishes.backup is not None:
+    if options.backup is not None:
         raise refusal(
             "RG433",
             None,

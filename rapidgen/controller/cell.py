@@ -54,14 +54,14 @@ def _with_data(task: TaskSpec, config: RobotConfig) -> TaskSpec:
     if not data:
         return task
     known = {d.name.casefold() for m in task.modules for d in parse(m.data, path=m.path).data}
-    wanted = [
+    expected = [
         f"    PERS {kind} {name} := {value};\n"
         for kind, name, value in data
         if name.casefold() not in known
     ]
-    if not wanted:
+    if not expected:
         return task
-    text = f"MODULE own_data\n{''.join(wanted)}ENDMODULE\n".encode("ascii")
+    text = f"MODULE own_data\n{''.join(expected)}ENDMODULE\n".encode("ascii")
     return replace(task, modules=(*task.modules, ModuleFile("own_data", "own_data.mod", text)))
 
 

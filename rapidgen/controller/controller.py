@@ -244,13 +244,13 @@ class VirtualController:
     # -- other ways in ---------------------------------------------------------------------------
 
     @classmethod
-    def boot(cls, found: Bootable, **options: Unpack[ControllerOptions]) -> Self:
+    def boot(cls, result: Bootable, **options: Unpack[ControllerOptions]) -> Self:
         """What `booting.load_target` has read; its robots and surroundings unless others are
         given."""
         if "robots" not in options:
-            options["robots"] = found.groups
-            options.setdefault("surroundings", found.surroundings)
-        return cls(found.system, **options)
+            options["robots"] = result.groups
+            options.setdefault("surroundings", result.surroundings)
+        return cls(result.system, **options)
 
     @classmethod
     def from_folder(
@@ -339,8 +339,8 @@ class VirtualController:
 
         Of the first group, or of a named one (KeyError: there is none).
         """
-        found = self._group(group)
-        return dict(zip(found.map.names, found.positions(), strict=True))
+        result = self._group(group)
+        return dict(zip(result.map.names, result.positions(), strict=True))
 
     def _group(self, name: str) -> MotionGroup:
         groups = self.motion.groups
@@ -407,8 +407,8 @@ class VirtualController:
         return self.scheduler.advance(until, stop)
 
     def _is_over(self) -> bool:
-        ended = all(task.state != "running" for task in self.rapid_tasks.values())
-        return ended and all(group.is_standing for group in self.motion.groups.values())
+        finished = all(task.state != "running" for task in self.rapid_tasks.values())
+        return finished and all(group.is_standing for group in self.motion.groups.values())
 
     def where(self) -> list[str]:
         """For each running task where it is, as `task: file:line (routine)`."""
@@ -432,12 +432,12 @@ class VirtualController:
         not listen within `timeout` s; KeyError for an unknown group.
         """
         ports = self._group(group).config.ports
-        wanted = [port for port in (ports.motion, ports.state, ports.control) if port]
+        expected = [port for port in (ports.motion, ports.state, ports.control) if port]
         listeners = self.network.listeners
         listening = threading.Event()
 
         def look() -> None:
-            if all(port in listeners for port in wanted):
+            if all(port in listeners for port in expected):
                 listening.set()
 
         def watch() -> None:
@@ -448,8 +448,8 @@ class VirtualController:
         came = listening.wait(timeout)
         self.call(lambda: self.network.listening.remove(look))
         if not came:
-            raise TimeoutError(f"no server listens on {wanted}: {'; '.join(self.where())}")
-        numbers = ",".join(str(listeners[port][1]) for port in wanted)
+            raise TimeoutError(f"no server listens on {expected}: {'; '.join(self.where())}")
+        numbers = ",".join(str(listeners[port][1]) for port in expected)
         return f"{listeners[ports.motion][0]}:{numbers}"
 
     # -- modes and stops ---------------------------------------------------------------------------

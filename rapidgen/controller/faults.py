@@ -84,8 +84,8 @@ def read_plan(path: Path) -> FaultPlan:
     except OSError as fault:
         raise _unusable(path, fault.strerror or str(fault)) from fault
     except DiagnosticError as fault:
-        found = fault.diagnostics[0]
-        raise _unusable(path, found.message, found.help, found.span) from fault
+        result = fault.diagnostics[0]
+        raise _unusable(path, result.message, result.help, result.span) from fault
     if not isinstance(content, dict) or set(content) - {"network", "controller"}:
         raise _unusable(path, "it is no mapping with `network` and `controller`")
     network = _rules(path, content, "network", NetworkRule, fields(NetworkRule))
@@ -129,27 +129,27 @@ def _rule(
     return chosen
 
 
-def _checked(path: Path, where: str, value: object, wanted: object) -> object:
-    allowed = get_args(wanted)
+def _checked(path: Path, where: str, value: object, expected: object) -> object:
+    allowed = get_args(expected)
     if allowed:
         if value not in allowed:
             raise _unusable(
                 path, f"{where} is one of {', '.join(allowed)}", suggest(str(value), allowed)
             )
-    elif wanted is str:
+    elif expected is str:
         if not isinstance(value, str):
             raise _unusable(path, f"{where} is no text")
     elif isinstance(value, bool) or not isinstance(value, int | float) or value < 0:
         raise _unusable(path, f"{where} is no number from 0 on")
-    elif wanted is int and not isinstance(value, int):
+    elif expected is int and not isinstance(value, int):
         raise _unusable(path, f"{where} is not whole")
     return value
 
 
-def _unusable(path: Path, reason: str, mend: str = "", span: Span | None = None) -> DiagnosticError:
+def _unusable(path: Path, reason: str, help: str = "", span: Span | None = None) -> DiagnosticError:
     return refusal(
         "RG421",
         span or Span(str(path), 1, 1),
         f"the fault plan cannot be used: {reason}",
-        mend or "`rapidgen explain RG421` shows a plan",
+        help or "`rapidgen explain RG421` shows a plan",
     )

@@ -51,13 +51,13 @@ def load(
     refused. DiagnosticError: a module cannot be loaded, or no task at all can be started.
     """
     tasks = list(tasks)
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for task in tasks:
         trees = [(tree_of(file), file) for file in task.spec.modules]
         for tree, _ in trees:
-            found += [d for d in tree.diagnostics if d not in found]
+            findings += [d for d in tree.diagnostics if d not in findings]
         task.program.load([(t, f) for t, f in trees if t.name])
-        found += task.program.faults
+        findings += task.program.faults
         _tell_its_robot(task)
         key = task.spec.entry.lower()
         entry = task.program.find_routine(None, key)
@@ -66,16 +66,18 @@ def load(
         elif not isinstance(entry, Routine) or entry.kind != "PROC" or entry.parameters:
             task.no_start = f"no procedure {task.spec.entry} without parameters"
         if task.no_start:
-            found.append(_no_entry(task))
+            findings.append(_no_entry(task))
         else:
             task.state = "ready"
-        found += missing_routines(task.program)
-    found += _unguided(tasks)
+        findings += missing_routines(task.program)
+    findings += _unguided(tasks)
     if not entries_wanted or any(task.state == "ready" for task in tasks):
-        found = [replace(d, severity=Severity.WARNING) if d.code == "RG402" else d for d in found]
-    if any(d.severity is Severity.ERROR for d in found):
-        raise DiagnosticError(found)
-    return found
+        findings = [
+            replace(d, severity=Severity.WARNING) if d.code == "RG402" else d for d in findings
+        ]
+    if any(d.severity is Severity.ERROR for d in findings):
+        raise DiagnosticError(findings)
+    return findings
 
 
 def _tell_its_robot(task: Task) -> None:
@@ -119,20 +121,20 @@ def configured(
 ) -> dict[str, tuple[Type, Value]]:
     """Objects that a configuration predefines, by lower-case name: signals, mechanical units,
     taskids, cameras."""
-    found: dict[str, tuple[Type, Value]] = {}
+    result: dict[str, tuple[Type, Value]] = {}
     for task in system.tasks:
-        found[f"{task.name.lower()}id"] = _named("taskid", task.name)
+        result[f"{task.name.lower()}id"] = _named("taskid", task.name)
     for group in robots:
         for unit in (group.mechanical_unit, *group.external_units):
             if unit:
-                found[unit.lower()] = _named("mecunit", unit)
+                result[unit.lower()] = _named("mecunit", unit)
     for camera in system.cameras:
-        found[camera.lower()] = _named("cameradev", camera)
+        result[camera.lower()] = _named("cameradev", camera)
     for signal in io.signals.values():
         kind = find_type(f"signal{signal.spec.type.lower()}")
         if kind is not None:
-            found[signal.name.lower()] = (kind, signal)
-    return found
+            result[signal.name.lower()] = (kind, signal)
+    return result
 
 
 def _named(type_name: str, name: str) -> tuple[Type, Value]:

@@ -40,21 +40,21 @@ def groups_for(system: System, robots: Sequence[GroupConfig]) -> tuple[GroupConf
     units = _units(system)
     by_unit = {group.mechanical_unit.casefold(): group for group in robots}
     by_name = {group.task.casefold(): group for group in robots}
-    found: dict[str, GroupConfig] = {}
+    result: dict[str, GroupConfig] = {}
     for known in (
         {task: by_unit.get(units.get(task, "").casefold()) for task in tasks},
         {task: by_name.get(task.casefold()) for task in tasks},
     ):
         for task, group in known.items():
-            if group is not None and task not in found and group not in found.values():
-                found[task] = group
-    left = iter([group for group in robots if group not in found.values()])
+            if group is not None and task not in result and group not in result.values():
+                result[task] = group
+    left = iter([group for group in robots if group not in result.values()])
     groups = []
     for i, task in enumerate(tasks):
         unit = units.get(task, "")
         last = robots[-1]
         copy = replace(last, name=unit.lower().replace("_", "") or f"{last.name}_{i + 1}")
-        group = found.get(task) or next(left, copy)
+        group = result.get(task) or next(left, copy)
         groups.append(replace(group, task=task, mechanical_unit=unit or group.mechanical_unit))
     return tuple(groups)
 
@@ -81,14 +81,14 @@ def mechanics(
             robots = robots_named(model)
         elif types:
             unit = units.get(task) or list(types)[min(i, len(types) - 1)]
-            robots, told = _of_type(types.get(unit.casefold(), ""), unit)
-            notes += told
+            robots, report = _of_type(types.get(unit.casefold(), ""), unit)
+            notes += report
         else:
             robots = of_unknown_payload(shipped_groups(DEFAULT_ROBOT))
             notes.append(_stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}"))
         group = next(g for g in groups_for(system, robots) if g.task == task)
-        taken = any(other.name == group.name for other in groups)
-        if taken:
+        in_use = any(other.name == group.name for other in groups)
+        if in_use:
             group = replace(group, name=f"{group.name}_{i + 1}")
         if keys is not None:
             group = replace(
@@ -126,8 +126,8 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
             return (group,), [_stands_in(note, _SPEEDS.format(very.name))] if guessed else []
     if not model:
         others = [f"'{variant.name}'" for variant in kin if group_of(variant) is not None]
-        mend = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _MEND
-        raise refusal("RG432", None, f"no known robot is a {name or unit}", mend)
+        help = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _MEND
+        raise refusal("RG432", None, f"no known robot is a {name or unit}", help)
     if (very is not None and very.model) or not kin:
         return shipped_groups(model), []
     message = f"the controller has a {name}, moving an {model_description(model)}"
@@ -146,8 +146,8 @@ def model_of(robot_type: str) -> str:
     return next((name for name in names if name in shipped_names()), "")
 
 
-def _stands_in(message: str, mend: str = _MEND) -> Diagnostic:
-    return error("RG432", None, message, mend, severity=Severity.WARNING)
+def _stands_in(message: str, help: str = _MEND) -> Diagnostic:
+    return error("RG432", None, message, help, severity=Severity.WARNING)
 
 
 def _units(system: System) -> dict[str, str]:

@@ -36,7 +36,7 @@ class Operation:
         self.halted = False
         self.in_error: set[str] = set()
         """Tasks that an error has stopped since the last start."""
-        self.left_out: set[str] = set()
+        self.omitted: set[str] = set()
         """NORMAL tasks that are not selected: a start does not start them."""
         self.changed = WaitSet()
         """Whatever of the state changed."""
@@ -102,19 +102,19 @@ class Operation:
 
         ValueError: there is no such mode.
         """
-        wanted = next((m for m in get_args(OperatingMode) if m == mode), None)
-        if wanted is None:
+        expected = next((m for m in get_args(OperatingMode) if m == mode), None)
+        if expected is None:
             raise ValueError(f"{mode!r} is none of {', '.join(get_args(OperatingMode))}")
-        if wanted == self.mode:
+        if expected == self.mode:
             return
         self.stop_program()
-        self.mode = wanted
-        if wanted == "auto":
+        self.mode = expected
+        if expected == "auto":
             self._host.log.info(10_017, "Automatic mode confirmed")
         else:
             self._host.log.info(10_015, "Manual mode selected")
         for group in self._groups:
-            group.reduced = wanted == "manual_reduced"
+            group.reduced = expected == "manual_reduced"
         self.set_motors(False)
         self.changed.notify()
 
@@ -167,7 +167,7 @@ class Operation:
             log.info(10_021, "Execution error reset")
         log.info(10_151, "Program started")
         for task in self._host.rapid_tasks.values():
-            if task.spec.type == "NORMAL" and task.name in self.left_out:
+            if task.spec.type == "NORMAL" and task.name in self.omitted:
                 continue
             lost = task.state == "error" and task.pointer.place is None
             if lost and task.spec.type == "NORMAL":

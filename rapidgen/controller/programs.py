@@ -106,8 +106,8 @@ class Programs:
         name = tree.name or module.name
         file = ModuleFile(name, words, data)
         wrong = tuple(d for d in tree.diagnostics if d.severity is Severity.ERROR)
-        here = self.broken[task.name]
-        if name.lower() in task.program.modules or name.lower() in here:
+        current = self.broken[task.name]
+        if name.lower() in task.program.modules or name.lower() in current:
             if not replaced:
                 raise CannotLoad("E_MOD_AMBNAME")
             self.unload(task, name)
@@ -118,10 +118,10 @@ class Programs:
             del task.program.faults[known:]
             if wrong:
                 self._take_out(task, name)
-                here[name.lower()] = UnlinkedModule(file, wrong)
+                current[name.lower()] = UnlinkedModule(file, wrong)
             self.put_clashes_aside(task)
         elif wrong:
-            here[name.lower()] = UnlinkedModule(file, wrong)
+            current[name.lower()] = UnlinkedModule(file, wrong)
         self._find_entry(task)
         self._count(task)
         return name
@@ -182,8 +182,8 @@ class Programs:
     def _find_entry(self, task: Task) -> None:
         """A task without its entry routine is empty; with it, it can be started."""
         entry = task.program.find_routine(None, task.spec.entry.lower())
-        found = isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters
-        if not found:
+        result = isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters
+        if not result:
             task.state = "empty"
         elif task.state == "empty":
             task.state = "ready"

@@ -79,11 +79,11 @@ class ControllerRunner:
         self.programs = Programs(self.controller)
 
     @classmethod
-    def boot(cls, found: Bootable, **options: Unpack[ControllerOptions]) -> Self:
+    def boot(cls, result: Bootable, **options: Unpack[ControllerOptions]) -> Self:
         """What `booting.load_target` has read, as `VirtualController.boot`."""
-        options.setdefault("robots", found.groups)
-        options.setdefault("surroundings", found.surroundings)
-        return cls(found.system, cfg=found.cfg, **options)
+        options.setdefault("robots", result.groups)
+        options.setdefault("surroundings", result.surroundings)
+        return cls(result.system, cfg=result.cfg, **options)
 
     @property
     def now(self) -> float:
@@ -114,10 +114,10 @@ class ControllerRunner:
         )
         self.ask_restart()
 
-    def run(self, ended: Callable[[], bool]) -> None:
+    def run(self, finished: Callable[[], bool]) -> None:
         """Let time pass, over restarts, until `ended()`."""
-        while not ended():
-            self.controller.scheduler.advance(stop=lambda: ended() or self._restart_asked)
+        while not finished():
+            self.controller.scheduler.advance(stop=lambda: finished() or self._restart_asked)
             if self._restart_asked:
                 self._restart()
 
@@ -131,16 +131,16 @@ class ControllerRunner:
         old, programs = self.controller, self.programs
         self._restart_asked = False
         self._before += old.scheduler.now
-        kept = programs.kept()
+        persisted = programs.kept()
         old.close()
         if self._restored is not None:
-            kept, self.cfg, files = self._restored
+            persisted, self.cfg, files = self._restored
             home = old.files.path("HOME:")
             shutil.rmtree(home)
             copy_files(files, home)
             self._restored = None
         self.restarts += 1
-        self.controller, self.programs = boot(old, kept, self.cfg, self._options)
+        self.controller, self.programs = boot(old, persisted, self.cfg, self._options)
         self._set_going()
         with self._lock:
             self._up = True

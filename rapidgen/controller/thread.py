@@ -108,12 +108,12 @@ class ControllerThread:
         if thread is None or thread is threading.current_thread() or self._rests(thread):
             return function()
         done = threading.Event()
-        taken = threading.Lock()
+        in_use = threading.Lock()
         result: list[_T] = []
         raised: list[BaseException] = []
 
         def run() -> None:
-            if not taken.acquire(blocking=False):
+            if not in_use.acquire(blocking=False):
                 return
             try:
                 result.append(function())
@@ -125,7 +125,7 @@ class ControllerThread:
         self._scheduler.post(run)
         while not done.wait(_LOOK):
             # Stopped, or ended by a fault, before it came to that: nobody else runs it.
-            if self._rests(thread) and taken.acquire(blocking=False):
+            if self._rests(thread) and in_use.acquire(blocking=False):
                 return function()
         if raised:
             raise raised[0]

@@ -107,11 +107,11 @@ class Coverage:
 
     def lines(self) -> dict[str, dict[int, int]]:
         """By module file: every line that begins a statement, and how often it was reached."""
-        found: dict[str, dict[int, int]] = {}
+        result: dict[str, dict[int, int]] = {}
         for module in self._modules():
-            if module.file.path not in found:
-                found[module.file.path] = self._lines(module)
-        return found
+            if module.file.path not in result:
+                result[module.file.path] = self._lines(module)
+        return result
 
     def _lines(self, module: LoadedModule) -> dict[int, int]:
         source = module.tree.source
@@ -151,9 +151,9 @@ class Coverage:
                 hit = self._hits[id(routine.body[0])]
             yield f"FNDA:{hit},{routine.name}"
         yield from branches
-        taken = sum(1 for b in branches if not b.endswith((",0", ",-")))
+        in_use = sum(1 for b in branches if not b.endswith((",0", ",-")))
         yield f"BRF:{len(branches)}"
-        yield f"BRH:{taken}"
+        yield f"BRH:{in_use}"
         for line, hits in sorted(lines.items()):
             yield f"DA:{line},{hits}"
         yield f"LF:{len(lines)}"
@@ -171,8 +171,8 @@ class Coverage:
         if has_rest:
             counts.append(max(0, reached - sum(c or 0 for c in counts)))
         for i, count in enumerate(counts):
-            shown = "-" if not reached or count is None else str(count)
-            yield f"BRDA:{line},{node.first},{i},{shown}"
+            displayed = "-" if not reached or count is None else str(count)
+            yield f"BRDA:{line},{node.first},{i},{displayed}"
 
 
 def _ways(node: n.Node) -> tuple[list[list[n.Statement]], bool] | None:

@@ -18,8 +18,8 @@ _SHOWN = 6
 def unknown(kind: str, name: str, known: Sequence[str]) -> KeyError:
     """What is raised where somebody asks for a name that is none of those `known`."""
     few = ", ".join(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
-    mend = suggest(name, known) or (f"there are {few}" if known else "there is none")
-    return KeyError(f"there is no {kind} '{name}': {mend}")
+    help = suggest(name, known) or (f"there are {few}" if known else "there is none")
+    return KeyError(f"there is no {kind} '{name}': {help}")
 
 
 class Signals(Mapping[str, float]):
@@ -35,10 +35,10 @@ class Signals(Mapping[str, float]):
         self._io.set(self._signal(name), value)
 
     def _signal(self, name: str) -> Signal:
-        found = self._io.get(name)
-        if found is None:
+        match = self._io.get(name)
+        if match is None:
             raise unknown("signal", name, list(self))
-        return found
+        return match
 
     def __iter__(self) -> Iterator[str]:
         return iter([s.name for s in self._io.signals.values()])
@@ -92,13 +92,13 @@ class TaskView:
         return [f"{m.name}:{d.name}" for m in self._modules() for d in m.declarations.values()]
 
     def __getitem__(self, name: str) -> Value:
-        data, kept = self._data(name)
+        data, persisted = self._data(name)
         if data.storage == "inline":
             return data.value
-        return kept.v if data.storage == "cell" else kept
+        return persisted.v if data.storage == "cell" else persisted
 
     def __setitem__(self, name: str, value: Value) -> None:
-        data, kept = self._data(name)
+        data, persisted = self._data(name)
         if data.readonly:
             raise KeyError(f"{name} is a constant")
         if wrong := misfit(value, data.type, data.dims):
@@ -106,7 +106,7 @@ class TaskView:
         if data.type.kind == "bool" and not data.dims:
             value = bool(value)
         if data.storage == "cell":
-            kept.set(value)
+            persisted.set(value)
         else:
             program = self.rapid.program
             program.space[program.global_ref(data)].set(value)
@@ -118,8 +118,8 @@ class TaskView:
 
     def cell(self, name: str) -> PersistentCell | None:
         """What keeps a persistent, and tells when it changes; None: it is none. KeyError."""
-        data, kept = self._data(name)
-        return kept if data.storage == "cell" else None
+        data, persisted = self._data(name)
+        return persisted if data.storage == "cell" else None
 
     def start(self) -> None:
         """Start or go on."""
@@ -139,7 +139,7 @@ class TaskView:
     @property
     def place(self) -> Location | None:
         """The statement before which a stopped task stands; None when that is unknown."""
-        return self.rapid.pointer.stands_before()
+        return self.rapid.pointer.next_statement()
 
     def pp_to_routine(self, name: str) -> None:
         """Set the program pointer to a procedure without parameters. CannotStep: no such one."""

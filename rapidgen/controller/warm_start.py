@@ -36,7 +36,7 @@ class _Task:
 
 def boot(
     old: VirtualController,
-    kept: PersistedState,
+    persisted: PersistedState,
     cfg: ControllerCfg,
     options: ControllerOptions,
 ) -> tuple[VirtualController, Programs]:
@@ -49,10 +49,10 @@ def boot(
     sys, eio = cfg.domain("SYS"), cfg.domain("EIO")
     entries, home = modules_of(sys), old.files.path("HOME:")
     try:
-        tasks = [_task(spec, kept, entries, home, before) for spec in tasks_of(sys)]
+        tasks = [_task(spec, persisted, entries, home, before) for spec in tasks_of(sys)]
         system = with_cfg(before, sys, eio)
     except DiagnosticError as fault:
-        tasks = [_Task(replace(t, modules=kept.get(t.name, ())), [], []) for t in before.tasks]
+        tasks = [_Task(replace(t, modules=persisted.get(t.name, ())), [], []) for t in before.tasks]
         system = before
         why = [d.message for d in fault.diagnostics]
         events += [(_SYSTEM_FAILURE, "Configuration error", text, "") for text in why]
@@ -86,33 +86,33 @@ def boot(
 
 def _task(
     spec: TaskSpec,
-    kept: PersistedState,
+    persisted: PersistedState,
     entries: tuple[ModuleEntry, ...],
     home: Path,
     before: System,
 ) -> _Task:
     """A task with its modules: what lay in it, and what its files add."""
-    found = {m.name.casefold(): m for m in kept.get(spec.name, ())}
-    if spec.name not in kept:
+    match = {m.name.casefold(): m for m in persisted.get(spec.name, ())}
+    if spec.name not in persisted:
         # A new task has what is loaded into all of them.
-        found = {m.name.casefold(): m for t in before.tasks for m in t.modules if m.shared}
+        match = {m.name.casefold(): m for t in before.tasks for m in t.modules if m.shared}
     missing = []
     for entry in entries:
         if not entry.loads_into(spec):
             continue
         path = home_file(home, entry.file) if entry.file.upper().startswith("HOME:") else None
         stem = entry.file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0].casefold()
-        if spec.type == "NORMAL" and _has(found, entry.file, stem):
+        if spec.type == "NORMAL" and _has(match, entry.file, stem):
             continue
         if path is None or not path.is_file():
-            if not _has(found, entry.file, stem):
+            if not _has(match, entry.file, stem):
                 missing.append(entry.file)
             continue
         file = load_module(path, target=entry.file, shared=entry.shared, installed=entry.installed)
-        found[file.name.casefold()] = replace(file, path=entry.file)
+        match[file.name.casefold()] = replace(file, path=entry.file)
     good: list[ModuleFile] = []
     broken: list[UnlinkedModule] = []
-    for file in found.values():
+    for file in match.values():
         faults = _faults(file, before.robotware)
         if faults:
             broken.append(UnlinkedModule(file, faults))
@@ -121,8 +121,8 @@ def _task(
     return _Task(replace(spec, modules=tuple(good)), broken, missing)
 
 
-def _has(found: Mapping[str, ModuleFile], target: str, stem: str) -> bool:
-    return stem in found or any(m.target.casefold() == target.casefold() for m in found.values())
+def _has(result: Mapping[str, ModuleFile], target: str, stem: str) -> bool:
+    return stem in result or any(m.target.casefold() == target.casefold() for m in result.values())
 
 
 def _faults(file: ModuleFile, robotware: tuple[int, int]) -> tuple[Diagnostic, ...]:
@@ -133,17 +133,17 @@ def _faults(file: ModuleFile, robotware: tuple[int, int]) -> tuple[Diagnostic, .
 def _booted(system: System, tasks: list[_Task], options: ControllerOptions) -> VirtualController:
     """A controller of these tasks; modules that cannot be linked are put aside."""
     while True:
-        whole = replace(system, tasks=tuple(task.spec for task in tasks))
+        complete = replace(system, tasks=tuple(task.spec for task in tasks))
         try:
-            return VirtualController(whole, **options)
+            return VirtualController(complete, **options)
         except DiagnosticError as fault:
             if not _put_aside(tasks, fault.diagnostics):
                 raise
 
 
-def _put_aside(tasks: list[_Task], found: Sequence[Diagnostic]) -> bool:
+def _put_aside(tasks: list[_Task], findings: Sequence[Diagnostic]) -> bool:
     """Take modules with errors out of their tasks; False: there is nothing to take out."""
-    errors = [d for d in found if d.severity is Severity.ERROR]
+    errors = [d for d in findings if d.severity is Severity.ERROR]
     paths = {d.span.path for d in errors if d.span is not None}
     some = False
     for task in tasks:

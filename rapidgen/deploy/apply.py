@@ -79,7 +79,7 @@ def apply(
         raise moved_on(plan.target)
     if run is not None:
         before_files(run)
-    if not plan.files_are_done:
+    if not plan.files_match:
         with writing(run) if run is not None else nullcontext():
             _apply_files(transport, plan, say, given_up)
     if run is not None:
@@ -113,13 +113,13 @@ def _apply_files(transport: Transport, plan: Plan, say: Say, given_up: Callable[
 
 def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
     """RG520, RG521, RG528, RG531: only `overwrite` replaces that; the others: nothing does."""
-    found = [] if overwrite else [_conflict(change) for change in plan.conflicts]
+    findings = [] if overwrite else [_conflict(change) for change in plan.conflicts]
     if plan.damaged and not overwrite:
-        found.insert(0, error("RG531", None, plan.damaged, DAMAGED))
+        findings.insert(0, error("RG531", None, plan.damaged, DAMAGED))
     if plan.neighbour is not None:
-        found.append(_beside(plan, plan.neighbour))
+        findings.append(_beside(plan, plan.neighbour))
     if plan.in_memory:
-        found.append(
+        findings.append(
             error(
                 "RG537",
                 None,
@@ -131,8 +131,8 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
             )
         )
     if plan.live is not None and plan.live.clash and not overwrite:
-        found += [_in_the_way(module) for module in plan.live.clash]
-    found += [
+        findings += [_in_the_way(module) for module in plan.live.clash]
+    findings += [
         error(
             "RG535",
             None,
@@ -142,7 +142,7 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
         for change in plan.cfg
         if change.action == "clash"
     ]
-    return found
+    return findings
 
 
 def _in_the_way(module: MemoryModule) -> Diagnostic:
@@ -260,10 +260,10 @@ def _switch(work: FileOperations) -> None:
     for change in sorted(gone, key=lambda c: c.path not in first):
         work.say(f"removing {change.shown}")
         delete(work, change.where)
-    rest = [c for c in plan.changes if c.after is not None and c.action != "same"]
-    rest = [c for c in rest if c not in fenced]
+    remaining = [c for c in plan.changes if c.after is not None and c.action != "same"]
+    remaining = [c for c in remaining if c not in fenced]
     # SYSPAR before the cfg file that says what is ours in it.
-    for change in sorted(rest, key=lambda c: c.kind != "syspar"):
+    for change in sorted(remaining, key=lambda c: c.kind != "syspar"):
         work.say(f"switching {change.shown}")
         swap(work, change.where, NEW, change.after or b"", exists=change.before is not None)
     for change in fenced:
@@ -276,7 +276,7 @@ def _fences(work: FileOperations) -> dict[str, bytes]:
     steps = [c for c in work.plan.changes if c.action != "same" and c.kind != "cfg"]
     if work.plan.wanted is None or not steps or (work.mode == "replace" and len(steps) == 1):
         return {}
-    return work.plan.wanted.fences()
+    return work.plan.wanted.blocking_modules()
 
 
 def _old_fences(plan: Plan) -> frozenset[str]:
@@ -289,7 +289,7 @@ def _old_fences(plan: Plan) -> frozenset[str]:
         if c.kind == "module" and c.before is not None
     ]
     old = DriverSet(plan.had.name, plan.had.build_id, plan.had.robotware, tuple(files))
-    return frozenset(old.fences())
+    return frozenset(old.blocking_modules())
 
 
 def _verify(work: FileOperations) -> None:
@@ -315,8 +315,8 @@ def _finish(work: FileOperations, journal: Journal | None) -> None:
     if work.plan.wanted is None:
         delete_backups(work, keep=frozenset())
     elif journal is not None and journal.new is not None:
-        kept = (str(past.id) for past in journal.new.history)
-        delete_backups(work, keep=frozenset({"origin", *kept}))
+        retained = (str(past.id) for past in journal.new.history)
+        delete_backups(work, keep=frozenset({"origin", *retained}))
     delete_empty_folders(work)
     for name in ("switching", "journal.a", "journal.b"):
         delete_all(work, [f"{folder}/{name}"])

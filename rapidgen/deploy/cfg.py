@@ -73,78 +73,78 @@ def name_of(key: Key) -> str:
 
 
 def compare(
-    wanted: Keyed, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
+    desired: Keyed, present: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> tuple[CfgChange, ...]:
     """Changes from `present` to `wanted`; what is only in `ours` (deployed before) goes.
 
     `before` has the instances from before the first deployment, as far as they were seen.
     """
-    found = []
-    for key, instance in wanted.items():
-        action, note = _toward(key, instance, present, ours, before)
-        found.append(_change(key, instance, action, note))
+    result = []
+    for key, instance in desired.items():
+        action, note = _toward(key, instance, present, own_files, before)
+        result.append(_change(key, instance, action, note))
     for key, instance in present.items():
         name = name_of(key)
-        if key in wanted or name not in ours:
+        if key in desired or name not in own_files:
             continue
         old = before.get(name)
         if old is not None:
             same = _equal(instance_from(old), instance)
-            found.append(_change(key, instance, "same" if same else "restore"))
-        elif is_controllers_own(key, instance, before, uninstall=not wanted):
-            words = [a for a in instance.attributes if a.name.casefold() not in _THEIRS]
-            found.append(_change(key, instance, "leave", attributes_text(words)))
+            result.append(_change(key, instance, "same" if same else "restore"))
+        elif is_controllers_own(key, instance, before, uninstall=not desired):
+            text = [a for a in instance.attributes if a.name.casefold() not in _THEIRS]
+            result.append(_change(key, instance, "leave", attributes_text(text)))
         else:
-            found.append(_change(key, instance, "remove"))
-    return tuple(found)
+            result.append(_change(key, instance, "remove"))
+    return tuple(result)
 
 
 def without_used(
-    wanted: Keyed, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
+    desired: Keyed, present: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> Keyed:
     """`wanted`, with what somebody else has defined to the same end as it is."""
-    found = {}
-    for key, instance in wanted.items():
-        if _toward(key, instance, present, ours, before)[0] != "use":
-            found[key] = instance
+    result = {}
+    for key, instance in desired.items():
+        if _toward(key, instance, present, own_files, before)[0] != "use":
+            result[key] = instance
         elif key in present:
-            found[key] = present[key]
-    return found
+            result[key] = present[key]
+    return result
 
 
 def merged(
-    present: CfgText, wanted: Keyed, ours: frozenset[str], before: Mapping[str, Json]
+    present: CfgText, desired: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> CfgText:
     """`present` with the wanted instances of its domain, and without those only in `ours`.
 
     An instance of ours that was there before the first deployment gets its old attributes back.
     """
     domain = present.domain
-    left = {key: i for key, i in wanted.items() if key[0] == domain}
+    left = {key: i for key, i in desired.items() if key[0] == domain}
     sections = []
     for section in present.sections:
-        kept = []
+        retained = []
         for instance in section.instances:
             key = (domain, section.name, shown_key(section.name, instance).casefold())
             if key in left:
                 new = left.pop(key)
-                kept.append(instance if _equal(instance, new) else new)
-            elif key in wanted:
+                retained.append(instance if _equal(instance, new) else new)
+            elif key in desired:
                 continue  # a duplicate of one that is in place already
-            elif name_of(key) in ours:
+            elif name_of(key) in own_files:
                 old = before.get(name_of(key))
                 if old is not None:
-                    kept.append(instance_from(old))
-                elif is_controllers_own(key, instance, before, uninstall=not wanted):
-                    kept.append(instance)
+                    retained.append(instance_from(old))
+                elif is_controllers_own(key, instance, before, uninstall=not desired):
+                    retained.append(instance)
             else:
-                kept.append(instance)
-        kept += (
+                retained.append(instance)
+        retained += (
             [left.pop(key) for key in tuple(left) if key[1] == section.name]
             if _last(present, section)
             else []
         )
-        sections.append(Section(section.name, tuple(kept)))
+        sections.append(Section(section.name, tuple(retained)))
     names = list(dict.fromkeys(key[1] for key in left))
     for name in names:
         sections.append(Section(name, tuple(i for key, i in left.items() if key[1] == name)))
@@ -172,16 +172,16 @@ def attributes_text(attributes: Iterable[Attribute]) -> str:
 
 
 def remember(
-    wanted: Keyed, present: Keyed, before: Mapping[str, Json], ours: frozenset[str]
+    desired: Keyed, present: Keyed, before: Mapping[str, Json], own_files: frozenset[str]
 ) -> Members:
     """`before` with an entry for each wanted instance: what was there first, or None.
 
     Of one that is ours without an entry nobody saw what was there first.
     """
     result = dict(before)
-    for key in wanted:
+    for key in desired:
         name = name_of(key)
-        if name not in result and name not in ours:
+        if name not in result and name not in own_files:
             old = present.get(key)
             result[name] = _to_json(old) if old is not None else None
     return result
@@ -193,15 +193,21 @@ def _last(text: CfgText, section: Section) -> bool:
 
 
 def _toward(
-    key: Key, instance: Instance, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
+    key: Key,
+    instance: Instance,
+    present: Keyed,
+    own_files: frozenset[str],
+    before: Mapping[str, Json],
 ) -> tuple[CfgAction, str]:
     """What becomes of a wanted instance, and why where a person has to know."""
     other = present.get(key)
     if other is None:
-        return _driven(key, instance, present, ours)
+        return _driven(key, instance, present, own_files)
     old = before.get(name_of(key))
-    theirs = name_of(key) not in ours or (old is not None and _equal(instance_from(old), other))
-    if key[1] == "EIO_SIGNAL" and theirs:
+    foreign = name_of(key) not in own_files or (
+        old is not None and _equal(instance_from(old), other)
+    )
+    if key[1] == "EIO_SIGNAL" and foreign:
         kind, needed = other.text("SignalType"), instance.text("SignalType")
         if kind.casefold() != needed.casefold():
             return "clash", f"{kind or 'of no type'} there, the driver needs {needed}"
@@ -210,14 +216,14 @@ def _toward(
 
 
 def _driven(
-    key: Key, instance: Instance, present: Keyed, ours: frozenset[str]
+    key: Key, instance: Instance, present: Keyed, own_files: frozenset[str]
 ) -> tuple[CfgAction, str]:
     """A new system output, where somebody else's may drive the same signal already."""
     if key[1] != "SYSSIG_OUT":
         return "add", ""
     signal = _signal(instance)
     for name, other in present.items():
-        if name[1] == key[1] and _signal(other) == signal and name_of(name) not in ours:
+        if name[1] == key[1] and _signal(other) == signal and name_of(name) not in own_files:
             if other.text("Status").casefold() == instance.text("Status").casefold():
                 return "use", f"somebody else's: {shown_key(key[1], other)}"
             return "clash", f"driven by {other.text('Status')} there"
@@ -229,8 +235,8 @@ def _signal(output: Instance) -> str:
 
 
 def _change(key: Key, instance: Instance, action: CfgAction, note: str = "") -> CfgChange:
-    shown = f"{key[1]} {shown_key(key[1], instance)}"
-    return CfgChange(key[0], shown, action, note, bool(instance.text("Name")))
+    displayed = f"{key[1]} {shown_key(key[1], instance)}"
+    return CfgChange(key[0], displayed, action, note, bool(instance.text("Name")))
 
 
 def shown_key(section: str, instance: Instance) -> str:
@@ -266,6 +272,6 @@ def instance_from(data: Json) -> Instance:
     """An instance as a manifest holds it. Raises TypeError or ValueError for anything else."""
     attributes = []
     for name, values in map(items, items(data)):
-        kept = tuple(v for v in items(values) if isinstance(v, str | int | float))
-        attributes.append(Attribute(text(name), kept))
+        retained = tuple(v for v in items(values) if isinstance(v, str | int | float))
+        attributes.append(Attribute(text(name), retained))
     return Instance(tuple(attributes))

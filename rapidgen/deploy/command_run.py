@@ -96,10 +96,10 @@ def plan_all(job: FleetJob) -> list[Plan]:
 
     def work(target: Target) -> Plan:
         with connected(target, job.access) as transport:
-            wanted = job.find(transport)
-            if job.backup is not None and wanted is not None:
-                _check_data(wanted, job.backup)
-            return make_plan(transport, wanted, verb=job.verb, loaded=loaded)
+            desired = job.find(transport)
+            if job.backup is not None and desired is not None:
+                _check_data(desired, job.backup)
+            return make_plan(transport, desired, verb=job.verb, loaded=loaded)
 
     results = on_all(job.targets, work, parallel=job.parallel)
     failures = [r for r in results if isinstance(r, DiagnosticError)]
@@ -111,10 +111,10 @@ def plan_all(job: FleetJob) -> list[Plan]:
     return [r for r in results if isinstance(r, Plan)]
 
 
-def _check_data(wanted: DriverSet, backup: Path) -> None:
+def _check_data(desired: DriverSet, backup: Path) -> None:
     """Refuse a set that reads data or calls routines of a user's program that the backup does not
     have (RG113, RG114)."""
-    given = wanted.generated.get("configuration")
+    given = desired.generated.get("configuration")
     config = from_manifest(given) if given is not None else None
     if config is not None and any(
         data_of_another(group) or group.routines or group.data for group in config.groups
@@ -169,9 +169,9 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
 
 def refuse_conflicts(job: FleetJob, plans: Sequence[Plan]) -> None:
     """RG520, RG521, RG531, RG534 to RG537 of all targets, before anything is changed on any."""
-    found = [d for plan in plans for d in conflicts_of(plan, overwrite=job.overwrite)]
-    if found:
-        raise DiagnosticError(found, exit_code=1)
+    result = [d for plan in plans for d in conflicts_of(plan, overwrite=job.overwrite)]
+    if result:
+        raise DiagnosticError(result, exit_code=1)
 
 
 def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:

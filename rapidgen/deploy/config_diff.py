@@ -25,8 +25,8 @@ def changed_keys(old: Json, new: Json) -> list[str]:
     many more there are."""
     before, after = dict(_leaves(old)), dict(_leaves(new))
     keys = [key for key in {**before, **after} if before.get(key) != after.get(key)]
-    told = [f"{k}: {before.get(k, 'none')} → {after.get(k, 'none')}" for k in keys[:_SHOWN]]
-    return told + ([f"and {len(keys) - _SHOWN} more keys"] if len(keys) > _SHOWN else [])
+    text = [f"{k}: {before.get(k, 'none')} → {after.get(k, 'none')}" for k in keys[:_SHOWN]]
+    return text + ([f"and {len(keys) - _SHOWN} more keys"] if len(keys) > _SHOWN else [])
 
 
 def _leaves(value: Json, path: tuple[str, ...] = (), kind: str = "") -> Iterator[tuple[str, str]]:

@@ -44,16 +44,16 @@ class Check:
     area: str
     verdict: Verdict
     found: str
-    mend: str = ""
+    help: str = ""
 
 
 def run_checks(
     target: Target,
     access: Access,
-    wanted: DriverSet,
+    desired: DriverSet,
     *,
     hello: Hello,
-    told: Told = lambda _host, _port: None,
+    text: Told = lambda _host, _port: None,
     robot_host: str = "",
     backup: Path | None = None,
     timeout: float = 2.0,
@@ -64,25 +64,25 @@ def run_checks(
     """
     loaded = loaded_cfg(backup) if backup is not None else ()
     host = robot_host or target.host
-    checks = [*_running(host, wanted, hello, told, timeout)]
+    checks = [*_running(host, desired, hello, text, timeout)]
     try:
         transport = connect(target, access)
     except DiagnosticError as error:
-        found = error.diagnostics[0]
-        return (Check("reach", "fail", found.message, found.help), *checks)
+        result = error.diagnostics[0]
+        return (Check("reach", "fail", result.message, result.help), *checks)
     try:
         checks.insert(0, Check("reach", "ok", f"{target.shown}: logged in"))
         checks += _default_login(target, access)
-        checks += _contents(transport, wanted, loaded)
+        checks += _contents(transport, desired, loaded)
     finally:
         transport.close()
     return tuple(checks)
 
 
 def _running(
-    host: str, wanted: DriverSet, hello: Hello, told: Told, timeout: float
+    host: str, desired: DriverSet, hello: Hello, text: Told, timeout: float
 ) -> Iterator[Check]:
-    groups = members(wanted.generated.get("groups") or {})
+    groups = members(desired.generated.get("groups") or {})
     if not host:
         yield Check("ports", "unknown", "a folder has no ports", "name the robot with --host")
         return
@@ -91,10 +91,10 @@ def _running(
             port = whole(number)
             where = f"{name} {role} {host}:{port}"
             if role == "state":
-                found = _state_port(where, host, port, wanted.build_id, hello)
-                yield found
-                if found.verdict != "unknown":
-                    yield from _told_error(where, host, port, told)
+                result = _state_port(where, host, port, desired.build_id, hello)
+                yield result
+                if result.verdict != "unknown":
+                    yield from _told_error(where, host, port, text)
                 continue
             try:
                 socket.create_connection((host, port), timeout).close()
@@ -173,10 +173,10 @@ def _open_door(login: Credentials) -> Check:
 
 
 def _contents(
-    transport: Transport, wanted: DriverSet, loaded: tuple[CfgText, ...]
+    transport: Transport, desired: DriverSet, loaded: tuple[CfgText, ...]
 ) -> Iterator[Check]:
     try:
-        plan = make_plan(transport, wanted, loaded=loaded)
+        plan = make_plan(transport, desired, loaded=loaded)
     except DiagnosticError as error:
         first = error.diagnostics[0]
         area = "RobotWare" if first.code == "RG525" else "HOME"
@@ -195,7 +195,7 @@ def _contents(
         yield Check(
             "deployment",
             "warn",
-            f"build {plan.had.build_id} lies there, the configuration gives {wanted.build_id}",
+            f"build {plan.had.build_id} lies there, the configuration gives {desired.build_id}",
             "`rapidgen plan` shows the difference",
         )
     for change in plan.conflicts:
@@ -203,47 +203,47 @@ def _contents(
             change.conflict, change.doubt
         )
         yield Check("files", "fail", f"{change.shown}: {what}", "`rapidgen plan` says more")
-    yield from _clashes(transport, plan, wanted)
+    yield from _clashes(transport, plan, desired)
     yield from _beside(plan)
-    yield from _configuration(plan, wanted)
-    yield _space(transport, wanted)
+    yield from _configuration(plan, desired)
+    yield _space(transport, desired)
 
 
 def _live(plan: Plan, live: OnlinePlan, generation: Generation) -> Iterator[Check]:
     """What only web services tell."""
     yield Check("controller", "ok", f"{live.shown}, id {live.id}")
     if live.mode != "AUTO":
-        mend = "switch it to automatic at the pendant: nobody writes from afar before"
-        yield Check("mode", "warn", f"it is {live.mode}", mend)
+        help = "switch it to automatic at the pendant: nobody writes from afar before"
+        yield Check("mode", "warn", f"it is {live.mode}", help)
     if live.running:
-        mend = f"it has to stand for a restart: `rapidgen halt {plan.target}`"
-        yield Check("program", "warn", "it runs", mend)
+        help = f"it has to stand for a restart: `rapidgen halt {plan.target}`"
+        yield Check("program", "warn", "it runs", help)
     for module in live.clash:
-        mend = "unload it, or `rapidgen deploy --overwrite`, which saves it first"
-        yield Check("memory", "fail", f"{module.shown} is loaded, and {module.why}", mend)
+        help = "unload it, or `rapidgen deploy --overwrite`, which saves it first"
+        yield Check("memory", "fail", f"{module.shown} is loaded, and {module.why}", help)
     lacking = live.lacking(generation, restart=True)
     if lacking:
-        mend = "RobotStudio, User Authorization: give it to this user, or log in as another"
-        yield Check("grants", "warn", f"the user lacks {', '.join(lacking)}", mend)
+        help = "RobotStudio, User Authorization: give it to this user, or log in as another"
+        yield Check("grants", "warn", f"the user lacks {', '.join(lacking)}", help)
     if live.silent:
         what = f"{', '.join(live.silent)} of the driver stand: its ports do not answer"
         yield Check("tasks", "fail", what, "`rapidgen deploy --restart`, or menu > Restart")
     if plan.is_pending:
-        mend = "`rapidgen deploy --restart`, or menu > Restart"
-        yield Check("restart", "warn", "everything is loaded: a restart is pending", mend)
+        help = "`rapidgen deploy --restart`, or menu > Restart"
+        yield Check("restart", "warn", "everything is loaded: a restart is pending", help)
     elif live.orphans:
         what = f"{', '.join(live.orphans)} was taken out of cfg: a restart is pending"
-        mend = "`rapidgen uninstall --restart`, or menu > Restart"
-        yield Check("restart", "warn", what, mend)
+        help = "`rapidgen uninstall --restart`, or menu > Restart"
+        yield Check("restart", "warn", what, help)
 
 
-def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Check]:
+def _clashes(transport: Transport, plan: Plan, desired: DriverSet) -> Iterator[Check]:
     """Modules beside ours with a name of ours, or with a main routine."""
     home = plan.layout.home
-    ours = {c.where for c in plan.changes}
-    names = {m[1].lower() for f in wanted.files if (m := MODULE.search(f.data))}
-    has_main = any(MAIN.search(f.data) for f in wanted.files)
-    found = False
+    own_files = {c.where for c in plan.changes}
+    names = {m[1].lower() for f in desired.files if (m := MODULE.search(f.data))}
+    has_main = any(MAIN.search(f.data) for f in desired.files)
+    result = False
     folders = {"", *(c.path.rpartition("/")[0] for c in plan.changes if c.kind == "module")}
     for folder in sorted(folders):
         try:
@@ -255,7 +255,11 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
         for entry in entries:
             where = f"{home}{folder}/{entry.name}" if folder else home + entry.name
             suffix = entry.name.rpartition(".")[2].lower()
-            if where in ours or entry.folder or suffix not in ("mod", "sys", "modx", "sysx", "prg"):
+            if (
+                where in own_files
+                or entry.folder
+                or suffix not in ("mod", "sys", "modx", "sysx", "prg")
+            ):
                 continue
             try:
                 if (entry.size or 0) > FILE_LIMIT:
@@ -264,13 +268,13 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
             except TransportFault as fault:
                 if fault.kind in ("lost", "garbled"):
                     raise
-                found = True
-                mend = "look whether it holds a module with a name of the driver's"
-                yield Check("names", "unknown", fault.diagnostics[0].message, mend)
+                result = True
+                help = "look whether it holds a module with a name of the driver's"
+                yield Check("names", "unknown", fault.diagnostics[0].message, help)
                 continue
             module = MODULE.search(data)
             if module and module[1].lower() in names:
-                found = True
+                result = True
                 yield Check(
                     "names",
                     "fail",
@@ -278,7 +282,7 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
                     "two modules of one name do not load: rename it, or keep it out of the tasks",
                 )
             elif has_main and MAIN.search(data):
-                found = True
+                result = True
                 yield Check(
                     "main",
                     "warn",
@@ -286,12 +290,12 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
                     "a task has one main: keep this module out of the driver's tasks, or set "
                     "`main: own` and call ROS_run from it",
                 )
-    if not found:
+    if not result:
         yield Check("names", "ok", "no module in HOME has a name of the driver's")
 
 
-def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
-    ware = f"{wanted.robotware[0]}.{wanted.robotware[1]:02d}"
+def _configuration(plan: Plan, desired: DriverSet) -> Iterator[Check]:
+    ware = f"{desired.robotware[0]}.{desired.robotware[1]:02d}"
     if not plan.cfg_present:
         yield Check(
             "RobotWare",
@@ -312,14 +316,14 @@ def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
             "pendant: ABB menu > System Info > Options",
         )
         return
-    yield Check("RobotWare", "ok", f"main version {wanted.robotware[0]}")
-    for step in entry_steps(wanted, plan.cfg_present, plan.target):
+    yield Check("RobotWare", "ok", f"main version {desired.robotware[0]}")
+    for step in entry_steps(desired, plan.cfg_present, plan.target):
         yield Check("tasks", "warn", step.what, "the driver's main does not run before that")
     for change in plan.cfg:
         if change.action == "clash":
-            mend = "rename the signal on the controller"
-            yield Check("signals", "fail", f"{change.key} is {change.note}", mend)
-    optional = {name_of(k) for t in wanted.cfg if is_unconfirmed(t) for k in keyed([t])}
+            help = "rename the signal on the controller"
+            yield Check("signals", "fail", f"{change.key} is {change.note}", help)
+    optional = {name_of(k) for t in desired.cfg if is_unconfirmed(t) for k in keyed([t])}
     away = [
         c
         for c in plan.cfg
@@ -330,11 +334,11 @@ def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
         yield Check("configuration", "ok", f"{len(plan.cfg)} instances as the driver needs them")
         return
     counts = Counter(c.action for c in away)
-    words = ", ".join(f"{count} to {action}" for action, count in sorted(counts.items()))
+    text = ", ".join(f"{count} to {action}" for action, count in sorted(counts.items()))
     yield Check(
         "configuration",
         "warn",
-        f"what is loaded is not what the driver needs: {words}; the first is {away[0].key}",
+        f"what is loaded is not what the driver needs: {text}; the first is {away[0].key}",
         "`rapidgen plan` names each, and the steps",
     )
 
@@ -351,8 +355,8 @@ def _beside(plan: Plan) -> Iterator[Check]:
     )
 
 
-def _space(transport: Transport, wanted: DriverSet) -> Check:
-    needed = 3 * sum(len(f.data) for f in wanted.files)
+def _space(transport: Transport, desired: DriverSet) -> Check:
+    needed = 3 * sum(len(f.data) for f in desired.files)
     free = transport.free()
     if free is None:
         return Check("disk", "unknown", f"{needed // 1000} kB needed, free space is not told")

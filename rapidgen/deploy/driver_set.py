@@ -56,7 +56,7 @@ class DriverSet:
         """The cfg files, parsed. Raises DiagnosticError RG701, RG702."""
         return tuple(parse_cfg(f.data, path=f.path) for f in self.files if f.kind == "cfg")
 
-    def fences(self) -> dict[str, bytes]:
+    def blocking_modules(self) -> dict[str, bytes]:
         """Modules that, put in place, make every motion group refuse to move.
 
         They are as few modules as touch every task, with another BUILD_ID than all others have:
@@ -84,7 +84,7 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
     """
     try:
         manifest = json.loads(files["manifest.json"])
-        wanted = []
+        desired = []
         for entry in manifest["files"]:
             path, kind = str(entry["path"]), str(entry["kind"])
             if kind not in ("module", "cfg"):
@@ -94,7 +94,7 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
                 raise _bad(f"{path} of {source} is not what its manifest says", "build it again")
             where = path.removeprefix("HOME/") if kind == "module" else f"{STATE}/{path}"
             tasks = tuple(str(task) for task in entry.get("task") or ())
-            wanted.append(
+            desired.append(
                 SetFile(safe(where), data, "module" if kind == "module" else "cfg", tasks)
             )
         first, second = manifest["robotware"]
@@ -102,15 +102,15 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
             str(manifest["name"]),
             str(manifest["build_id"]),
             (int(first), int(second)),
-            tuple(wanted),
+            tuple(desired),
             {key: value for key, value in manifest.items() if key != "lines"},
         )
     except TransportFault as fault:
         raise _bad(fault.diagnostics[0].message, "module paths stay inside HOME") from None
     except (KeyError, TypeError, ValueError, RecursionError) as cause:
         raise _bad(f"the manifest of {source} is damaged: {cause!r}", "build it again") from None
-    uncovered = {t for f in wanted for t in f.tasks} - {
-        t for f in wanted if f.path in result.fences() for t in f.tasks
+    uncovered = {t for f in desired for t in f.tasks} - {
+        t for f in desired if f.path in result.blocking_modules() for t in f.tasks
     }
     if uncovered or not result.build_id:
         raise _bad(

@@ -36,16 +36,16 @@ def parse_targets(urls: Iterable[str]) -> tuple[Target, ...]:
 
     Raises DiagnosticError RG509, RG510.
     """
-    found: list[Target] = []
+    result: list[Target] = []
     for url in urls:
         for line in _lines(url[1:]) if url.startswith("@") else [url]:
             target = parse_target(line)
-            if target in found:
+            if target in result:
                 raise _bad(f"{target.shown} is named twice")
-            found.append(target)
-    if not found:
+            result.append(target)
+    if not result:
         raise _bad("no controller is named")
-    return tuple(found)
+    return tuple(result)
 
 
 class Interruption:

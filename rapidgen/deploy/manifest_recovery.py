@@ -8,7 +8,7 @@ from rapidgen.deploy.state_folder import DAMAGE, FileRecord, Manifest, StoredSet
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
 
 
-def recovered_manifest(transport: Transport, home: str, wanted: DriverSet) -> Manifest:
+def recovered_manifest(transport: Transport, home: str, desired: DriverSet) -> Manifest:
     """A manifest for what lies there: the newest whole backup's, with the files as they are now.
 
     What lies at the places of the wanted set is taken for ours: the next backup keeps all of it.
@@ -18,7 +18,7 @@ def recovered_manifest(transport: Transport, home: str, wanted: DriverSet) -> Ma
     numbers = sorted(backups)
     known = backups[numbers[-1]] if numbers else None
     kinds = {r.path: r for r in known.files} if known else {}
-    kinds |= {f.path: FileRecord(f.path, "", 0, f.kind, f.tasks) for f in wanted.files}
+    kinds |= {f.path: FileRecord(f.path, "", 0, f.kind, f.tasks) for f in desired.files}
     records = []
     for path, record in kinds.items():
         data = read_or_none(transport, home + path)
@@ -29,25 +29,25 @@ def recovered_manifest(transport: Transport, home: str, wanted: DriverSet) -> Ma
     )
     if known is not None:
         return replace(known, id=numbers[-1], files=tuple(records), history=history)
-    name, ware = wanted.name, wanted.robotware
+    name, ware = desired.name, desired.robotware
     return Manifest(0, "", name, "unknown", ware, tuple(records))
 
 
 def copies(transport: Transport, home: str) -> int:
     """Number from which copies of strangers' files are free to be named. Raises TransportFault."""
-    found = [int(n.partition(".")[0]) for n in _names(transport, f"{home}{STATE}/backup/origin")]
-    return max(found, default=-1) + 1
+    result = [int(n.partition(".")[0]) for n in _names(transport, f"{home}{STATE}/backup/origin")]
+    return max(result, default=-1) + 1
 
 
 def _backups(transport: Transport, home: str) -> dict[int, Manifest]:
-    found = {}
+    result = {}
     for name in _names(transport, f"{home}{STATE}/backup"):
         raw = read_or_none(transport, f"{home}{STATE}/backup/{name}/backup.json")
         try:
-            found[int(name)] = manifest_from(json.loads(raw or b""))
+            result[int(name)] = manifest_from(json.loads(raw or b""))
         except DAMAGE:
             continue
-    return found
+    return result
 
 
 def _names(transport: Transport, folder: str) -> list[str]:

@@ -45,7 +45,7 @@ CFG_FIRST = ManualStep(
 def steps_of(
     modules: Sequence[tuple[str, tuple[str, ...]]],
     cfg: Sequence[CfgChange],
-    wanted: Sequence[CfgText],
+    desired: Sequence[CfgText],
     old: Sequence[CfgText],
     *,
     gone: bool,
@@ -56,10 +56,10 @@ def steps_of(
     `modules` are the new and changed ones with their tasks, `gone` that some went, `wanted` and
     `old` the cfg files of the new and the last set, `written` that SYSPAR itself was changed.
     """
-    steps = [] if written else [*_delete(cfg), *_load(cfg, wanted), *_give_back(cfg)]
+    steps = [] if written else [*_delete(cfg), *_load(cfg, desired), *_give_back(cfg)]
     types = {
         i.text("Name"): i.text("Type") or "SEMISTATIC"
-        for text in (*old, *wanted)
+        for text in (*old, *desired)
         for i in text.instances("CAB_TASKS")
     }
     tasks: dict[str, list[str]] = {}
@@ -154,27 +154,27 @@ def _by_file(names: Sequence[str]) -> list[str]:
     ]
 
 
-def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualStep]:
+def _load(cfg: Sequence[CfgChange], desired: Sequence[CfgText]) -> list[ManualStep]:
     """Files that hold something new. Adding refuses what is there already (120006 [real 6.03])."""
     changes = {(c.domain, c.key): c for c in cfg}
     steps = []
     # Signals come before what names them.
-    for text in sorted(wanted, key=lambda text: text.path):
+    for text in sorted(desired, key=lambda text: text.path):
         rows = [(s.name, i) for s in text.sections for i in s.instances]
-        mine = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]
-        new = sum(c.action == "add" for c in mine)
-        changed = sum(c.action == "change" for c in mine)
+        own = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]
+        new = sum(c.action == "add" for c in own)
+        changed = sum(c.action == "change" for c in own)
         if not new and not changed:
             continue
         there = any(is_delivered(name, i) for name, i in rows) or any(
-            c.action == "same" or (c.action == "change" and c.named) for c in mine
+            c.action == "same" or (c.action == "change" and c.named) for c in own
         )
         mode = "and replace duplicates" if there else "if no duplicates"
         what = f"load HOME:/{text.path} ({new} instances to add, {changed} to change): "
         what += f"Control Panel > Configuration > File > Load parameters {mode}"
-        theirs = [c.key.partition(" ")[2] for c in mine if c.action == "use"]
-        if theirs:
-            what += f"; in a copy without {', '.join(theirs)}: somebody else's, used as they are"
+        foreign = [c.key.partition(" ")[2] for c in own if c.action == "use"]
+        if foreign:
+            what += f"; in a copy without {', '.join(foreign)}: somebody else's, used as they are"
         if is_unconfirmed(text):
             what += "; it may be refused: leave it out, the driver serves and stops without it"
         steps.append(ManualStep("pendant", what))

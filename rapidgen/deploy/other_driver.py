@@ -49,17 +49,16 @@ class OtherDriver:
 
     def texts(self, present: Sequence[CfgText]) -> tuple[CfgText, ...]:
         """cfg files that, loaded, bring the other driver's instances back."""
-        found = []
+        result = []
         for text in present:
-            mine = [n for n in self.instances if n.domain == text.domain]
-            names = list(dict.fromkeys(n.section for n in mine))
+            own = [n for n in self.instances if n.domain == text.domain]
+            names = list(dict.fromkeys(n.section for n in own))
             sections = tuple(
-                Section(name, tuple(n.instance for n in mine if n.section == name))
-                for name in names
+                Section(name, tuple(n.instance for n in own if n.section == name)) for name in names
             )
             if sections:
-                found.append(replace(text, sections=sections))
-        return tuple(found)
+                result.append(replace(text, sections=sections))
+        return tuple(result)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,19 +74,19 @@ class OwnContents:
 
 
 def find_other_driver(
-    transport: Transport, home: str, present: Sequence[CfgText], mine: OwnContents
+    transport: Transport, home: str, present: Sequence[CfgText], own: OwnContents
 ) -> OtherDriver | None:
     """The other driver, if there is one. `present` is empty where loaded cfg is not seen.
 
     Raises TransportFault.
     """
     if not present:
-        lying = _files(transport, home, mine)
+        lying = _files(transport, home, own)
         return OtherDriver((), lying) if lying else None
-    there = {k: i for k, i in keyed(present).items() if name_of(k) not in mine.instances}
+    there = {k: i for k, i in keyed(present).items() if name_of(k) not in own.instances}
     rows = [i for k, i in there.items() if k[1] == "CAB_TASK_MODULES"]
     sources = {i.text("File"): _source(transport, home, i.text("File")) for i in rows}
-    out = [i for i in rows if _is_other(i, sources[i.text("File")], mine)]
+    out = [i for i in rows if _is_other(i, sources[i.text("File")], own)]
     if not out:
         return None
     tasks = _tasks(there, rows, out)
@@ -119,15 +118,15 @@ def in_memory(transport: Transport, modules: dict[str, frozenset[str]]) -> tuple
     They were in the tasks' memory when it was made [backup 6.06], and are what it restores, not
     the files in HOME. Raises TransportFault.
     """
-    found = []
+    result = []
     for folder in _folders(transport, "", "rapid"):
         for task in _folders(transport, folder, "task"):
             for kind in _folders(transport, task, ""):
                 for entry in transport.entries(kind):
                     stem = entry.name.rpartition(".")[0].casefold()
                     if stem in modules and entry.folder is not True:
-                        found.append(f"{kind}/{entry.name}")
-    return tuple(found)
+                        result.append(f"{kind}/{entry.name}")
+    return tuple(result)
 
 
 def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
@@ -138,24 +137,24 @@ def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
     ]
 
 
-def _is_other(row: Instance, source: bytes | None, mine: OwnContents) -> bool:
+def _is_other(row: Instance, source: bytes | None, own: OwnContents) -> bool:
     """Whether a row of CAB_TASK_MODULES loads abb_driver, a name of ours into a task of ours, or
     anything into a task that has only its name from us."""
-    found = MODULE.search(source or b"")
+    match = MODULE.search(source or b"")
     stem = row.text("File").replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
-    name = found[1].decode("latin-1") if found else row.text("ModName") or stem
+    name = match[1].decode("latin-1") if match else row.text("ModName") or stem
     if _OLD.fullmatch(name) or _OLD.fullmatch(stem):
         return True
-    if row.text("Task").casefold() in mine.tasks:
+    if row.text("Task").casefold() in own.tasks:
         return True
-    tasks = mine.modules.get(name.casefold(), frozenset())
+    tasks = own.modules.get(name.casefold(), frozenset())
     return bool(tasks) and (not row.text("Task") or row.text("Task").casefold() in tasks)
 
 
 def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset[str]:
     """Background tasks into which nothing else is loaded by name."""
-    kept = {r.text("Task").casefold() for r in rows if r not in out}
-    gone = {r.text("Task").casefold() for r in out} - kept - {""}
+    retained = {r.text("Task").casefold() for r in rows if r not in out}
+    gone = {r.text("Task").casefold() for r in out} - retained - {""}
     motion = {
         i.text("Name").casefold()
         for k, i in there.items()
@@ -164,23 +163,23 @@ def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset
     return frozenset(gone - motion)
 
 
-def _files(transport: Transport, home: str, mine: OwnContents) -> tuple[str, ...]:
+def _files(transport: Transport, home: str, own: OwnContents) -> tuple[str, ...]:
     """Modules in HOME and its folders that are not ours and have a name of ours or abb_driver's.
 
     Its page says HOME:/ROS; nothing keeps them from lying elsewhere.
     """
-    found = []
+    result = []
     top = transport.entries(home.rstrip("/"))
     folders = [e.name for e in top if e.folder or (e.folder is None and "." not in e.name)]
     for folder in ("", *(name for name in folders if name != STATE)):
         for name in _names(transport, home + folder) if folder else (e.name for e in top):
             path = f"{folder}/{name}".lstrip("/")
             stem, _, suffix = name.rpartition(".")
-            if suffix.casefold() not in _ENDINGS or path in mine.paths:
+            if suffix.casefold() not in _ENDINGS or path in own.paths:
                 continue
-            if stem.casefold() in mine.modules or _OLD.fullmatch(stem):
-                found.append(path)
-    return tuple(found)
+            if stem.casefold() in own.modules or _OLD.fullmatch(stem):
+                result.append(path)
+    return tuple(result)
 
 
 def _names(transport: Transport, folder: str) -> tuple[str, ...]:
@@ -205,5 +204,5 @@ def _source(transport: Transport, home: str, file: str) -> bytes | None:
 
 
 def _path(file: str) -> str:
-    head, _, rest = file.replace("\\", "/").partition(":")
-    return rest.strip("/") if head.casefold() == "home" else ""
+    head, _, remaining = file.replace("\\", "/").partition(":")
+    return remaining.strip("/") if head.casefold() == "home" else ""

@@ -126,10 +126,10 @@ class Plan:
     @property
     def is_empty(self) -> bool:
         """Nothing to do: no file, no record of one, no interrupted run to put right."""
-        return self.files_are_done and (self.live is None or self.live.is_empty)
+        return self.files_match and (self.live is None or self.live.is_empty)
 
     @property
-    def files_are_done(self) -> bool:
+    def files_match(self) -> bool:
         """The files and what is written down about them are as they have to be."""
         same = all(c.action == "same" for c in self.changes)
         return same and not self.interrupted and not self.is_stale
@@ -139,7 +139,7 @@ class Plan:
         """Everything is in place, and counts only after a restart."""
         live = self.live
         loaded = live is not None and live.restart and not live.touches_cfg
-        return loaded and self.files_are_done
+        return loaded and self.files_match
 
     @property
     def is_stale(self) -> bool:

@@ -41,8 +41,8 @@ def plan_text(plan: Plan) -> str:
     if plan.interrupted:
         out.append(f"  * {plan.interrupted}: this run puts it right")
     if plan.damaged:
-        taken = "the newest backup's" if plan.had and plan.had.history else "no backup's"
-        out.append(f"  ? {plan.damaged}: {taken} is taken  -> needs --overwrite")
+        in_use = "the newest backup's" if plan.had and plan.had.history else "no backup's"
+        out.append(f"  ? {plan.damaged}: {in_use} is taken  -> needs --overwrite")
     out += _changed_keys(plan)
     out += _file_lines(plan)
     for change in plan.conflicts:
@@ -66,7 +66,7 @@ def plan_text(plan: Plan) -> str:
             out.append(f"  ! {step.who}: {step.what}{stop}")
     if not plan.steps and not plan.is_empty:
         out.append("  = no restart: no module and nothing that is loaded changes")
-    if plan.live is None or not plan.files_are_done:
+    if plan.live is None or not plan.files_match:
         out.append(f"  ? switching: {plan.rename}")
     out += [f"  ? {line}" for line in plan.unseen]
     out.append(_summary(plan))
@@ -99,9 +99,9 @@ def diff_text(plan: Plan) -> str:
         if change.action == "same" or _is_new_id(plan, change):
             continue
         before, after = lines_of(change.before), lines_of(change.after)
-        here = change.shown if change.before is not None else "/dev/null"
+        current = change.shown if change.before is not None else "/dev/null"
         there = change.shown if change.after is not None else "/dev/null"
-        out += difflib.unified_diff(before, after, here, there, lineterm="")
+        out += difflib.unified_diff(before, after, current, there, lineterm="")
     return "".join(f"{line}\n" for line in out)
 
 
@@ -155,15 +155,15 @@ def _file_lines(plan: Plan) -> list[str]:
 
     together: dict[tuple[str, str], list[FileChange]] = {}
     for change in plan.changes:
-        folder, said = alike(change)
-        together.setdefault((folder, said) if said else (change.path, ""), []).append(change)
+        folder, message = alike(change)
+        together.setdefault((folder, message) if message else (change.path, ""), []).append(change)
     out = []
-    for (folder, said), changes in together.items():
+    for (folder, message), changes in together.items():
         sign = _SIGNS[changes[0].action]
-        if said and len(changes) > 1:
+        if message and len(changes) > 1:
             size = sum(len(c.after or b"") for c in changes)
-            words = said.format(size=size_text(size))
-            out.append(f"  {sign} {folder}: {len(changes)} files, {words}")
+            text = message.format(size=size_text(size))
+            out.append(f"  {sign} {folder}: {len(changes)} files, {text}")
         else:
             out += [f"  {_SIGNS[c.action]} {c.shown:<{width}}  {_words(c)}" for c in changes]
     return out
@@ -192,12 +192,12 @@ def _words(change: FileChange) -> str:
 def _cfg_lines(plan: Plan, domain: str) -> list[str]:
     changes = [c for c in plan.cfg if c.domain == domain]
     out = []
-    told = [c for c in changes if c.action != "same"]
-    for _, group in groupby(told, _told_together):
+    text = [c for c in changes if c.action != "same"]
+    for _, group in groupby(text, _told_together):
         first, *more = group
         names = [c.key.partition(" ")[2] for c in (first, *more)]
-        shown = f"{_first(names)}{f': {note}' if (note := _note(first)) else ''}"
-        out.append(f"  {_SIGNS[first.action]} {domain}: {first.key.partition(' ')[0]} {shown}")
+        displayed = f"{_first(names)}{f': {note}' if (note := _note(first)) else ''}"
+        out.append(f"  {_SIGNS[first.action]} {domain}: {first.key.partition(' ')[0]} {displayed}")
     same = sum(1 for c in changes if c.action == "same")
     if same:
         seen = "" if plan.cfg_present else " as last deployed"
@@ -214,8 +214,12 @@ def _told_together(change: CfgChange) -> str:
 
 def _first(names: Sequence[str]) -> str:
     """Names as far as a line goes, and how many more there are."""
-    shown = [name for n, name in enumerate(names) if n == 0 or len(", ".join(names[: n + 1])) < 70]
-    return ", ".join(shown) + (f" and {len(names) - len(shown)} more" * (len(names) > len(shown)))
+    displayed = [
+        name for n, name in enumerate(names) if n == 0 or len(", ".join(names[: n + 1])) < 70
+    ]
+    return ", ".join(displayed) + (
+        f" and {len(names) - len(displayed)} more" * (len(names) > len(displayed))
+    )
 
 
 def _note(change: CfgChange) -> str:
@@ -229,16 +233,16 @@ def _note(change: CfgChange) -> str:
 def _summary(plan: Plan) -> str:
     if plan.is_empty:
         return "Plan: nothing to do."
-    if plan.files_are_done:
+    if plan.files_match:
         return f"Plan: no file; {'a restart' if plan.is_pending else 'what stands above'}."
     counts = Counter(c.action for c in plan.changes)
-    words = [
+    text = [
         f"{counts['add']} to add",
         f"{counts['change']} to change",
         f"{counts['remove']} to remove",
     ]
     if counts["restore"]:
-        words.append(f"{counts['restore']} to restore")
+        text.append(f"{counts['restore']} to restore")
     if plan.conflicts:
-        words.append(f"{len(plan.conflicts)} conflict{'s' if len(plan.conflicts) > 1 else ''}")
-    return f"Plan: {', '.join(words)}."
+        text.append(f"{len(plan.conflicts)} conflict{'s' if len(plan.conflicts) > 1 else ''}")
+    return f"Plan: {', '.join(text)}."

@@ -47,7 +47,7 @@ from rapidgen.system import CfgText, parse_cfg
 
 def make_plan(
     transport: Transport,
-    wanted: DriverSet | None,
+    desired: DriverSet | None,
     *,
     verb: Verb = "deploy",
     loaded: tuple[CfgText, ...] = (),
@@ -64,22 +64,22 @@ def make_plan(
     damaged = ""
     if state.damaged and not (state.switching and state.journal):
         damaged = state.damaged
-        if wanted is None or state.later:
+        if desired is None or state.later:
             raise refused("RG531", damaged, "" if state.later else DAMAGED)
-        state = replace(state, manifest=recovered_manifest(transport, layout.home, wanted))
+        state = replace(state, manifest=recovered_manifest(transport, layout.home, desired))
     base = _base(transport, layout.home, state)
     had = base.had
-    nothing = wanted is None and had is None and not base.interrupted
+    nothing = desired is None and had is None and not base.interrupted
     if nothing and transport.services is None:
         raise _nothing_there(transport)
     carried = state.carried(had, repair=base.repair)
-    if wanted is not None and carried and carried != wanted.name:
+    if desired is not None and carried and carried != desired.name:
         raise refused(
             "RG524",
-            f"{transport.shown} carries the driver of {carried!r}, not of {wanted.name!r}",
+            f"{transport.shown} carries the driver of {carried!r}, not of {desired.name!r}",
             f"check the URL; to replace it, `rapidgen uninstall {carried} --to ...` first",
         )
-    changes = _file_changes(transport, layout, base, wanted)
+    changes = _file_changes(transport, layout, base, desired)
     syspar = read_syspar(transport, layout.syspar)
     texts = tuple(f.text for f in syspar) or loaded
     old_cfg = _old_cfg(changes)
@@ -91,28 +91,28 @@ def make_plan(
         if r.kind == "module"
     }
     if services is not None:
-        symbols = build_symbols(wanted) if wanted is not None else {}
-        references = keyed((*old_cfg, *(wanted.cfg if wanted else ())))
-        view = look(services, references, _tasks(wanted, old), symbols)
+        symbols = build_symbols(desired) if desired is not None else {}
+        references = keyed((*old_cfg, *(desired.cfg if desired else ())))
+        view = look(services, references, _tasks(desired, old), symbols)
         texts = view.texts
         if nothing and not view.orphans:
             raise _nothing_there(transport)
-        _check_release(view, wanted, transport.shown)
-    _check_robotware(texts, wanted, transport.shown)
-    wanted_cfg = wanted.cfg if wanted else ()
+        _check_release(view, desired, transport.shown)
+    _check_robotware(texts, desired, transport.shown)
+    wanted_cfg = desired.cfg if desired else ()
     seen = bool(syspar) and transport.reach.writes_cfg
     if seen:
         # A system that starts from these files has nobody who could leave a row out.
         wanted_cfg = tuple(text for text in wanted_cfg if not is_unconfirmed(text))
     present = texts if texts or view else old_cfg
-    ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
-    cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
+    own_files = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
+    cfg = compare(keyed(wanted_cfg), keyed(present), own_files, base.cfg_before)
     neighbour: OtherDriver | None = None
     restored: tuple[str, ...] = ()
-    if wanted is not None and verb == "deploy":
-        neighbour = _neighbour(transport, layout, texts, wanted, ours, frozenset(base.known))
+    if desired is not None and verb == "deploy":
+        neighbour = _neighbour(transport, layout, texts, desired, own_files, frozenset(base.known))
         if layout.syspar:
-            restored = in_memory(transport, _names(wanted))
+            restored = in_memory(transport, _names(desired))
     originals = {
         r.path: data if data is not None and digest(data) == r.sha256 else None
         for r in base.origin.values()
@@ -120,7 +120,7 @@ def make_plan(
         for data in [read_kept(transport, layout.home, r)]
     }
     for change in (
-        syspar_changes(layout.syspar, syspar, wanted_cfg, ours, base.cfg_before, originals)
+        syspar_changes(layout.syspar, syspar, wanted_cfg, own_files, base.cfg_before, originals)
         if seen
         else ()
     ):
@@ -142,9 +142,9 @@ def make_plan(
     live = None
     if services is not None and view is not None:
         live = make_live_plan(
-            view, cfg, wanted, old, ours, base.cfg_before, symbols,
-            find_clashes(services, view, wanted, old),
-            saved(transport, layout.home, view) if wanted is None else (),
+            view, cfg, desired, old, own_files, base.cfg_before, symbols,
+            find_clashes(services, view, desired, old),
+            saved(transport, layout.home, view) if desired is None else (),
         )  # fmt: skip
         steps = live_steps(live, verb, transport.shown, services.generation)
     else:
@@ -156,33 +156,33 @@ def make_plan(
             gone=any(c.after is None for c in modules),
             written=seen,
         )
-    if wanted is not None:
+    if desired is not None:
         if verb == "deploy":
-            check_complete(wanted, cfg)
-        steps = (*entry_steps(wanted, texts, transport.shown), *steps)
+            check_complete(desired, cfg)
+        steps = (*entry_steps(desired, texts, transport.shown), *steps)
     if neighbour is not None:
         steps = other_driver_steps(neighbour)
-    elif wanted is None and not seen and live is None and any(c.action == "remove" for c in cfg):
+    elif desired is None and not seen and live is None and any(c.action == "remove" for c in cfg):
         steps = (CFG_FIRST, *steps)
     unseen = list(transport.reach.unseen)
     if live is not None:
         pass  # all of it was asked for
     elif loaded and not syspar:
         unseen.append("loaded cfg is what the backup says; what was changed since is not seen")
-    elif not seen and wanted is not None:
+    elif not seen and desired is not None:
         unseen.append(
             "cfg instances are compared with the last deployment"
             if had is not None
             else "cfg instances are taken for missing: what is loaded is not seen"
         )
-        unseen.append(f"whether this is RobotWare {_ware(wanted.robotware)}: not seen")
+        unseen.append(f"whether this is RobotWare {_ware(desired.robotware)}: not seen")
     print_of = [(c.where, digest(c.before) if c.before is not None else "") for c in changes]
     return Plan(
         verb,
         transport.shown,
-        wanted.name if wanted else carried,
-        wanted.build_id if wanted else "",
-        wanted.robotware if wanted else (had.robotware if had else (0, 0)),
+        desired.name if desired else carried,
+        desired.build_id if desired else "",
+        desired.robotware if desired else (had.robotware if had else (0, 0)),
         tuple(changes),
         cfg,
         seen,
@@ -194,12 +194,12 @@ def make_plan(
         layout,
         state,
         had,
-        wanted,
+        desired,
         base.repair,
         base.origin,
         base.cfg_before,
         texts,
-        ours,
+        own_files,
         neighbour,
         restored,
         damaged,
@@ -219,8 +219,8 @@ def _nothing_there(transport: Transport) -> DiagnosticError:
 def find_layout(transport: Transport) -> Layout:
     """HOME itself, or a system folder (a backup, a virtual controller) that holds HOME."""
     # Of two names that differ in case the one in capitals counts.
-    found = sorted((e.name for e in transport.entries("") if e.folder is not False), reverse=True)
-    names = {name.casefold(): name for name in found}
+    result = sorted((e.name for e in transport.entries("") if e.folder is not False), reverse=True)
+    names = {name.casefold(): name for name in result}
     home, syspar = names.get("home", ""), names.get("syspar", "")
     # A folder `home` alone may be anybody's, one beside SYSPAR is that of a copied backup.
     if not home or (home != "HOME" and not syspar):
@@ -287,25 +287,25 @@ def _base(transport: Transport, home: str, state: StateFolder) -> _Base:
 
 
 def _file_changes(
-    transport: Transport, layout: Layout, base: _Base, wanted: DriverSet | None
+    transport: Transport, layout: Layout, base: _Base, desired: DriverSet | None
 ) -> list[FileChange]:
     changes: list[FileChange] = []
     conflict: Conflict
-    for file in wanted.files if wanted else ():
+    for file in desired.files if desired else ():
         where = layout.home + file.path
         current = read_or_none(transport, where)
-        ours = base.known.get(file.path)
+        own_files = base.known.get(file.path)
         action: Action = "add" if current is None else "change"
         conflict = ""
         note = ""
         if current == file.data:
             action = "same"
-        elif current is not None and ours is None:
+        elif current is not None and own_files is None:
             conflict = "stranger"
         elif current is not None and not base.owns(file.path, current):
             conflict = "edited"
             note = _edited_lines(base.records.get(file.path), current, file.data)
-        foreign = current is not None and ours is None
+        foreign = current is not None and own_files is None
         changes.append(
             FileChange(
                 file.path,
@@ -356,47 +356,49 @@ def _live_print(live: OnlinePlan | None) -> list[Members]:
     return [live.fingerprint] if live is not None else []
 
 
-def _tasks(wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]) -> list[str]:
-    names = [task for file in (wanted.files if wanted else ()) for task in file.tasks]
+def _tasks(desired: DriverSet | None, old: Mapping[str, tuple[str, ...]]) -> list[str]:
+    names = [task for file in (desired.files if desired else ()) for task in file.tasks]
     return list(dict.fromkeys([*names, *(task for tasks in old.values() for task in tasks)]))
 
 
-def _check_release(view: ControllerSnapshot, wanted: DriverSet | None, target: str) -> None:
+def _check_release(view: ControllerSnapshot, desired: DriverSet | None, target: str) -> None:
     """RG525; what is built for RobotWare 7 is for 8, too."""
     major = view.robotware.partition(".")[0]
-    if wanted is None or not major.isdecimal():
+    if desired is None or not major.isdecimal():
         return
-    if min(int(major), 7) != min(wanted.robotware[0], 7):
-        raise _other_release(target, view.robotware, wanted)
+    if min(int(major), 7) != min(desired.robotware[0], 7):
+        raise _other_release(target, view.robotware, desired)
 
 
 def _neighbour(
     transport: Transport,
     layout: Layout,
     texts: tuple[CfgText, ...],
-    wanted: DriverSet,
-    ours: frozenset[str],
+    desired: DriverSet,
+    own_files: frozenset[str],
     known: frozenset[str],
 ) -> OtherDriver | None:
-    modules = _names(wanted)
-    instances = ours | frozenset(map(name_of, keyed(wanted.cfg)))
-    paths = known | {file.path for file in wanted.files}
+    modules = _names(desired)
+    instances = own_files | frozenset(map(name_of, keyed(desired.cfg)))
+    paths = known | {file.path for file in desired.files}
     tasks = frozenset(
         instance.text("Name").casefold()
-        for key, instance in keyed(wanted.cfg).items()
-        if key[1] == "CAB_TASKS" and not instance.flag("MotionTask") and name_of(key) not in ours
+        for key, instance in keyed(desired.cfg).items()
+        if key[1] == "CAB_TASKS"
+        and not instance.flag("MotionTask")
+        and name_of(key) not in own_files
     )
     return find_other_driver(
         transport, layout.home, texts, OwnContents(modules, instances, paths, tasks)
     )
 
 
-def _names(wanted: DriverSet | None) -> dict[str, frozenset[str]]:
+def _names(desired: DriverSet | None) -> dict[str, frozenset[str]]:
     """Our module names with the tasks that load them, without case."""
     return {
-        found[1].decode("latin-1").casefold(): frozenset(task.casefold() for task in file.tasks)
-        for file in (wanted.files if wanted else ())
-        if file.kind == "module" and (found := MODULE.search(file.data))
+        match[1].decode("latin-1").casefold(): frozenset(task.casefold() for task in file.tasks)
+        for file in (desired.files if desired else ())
+        if file.kind == "module" and (match := MODULE.search(file.data))
     }
 
 
@@ -406,36 +408,36 @@ def _edited_lines(record: FileRecord | None, current: bytes, pristine: bytes) ->
         return ""
     matcher = difflib.SequenceMatcher(None, lines_of(pristine), lines_of(current), autojunk=False)
     spots = [(k + 1, max(m, k + 1)) for tag, _, _, k, m in matcher.get_opcodes() if tag != "equal"]
-    words = [str(a) if a == b else f"{a}-{b}" for a, b in spots]
-    return f"lines {', '.join(words[:5])}{', ...' if len(words) > 5 else ''}" if words else ""
+    text = [str(a) if a == b else f"{a}-{b}" for a, b in spots]
+    return f"lines {', '.join(text[:5])}{', ...' if len(text) > 5 else ''}" if text else ""
 
 
 def _old_cfg(changes: list[FileChange]) -> tuple[CfgText, ...]:
     """cfg files of the last deployment, as they lie there; an unreadable one counts as none."""
-    found = []
+    result = []
     for change in changes:
         if change.kind == "cfg" and change.before is not None:
             try:
-                found.append(parse_cfg(change.before, path=change.path))
+                result.append(parse_cfg(change.before, path=change.path))
             except DiagnosticError:
                 continue
-    return tuple(found)
+    return tuple(result)
 
 
-def _check_robotware(texts: tuple[CfgText, ...], wanted: DriverSet | None, target: str) -> None:
+def _check_robotware(texts: tuple[CfgText, ...], desired: DriverSet | None, target: str) -> None:
     for text in texts:
-        if wanted is None or text.version is None:
+        if desired is None or text.version is None:
             continue
         main, _ = text.version
-        if main != wanted.robotware[0]:
-            raise _other_release(target, f"{main} ({text.path})", wanted)
+        if main != desired.robotware[0]:
+            raise _other_release(target, f"{main} ({text.path})", desired)
 
 
-def _other_release(target: str, found: str, wanted: DriverSet) -> DiagnosticError:
+def _other_release(target: str, findings: str, desired: DriverSet) -> DiagnosticError:
     return refused(
         "RG525",
-        f"{target} runs RobotWare {found}, the driver is built for {_ware(wanted.robotware)}",
-        f"set `robotware: {found[0]}` in the configuration and build again",
+        f"{target} runs RobotWare {findings}, the driver is built for {_ware(desired.robotware)}",
+        f"set `robotware: {findings[0]}` in the configuration and build again",
     )
 
 

@@ -37,42 +37,42 @@ def back_up(work: FileOperations, number: int) -> None:
     records = []
     for index, record in enumerate(had.files):
         if record.path in by_path:
-            found = by_path[record.path]
+            result = by_path[record.path]
         else:
-            found = read_or_none(work.transport, work.home + record.path)
-        if found is not None:
+            result = read_or_none(work.transport, work.home + record.path)
+        if result is not None:
             name = f"{index}.bin"
-            write(work, f"{folder}/{name}", found)
-            records.append(replace(record, sha256=digest(found), size=len(found), stored=name))
-    kept = replace(had, files=tuple(records), history=())
-    write(work, f"{folder}/backup.json", encode(manifest_json(kept)))
+            write(work, f"{folder}/{name}", result)
+            records.append(replace(record, sha256=digest(result), size=len(result), stored=name))
+    retained = replace(had, files=tuple(records), history=())
+    write(work, f"{folder}/backup.json", encode(manifest_json(retained)))
 
 
 def foreign_files(plan: Plan) -> list[tuple[FileRecord, bytes]]:
     """Files that are not ours and are about to be replaced, or taken over because they are equal,
     and cfg files before our first instance."""
     count = plan.copies
-    found: list[tuple[FileRecord, bytes]] = []
+    result: list[tuple[FileRecord, bytes]] = []
     for change in plan.changes:
         if change.foreign and change.before is not None:
-            kept = plan.origin.get(change.path)
-            if kept is not None and kept.sha256 == digest(change.before):
+            retained = plan.origin.get(change.path)
+            if retained is not None and retained.sha256 == digest(change.before):
                 continue  # it came back once, and nobody has changed it since
             record = FileRecord(
                 change.path,
                 digest(change.before),
                 len(change.before),
                 change.kind,
-                stored=f"origin/{count + len(found)}.bin",
+                stored=f"origin/{count + len(result)}.bin",
             )
-            found.append((record, change.before))
-    return found
+            result.append((record, change.before))
+    return result
 
 
-def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
+def new_manifest(plan: Plan, desired: DriverSet, number: int) -> Manifest:
     """The manifest that stands when the run is done."""
     had = plan.had
-    files = tuple(FileRecord(f.path, f.sha256, len(f.data), f.kind, f.tasks) for f in wanted.files)
+    files = tuple(FileRecord(f.path, f.sha256, len(f.data), f.kind, f.tasks) for f in desired.files)
     history = had.history if had else ()
     undone = plan.repair and had is not None and had.files == files
     if had is not None and not undone:
@@ -80,18 +80,18 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     origin = {**plan.origin, **{record.path: record for record, _ in foreign_files(plan)}}
     before: Members = dict(plan.cfg_before)
     if plan.cfg_present:
-        before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before, plan.cfg_ours)
+        before = remember(keyed(desired.cfg), keyed(plan.cfg_present), before, plan.cfg_ours)
     return Manifest(
         number,
         now(),
-        wanted.name,
-        wanted.build_id,
-        wanted.robotware,
+        desired.name,
+        desired.build_id,
+        desired.robotware,
         files,
         tuple(origin.values()),
         history,
         before,
-        {"written_by": __version__, **wanted.generated},
+        {"written_by": __version__, **desired.generated},
     )
 
 

@@ -99,13 +99,13 @@ def find_password(
         return replace(login, password=Secret(getpass.getpass(prompt)))
     if ask and needed:
         # A host's name without quotes is a table in tables: TOML, and nothing for that host.
-        mend = (
+        help = (
             f"--secrets FILE, or {ENVIRONMENT}; it may be empty"
             if secrets is None
             else f'{secrets} has none for it: ["{host}"], in quotes, and below it password = "..."'
         )
         raise refusal(
-            "RG512", None, f"{host} wants a password, and nobody is here to be asked", mend
+            "RG512", None, f"{host} wants a password, and nobody is here to be asked", help
         )
     return login
 

@@ -199,11 +199,11 @@ def manifest_from(read: Json) -> Manifest:
 
 def _instances(read: Json) -> Members:
     """What was there before the first deployment: instances, or null for those that were not."""
-    found = members(read)
-    for old in found.values():
+    result = members(read)
+    for old in result.values():
         if old is not None:
             instance_from(old)
-    return found
+    return result
 
 
 def journal_json(journal: Journal) -> Members:
@@ -268,9 +268,9 @@ def read_kept(transport: Transport, home: str, record: FileRecord) -> bytes | No
     return read_or_none(transport, f"{home}{STATE}/backup/{record.stored}")
 
 
-def next_copy(kept: Iterable[FileRecord]) -> int:
+def next_copy(retained: Iterable[FileRecord]) -> int:
     """Number of the next copy of a stranger's file: above those that are kept."""
-    stems = [r.stored.rpartition("/")[2].partition(".")[0] for r in kept]
+    stems = [r.stored.rpartition("/")[2].partition(".")[0] for r in retained]
     return 1 + max((int(stem) for stem in stems if stem.isdecimal()), default=-1)
 
 

@@ -36,12 +36,12 @@ def read_syspar(transport: Transport, folder: str) -> tuple[SysparFile, ...]:
 
     Raises DiagnosticError RG701, RG702 for one that cannot be read.
     """
-    found = []
+    result = []
     for entry in transport.entries(folder.rstrip("/")) if folder else ():
         if entry.name.casefold().endswith(".cfg") and entry.folder is not True:
             data = transport.read(folder + entry.name)
-            found.append(SysparFile(parse_cfg(data, path=folder + entry.name), data))
-    return tuple(found)
+            result.append(SysparFile(parse_cfg(data, path=folder + entry.name), data))
+    return tuple(result)
 
 
 def loaded_cfg(backup: Path) -> tuple[CfgText, ...]:
@@ -74,8 +74,8 @@ def _folders(place: Path) -> list[Path]:
 def syspar_changes(
     folder: str,
     files: tuple[SysparFile, ...],
-    wanted: tuple[CfgText, ...],
-    ours: frozenset[str],
+    desired: tuple[CfgText, ...],
+    own_files: frozenset[str],
     before: Mapping[str, Json],
     originals: Mapping[str, bytes | None],
 ) -> list[SysparChange]:
@@ -86,19 +86,19 @@ def syspar_changes(
     else was changed since, and one that was not there goes.
     """
     present = {f.text.domain: f for f in files}
-    instances = without_used(keyed(wanted), keyed(f.text for f in files), ours, before)
+    instances = without_used(keyed(desired), keyed(f.text for f in files), own_files, before)
     changes = []
-    domains = [*(t.domain for t in wanted), *(n.split(" ")[0].upper() for n in sorted(ours))]
+    domains = [*(t.domain for t in desired), *(n.split(" ")[0].upper() for n in sorted(own_files))]
     for domain in dict.fromkeys(domains):
         file = present.get(domain)
         if file is not None:
             text = file.text
         else:
-            versions = [t.version for t in wanted if t.domain == domain]
+            versions = [t.version for t in desired if t.domain == domain]
             if not versions:
                 continue
             text = CfgText(domain, versions[0], (), f"{folder}{domain}.cfg")
-        new = merged(text, instances, ours, before)
+        new = merged(text, instances, own_files, before)
         if _plain(new) == _plain(text):
             continue
         after: bytes | None = cfg_bytes(new)

@@ -33,21 +33,21 @@ def parse_target(url: str) -> Target:
 
     Raises DiagnosticError RG509 (not such a URL) and RG510 (a password in it).
     """
-    scheme, colon, rest = url.partition("://")
+    scheme, colon, remaining = url.partition("://")
     if not colon:
-        scheme, _, rest = url.partition(":")
-        if scheme not in SCHEMES or not rest:
+        scheme, _, remaining = url.partition(":")
+        if scheme not in SCHEMES or not remaining:
             _refuse_password(url)
-            mend = f"for a controller: rws://{url} or ftp://{url}; for a folder here: dir://{url}"
-            raise _bad(url, "there is no scheme", mend)
+            help = f"for a controller: rws://{url} or ftp://{url}; for a folder here: dir://{url}"
+            raise _bad(url, "there is no scheme", help)
         if SCHEMES[scheme].port:
-            _refuse_password(rest)
-            rest = rest.lstrip("/")
-        raise _bad(url, "there is no '://'", f"write {scheme}://{rest}")
+            _refuse_password(remaining)
+            remaining = remaining.lstrip("/")
+        raise _bad(url, "there is no '://'", f"write {scheme}://{remaining}")
     if scheme in SCHEMES and not SCHEMES[scheme].port:
-        folder = Path(os.path.abspath(os.path.expanduser(unquote(rest) or ".")))
+        folder = Path(os.path.abspath(os.path.expanduser(unquote(remaining) or ".")))
         return Target(scheme, "", 0, str(folder))
-    _refuse_password(rest)
+    _refuse_password(remaining)
     if scheme not in SCHEMES:
         known = ", ".join(f"{name}://" for name in SCHEMES)
         meant = suggest(scheme, list(SCHEMES)) or f"there are {known}"
@@ -107,7 +107,7 @@ def credentials(target: Target, access: Access) -> Credentials:
     return replace(login, user="Default User")
 
 
-def _bad(url: str, reason: str, mend: str = "") -> DiagnosticError:
+def _bad(url: str, reason: str, help: str = "") -> DiagnosticError:
     # A URL that is not understood may hold a password in an odd place: it is not repeated.
-    shown = url if "@" not in url else url.partition("://")[0] + "://..."
-    return refusal("RG509", None, f"--to {shown}: {reason}", mend)
+    displayed = url if "@" not in url else url.partition("://")[0] + "://..."
+    return refusal("RG509", None, f"--to {displayed}: {reason}", help)

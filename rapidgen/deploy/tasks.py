@@ -17,32 +17,34 @@ from rapidgen.system import CfgText, Instance
 MAIN = re.compile(rb"^\s*PROC\s+main\s*\(", re.I | re.M)
 
 
-def entry_steps(wanted: DriverSet, loaded: Sequence[CfgText], target: str) -> list[ManualStep]:
+def entry_steps(desired: DriverSet, loaded: Sequence[CfgText], target: str) -> list[ManualStep]:
     """Steps where a motion task starts with another routine than our main.
 
     Raises DiagnosticError RG538 where the loaded cfg has no such motion task.
     """
     there = {i.text("Name").casefold(): i for t in loaded for i in t.instances("CAB_TASKS")}
-    ours = {i.text("Name").casefold() for text in wanted.cfg for i in text.instances("CAB_TASKS")}
+    own_files = {
+        i.text("Name").casefold() for text in desired.cfg for i in text.instances("CAB_TASKS")
+    }
     steps = []
-    for name in _motion_tasks(wanted) if there else ():
+    for name in _motion_tasks(desired) if there else ():
         task = there.get(name.casefold())
-        if task is None and name.casefold() not in ours:
+        if task is None and name.casefold() not in own_files:
             raise _missing(name, list(there.values()), target)
         entry = task.text("Entry") or "main" if task is not None else "main"
-        starts = any(name in f.tasks and MAIN.search(f.data) for f in wanted.files)
-        if starts and entry.casefold() != "main" and name.casefold() not in ours:
+        starts = any(name in f.tasks and MAIN.search(f.data) for f in desired.files)
+        if starts and entry.casefold() != "main" and name.casefold() not in own_files:
             what = f"set Entry of {name} to main (it starts with {entry} there)"
             steps.append(ManualStep("pendant", f"{what}: Configuration > Controller > Task"))
     return steps
 
 
-def check_complete(wanted: DriverSet, cfg: Sequence[CfgChange]) -> None:
+def check_complete(desired: DriverSet, cfg: Sequence[CfgChange]) -> None:
     """Raises DiagnosticError RG539 where a task would be taken away that the set's modules need.
 
     A build for a cell writes what the cell's backup lacks; a backup with this driver lacks nothing.
     """
-    needed = {task.casefold() for file in wanted.files for task in file.tasks}
+    needed = {task.casefold() for file in desired.files for task in file.tasks}
     for change in cfg:
         section, _, name = change.key.partition(" ")
         if change.action == "remove" and section == "CAB_TASKS" and name.casefold() in needed:
@@ -54,8 +56,8 @@ def check_complete(wanted: DriverSet, cfg: Sequence[CfgChange]) -> None:
             )
 
 
-def _motion_tasks(wanted: DriverSet) -> list[str]:
-    groups = members(wanted.generated.get("groups") or {})
+def _motion_tasks(desired: DriverSet) -> list[str]:
+    groups = members(desired.generated.get("groups") or {})
     return [str(members(group).get("task")) for group in groups.values()]
 
 

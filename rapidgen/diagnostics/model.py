@@ -60,7 +60,7 @@ def error(
     code: str,
     at: Span | None,
     message: str,
-    mend: str = "",
+    help: str = "",
     *,
     label: str = "",
     notes: Sequence[str] = (),
@@ -68,7 +68,7 @@ def error(
     severity: Severity = Severity.ERROR,
 ) -> Diagnostic:
     """A finding: the one way to make one. `at` is its place, `mend` says what to do."""
-    return Diagnostic(code, severity, message, at, label, mend, tuple(notes), tuple(related))
+    return Diagnostic(code, severity, message, at, label, help, tuple(notes), tuple(related))
 
 
 def _beside(d: Diagnostic) -> list[str]:
@@ -85,13 +85,13 @@ class DiagnosticError(Exception):
     def __init__(
         self, diagnostics: Diagnostic | Iterable[Diagnostic], *, exit_code: int = 2
     ) -> None:
-        found = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
-        super().__init__("; ".join(f"{d.code}: {d.message}" for d in found))
+        result = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
+        super().__init__("; ".join(f"{d.code}: {d.message}" for d in result))
         # Python shows these below a traceback: whoever calls no command sees place and mend, too.
         if sys.version_info >= (3, 11):
-            for line in dict.fromkeys(line for d in found for line in _beside(d)):
+            for line in dict.fromkeys(line for d in result for line in _beside(d)):
                 self.add_note(line)
-        self.diagnostics: tuple[Diagnostic, ...] = found
+        self.diagnostics: tuple[Diagnostic, ...] = result
         self.exit_code = exit_code
 
     def __reduce__(self) -> tuple[object, ...]:
@@ -103,7 +103,7 @@ def refusal(
     code: str,
     at: Span | None,
     message: str,
-    mend: str = "",
+    help: str = "",
     *,
     label: str = "",
     notes: Sequence[str] = (),
@@ -111,8 +111,8 @@ def refusal(
     exit_code: int = 2,
 ) -> DiagnosticError:
     """One error that ends what was under way, to be raised."""
-    found = error(code, at, message, mend, label=label, notes=notes, related=related)
-    return DiagnosticError(found, exit_code=exit_code)
+    result = error(code, at, message, help, label=label, notes=notes, related=related)
+    return DiagnosticError(result, exit_code=exit_code)
 
 
 def suggest(word: str, known: Sequence[str]) -> str:

@@ -50,13 +50,13 @@ def render(
 
     `json` is one array, also when empty; line and column are `null` without a place.
     """
-    found = list(diagnostics)
+    result = list(diagnostics)
     if format is Format.JSON:
-        return json.dumps(as_data(found), indent=2, ensure_ascii=False) + "\n"
+        return json.dumps(as_data(result), indent=2, ensure_ascii=False) + "\n"
     if format is Format.CONCISE:
-        return "".join(_concise(d) + "\n" for d in found)
+        return "".join(_concise(d) + "\n" for d in result)
     if format is Format.GITHUB:
-        return "".join(_github(d) + "\n" for d in found)
+        return "".join(_github(d) + "\n" for d in result)
     cache: dict[str, Sequence[str]] = {}
 
     def cached(path: str) -> Sequence[str]:
@@ -64,7 +64,7 @@ def render(
             cache[path] = lines_of(path)
         return cache[path]
 
-    return "".join(_full(d, cached, colour) + "\n" for d in found)
+    return "".join(_full(d, cached, colour) + "\n" for d in result)
 
 
 def _clean(text: str) -> str:
@@ -150,14 +150,14 @@ def _full(d: Diagnostic, lines_of: Callable[[str], Sequence[str]], colour: bool)
             width,
             bar,
             lambda t: paint(t, "1;34"),
-            mark="-",
+            marker="-",
         )
     for note in d.notes:
         out.append(f"{pad} = {paint('note', '1')}: {_clean(note)}")
     if d.help:
-        first, *rest = d.help.splitlines()
+        first, *remaining = d.help.splitlines()
         out.append(f"{pad} = {paint('help', '1')}: {_clean(first)}")
-        out += [f"{pad}         {_clean(line)}" for line in rest]
+        out += [f"{pad}         {_clean(line)}" for line in remaining]
     return "\n".join(out)
 
 
@@ -168,7 +168,7 @@ def _excerpt(
     width: int,
     bar: str,
     paint: Callable[[str], str],
-    mark: str = "^",
+    marker: str = "^",
 ) -> list[str]:
     if not 1 <= span.line <= len(lines):
         return [f"{' ' * width} = {_clean(label)}"] if label else []
@@ -184,10 +184,10 @@ def _excerpt(
     window = source[cut : cut + 120]
     before = _clean(source[cut:start]).replace("\t", _TAB)
     marked = _clean(source[start : min(end, cut + 120)]).replace("\t", _TAB)
-    underline = " " * len(before) + mark * max(1, len(marked))
-    shown = _clean(window).replace("\t", _TAB)
+    underline = " " * len(before) + marker * max(1, len(marked))
+    displayed = _clean(window).replace("\t", _TAB)
     return [
         f"{' ' * width} {bar}",
-        f"{span.line:>{width}} {bar} {shown}",
+        f"{span.line:>{width}} {bar} {displayed}",
         f"{' ' * width} {bar} " + paint(f"{underline} {_clean(label)}".rstrip()),
     ]

@@ -130,15 +130,15 @@ def _modules(config: RobotConfig, group: GroupConfig, renderer: Renderer) -> lis
         kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
         return renderer.render(f"{module}.{kind}.j2", **context, **more)
 
-    found = {module: render(module) for module in names if module != layout.COMMON}
+    result = {module: render(module) for module in names if module != layout.COMMON}
     # What the others name is declared there; it has some uses of its own.
     own = render(layout.COMMON, constants=(), reasons=())
-    used = used_constants(rendered.text for rendered in (*found.values(), own))
-    found[layout.COMMON] = render(layout.COMMON, **used)
+    used = used_constants(rendered.text for rendered in (*result.values(), own))
+    result[layout.COMMON] = render(layout.COMMON, **used)
     files = []
     faults = []
     for module in names:
-        rendered = found[module]
+        rendered = result[module]
         path = f"HOME/{layout.module_file(config, group, module)}"
         faults += lint(path, rendered.text)
         tasks = tuple(

@@ -43,35 +43,35 @@ def _faults(group: GroupConfig, cell: System) -> Iterator[Diagnostic]:
 
 
 def _of_routine(routine: UserRoutine, module: Module) -> Iterator[Diagnostic]:
-    wanted = routine.call.partition(":")[2]
+    expected = routine.call.partition(":")[2]
     names = [declared.name for declared in module.routines]
-    found = [r for r in module.routines if r.name.casefold() == wanted.casefold()]
-    if not found:
+    result = [r for r in module.routines if r.name.casefold() == expected.casefold()]
+    if not result:
         yield _fault(
             module.source.span(0, 0),
-            f"routine '{routine.name}': module {module.name} has no {wanted}",
-            suggest(wanted, names) or f"it has: {', '.join(names) or 'none'}",
+            f"routine '{routine.name}': module {module.name} has no {expected}",
+            suggest(expected, names) or f"it has: {', '.join(names) or 'none'}",
         )
         return
-    (declared,) = found[:1]
+    (declared,) = result[:1]
     needed = [p for p in declared.parameters if not p.optional]
     kind = "FUNC" if routine.returns else "PROC"
     fits = len(needed) == len(routine.parameters) and all(
-        _takes(own, theirs) for own, theirs in zip(routine.parameters, needed, strict=False)
+        _takes(own, foreign) for own, foreign in zip(routine.parameters, needed, strict=False)
     )
     if declared.kind != kind or (declared.type or "").casefold() != routine.returns or not fits:
         yield _fault(
             module.source.span(declared.name_token, declared.name_token),
-            f"routine '{routine.name}' is called as {kind} {wanted}"
+            f"routine '{routine.name}' is called as {kind} {expected}"
             f"({', '.join(map(_shown, routine.parameters))}), and is not declared so",
             f"it is {_declared(declared)}: `parameters:` of the configuration have to be its own",
         )
 
 
-def _takes(own: RoutineParameter, theirs: Parameter) -> bool:
+def _takes(own: RoutineParameter, foreign: Parameter) -> bool:
     """Whether a parameter takes what the driver gives, a variable; a result is none of IN."""
     modes = ("INOUT", "VAR") if own.inout else ("", "INOUT", "VAR")
-    return (theirs.type.casefold(), theirs.dimensions) == (own.type, 0) and theirs.mode in modes
+    return (foreign.type.casefold(), foreign.dimensions) == (own.type, 0) and foreign.mode in modes
 
 
 def _shown(own: RoutineParameter) -> str:
@@ -89,12 +89,12 @@ def _declared(routine: RoutineDeclaration) -> str:
 
 def _of_datum(datum: UserDatum, module: Module) -> Iterator[Diagnostic]:
     name = datum.name.partition(":")[2]
-    found = [
+    result = [
         d
         for d in module.declarations
         if isinstance(d, DataDeclaration) and d.name.casefold() == name.casefold()
     ]
-    if not found:
+    if not result:
         yield _fault(
             module.source.span(0, 0),
             f"datum '{datum.name}': module {module.name} declares no {name}",
@@ -102,14 +102,14 @@ def _of_datum(datum: UserDatum, module: Module) -> Iterator[Diagnostic]:
         )
     elif any(
         d.scope == "LOCAL" or d.kind != "PERS" or d.type.casefold() != datum.type or d.dimensions
-        for d in found
+        for d in result
     ):
         yield _fault(
-            module.source.span(found[0].name_token, found[0].name_token),
+            module.source.span(result[0].name_token, result[0].name_token),
             f"datum '{datum.name}' is not a global PERS of the type {datum.type}",
             f"`PERS {datum.type} {name} := ...;`",
         )
 
 
-def _fault(at: Span, message: str, mend: str) -> Diagnostic:
-    return error("RG114", at, message, mend)
+def _fault(at: Span, message: str, help: str) -> Diagnostic:
+    return error("RG114", at, message, help)

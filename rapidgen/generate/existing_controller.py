@@ -85,15 +85,15 @@ def _groups(config: RobotConfig, cell: Cell) -> tuple[GroupConfig, ...]:
         by_unit = [t for t in units if units[t].casefold() == group.mechanical_unit.casefold()]
         by_name = [t for t in units if t.casefold() == group.task.casefold()]
         only = list(units) if len(units) == len(config.groups) == 1 else []
-        found = (by_unit if len(by_unit) == 1 else []) or by_name or only
-        if not found:
+        result = (by_unit if len(by_unit) == 1 else []) or by_name or only
+        if not result:
             known = ", ".join(f"{task} moves {unit}" for task, unit in units.items())
             raise _unfit(
                 f"no motion task of the cell is group '{group.name}' ({group.task}, "
                 f"{group.mechanical_unit})",
                 f"name them as the cell has them: {known or 'it has no motion task'}",
             )
-        task = next(t for t in cell.system.tasks if t.name == found[0])
+        task = next(t for t in cell.system.tasks if t.name == result[0])
         unit = units[task.name] or group.mechanical_unit
         fitted.append(
             replace(
@@ -142,8 +142,8 @@ def _has_main(task: TaskSpec, ours: Collection[str]) -> bool:
     )
 
 
-def _unfit(message: str, mend: str) -> DiagnosticError:
-    return refusal("RG111", None, message, mend)
+def _unfit(message: str, help: str) -> DiagnosticError:
+    return refusal("RG111", None, message, help)
 
 
 # -- the cfg files --------------------------------------------------------------------------------
@@ -158,7 +158,7 @@ def missing(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> tuple[tuple[str
     faults = [fault for _, text in given for fault in _conflicts(text, cell)]
     if faults:
         raise DiagnosticError(faults)
-    kept = []
+    saved = []
     for name, text in given:
         sections = tuple(
             Section(section.name, instances)
@@ -166,15 +166,15 @@ def missing(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> tuple[tuple[str
             if (instances := tuple(_lacking(text, section, cell)))
         )
         if sections:
-            kept.append((name, replace(text, sections=sections)))
-    return tuple(kept)
+            saved.append((name, replace(text, sections=sections)))
+    return tuple(saved)
 
 
 def used_signals(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> dict[str, str]:
     """Signals of the files that the cell has, with their types."""
     names = (i.text("Name") for _, text in texts for i in text.instances("EIO_SIGNAL"))
-    found = {name: cell.cfg.signal(name) for name in names}
-    return {name: old.text("SignalType") for name, old in found.items() if old is not None}
+    result = {name: cell.cfg.signal(name) for name in names}
+    return {name: old.text("SignalType") for name, old in result.items() if old is not None}
 
 
 def _lacking(text: CfgText, section: Section, cell: Cell) -> Iterator[Instance]:
@@ -223,9 +223,9 @@ def _module_conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
     ours = {_name(instance): entry.file.casefold() for instance, entry in entries}
     tasks = {task.casefold() for _, entry in entries for task in entry.tasks}
     sys = cell.cfg.domain("SYS")
-    theirs = tuple(zip(sys.instances("CAB_TASK_MODULES"), modules_of(sys), strict=True))
+    foreign = tuple(zip(sys.instances("CAB_TASK_MODULES"), modules_of(sys), strict=True))
     told = set()
-    for instance, entry in theirs:
+    for instance, entry in foreign:
         name = _name(instance)
         if ours.get(name) == entry.file.casefold():
             # This build's, from before; the backup has a copy of it in RAPID.
@@ -236,12 +236,14 @@ def _module_conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
         if reached and name in ours:
             told.add(name)
             folder = entry.file.rpartition("/")[0].casefold()
-            beside = [o.file for _, o in theirs if o.file.rpartition("/")[0].casefold() == folder]
+            adjacent = [
+                o.file for _, o in foreign if o.file.rpartition("/")[0].casefold() == folder
+            ]
             yield _another_driver(
                 f"the cell loads a module {instance.text('ModName') or name} of its own, "
                 f"'{entry.file}'",
                 Span(sys.path, max(entry.line, 1), 1),
-                f"from the same folder: {', '.join(beside)}",
+                f"from the same folder: {', '.join(adjacent)}",
             )
     for task in cell.system.tasks:
         for module in task.modules:
@@ -258,8 +260,8 @@ def _name(instance: Instance) -> str:
 
 
 def _another_driver(message: str, at: Span, *notes: str) -> Diagnostic:
-    mend = "take the other driver out of the cell first: two of one name cannot be loaded together"
-    return error("RG110", at, message, mend, notes=notes)
+    help = "take the other driver out of the cell first: two of one name cannot be loaded together"
+    return error("RG110", at, message, help, notes=notes)
 
 
 def _conflict(cell: Cell, domain: str, section: str, name: str, line: int) -> Diagnostic:
@@ -274,14 +276,14 @@ def _conflict(cell: Cell, domain: str, section: str, name: str, line: int) -> Di
 def _in_order(hook: Instance, cell: Cell) -> Instance:
     """A hook with a -SeqNo that no hook of the same event in its task has."""
     shelf, task = hook.text("Shelf").casefold(), hook.text("Task").casefold()
-    taken = {
+    in_use = {
         old.number("SeqNo")
         for old in cell.cfg.instances("SYS", "CAB_EXEC_HOOKS")
         if old.text("Shelf").casefold() == shelf
         and (old.text("Task").casefold() in ("", task) or old.flag("AllMotionTask"))
     }
     order = int(hook.number("SeqNo"))
-    while order in taken:
+    while order in in_use:
         order += 1
     return Instance(
         tuple(Attribute("SeqNo", (order,)) if a.name == "SeqNo" else a for a in hook.attributes)
@@ -316,16 +318,16 @@ def check_link_conflicts(system: System, output: Output) -> None:
     """
     ours = {file.path for file in output.files if file.kind == "module"}
     faults = []
-    for found in check(system, gaps=True):
-        places = [at for at in (found.span, *(r.span for r in found.related)) if at is not None]
-        if found.severity is Severity.ERROR and any(at.path in ours for at in places):
-            theirs = [at for at in places if at.path not in ours]
+    for result in check(system, gaps=True):
+        places = [at for at in (result.span, *(r.span for r in result.related)) if at is not None]
+        if result.severity is Severity.ERROR and any(at.path in ours for at in places):
+            foreign = [at for at in places if at.path not in ours]
             faults.append(
                 error(
                     "RG112",
-                    theirs[0] if theirs else None,
+                    foreign[0] if foreign else None,
                     f"the cell's program is in the way of {places[0].path}, "
-                    f"line {places[0].line}: {found.message}",
+                    f"line {places[0].line}: {result.message}",
                     "rename it there, or declare it LOCAL",
                 )
             )
@@ -343,13 +345,15 @@ def check_data(config: RobotConfig, cell: System) -> None:
     for group in config.groups:
         motion = [t for t in cell.tasks if t.name.casefold() == group.task.casefold()]
         for kind, name, _ in data_of_another(group):
-            found = [d for task in motion for d in _declared(task, name)]
-            if not any(_is_global(data, kind) for data, _ in found):
-                wrong = f"{name} there is {_shown(found[0][0])}" if found else f"no {name} is there"
+            result = [d for task in motion for d in _declared(task, name)]
+            if not any(_is_global(data, kind) for data, _ in result):
+                wrong = (
+                    f"{name} there is {_shown(result[0][0])}" if result else f"no {name} is there"
+                )
                 faults.append(
                     error(
                         "RG113",
-                        found[0][1] if found else None,
+                        result[0][1] if result else None,
                         f"the program of {group.task} has to declare {kind} {name}, and {wrong}",
                         f"declare it in a module of {group.task}: `PERS {kind} {name} := ...;`",
                     )

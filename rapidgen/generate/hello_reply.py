@@ -13,15 +13,15 @@ from rapidgen.wire.simple_message.spec import Feature, ReplyCode
 
 def features(config: RobotConfig, group: GroupConfig) -> Feature:
     """What the driver of a group can do beyond the standard messages."""
-    found = Feature.PROGRESS
+    result = Feature.PROGRESS
     if config.profile == "basic":
-        return found
-    found |= Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK | Feature.PROGRAMS
+        return result
+    result |= Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK | Feature.PROGRAMS
     if group.ports.control:
-        found |= Feature.CONTROL
+        result |= Feature.CONTROL
         if config.signals:
-            found |= Feature.SIGNALS
-    return found
+            result |= Feature.SIGNALS
+    return result
 
 
 def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[str, object]:

@@ -238,7 +238,7 @@ def _signals(config: RobotConfig) -> tuple[SignalSpec, ...]:
 
 
 def _outputs(config: RobotConfig) -> tuple[SystemOutput, ...]:
-    found: dict[str, SystemOutput] = {}
+    result: dict[str, SystemOutput] = {}
     for group in config.groups:
         for signal in STATUS_SIGNALS:
             name = signal_name(config, group, signal)
@@ -248,5 +248,5 @@ def _outputs(config: RobotConfig) -> tuple[SystemOutput, ...]:
                 unit=group.mechanical_unit if signal.of == "unit" else "",
                 task=group.task if signal.of == "task" else "",
             )
-            found.setdefault(name, output)
-    return tuple(found.values())
+            result.setdefault(name, output)
+    return tuple(result.values())

@@ -18,23 +18,23 @@ def lint(path: str, text: str) -> list[Diagnostic]:
     All text is ASCII: with another character, in a comment too, a controller (a virtual one of
     6.15) did not load the module, and its task failed.
     """
-    found = []
+    result = []
     for number, line in enumerate(text.splitlines(), 1):
         if len(line) > MAX_LINE:
-            found.append(_fault(path, number, 1, f"the line has {len(line)} characters"))
+            result.append(_fault(path, number, 1, f"the line has {len(line)} characters"))
         odd = _NOT_ASCII.search(line)
         if odd is not None:
-            found.append(_fault(path, number, odd.start() + 1, f"{odd[0]!r} is not ASCII"))
+            result.append(_fault(path, number, odd.start() + 1, f"{odd[0]!r} is not ASCII"))
         for token in _TOKEN.finditer(line):
             if token[2] and len(token[2]) > MAX_NAME:
                 label = f"the name '{token[2]}' has {len(token[2])} characters"
-                found.append(_fault(path, number, token.start() + 1, label))
+                result.append(_fault(path, number, token.start() + 1, label))
             elif token[1] is not None:
                 size = len(_ESCAPE.sub("x", token[1]))
                 if size > MAX_STRING:
                     label = f"the string has {size} characters"
-                    found.append(_fault(path, number, token.start() + 1, label))
-    return found
+                    result.append(_fault(path, number, token.start() + 1, label))
+    return result
 
 
 def _fault(path: str, line: int, column: int, label: str) -> Diagnostic:

@@ -24,7 +24,7 @@ def check_tasks(config: RobotConfig) -> None:
         for role in layout.ROLES
         if role.task
     }
-    found = [
+    result = [
         error(
             "RG012",
             place_of_value(config, group.name, ("task",), group.task),
@@ -36,8 +36,8 @@ def check_tasks(config: RobotConfig) -> None:
         for group in config.groups
         if group.task.casefold() in ours
     ]
-    if found:
-        raise DiagnosticError(found)
+    if result:
+        raise DiagnosticError(result)
 
 
 def naming(config: RobotConfig, group: GroupConfig, modules: list[str]) -> list[Diagnostic]:
@@ -64,13 +64,13 @@ def naming(config: RobotConfig, group: GroupConfig, modules: list[str]) -> list[
         for match in _DECLARED.finditer(text)
         if match[1].casefold() not in _THEIR_TYPES | called
     }
-    found = []
+    findings = []
     for number, (key, name) in enumerate(chosen.items()):
         others = [other.casefold() for other in list(chosen.values())[:number]]
         why = _why_not(name, declared, others)
         if why:
             parts: KeyPath = tuple(int(p) if p.isdigit() else p for p in (*key.split("."), "name"))
-            found.append(
+            findings.append(
                 error(
                     "RG106",
                     place_of_value(config, group.name, parts, name),
@@ -78,7 +78,7 @@ def naming(config: RobotConfig, group: GroupConfig, modules: list[str]) -> list[
                     "choose another name",
                 )
             )
-    return found
+    return findings
 
 
 def _why_not(name: str, declared: set[str], others: list[str]) -> str:
@@ -87,8 +87,8 @@ def _why_not(name: str, declared: set[str], others: list[str]) -> str:
         return "it is a reserved word of RAPID"
     if _OURS.match(low):
         return "the driver's own names begin so"
-    taken = (*signatures.routine_names(), *signatures.type_names(), *signatures.predefined())
-    if low in {each.casefold() for each in taken}:
+    in_use = (*signatures.routine_names(), *signatures.type_names(), *signatures.predefined())
+    if low in {each.casefold() for each in in_use}:
         return "RAPID has a type, a routine or a datum of that name"
     if low in declared:
         return "the generated modules use it"

@@ -170,13 +170,13 @@ def _is_ours(folder: Path) -> bool:
 
 
 def _read(folder: Path) -> dict[str, bytes]:
-    found = {}
+    result = {}
     if folder.is_dir() and _is_ours(folder):
         for path in sorted(folder.rglob("*")):
             with suppress(OSError):  # no regular file, or one that no build has written
                 data = read_foreign(path, MAX_COMPARED, below=folder)
-                found[path.relative_to(folder).as_posix()] = data
-    return found
+                result[path.relative_to(folder).as_posix()] = data
+    return result
 
 
 def _unwritable(folder: Path, fault: OSError) -> DiagnosticError:

@@ -80,14 +80,14 @@ def _address(group: GroupConfig) -> str:
 
 def _elsewhere(group: GroupConfig) -> list[dict[str, str]]:
     """What the modules name and the customer's own have to declare in the motion task."""
-    found = [(t.name, "PERS tooldata") for t in (group.tool, *group.tools) if t.elsewhere]
-    found += [
+    result = [(t.name, "PERS tooldata") for t in (group.tool, *group.tools) if t.elsewhere]
+    result += [
         (w.name, "PERS wobjdata") for w in (group.work_object, *group.work_objects) if w.elsewhere
     ]
     if group.payload.name != "load0":
-        found.append((group.payload.name, "PERS loaddata"))
-    found += [(r.call, f"FUNC {r.returns}") for r in group.routines if r.returns]
-    return [{"name": name, "what": what} for name, what in dict.fromkeys(found)]
+        result.append((group.payload.name, "PERS loaddata"))
+    result += [(r.call, f"FUNC {r.returns}") for r in group.routines if r.returns]
+    return [{"name": name, "what": what} for name, what in dict.fromkeys(result)]
 
 
 def _open_files(config: RobotConfig) -> tuple[str, ...]:

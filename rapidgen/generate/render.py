@@ -101,11 +101,11 @@ def unmarked(text: str) -> RenderedText:
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         marks = _MARK.findall(line)
         if marks:
-            found = (marks[0][0], int(marks[0][1]))
+            result = (marks[0][0], int(marks[0][1]))
             # A run of lines that follow their template one by one needs one entry only.
-            if place is None or found != place:
-                lines.append((number, *found))
-            place = found
+            if place is None or result != place:
+                lines.append((number, *result))
+            place = result
         if place is not None:
             place = (place[0], place[1] + 1)
         out.append(_MARK.sub("", line))

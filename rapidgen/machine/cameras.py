@@ -51,8 +51,8 @@ class Camera:
         unless they are kept."""
         if not keep:
             self.results.clear()
-        found = self.images[self.taken % len(self.images)] if self.images else ()
-        self.results.extend((scene, seen) for seen in found)
+        result = self.images[self.taken % len(self.images)] if self.images else ()
+        self.results.extend((scene, seen) for seen in result)
         self.taken += 1
         self.under_way -= 1
         self.changed.notify()

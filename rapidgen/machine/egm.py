@@ -62,10 +62,10 @@ class EgmSessions:
 
     def device(self, name: str) -> UdpDevice | None:
         """A device by its name, behind which programs may write a colon; None: there is none."""
-        wanted = name.removesuffix(":")
+        expected = name.removesuffix(":")
         if self._devices is None:
-            return UdpDevice(wanted)
-        return next((d for d in self._devices if d.name.lower() == wanted.lower()), None)
+            return UdpDevice(expected)
+        return next((d for d in self._devices if d.name.lower() == expected.lower()), None)
 
     def take(self, task: str) -> EgmSession | None:
         """A new session; None: all identities are in use."""

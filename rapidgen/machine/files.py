@@ -114,8 +114,8 @@ class FileSystem:
             try:
                 copy_files(source, self.folder / "HOME")
             except TooLarge as fault:
-                mend = "take out what the robot's programs do not need: is it the right folder?"
-                raise refusal("RG705", None, f"{source}: {fault.strerror}", mend) from fault
+                help = "take out what the robot's programs do not need: is it the right folder?"
+                raise refusal("RG705", None, f"{source}: {fault.strerror}", help) from fault
 
     @property
     def folder(self) -> Path:
@@ -140,12 +140,12 @@ class FileSystem:
         """
         if file:
             text = text.rstrip("/\\") + "/" + file if not text.endswith(":") else text + file
-        device, rest = _split(text)
+        device, remaining = _split(text)
         folder = _DEVICES.get(device)
-        if folder is None or "\0" in rest:
+        if folder is None or "\0" in remaining:
             raise DiskFault(DiskReason.NO_ACCESS, f"no disk for '{text}'")
         place = self.folder / folder
-        for part in rest.replace("\\", "/").split("/"):
+        for part in remaining.replace("\\", "/").split("/"):
             if part in ("", "."):
                 continue
             if part == "..":
@@ -209,9 +209,9 @@ def _with_devices(folder: Path) -> Path:
 
 
 def _split(text: str) -> tuple[str, str]:
-    start, colon, rest = text.partition(":")
+    start, colon, remaining = text.partition(":")
     if colon and "/" not in start and "\\" not in start:
-        return start.lower() + ":", rest
+        return start.lower() + ":", remaining
     if text.startswith(("/", "\\")):
         return "", text
     return "home:", text
@@ -221,9 +221,9 @@ def _find(folder: Path, name: str) -> Path:
     exact = folder / name
     if os.path.lexists(exact) or not folder.is_dir():
         return exact
-    wanted = name.casefold()
+    expected = name.casefold()
     for entry in sorted(os.listdir(folder)):
-        if entry.casefold() == wanted:
+        if entry.casefold() == expected:
             return folder / entry
     return exact
 
@@ -242,9 +242,9 @@ def copy_files(source: Path, target: Path, *, without: Path | None = None) -> No
             for name in folders
             if not os.path.islink(os.path.join(place, name)) and Path(place, name) != without
         ]
-        here = target / os.path.relpath(place, source)
+        current = target / os.path.relpath(place, source)
         for name in folders:
-            (here / name).mkdir(exist_ok=True)
+            (current / name).mkdir(exist_ok=True)
         for name in files:
             path = Path(place, name)
             if path.is_symlink():
@@ -254,9 +254,9 @@ def copy_files(source: Path, target: Path, *, without: Path | None = None) -> No
                 if room < 0:
                     reason = f"it holds more than {LARGEST_COPY:,} bytes"
                     raise TooLarge(errno.EFBIG, reason, str(source))
-                with (here / name).open("wb") as copy:
+                with (current / name).open("wb") as copy:
                     shutil.copyfileobj(file, copy)
-                shutil.copystat(path, here / name)
+                shutil.copystat(path, current / name)
 
 
 def _raise(fault: OSError) -> None:

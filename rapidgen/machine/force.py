@@ -37,9 +37,9 @@ class ForceSensor:
     def read(self) -> Reading:
         """The next reading."""
         rows = self.measured.readings or ()
-        found = rows[min(self.taken, len(rows) - 1)]
+        result = rows[min(self.taken, len(rows) - 1)]
         self.taken += 1
-        return found
+        return result
 
 
 @dataclass(slots=True)

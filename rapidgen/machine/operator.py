@@ -145,9 +145,9 @@ class Operator:
         """What a task waits for on the screen, or an empty text."""
         for question in self.questions:
             if question.task == task:
-                asked = question.text.replace("\n", " ")
+                requested = question.text.replace("\n", " ")
                 reason = f"; {question.refused}" if question.refused else ""
-                return f"{question.dialog} waits for an answer to '{asked}'{reason}"
+                return f"{question.dialog} waits for an answer to '{requested}'{reason}"
         return ""
 
     def withdraw(self, question: Question) -> None:
@@ -185,8 +185,8 @@ def read_answers(path: Path) -> list[Answer]:
     except OSError as fault:
         raise _unreadable(path, fault.strerror or str(fault)) from fault
     except DiagnosticError as fault:
-        found = fault.diagnostics[0]
-        raise _unreadable(path, found.message, found.span) from fault
+        result = fault.diagnostics[0]
+        raise _unreadable(path, result.message, result.span) from fault
     if not isinstance(entries, list):
         raise _unreadable(path, "it holds no list")
     return [_entry(path, i, entry) for i, entry in enumerate(entries, 1)]

@@ -47,8 +47,8 @@ class Process:
     @property
     def frame(self) -> FrameType | None:
         """Innermost Python frame of a suspended process, for call stacks."""
-        found: FrameType | None = self.body.gr_frame if self.body is not None else None
-        return found
+        result: FrameType | None = self.body.gr_frame if self.body is not None else None
+        return result
 
     def wake(self) -> None:
         """Make a blocked process ready; it looks at the reason itself."""
@@ -56,7 +56,7 @@ class Process:
             self._blocked = False
             self.scheduler.ready.append(self)
 
-    def attend(self) -> None:
+    def process_pending(self) -> None:
         """Hook: called in the process after every poll and every wait."""
 
     # -- inside the process ----------------------------------------------------------------------
@@ -65,7 +65,7 @@ class Process:
         """Give the CPU away until somebody calls `wake()`; then `attend()`."""
         self._blocked = True
         self.scheduler.suspend(self)
-        self.attend()
+        self.process_pending()
 
     def poll(self, b: int) -> int:
         """Account for a spent budget, let the world go on, return the next budget."""
@@ -75,13 +75,13 @@ class Process:
             scheduler.suspend(self)
         else:
             scheduler.grant(self)
-        self.attend()
+        self.process_pending()
         return self.b
 
-    def give_way(self) -> None:
+    def yield_cpu(self) -> None:
         """Go to the end of the queue when others are ready; then `attend()`."""
         self.switch()
-        self.attend()
+        self.process_pending()
 
     def switch(self) -> None:
         """Go to the end of the queue when others are ready, in the middle of a statement."""
@@ -95,7 +95,7 @@ class Process:
         else:
             scheduler.grant(self)
         if self._kicked:  # nothing has attended to what came meanwhile
-            self.kick()
+            self.wake_at_next_statement()
 
     def charge(self, cost: int) -> None:
         """Spend `cost` nanoseconds of CPU."""
@@ -103,7 +103,7 @@ class Process:
         if self.b < 0:
             self.poll(self.b)
 
-    def kick(self) -> None:
+    def wake_at_next_statement(self) -> None:
         """Let `attend()` be called before the next statement, or in the wait."""
         scheduler = self.scheduler
         self._kicked = True
@@ -113,7 +113,7 @@ class Process:
         else:
             self.wake()
 
-    def attend_if_kicked(self) -> None:
+    def process_pending_if_woken(self) -> None:
         """Before a wait that begins in the middle of a statement: nobody would kick again."""
         if self.b < 0:
             self.poll(self.b)

@@ -177,7 +177,7 @@ class Scheduler:
         """Call `function` after a delay."""
         return self.at(self.now + max(0, delay_ns), function)
 
-    def look_after(self, delay_ns: int, function: Callable[[], None]) -> None:
+    def call_later_readonly(self, delay_ns: int, function: Callable[[], None]) -> None:
         """Call `function`, which only looks, after a delay: nothing else happens otherwise for it.
 
         On the virtual clock it is called when time next stands still there or later: it cuts
@@ -505,7 +505,7 @@ class Scheduler:
         """Under priorities: at the n-th access to a PERS from now on whoever runs becomes last."""
         self._preemptions = sorted((self._accesses + n for n in accesses), reverse=True)
 
-    def tosses(self) -> bool:
+    def switches_here(self) -> bool:
         """Whether a schedule switches at this access to a PERS."""
         if self.schedule == "priorities":
             self._accesses += 1

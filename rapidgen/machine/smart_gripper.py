@@ -174,18 +174,18 @@ class SmartGripper:
             *(Command.JOG_CLOSE, Command.TO_MIN, Command.GRIP_INWARD),
             *(Command.FORCE_INWARD, Command.AGILE_INWARD),
         )
-        wanted = 0.0 if inward else PHYSICAL_LIMIT
+        expected = 0.0 if inward else PHYSICAL_LIMIT
         if order in _EXACT:
             register = self.min_position if inward else self.max_position
-            wanted = min(max(register + self._zero, 0.0), PHYSICAL_LIMIT)
-        self._to = wanted
+            expected = min(max(register + self._zero, 0.0), PHYSICAL_LIMIT)
+        self._to = expected
         if inward and self.part is not None:
-            self._to = min(max(wanted, self.part), self._from)
+            self._to = min(max(expected, self.part), self._from)
         elif not inward and self.ring is not None:
-            self._to = max(min(wanted, self.ring), self._from)
+            self._to = max(min(expected, self.ring), self._from)
         self._began, self._speed = self._scheduler.now, self.max_speed
         lasts = round(abs(self._to - self._from) / self._speed * S)
-        missed = order in _EXACT and abs(self._to - wanted) > 1e-9
+        missed = order in _EXACT and abs(self._to - expected) > 1e-9
         self._timers = [self._scheduler.after(lasts, lambda: self._arrive(order, missed))]
         if lasts > _REPORT:
             self._timers.append(self._scheduler.after(_REPORT, self._go_on))

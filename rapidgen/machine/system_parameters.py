@@ -45,8 +45,8 @@ class SystemParameters:
         parts = [part.lower() for part in path.strip("/").split("/")]
         if len(parts) == 2:
             return self._types.get((parts[0], parts[1]), [])
-        found = self._named.get((parts[0], parts[1], parts[2])) if len(parts) == 3 else None
-        return [] if found is None else [found]
+        match = self._named.get((parts[0], parts[1], parts[2])) if len(parts) == 3 else None
+        return [] if match is None else [match]
 
     def text(self, domain: str) -> str:
         """A domain as cfg text, as the system was read. KeyError: there is none."""

@@ -36,29 +36,29 @@ class BrakingMotion:
     def posture(self, now: int) -> Posture:
         """Axis values at a time."""
         time = (now - self.since) / S
-        found = []
+        result = []
         for q, v, a in zip(self.origin, self.rates, self.slowing, strict=True):
             t = min(time, abs(v) / a)
-            found.append(q + v * t - (a if v > 0 else -a) * t * t / 2)
-        return tuple(found)
+            result.append(q + v * t - (a if v > 0 else -a) * t * t / 2)
+        return tuple(result)
 
 
 def coast(
-    now: int, here: Posture, before: Posture, joints: Sequence[Joint], factor: float
+    now: int, current: Posture, before: Posture, joints: Sequence[Joint], factor: float
 ) -> BrakingMotion:
     """From a posture, and the one a moment earlier; `factor` times the axes' acceleration.
 
     An axis that would leave its range stops harder, at the end of it; one that is there stays.
     """
     rates, slowing = [], []
-    for q, p, joint in zip(here, before, joints, strict=True):
+    for q, p, joint in zip(current, before, joints, strict=True):
         rate = (q - p) / _STEP
         room = (joint.upper - q) if rate > 0 else (q - joint.lower)
         if room <= 0:
             rate, room = 0.0, 1.0
         rates.append(rate)
         slowing.append(max(joint.acceleration * factor, rate * rate / (2 * room)))
-    return BrakingMotion(now, here, tuple(rates), tuple(slowing))
+    return BrakingMotion(now, current, tuple(rates), tuple(slowing))
 
 
 def moment_before(now: int) -> int:

@@ -103,8 +103,8 @@ class CartesianPath:
 
     def posture(self, time: float) -> Posture:
         """Axis values at a nominal time of the way."""
-        share = time / self.duration
-        return self._solve(share, self._guess(share))
+        fraction = time / self.duration
+        return self._solve(fraction, self._guess(fraction))
 
     def pose(self, time: float) -> Pose:
         """TCP in the object. Times may lie outside the way."""
@@ -121,8 +121,8 @@ class CartesianPath:
 
     def external(self, time: float) -> Posture:
         """All axes by linear interpolation: right for the external ones."""
-        share = time / self.duration
-        return self._linear(share)
+        fraction = time / self.duration
+        return self._linear(fraction)
 
     def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
         """One piece for each interval of the sampling that lies between start and end."""
@@ -132,17 +132,17 @@ class CartesianPath:
         def at(place: float) -> Posture:
             return self.posture(place - begin)
 
-        found: list[Piece] = []
+        result: list[Piece] = []
         for k in range(count):
             left, right = begin + k * spacing, begin + (k + 1) * spacing
             if k == count - 1:
                 right = begin + self.duration
             low, high = max(left, start), min(right, end)
             if high - low > 1e-12:
-                found.append(Piece(low, high, at, self._ceilings[k], self.tcp))
-        if found:
-            found[0].start, found[-1].end = start, end
-        return found
+                result.append(Piece(low, high, at, self._ceilings[k], self.tcp))
+        if result:
+            result[0].start, result[-1].end = start, end
+        return result
 
     # -- inverse kinematics along the way -----------------------------------------------------
 
@@ -151,8 +151,8 @@ class CartesianPath:
         while True:
             shares = spaced(0.0, 1.0, count)
             nodes = [origin]
-            for share in shares[1:]:
-                nodes.append(self._solve(share, nodes[-1]))
+            for fraction in shares[1:]:
+                nodes.append(self._solve(fraction, nodes[-1]))
             step = largest_step(nodes)
             if step <= _STEP:
                 break
@@ -167,50 +167,52 @@ class CartesianPath:
                 raise MotionFault(FaultReason.OUT_OF_RANGE, faults[0])
         return shares, nodes
 
-    def _pose(self, share: float) -> Pose:
+    def _pose(self, fraction: float) -> Pose:
         shape = self.shape
         return (
-            shape.position(share),
-            shape.orientation(share) if self._turns else shape.start[1],
+            shape.position(fraction),
+            shape.orientation(fraction) if self._turns else shape.start[1],
         )
 
-    def _solve(self, share: float, near: Posture) -> Posture:
-        pose = self._pose(share)
+    def _solve(self, fraction: float, near: Posture) -> Posture:
+        pose = self._pose(fraction)
         if self._places:
-            near = with_external(near, self._linear(share), self._places)
+            near = with_external(near, self._linear(fraction), self._places)
         if self._wrist is not None:
-            return self._solve_wrist(share, near)
-        found = self._kinematics.follow(self.carrier.at(near).flange(pose), near)
-        if found is None:
+            return self._solve_wrist(fraction, near)
+        result = self._kinematics.follow(self.carrier.at(near).flange(pose), near)
+        if result is None:
             _, why = unreached(self._kinematics, self.carrier.at(near).flange(pose), near)
             raise MotionFault(FaultReason.OUT_OF_REACH, why)
-        return found
+        return result
 
-    def _solve_wrist(self, share: float, near: Posture) -> Posture:
+    def _solve_wrist(self, fraction: float, near: Posture) -> Posture:
         """Wrist axes on their straight way, the main axes put the TCP on its own."""
         assert self._wrist is not None
         wrist, (first, last) = wrist_places(self._kinematics), self._wrist
         values = list(near)
         for i in wrist:
-            values[i] = first[i] + (last[i] - first[i]) * share
-        found = put_tcp(self._kinematics, self.carrier, self.shape.position(share), tuple(values))
-        if found is None:
+            values[i] = first[i] + (last[i] - first[i]) * fraction
+        result = put_tcp(
+            self._kinematics, self.carrier, self.shape.position(fraction), tuple(values)
+        )
+        if result is None:
             raise MotionFault(FaultReason.OUT_OF_REACH_WITH_WRIST)
-        return found
+        return result
 
     @property
     def joins_poses(self) -> bool:
         """Whether a corner may be made from poses: the orientation is that of the shape."""
         return self._wrist is None
 
-    def _linear(self, share: float) -> Posture:
+    def _linear(self, fraction: float) -> Posture:
         first, last = self._external
-        return tuple([a + (b - a) * share for a, b in zip(first, last, strict=True)])
+        return tuple([a + (b - a) * fraction for a, b in zip(first, last, strict=True)])
 
-    def _guess(self, share: float) -> Posture:
+    def _guess(self, fraction: float) -> Posture:
         shares = self._shares
-        k = min(max(0, bisect_right(shares, share) - 1), len(shares) - 2)
-        part = (share - shares[k]) / (shares[k + 1] - shares[k])
+        k = min(max(0, bisect_right(shares, fraction) - 1), len(shares) - 2)
+        part = (fraction - shares[k]) / (shares[k + 1] - shares[k])
         part = min(1.0, max(0.0, part))
         return tuple(
             [a + (b - a) * part for a, b in zip(self._nodes[k], self._nodes[k + 1], strict=True)]

@@ -43,41 +43,41 @@ def corner(
 
     `size` (0 to 1) shrinks the zone where the path cannot be met otherwise.
     """
-    way, zone = before.way, before.move.zone
-    shares = corner_shares(zone, way.measure, after.measure)
+    path, zone = before.way, before.move.zone
+    shares = corner_shares(zone, path.measure, after.measure)
     if shares is None:
         return None
-    inside, outside = shares[0] * size * way.duration, shares[1] * size * after.duration
+    inside, outside = shares[0] * size * path.duration, shares[1] * size * after.duration
     if min(inside, outside) < _SMALLEST:
         return None
-    if isinstance(way, JointPath) and isinstance(after, JointPath):
+    if isinstance(path, JointPath) and isinstance(after, JointPath):
         start, end = before.end - inside, before.end + outside
-        rates = (way.rates, inside), (after.rates, outside)
-        tcp = max(way.tcp, after.tcp)
-        return start, end, joint_corner(start, way.target, *rates, limits, tcp)
-    if isinstance(way, CartesianPath) and isinstance(after, CartesianPath):
-        if (way.measure.tcp > NO_WAY) != (after.measure.tcp > NO_WAY):
+        rates = (path.rates, inside), (after.rates, outside)
+        tcp = max(path.tcp, after.tcp)
+        return start, end, joint_corner(start, path.target, *rates, limits, tcp)
+    if isinstance(path, CartesianPath) and isinstance(after, CartesianPath):
+        if (path.measure.tcp > NO_WAY) != (after.measure.tcp > NO_WAY):
             return None  # TCP motion next to pure reorientation (S4 overview p.5-17)
-        poses = way.joins_poses and after.joins_poses and way.carrier == after.carrier
+        poses = path.joins_poses and after.joins_poses and path.carrier == after.carrier
         if poses and kinematics is not None:
-            wide = _extended(zone, way, after, size, (inside, outside))
-            return _cartesian(before, way, after, (inside, outside), wide, limits, kinematics)
-    return _mixed(before, way, after, (inside, outside), limits)
+            wide = _extended(zone, path, after, size, (inside, outside))
+            return _cartesian(before, path, after, (inside, outside), wide, limits, kinematics)
+    return _mixed(before, path, after, (inside, outside), limits)
 
 
 def _extended(
-    zone: Zone, way: Geometry, after: Geometry, size: float, least: tuple[float, float]
+    zone: Zone, path: Geometry, after: Geometry, size: float, least: tuple[float, float]
 ) -> tuple[float, float]:
     """Nominal times of the extended zone on both sides, not below those of the TCP zone."""
-    measures = way.measure, after.measure
+    measures = path.measure, after.measure
     if all(m.angle + m.linear + m.rotary < NO_TURN for m in measures):
         return least  # nothing but the TCP moves
-    first, second = extended_share(zone, way.measure), extended_share(zone, after.measure)
-    if way.measure.tcp > NO_WAY:
-        radius = min(first * way.measure.tcp, second * after.measure.tcp)
-        first, second = radius / way.measure.tcp, radius / after.measure.tcp
+    first, second = extended_share(zone, path.measure), extended_share(zone, after.measure)
+    if path.measure.tcp > NO_WAY:
+        radius = min(first * path.measure.tcp, second * after.measure.tcp)
+        first, second = radius / path.measure.tcp, radius / after.measure.tcp
     return (
-        max(least[0], first * size * way.duration),
+        max(least[0], first * size * path.duration),
         max(least[1], second * size * after.duration),
     )
 
@@ -121,7 +121,7 @@ def _turn(points: tuple[Quaternion, ...], w: float) -> Quaternion:
 
 def _cartesian(
     before: Leg,
-    way: CartesianPath,
+    path: CartesianPath,
     after: CartesianPath,
     near: tuple[float, float],
     wide: tuple[float, float],
@@ -129,9 +129,9 @@ def _cartesian(
     kinematics: Kinematics,
 ) -> Bend | None:
     point = before.end
-    position = _position(way, after, near)
-    orientation = _orientation(way, after, wide)
-    external = _external(way, after, wide) if external_places(kinematics) else None
+    position = _position(path, after, near)
+    orientation = _orientation(path, after, wide)
+    external = _external(path, after, wide) if external_places(kinematics) else None
 
     def pose(time: float) -> Pose:
         return position(time), orientation(time)
@@ -139,27 +139,27 @@ def _cartesian(
     # The second derivatives jump where a zone begins and at the point: no interval lies across.
     ends = sorted({-wide[0], -near[0], 0.0, near[1], wide[1]})
     sections = [(point + a, point + b) for a, b in pairwise(ends) if b - a > _SMALLEST]
-    origin = way.posture(way.duration - wide[0])
-    solve = _Tracker(kinematics, way.carrier, pose, external)
-    return _sampled(solve, point, sections, origin, limits, max(way.tcp, after.tcp))
+    origin = path.posture(path.duration - wide[0])
+    solve = _Tracker(kinematics, path.carrier, pose, external)
+    return _sampled(solve, point, sections, origin, limits, max(path.tcp, after.tcp))
 
 
 def _position(
-    way: CartesianPath, after: CartesianPath, zone: tuple[float, float]
+    path: CartesianPath, after: CartesianPath, zone: tuple[float, float]
 ) -> Callable[[float], Vector]:
     inside, outside = zone
     w = _parameter(inside, outside)
-    first, last = way.pose(way.duration - inside)[0], after.pose(outside)[0]
+    first, last = path.pose(path.duration - inside)[0], after.pose(outside)[0]
     points = (
         first,
-        frames.add(first, frames.scale(way.velocity(way.duration - inside), inside * 2 / 3)),
+        frames.add(first, frames.scale(path.velocity(path.duration - inside), inside * 2 / 3)),
         frames.add(last, frames.scale(after.velocity(outside), -outside * 2 / 3)),
         last,
     )
 
     def at(time: float) -> Vector:
         if time <= -inside:
-            return way.pose(way.duration + time)[0]
+            return path.pose(path.duration + time)[0]
         if time >= outside:
             return after.pose(time)[0]
         x, y, z = _curve(points, w(time))
@@ -169,17 +169,17 @@ def _position(
 
 
 def _orientation(
-    way: CartesianPath, after: CartesianPath, zone: tuple[float, float]
+    path: CartesianPath, after: CartesianPath, zone: tuple[float, float]
 ) -> Callable[[float], Quaternion]:
-    constant = way.orientation
+    constant = path.orientation
     if constant is not None and after.orientation is not None:
         return lambda _time: constant
     inside, outside = zone
     w = _parameter(inside, outside)
-    first, last = way.pose(way.duration - inside)[1], after.pose(outside)[1]
+    first, last = path.pose(path.duration - inside)[1], after.pose(outside)[1]
     points = (
         first,
-        frames.multiply(_spun(way, way.duration - inside, inside * 2 / 3), first),
+        frames.multiply(_spun(path, path.duration - inside, inside * 2 / 3), first),
         frames.multiply(_spun(after, outside, -outside * 2 / 3), last),
         last,
     )
@@ -190,22 +190,22 @@ def _orientation(
     return at
 
 
-def _spun(way: CartesianPath, time: float, span: float) -> Quaternion:
+def _spun(path: CartesianPath, time: float, span: float) -> Quaternion:
     """How far the tool would turn in `span` at the rate that it has at `time`."""
-    step = 1e-4 * way.duration
-    ahead, behind = way.pose(time + step)[1], way.pose(time - step)[1]
-    axis, angle = frames.to_axis(frames.multiply(ahead, frames.conjugate(behind)))
+    step = 1e-4 * path.duration
+    ahead, after = path.pose(time + step)[1], path.pose(time - step)[1]
+    axis, angle = frames.to_axis(frames.multiply(ahead, frames.conjugate(after)))
     return frames.about(axis, angle * span / (2 * step))
 
 
 def _external(
-    way: CartesianPath, after: CartesianPath, zone: tuple[float, float]
+    path: CartesianPath, after: CartesianPath, zone: tuple[float, float]
 ) -> Callable[[float], Posture]:
     inside, outside = zone
     w = _parameter(inside, outside)
     points = (
-        way.external(way.duration - inside),
-        way.external(way.duration - inside / 3),
+        path.external(path.duration - inside),
+        path.external(path.duration - inside / 3),
         after.external(outside / 3),
         after.external(outside),
     )
@@ -231,10 +231,10 @@ class _Tracker:
     def __call__(self, time: float, near: Posture) -> Posture:
         if self._external is not None:
             near = with_external(near, self._external(time), self._places)
-        found = self._kinematics.follow(self._carrier.at(near).flange(self._pose(time)), near)
-        if found is None:
+        result = self._kinematics.follow(self._carrier.at(near).flange(self._pose(time)), near)
+        if result is None:
             raise MotionFault(FaultReason.OUT_OF_REACH_IN_CORNER)
-        return found
+        return result
 
 
 def _sampled(
@@ -248,10 +248,10 @@ def _sampled(
     pieces: list[Piece] = []
     try:
         for low, high in sections:
-            found = _section(solve, point, (low, high), origin, limits)
-            if found is None:
+            result = _section(solve, point, (low, high), origin, limits)
+            if result is None:
                 return None
-            at, origin, ceilings = found
+            at, origin, ceilings = result
             pieces += _curves(at, (low, high), ceilings, tcp)
     except MotionFault:
         return None  # the corner cannot be reached: the point itself can
@@ -303,15 +303,15 @@ def _curves(
 
 def _mixed(
     before: Leg,
-    way: Geometry,
+    path: Geometry,
     after: Geometry,
     zone: tuple[float, float],
     limits: AxisLimits,
 ) -> Bend:
     inside, outside = zone
     point = before.end
-    first, last = way.posture(way.duration - inside), after.posture(outside)
-    rate_in, rate_out = _rate(way, way.duration - inside), _rate(after, outside)
+    first, last = path.posture(path.duration - inside), after.posture(outside)
+    rate_in, rate_out = _rate(path, path.duration - inside), _rate(after, outside)
     points = (
         first,
         tuple([q + r * inside * 2 / 3 for q, r in zip(first, rate_in, strict=True)]),
@@ -334,14 +334,14 @@ def _mixed(
             if close or count >= _MOST:
                 break
             count *= 2
-        pieces += _curves(at, (low, high), ceilings, max(way.tcp, after.tcp))
+        pieces += _curves(at, (low, high), ceilings, max(path.tcp, after.tcp))
     return start, end, pieces
 
 
-def _rate(way: Geometry, time: float) -> Posture:
-    step = min(1e-4 * way.duration, time, way.duration - time)
-    ahead, behind = way.posture(time + step), way.posture(time - step)
-    return tuple([(a - b) / (2 * step) for a, b in zip(ahead, behind, strict=True)])
+def _rate(path: Geometry, time: float) -> Posture:
+    step = min(1e-4 * path.duration, time, path.duration - time)
+    ahead, after = path.posture(time + step), path.posture(time - step)
+    return tuple([(a - b) / (2 * step) for a, b in zip(ahead, after, strict=True)])
 
 
 def zone_entry(leg: Leg) -> float:
@@ -349,5 +349,5 @@ def zone_entry(leg: Leg) -> float:
     shares = corner_shares(leg.move.zone, leg.way.measure, leg.way.measure)
     if shares is None:
         return leg.end
-    share = max(shares[0], min(0.5, extended_share(leg.move.zone, leg.way.measure)))
-    return leg.end - share * leg.way.duration
+    fraction = max(shares[0], min(0.5, extended_share(leg.move.zone, leg.way.measure)))
+    return leg.end - fraction * leg.way.duration

@@ -109,10 +109,10 @@ class Drive:
         if planned is pieces and planned_at == now:
             return law
         place, speed = self.planned()
-        rest = 0.0
+        remaining = 0.0
         if speed < _STANDING:
-            speed, rest = 0.0, self._rest(place)
-        law = self._plan(pieces, place, speed, rest)
+            speed, remaining = 0.0, self._rest(place)
+        law = self._plan(pieces, place, speed, remaining)
         self._planned = now, pieces, law
         return law
 
@@ -183,12 +183,12 @@ class Drive:
         law: SpeedProfile,
         start: int,
         path: Path,
-        rest: Posture | None = None,
+        remaining: Posture | None = None,
         stop: BrakingMotion | None = None,
     ) -> None:
         """A law that began at `start` and ends at a place of the path, unless at `rest`."""
-        if rest is None:
-            rest = path.target if law.place >= path.end else path.at(law.place)
+        if remaining is None:
+            remaining = path.target if law.place >= path.end else path.at(law.place)
         now = self._scheduler.now
         self.forget()
         if self.settings.servo_lag > 0:
@@ -197,6 +197,6 @@ class Drive:
             recent = self._history[-len(later) - 1 :] if self._history else []
             self._history = [*recent, self.motion]
         legs = tuple((leg.end, leg.move) for leg in path.legs)
-        self.motion = Motion(now, start, law, path.pieces, rest, legs, self.ramp, stop)
+        self.motion = Motion(now, start, law, path.pieces, remaining, legs, self.ramp, stop)
         for observer in self.observers:
             observer(self.motion)

@@ -125,11 +125,11 @@ class PathExecution:
         if self._braking():
             fixed = max(fixed, self.motion.law.place)
         path.prune(drive.place())
-        limits, standing = self.limits(), self.is_standing
+        limits, at_rest = self.limits(), self.is_standing
         make = self._planner.way_maker(limits)
         leg, failed = path.extend(move, make, drive.law, limits, fixed, self._planner.kinematics)
         self._events.add(leg)
-        if standing and not self.stops:
+        if at_rest and not self.stops:
             leg.began = self._scheduler.now / S
         if failed:
             self._warn_of_corner(path.legs[-2].move)
@@ -173,30 +173,30 @@ class PathExecution:
         else:
             self.path = Path(motion.rest)
             self.path.left_at(path.target)
-            now, rest = self._scheduler.now, motion.rest
-            self.drive.put(SpeedProfile(0.0), now, self.path, rest, motion.coast)
+            now, remaining = self._scheduler.now, motion.rest
+            self.drive.put(SpeedProfile(0.0), now, self.path, remaining, motion.coast)
         self._rearm()
         self.finish(lost, cleared=True)
 
-    def put_aside(self) -> StoredPath:
+    def store(self) -> StoredPath:
         """The path as it is, for `take_up`; another one is to `begin`."""
         self.path.prune(self.drive.place())
         aside = StoredPath(self.path, self.motion, self._events)
         self._events = PathEvents()
         return aside
 
-    def take_up(self, aside: StoredPath, here: Posture) -> None:
+    def restore(self, aside: StoredPath, current: Posture) -> None:
         """Drop this path for one that was put aside; the robot stands at `here`."""
         self.finish(list(self.path.legs), cleared=True)
         self.path, self._events = aside.path, aside.events
-        self.come_back(here, aside.motion.law.place)
+        self.come_back(current, aside.motion.law.place)
 
-    def come_back(self, here: Posture, place: float) -> None:
+    def come_back(self, current: Posture, place: float) -> None:
         """The path goes on at a place, and the robot stands elsewhere."""
-        place = self.path.regain(here, place, self._planner.limits(self.drive.ramp))
+        place = self.path.distance_to_path(current, place, self._planner.limits(self.drive.ramp))
         if not self.path.pieces:
-            self.path.target = here
-        self.drive.put(SpeedProfile(place), self._scheduler.now, self.path, here)
+            self.path.target = current
+        self.drive.put(SpeedProfile(place), self._scheduler.now, self.path, current)
         self._rearm()
 
     def finish(self, legs: list[Leg], *, cleared: bool) -> None:

@@ -75,8 +75,8 @@ class MotionGroup:
         self._report(True)
         io.report("MechUnitActive", 1, config.mechanical_unit)
 
-    def _report(self, standing: bool) -> None:
-        self._io.report("MechUnitNotMoving", int(standing), self.config.mechanical_unit)
+    def _report(self, at_rest: bool) -> None:
+        self._io.report("MechUnitNotMoving", int(at_rest), self.config.mechanical_unit)
 
     # -- what it is -------------------------------------------------------------------------
 
@@ -172,7 +172,7 @@ class MotionGroup:
         path, place = self._execution.path, self._drive.place()
         way = path.way_back(place)
         if way is None and self.settings.cleared_distance == "counts":
-            way = path.left_behind(place)
+            way = path.end_and_rest_positions(place)
         return (0.0, 0.0) if way is None else self.planner.apart(*way)
 
     def jump(self, posture: Posture) -> None:
@@ -294,7 +294,7 @@ class MotionGroup:
         execution.settle()
         self._drive.refreshed = self.settings.refresh_timed or move.time is None
         waits = self.settings.zero_length == "wait" and move.time is not None
-        if self.planner.goes_nowhere(move, self.path_target) and not waits:
+        if self.planner.has_zero_length(move, self.path_target) and not waits:
             leg = execution.stay(move)
         else:
             leg = execution.append(move)
@@ -305,7 +305,7 @@ class MotionGroup:
         """s from standstill or the corner before to the end of a move, were it the next one."""
         self._check(move)
         path = self._execution.path
-        if self.planner.goes_nowhere(move, path.target):
+        if self.planner.has_zero_length(move, path.target):
             return 0.0
         from_rest = path.tail is None or path.tail.stops
         make = self.planner.way_maker(self._execution.limits())
@@ -405,7 +405,7 @@ class MotionGroup:
         if reason in self._stops:
             self._execution.settle()
         waiter.wait_for(lambda: self.is_settled, on=(self.changed,))
-        self._stored.append(self._execution.put_aside())
+        self._stored.append(self._execution.store())
         self._stops.pop(reason, None)
         self._execution.begin(Path(self.motion.rest))
 
@@ -418,9 +418,9 @@ class MotionGroup:
         if not self._stored:
             raise MotionFault(FaultReason.NOTHING_STORED)
         self._execution.settle()
-        here = self.positions()
+        current = self.positions()
         self._stops[reason] = None
-        self._execution.take_up(self._stored.pop(), here)
+        self._execution.restore(self._stored.pop(), current)
         self._execution.settle()
 
     def reset(self) -> None:

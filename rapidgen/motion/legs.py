@@ -163,8 +163,8 @@ def lever_measure(
             rotary.append(b - a)
         else:
             linear.append(b - a)
-    way = largest(robot)
-    return Measure(way, largest(turns), largest(linear), largest(rotary)), way
+    path = largest(robot)
+    return Measure(path, largest(turns), largest(linear), largest(rotary)), path
 
 
 def joint_measure(
@@ -177,17 +177,17 @@ def joint_measure(
     """
     poses = []
     for k in range(_CHORDS + 1):
-        share = k / _CHORDS
-        posture = tuple([a + (b - a) * share for a, b in zip(origin, target, strict=True)])
+        fraction = k / _CHORDS
+        posture = tuple([a + (b - a) * fraction for a, b in zip(origin, target, strict=True)])
         poses.append(carrier.at(posture).pose(kinematics.forward(posture)))
     chords = [frames.distance(a[0], b[0]) for a, b in pairwise(poses)]
     coarse = sum(frames.distance(a[0], b[0]) for a, b in pairwise(poses[::2]))
     fine = sum(chords)
-    way = fine + (fine - coarse) / 3
+    path = fine + (fine - coarse) / 3
     turn = sum(frames.angle_between(a[1], b[1]) for a, b in pairwise(poses))
     linear, rotary = [0.0], [0.0]
     for joint, a, b in zip(kinematics.group.joints, origin, target, strict=True):
         if joint.axis.startswith("eax"):
             (rotary if joint.kind == "revolute" else linear).append(b - a)
-    peak = max(chords) * _CHORDS * way / fine if fine > 0 else 0.0
-    return Measure(way, turn, largest(linear), largest(rotary)), peak
+    peak = max(chords) * _CHORDS * path / fine if fine > 0 else 0.0
+    return Measure(path, turn, largest(linear), largest(rotary)), peak

@@ -174,11 +174,11 @@ def nominal_time(measure: Measure, speed: MoveSpeed) -> float:
         (measure.rotary, speed.rotary),
     )
     times = [0.0]
-    for way, rate in needs:
-        if way > 1e-12:
+    for path, rate in needs:
+        if path > 1e-12:
             if rate <= 0.0:
                 raise MotionFault(FaultReason.NO_SPEED)
-            times.append(way / rate)
+            times.append(path / rate)
     return max(times)
 
 

@@ -61,17 +61,17 @@ class Path:
         tail = self.tail
         sharp = False
         if tail is not None and not tail.stops:
-            way = make(self.target, move, False)
+            path = make(self.target, move, False)
             for size in _SHRINK:
-                bend = corner(tail, way, size, limits, kinematics)
+                bend = corner(tail, path, size, limits, kinematics)
                 if bend is None:
                     break
                 start, end, between = bend
                 if start < fixed:
                     continue
-                leg = Leg(move, way, tail.end, tail.end + way.duration)
+                leg = Leg(move, path, tail.end, tail.end + path.duration)
                 before = self._until(start)
-                after = limits.slow(way.pieces(leg.begin, end, leg.end))
+                after = limits.slow(path.pieces(leg.begin, end, leg.end))
                 sharp = _slower_than_a_stop([*before[-1:], *after[:1]], between, limits.ramp)
                 if sharp:
                     break
@@ -91,13 +91,13 @@ class Path:
     def _from_rest(
         self, move: Move, make: WayMaker, limits: AxisLimits
     ) -> tuple[Leg, tuple[Piece, ...]]:
-        way = make(self.target, move, True)
-        leg = Leg(move, way, self.end, self.end + way.duration)
+        path = make(self.target, move, True)
+        leg = Leg(move, path, self.end, self.end + path.duration)
         before = self.pieces
         if before:
             last = before[-1]
             before = (*before[:-1], last.until(last.end, stop=True))
-        return leg, (*before, *limits.slow(way.pieces(leg.begin, leg.begin, leg.end)))
+        return leg, (*before, *limits.slow(path.pieces(leg.begin, leg.begin, leg.end)))
 
     def _take(self, leg: Leg, pieces: tuple[Piece, ...]) -> None:
         leg.left = leg.end
@@ -148,7 +148,7 @@ class Path:
         self.end = place
         return lost
 
-    def regain(self, here: Posture, place: float, limits: AxisLimits) -> float:
+    def distance_to_path(self, current: Posture, place: float, limits: AxisLimits) -> float:
         """Put a joint line from `here` to the path's `place` before it; returns where it begins.
 
         `place` itself when the robot is there. An earlier way back is forgotten.
@@ -158,14 +158,14 @@ class Path:
             self.pieces = self.pieces[1:]
         self._back = None
         self.prune(place)
-        there = self.at(place)
-        reach = max(abs(b - a) / v for a, b, v in zip(here, there, limits.speeds, strict=True))
+        target = self.at(place)
+        reach = max(abs(b - a) / v for a, b, v in zip(current, target, limits.speeds, strict=True))
         if reach < NOTHING_M or not self.pieces:
             return place
         duration = reach / REGAIN_SPEED
-        rates = tuple([(b - a) / duration for a, b in zip(here, there, strict=True)])
+        rates = tuple([(b - a) / duration for a, b in zip(current, target, strict=True)])
         start = place - duration
-        back = joint_line(start, place, (start, here, rates), limits, 0.0)
+        back = joint_line(start, place, (start, current, rates), limits, 0.0)
         self._back = back.until(place, stop=True)
         self.pieces = (self._back, self.pieces[0].since(place), *self.pieces[1:])
         return start
@@ -181,7 +181,7 @@ class Path:
         """The robot stands at the end of this path, off one that was cleared, at `there`."""
         self._left = self.target, there
 
-    def left_behind(self, place: float) -> tuple[Posture, Posture] | None:
+    def end_and_rest_positions(self, place: float) -> tuple[Posture, Posture] | None:
         """Where the robot stands, and where a path ends that was cleared while it was off that.
 
         None once it has moved on, or was never off.
@@ -197,21 +197,21 @@ class Path:
         return posture_at(self.pieces, place, self.target)
 
 
-def _slower_than_a_stop(beside: list[Piece], between: list[Piece], ramp: float) -> bool:
+def _slower_than_a_stop(adjacent: list[Piece], between: list[Piece], ramp: float) -> bool:
     """Whether the ramp makes a corner slower than a stop.
 
     The corner's speed c holds half a ramp before and behind it, which takes ramp (1/c - 1) longer;
     a stop takes the ramp, and the time of slowing down and speeding up, 1/a.
     """
     c = min(piece.speed for piece in between)
-    a = min(piece.acceleration for piece in beside)
+    a = min(piece.acceleration for piece in adjacent)
     return ramp * (1 / c - 2) > 1 / a
 
 
-def posture_at(pieces: tuple[Piece, ...], place: float, rest: Posture) -> Posture:
+def posture_at(pieces: tuple[Piece, ...], place: float, remaining: Posture) -> Posture:
     """Axis values at a place of these pieces; `rest` where there is no piece."""
     if not pieces:
-        return rest
+        return remaining
     low, high = 0, len(pieces) - 1
     while low < high:
         middle = (low + high) // 2

@@ -46,9 +46,9 @@ def _when(entry: _Entry, motion: Motion) -> float:
     place = leg.end
     if event.where in (MeasuredFrom.END, MeasuredFrom.START):
         length = leg.way.measure.tcp
-        share = min(1.0, event.amount / length) if length > NO_WAY else 0.0
-        way = share * (leg.end - leg.begin)
-        place = leg.begin + way if event.where is MeasuredFrom.START else leg.end - way
+        fraction = min(1.0, event.amount / length) if length > NO_WAY else 0.0
+        path = fraction * (leg.end - leg.begin)
+        place = leg.begin + path if event.where is MeasuredFrom.START else leg.end - path
     early = event.lag + (event.amount if event.where is MeasuredFrom.BEFORE_END else 0.0)
     if motion.law.place < place - 1e-9:
         return inf

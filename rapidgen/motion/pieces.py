@@ -62,14 +62,14 @@ class AxisLimits:
         self,
         speeds: Sequence[float],
         accelerations: Sequence[float],
-        share: float,
+        fraction: float,
         tcp_acceleration: float = inf,
         ramp: float = 0.0,
         world: tuple[Callable[[Posture], Vector], float] | None = None,
     ) -> None:
         self.speeds = tuple(speeds)
         self.accelerations = tuple(accelerations)
-        self.share = share
+        self.share = fraction
         self.tcp_acceleration = tcp_acceleration
         """m/s^2 of the TCP along the path (PathAccLim)."""
         self.ramp = ramp

@@ -79,7 +79,7 @@ class Planner:
             refusal = FaultReason.TARGET_OUT_OF_RANGE if fatal else FaultReason.OUT_OF_RANGE
             raise MotionFault(refusal, faults[0])
 
-    def goes_nowhere(self, move: Move, ends: Posture) -> bool:
+    def has_zero_length(self, move: Move, ends: Posture) -> bool:
         """Whether a move asks for the place where the path ends anyhow."""
         if isinstance(move, JointMove):
             return all(abs(a - b) < NOTHING_M for a, b in zip(move.target, ends, strict=True))
@@ -103,8 +103,8 @@ class Planner:
         if self.kinematics is None:
             measure, _ = lever_measure(self.config, one, other, self.settings.lever)
             return measure.tcp, measure.angle
-        here, there = (compose(self.kinematics.forward(p), self.tool) for p in (one, other))
-        return frames.distance(here[0], there[0]), frames.angle_between(here[1], there[1])
+        current, target = (compose(self.kinematics.forward(p), self.tool) for p in (one, other))
+        return frames.distance(current[0], target[0]), frames.angle_between(current[1], target[1])
 
     def way_maker(self, limits: AxisLimits) -> WayMaker:
         """What makes the ways of moves under these limits. It raises MotionFault."""
@@ -125,8 +125,8 @@ class Planner:
         self, origin: Posture, move: CartesianMove, limits: AxisLimits, *, from_rest: bool
     ) -> CartesianPath:
         own, check = self.geometry(), self.settings.configuration_check
-        way = CartesianPath(origin, move, own, limits, from_rest=from_rest, check=check)
-        if move.wanted is not None and not own.matches(way.target, move.wanted, check):
-            reached = own.configuration(way.target)
+        path = CartesianPath(origin, move, own, limits, from_rest=from_rest, check=check)
+        if move.wanted is not None and not own.matches(path.target, move.wanted, check):
+            reached = own.configuration(path.target)
             raise MotionFault(FaultReason.CONFIGURATION, list(reached), list(move.wanted))
-        return way
+        return path

@@ -83,9 +83,9 @@ def read_recording(path: Path) -> Recording:
         raise ValueError(str(fault)) from None
     joints = tuple(n.removeprefix(_ACTUAL) for n in header if n.startswith(_ACTUAL))
     count = len(joints)
-    wanted = ["time", *joints, *(f"{_ACTUAL}{name}" for name in joints)]
-    tcp = header[len(wanted) : -2] == _TCP
-    if header != [*wanted, *(_TCP if tcp else ()), *_POINTERS]:
+    expected = ["time", *joints, *(f"{_ACTUAL}{name}" for name in joints)]
+    tcp = header[len(expected) : -2] == _TCP
+    if header != [*expected, *(_TCP if tcp else ()), *_POINTERS]:
         raise ValueError("the header is not that of a recording")
     if any(len(row) != len(header) for row in rows):
         raise ValueError("a row has not as many values as the header")
@@ -130,12 +130,12 @@ class Recorder:
     def postures(self, times: Sequence[int]) -> list[tuple[Posture, Posture]]:
         """Commanded and actual axes (rad, m) at times (ns) that are not forgotten."""
         lag = round(self._group.settings.servo_lag * S)
-        found = []
+        result = []
         for time in times:
             commanded = self._at(time).posture(time)
             late = max(self._start, time - lag)
-            found.append((commanded, self._at(late).posture(late) if lag else commanded))
-        return found
+            result.append((commanded, self._at(late).posture(late) if lag else commanded))
+        return result
 
     def forget(self, before: int) -> None:
         """Nobody asks for earlier times any more."""
@@ -195,16 +195,16 @@ def _since(motion: Motion) -> int:
 
 def _names(moves: Iterable[Move | None]) -> list[str]:
     known: dict[Callable[[], object], str] = {}
-    found = []
+    result = []
     for move in moves:
         where = move.place if move is not None else None
         if where is None:
-            found.append("")
+            result.append("")
             continue
         if where not in known:
             known[where] = str(where() or "")
-        found.append(known[where])
-    return found
+        result.append(known[where])
+    return result
 
 
 def _digits(values: "npt.NDArray[np.float64]") -> list[str]:

@@ -28,7 +28,7 @@ def interval_limits(
     axes = [_curvings(nodes, j, spacing) for j in range(len(nodes[0]))]
     seen = zip(*[curvings for curvings, _ in axes], strict=True)
     feared = zip(*[margins for _, margins in axes], strict=True)
-    found, close = [], True
+    result, close = [], True
     for (a, b), curving, margin in zip(pairwise(nodes), seen, feared, strict=True):
         least = [
             abs(y - x) / spacing + c * spacing / 2 for x, y, c in zip(a, b, curving, strict=True)
@@ -37,11 +37,11 @@ def interval_limits(
         speed, acceleration = limits.of_curve(
             most, tuple([c + m for c, m in zip(curving, margin, strict=True)])
         )
-        found.append((speed, acceleration))
+        result.append((speed, acceleration))
         if close:
             bold_speed, bold_acceleration = limits.of_curve(tuple(least), curving)
             close = speed >= _CLOSE * bold_speed and acceleration >= _CLOSE * bold_acceleration
-    return found, close
+    return result, close
 
 
 def _curvings(

@@ -22,9 +22,9 @@ def wrist_places(kinematics: Kinematics) -> tuple[int, ...]:
     return _places(kinematics, ("rax_4", "rax_5", "rax_6"))
 
 
-def _places(kinematics: Kinematics, wanted: tuple[str, ...]) -> tuple[int, ...]:
+def _places(kinematics: Kinematics, expected: tuple[str, ...]) -> tuple[int, ...]:
     axes = [joint.axis for joint in kinematics.group.joints]
-    return tuple(axes.index(axis) for axis in wanted if axis in axes)
+    return tuple(axes.index(axis) for axis in expected if axis in axes)
 
 
 def wrist_end(
@@ -42,25 +42,25 @@ def wrist_end(
         for joint, o, e in zip(kinematics.group.joints, origin, move.external, strict=True)
     )
     flange = move.carrier.at(near).flange(move.target)
-    found = kinematics.solutions(flange, near)
-    if not found:
+    result = kinematics.solutions(flange, near)
+    if not result:
         reached, why = unreached(kinematics, flange, near)
         raise MotionFault(
             FaultReason.NO_POSTURE_IN_RANGE if reached else FaultReason.NO_POSTURE, why
         )
     if move.singularities is Singularities.LOCK_AXIS_4:
-        return _locked(kinematics, move, near, found)
+        return _locked(kinematics, move, near, result)
     if move.wanted is not None:
-        return kinematics.fitting(found, move.wanted, check) or found[0]
-    return found[0]
+        return kinematics.fitting(result, move.wanted, check) or result[0]
+    return result[0]
 
 
 def _locked(
-    kinematics: Kinematics, move: CartesianMove, near: Posture, found: list[Posture]
+    kinematics: Kinematics, move: CartesianMove, near: Posture, result: list[Posture]
 ) -> Posture:
     (fourth,) = _places(kinematics, ("rax_4",))
     locked = pi * round(near[fourth] / pi)
-    closest: Posture = min(found, key=lambda posture: abs(posture[fourth] - locked))
+    closest: Posture = min(result, key=lambda posture: abs(posture[fourth] - locked))
     values = list(closest)
     values[fourth] = locked
     end = put_tcp(kinematics, move.carrier, move.target[0], tuple(values))
@@ -84,9 +84,9 @@ def put_tcp(
         columns = []
         for i in main:
             values[i] += _STEP
-            there = carrier.pose(kinematics.forward(tuple(values)))[0]
+            target = carrier.pose(kinematics.forward(tuple(values)))[0]
             values[i] -= _STEP
-            columns.append(frames.scale(frames.subtract(there, have), 1 / _STEP))
+            columns.append(frames.scale(frames.subtract(target, have), 1 / _STEP))
         a, b, c = columns
         volume = frames.dot(a, frames.cross(b, c))
         if abs(volume) < 1e-12:

@@ -60,8 +60,8 @@ def time_at(law: SpeedProfile, place: float, width: float) -> float:
         return high  # the planned law waits there
     time = (low + high) / 2
     for _ in range(_ROUNDS):
-        found, speed = state(law, time, width)
-        error = found - place
+        result, speed = state(law, time, width)
+        error = result - place
         if abs(error) <= _EXACT:
             break
         if error > 0.0:
@@ -93,13 +93,13 @@ def widened(spans: Sequence[ProfileSegment], start: float, radius: float) -> lis
     (path speed is at most 1). At a stop the planned law waits, so nothing is mixed across it.
     `start` is where the first span begins.
     """
-    found: list[ProfileSegment] = []
+    result: list[ProfileSegment] = []
     first = 0
     for i, span in enumerate(spans):
         if span.stop or i == len(spans) - 1:
-            found += _between_stops(spans[first : i + 1], start, radius)
+            result += _between_stops(spans[first : i + 1], start, radius)
             first, start = i + 1, span.end
-    return found
+    return result
 
 
 def _between_stops(
@@ -119,7 +119,7 @@ def _between_stops(
     end = spans[-1].end
     cuts = sorted(cut for cut in cuts if start < cut < end)
     cuts.append(end)
-    found: list[ProfileSegment] = []
+    result: list[ProfileSegment] = []
     low, left = 0, start
     for right in cuts:
         if right - left < _EXACT and right < end:
@@ -138,9 +138,9 @@ def _between_stops(
                 acceleration = span.acceleration
             if span.tcp > tcp:
                 tcp = span.tcp
-        found.append(_Widened(right, speed, acceleration, tcp, False))
+        result.append(_Widened(right, speed, acceleration, tcp, False))
         left = right
-    last = found[-1]
+    last = result[-1]
     assert isinstance(last, _Widened)
     last.end, last.stop = end, spans[-1].stop
-    return found
+    return result

@@ -110,12 +110,12 @@ class SpeedProfile:
         if not self._places or place >= self.place:
             return self.duration
         i = max(0, bisect_left(self._places, place) - 1)
-        way = place - self._places[i]
-        if way <= 0.0:
+        path = place - self._places[i]
+        if path <= 0.0:
             return self._times[i]
         speed = self._speeds[i]
-        final = sqrt(max(0.0, speed * speed + 2 * self._accelerations[i] * way))
-        return self._times[i] + 2 * way / (speed + final) if speed + final > 0 else self._times[i]
+        final = sqrt(max(0.0, speed * speed + 2 * self._accelerations[i] * path))
+        return self._times[i] + 2 * path / (speed + final) if speed + final > 0 else self._times[i]
 
     def last_braking(self) -> float:
         """When the braking begins that ends at the final standstill."""
@@ -149,8 +149,8 @@ def plan(
     law = SpeedProfile(place)
     law.add(place, speed, 0.0, wait)
     for i, span in enumerate(spans):
-        way = span.end - place
-        if way <= 0.0:
+        path = span.end - place
+        if path <= 0.0:
             continue
         a = span.acceleration
         ceiling = min(span.speed, cap)
@@ -159,21 +159,21 @@ def plan(
         bound = 0.0 if span.stop else bounds[i + 1]
         if speed > ceiling:
             down = (speed * speed - ceiling * ceiling) / (2 * a)
-            if down >= way:
-                final = sqrt(max(0.0, speed * speed - 2 * a * way))
+            if down >= path:
+                final = sqrt(max(0.0, speed * speed - 2 * a * path))
                 law.add(place, speed, -a, (speed - final) / a)
                 place, speed = span.end, final
                 continue
             law.add(place, speed, -a, (speed - ceiling) / a)
-            place, speed, way = place + down, ceiling, way - down
-        final = min(bound, ceiling, sqrt(speed * speed + 2 * a * way))
-        peak = min(ceiling, sqrt((speed * speed + final * final) / 2 + a * way))
+            place, speed, path = place + down, ceiling, path - down
+        final = min(bound, ceiling, sqrt(speed * speed + 2 * a * path))
+        peak = min(ceiling, sqrt((speed * speed + final * final) / 2 + a * path))
         peak = max(peak, speed, final)
         rise = (peak * peak - speed * speed) / (2 * a)
         fall = (peak * peak - final * final) / (2 * a)
         law.add(place, speed, a, (peak - speed) / a)
-        if way - rise - fall > 0.0 and peak > 0.0:
-            law.add(place + rise, peak, 0.0, (way - rise - fall) / peak)
+        if path - rise - fall > 0.0 and peak > 0.0:
+            law.add(place + rise, peak, 0.0, (path - rise - fall) / peak)
         law.add(span.end - fall, peak, -a, (peak - final) / a)
         place, speed = span.end, final
         if span.stop and i < len(spans) - 1:
@@ -188,14 +188,14 @@ def brake(
     """Down to standstill on the path, with `factor` times the spans' accelerations."""
     law = SpeedProfile(place)
     for span in spans:
-        way = span.end - place
-        if way <= 0.0:
+        path = span.end - place
+        if path <= 0.0:
             continue
         a = span.acceleration * factor
-        if speed * speed <= 2 * a * way:
+        if speed * speed <= 2 * a * path:
             law.add(place, speed, -a, speed / a)
             return law
-        final = sqrt(speed * speed - 2 * a * way)
+        final = sqrt(speed * speed - 2 * a * path)
         law.add(place, speed, -a, (speed - final) / a)
         place, speed = span.end, final
         if span.stop:
@@ -218,7 +218,7 @@ def _entry_bounds(spans: Sequence[ProfileSegment], place: float) -> list[float]:
     for i in range(len(spans) - 1, -1, -1):
         span = spans[i]
         start = spans[i - 1].end if i else place
-        way = max(0.0, span.end - max(start, place))
+        path = max(0.0, span.end - max(start, place))
         final = 0.0 if span.stop else min(bounds[i + 1], span.speed)
-        bounds[i] = min(span.speed, sqrt(final * final + 2 * span.acceleration * way))
+        bounds[i] = min(span.speed, sqrt(final * final + 2 * span.acceleration * path))
     return bounds

@@ -69,10 +69,10 @@ class MotionSystem:
 
         A task without a connection of its own gets the only group of a one-robot controller.
         """
-        found = self._tasks.get(task.lower())
-        if found is None and len(self.groups) == 1:
+        match = self._tasks.get(task.lower())
+        if match is None and len(self.groups) == 1:
             return next(iter(self.groups.values()))
-        return found
+        return match
 
     def moved_by(self, task: str) -> MotionGroup | None:
         """The group that a motion task moves; None for any other task."""

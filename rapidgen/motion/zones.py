@@ -99,8 +99,8 @@ class WorldZone:
 
     def depth(self, point: Sequence[float]) -> float:
         """How far from being in the zone a point is, at least; negative: in it."""
-        found = self.shape.depth(point)
-        return -found if self.outside else found
+        result = self.shape.depth(point)
+        return -result if self.outside else result
 
 
 class ZoneWatch:
@@ -187,12 +187,12 @@ class ZoneWatch:
     def _fastest(self, motion: Motion) -> float:
         """What the depth changes by in a s, at most. Stopping short adds as much again."""
         if isinstance(self._zone.shape, JointSpace):
-            found = max(joint.speed for joint in self._group.config.joints)
+            result = max(joint.speed for joint in self._group.config.joints)
         else:
-            ways = [piece.tcp for piece in motion.pieces]
-            known = motion.coast is None and all(ways)
-            found = max(ways, default=_FASTEST_TCP) if known else _FASTEST_TCP
-        return 2 * found if self._ahead else found
+            paths = [piece.tcp for piece in motion.pieces]
+            known = motion.coast is None and all(paths)
+            result = max(paths, default=_FASTEST_TCP) if known else _FASTEST_TCP
+        return 2 * result if self._ahead else result
 
     def _depth(self, motion: Motion, now: int) -> float:
         depth = self._zone.depth(self._point(motion, now, motion.posture(now)))
@@ -252,10 +252,10 @@ class WorldZones:
         *,
         ahead: bool,
         stationary: bool,
-        wanted: int = 0,
+        expected: int = 0,
     ) -> int:
         """Watch a zone for a robot; its number, the wanted one if that is free."""
-        number = wanted if wanted > 0 and wanted not in self._zones else 1
+        number = expected if expected > 0 and expected not in self._zones else 1
         while number in self._zones:
             number += 1
         watch = ZoneWatch(self._scheduler, group, zone, act, ahead=ahead)

@@ -19,13 +19,13 @@ _ALL_DIGITS: Final = Context(prec=800)
 """Enough for every float with decimals behind it."""
 
 
-def number_text(value: float, digits: int = NUM_DIGITS, *, whole: bool = False) -> str:
+def number_text(value: float, digits: int = NUM_DIGITS, *, complete: bool = False) -> str:
     """A number in the standard format; `whole`: all digits of one that is whole and exact."""
     if digits == NUM_DIGITS and math.isfinite(value):
         fraction = abs(value) % 1
         if fraction < _FRACTION or fraction > 1 - _FRACTION:
             value = round(value)
-            if whole and abs(value) < EXACT:
+            if complete and abs(value) < EXACT:
                 return str(value)
     text = f"{value:.{digits}G}"
     return "0" if text == "-0" else text

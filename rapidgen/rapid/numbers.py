@@ -22,9 +22,9 @@ def single(value: float) -> float:
         return value
     rounded: float = _SINGLE.unpack(_SINGLE.pack(value))[0]
     if -EXACT <= rounded <= EXACT:
-        whole = int(rounded)
-        if whole == rounded:
-            return whole
+        complete = int(rounded)
+        if complete == rounded:
+            return complete
     return rounded
 
 

@@ -102,7 +102,7 @@ class ActiveGoal:
         self.is_replaced = True
         self.ending.set()
 
-    def call_off(self) -> None:
+    def cancel_pending(self) -> None:
         """End it before it begins: somebody wants the robot to stand."""
         self.is_called_off = True
         self.ending.set()
@@ -149,22 +149,24 @@ class GoalExecutor:
                 self._current = None
             under.over.set()
 
-    def call_off(self) -> None:
+    def cancel_pending(self) -> None:
         """End the goals that wait for their moment or for another one's end."""
         for under in self._unsent:
-            under.call_off()
+            under.cancel_pending()
 
     async def _judged_and_carried_out(
         self, goal: Goal, tell: Callable[[GoalFeedback], None], under: ActiveGoal
     ) -> Outcome:
         try:
-            asked = validate_goal(goal, self._robot.group.names, self._policy.defaults, self._now())
+            requested = validate_goal(
+                goal, self._robot.group.names, self._policy.defaults, self._now()
+            )
             await self._enter(under)
         except GoalRefused as refused:
             return refused.outcome
         except RobotError as error:
             return _aborted(Code.INVALID_GOAL, error)
-        return await self._carried_out(asked, under, tell)
+        return await self._carried_out(requested, under, tell)
 
     async def _enter(self, under: ActiveGoal) -> None:
         """Take the place of the goal under way, once nobody has it. Raises GoalRefused."""
@@ -180,16 +182,16 @@ class GoalExecutor:
         self._current = under
 
     async def _carried_out(
-        self, asked: ValidatedGoal, under: ActiveGoal, tell: Callable[[GoalFeedback], None]
+        self, requested: ValidatedGoal, under: ActiveGoal, tell: Callable[[GoalFeedback], None]
     ) -> Outcome:
-        if await self._waited(asked.start or 0.0, under):
+        if await self._waited(requested.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
         self._unsent.discard(under)
         # Without a link nothing is sent.
         may_move = self._robot.is_connected
         try:
-            asked = self._fitted(asked)
-            execution = await self._accepted(asked.trajectory, under)
+            requested = self._fitted(requested)
+            execution = await self._accepted(requested.trajectory, under)
         except GoalRefused as refused:
             return refused.outcome
         except _MAY_HAVE_MOVED as error:
@@ -199,9 +201,9 @@ class GoalExecutor:
             return _aborted(Code.INVALID_GOAL, error)
         if execution is None:
             return _ended_early(under, "while it was sent; the robot stands")
-        for note in asked.notes:
+        for note in requested.notes:
             self._note(note)
-        return await self._until_over(asked, execution, under, tell)
+        return await self._until_over(requested, execution, under, tell)
 
     async def _waited(self, start: float, under: ActiveGoal) -> bool:
         """Wait for the moment `start` s of ROS time; True when the goal is ended before it.
@@ -217,9 +219,9 @@ class GoalExecutor:
             await _cancelled(ending)
         return under.ending.is_set()
 
-    def _fitted(self, asked: ValidatedGoal) -> ValidatedGoal:
+    def _fitted(self, requested: ValidatedGoal) -> ValidatedGoal:
         """The points as the user's policy has them sent. Raises GoalRefused."""
-        if asked.watches_path and not self._measures:
+        if requested.watches_path and not self._measures:
             raise GoalRefused(
                 Code.INVALID_GOAL,
                 "path_tolerance cannot be watched: this driver sends no feedback with the "
@@ -227,38 +229,38 @@ class GoalExecutor:
             )
         shortest = self._robot.group.policy.min_segment
         if self._policy.dense == "resample":
-            asked = resampled(asked, shortest)
-        asked = with_time_to_stop(asked, shortest)
-        return self._from_here(asked)
+            requested = resampled(requested, shortest)
+        requested = with_time_to_stop(requested, shortest)
+        return self._from_here(requested)
 
     @property
     def _measures(self) -> bool:
         return Feature.FEEDBACK in self._robot.driver.features
 
-    def _from_here(self, asked: ValidatedGoal) -> ValidatedGoal:
+    def _from_here(self, requested: ValidatedGoal) -> ValidatedGoal:
         """With a way from where the robot stands to a first point elsewhere: in the time that the
         goal has for it, else where the user's policy says so."""
-        group, state, trajectory = self._robot.group, self._robot.state, asked.trajectory
-        here, first = np.array(state.joints), trajectory.positions[0]
+        group, state, trajectory = self._robot.group, self._robot.state, requested.trajectory
+        current, first = np.array(state.joints), trajectory.positions[0]
         # Where the controller takes it as it is, nothing is added.
-        if (np.abs(here - first) <= group.start_tolerance).all():
-            return asked
+        if (np.abs(current - first) <= group.start_tolerance).all():
+            return requested
         seconds = float(trajectory.times[0])
         if seconds == 0 and self._policy.replace == "refuse":
-            return asked
+            return requested
         if seconds == 0:
-            wire = np.abs(np.diff(group.to_wire(np.array([here, first])), axis=0)[0])
+            wire = np.abs(np.diff(group.to_wire(np.array([current, first])), axis=0)[0])
             seconds = float((wire / (group.speed * _APPROACH)).max())
             seconds = max(seconds, group.policy.min_segment)
         if not math.isfinite(seconds):
             raise GoalRefused(
                 Code.INVALID_GOAL, "the axes' speeds are not known: there is no way to the start"
             )
-        told = (
+        report = (
             f"a way of {seconds:.2f} s was put in front, from where the robot stood to the first "
-            f"point, {np.abs(here - first).max():.3f} (rad, m) away"
+            f"point, {np.abs(current - first).max():.3f} (rad, m) away"
         )
-        return asked.with_trajectory(trajectory.starting_at(state, seconds), told)
+        return requested.with_trajectory(trajectory.starting_at(state, seconds), report)
 
     async def _accepted(self, trajectory: Trajectory, under: ActiveGoal) -> AsyncExecution | None:
         """The motion; None when the goal was ended before the controller took it."""
@@ -279,43 +281,45 @@ class GoalExecutor:
     async def _note_standing(self) -> None:
         """Keep when the robot was last seen where it stands, until it moves."""
         fed, state = self._robot.feedback, self._robot.state
-        here = np.array(state.joints)
+        current = np.array(state.joints)
         self._stood = fed.time if self._measures and fed is not None else state.time
         async for time, joints, _ in self._samples():
-            if np.abs(joints - here).max() > _STANDS:
+            if np.abs(joints - current).max() > _STANDS:
                 return
             self._stood = time
 
     async def _until_over(
         self,
-        asked: ValidatedGoal,
+        requested: ValidatedGoal,
         execution: AsyncExecution,
         under: ActiveGoal,
         tell: Callable[[GoalFeedback], None],
     ) -> Outcome:
         result = asyncio.ensure_future(execution.result())
-        watching = asyncio.ensure_future(self._watch(asked, tell))
+        watching = asyncio.ensure_future(self._watch(requested, tell))
         ending = asyncio.ensure_future(under.ending.wait())
         try:
             await asyncio.wait({result, watching, ending}, return_when=asyncio.FIRST_COMPLETED)
             violation = _violation_of(watching)
-            wanted = violation is not None or ending.done()
-            if wanted and not result.done() and (unsure := await _stopped(execution)):
+            expected = violation is not None or ending.done()
+            if expected and not result.done() and (unsure := await _stopped(execution)):
                 return unsure
             try:
                 reached = await result
             except MotionStopped as error:
-                if wanted:
+                if expected:
                     return violation or _ended_early(under, "the robot stands")
                 return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
             except RobotError as error:
                 return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
             # The controller may have been faster than whoever wanted it to end.
-            return violation or self._reached(asked, reached)
+            return violation or self._reached(requested, reached)
         finally:
             await _cancelled(result, watching, ending)
 
-    async def _watch(self, asked: ValidatedGoal, tell: Callable[[GoalFeedback], None]) -> Outcome:
+    async def _watch(
+        self, requested: ValidatedGoal, tell: Callable[[GoalFeedback], None]
+    ) -> Outcome:
         """Tell feedback; returns when a tolerance is violated."""
         before: float | None = None
         desired = unsure = 0.0
@@ -326,18 +330,18 @@ class GoalExecutor:
             passed, before = max(time - before, 0.0), time
             # Simulated or real, the controller's time; slower under an override, none in a pause.
             desired += passed * self._pace
-            told = GoalFeedback(
-                asked.trajectory.names,
+            report = GoalFeedback(
+                requested.trajectory.names,
                 desired,
-                asked.desired(desired),
-                asked.desired_velocity(desired),
+                requested.desired(desired),
+                requested.desired_velocity(desired),
                 joints,
                 velocity,
             )
-            tell(told)
-            found = _violation(asked, told, max(passed, unsure))
-            if found is not None:
-                return found
+            tell(report)
+            result = _violation(requested, report, max(passed, unsure))
+            if result is not None:
+                return result
         raise AssertionError("samples have no end")
 
     @property
@@ -358,27 +362,31 @@ class GoalExecutor:
                 state = await robot.next_state(math.inf)
                 yield state.time, np.array(state.joints), np.array(state.velocity)
 
-    def _reached(self, asked: ValidatedGoal, result: Result) -> Outcome:
+    def _reached(self, requested: ValidatedGoal, result: Result) -> Outcome:
         """DONE, and whether the robot stands where it was asked to."""
-        off = np.abs(np.array(result.state.joints) - asked.trajectory.positions[-1])
-        worst = int(np.argmax(off - asked.goal))
-        if off[worst] > asked.goal[worst]:
+        off = np.abs(np.array(result.state.joints) - requested.trajectory.positions[-1])
+        worst = int(np.argmax(off - requested.goal))
+        if off[worst] > requested.goal[worst]:
             return Outcome(
                 FinalStatus.ABORTED,
                 Code.GOAL_TOLERANCE_VIOLATED,
                 f"the controller ended the motion {off[worst]:.4f} from the last point at "
-                f"{asked.trajectory.names[worst]}, and {asked.goal[worst]:g} was allowed",
+                f"{requested.trajectory.names[worst]}, and {requested.goal[worst]:g} was allowed",
             )
-        told = f"done in {result.seconds:.2f} s, {asked.trajectory.duration:.2f} s were asked for"
-        return Outcome(FinalStatus.SUCCEEDED, Code.SUCCESSFUL, "; ".join((told, *asked.notes)))
+        report = (
+            f"done in {result.seconds:.2f} s, {requested.trajectory.duration:.2f} s were asked for"
+        )
+        return Outcome(
+            FinalStatus.SUCCEEDED, Code.SUCCESSFUL, "; ".join((report, *requested.notes))
+        )
 
 
-def resampled(asked: ValidatedGoal, shortest: float) -> ValidatedGoal:
+def resampled(requested: ValidatedGoal, shortest: float) -> ValidatedGoal:
     """Points at least `shortest` s apart, where some are nearer; how far off is noted."""
-    trajectory = asked.trajectory
+    trajectory = requested.trajectory
     times = trajectory.times
     if len(times) < 3 or np.diff(times).min() >= shortest - _GRACE:
-        return asked
+        return requested
     span = float(times[-1] - times[0])
     count = max(int((span + _GRACE) / shortest), 1)
     fresh = trajectory.resampled(span / count)
@@ -388,41 +396,47 @@ def resampled(asked: ValidatedGoal, shortest: float) -> ValidatedGoal:
         f"{len(times)} points, some nearer than {shortest:g} s, became {len(fresh)}: "
         f"off by up to {off:.5f} (rad, m)"
     )
-    return asked.with_trajectory(fresh, note)
+    return requested.with_trajectory(fresh, note)
 
 
-def with_time_to_stop(asked: ValidatedGoal, shortest: float) -> ValidatedGoal:
+def with_time_to_stop(requested: ValidatedGoal, shortest: float) -> ValidatedGoal:
     """A last segment below `shortest` s is given that time; the way is the same.
 
     Planners that sample at a period leave such a rest at the end of nearly every path.
     """
-    times = asked.trajectory.times
+    times = requested.trajectory.times
     if len(times) < 2 or times[-1] - times[-2] >= shortest - _GRACE:
-        return asked
-    rest = float(times[-1] - times[-2])
+        return requested
+    remaining = float(times[-1] - times[-2])
     later = np.append(times[:-1], times[-2] + shortest)
-    fresh = Trajectory(later, asked.trajectory.positions, asked.trajectory.names)
-    note = f"the last segment of {rest:.3f} s was given {shortest:g} s"
-    return asked.with_trajectory(fresh, note)
+    fresh = Trajectory(later, requested.trajectory.positions, requested.trajectory.names)
+    note = f"the last segment of {remaining:.3f} s was given {shortest:g} s"
+    return requested.with_trajectory(fresh, note)
 
 
-def _violation(asked: ValidatedGoal, told: GoalFeedback, window: float) -> Outcome | None:
+def _violation(requested: ValidatedGoal, report: GoalFeedback, window: float) -> Outcome | None:
     """What of the tolerances does not hold, or None.
 
     When the robot began to move is known to `window` s, mostly one sample: it is compared with
     all that was asked for within it, and has to fit none of it.
     """
-    if told.time > asked.trajectory.duration + asked.goal_time + window:
+    if report.time > requested.trajectory.duration + requested.goal_time + window:
         return Outcome(
             FinalStatus.ABORTED,
             Code.GOAL_TOLERANCE_VIOLATED,
-            f"not at the goal {told.time - asked.trajectory.duration:.2f} s after its time, and "
-            f"{asked.goal_time:g} s were allowed",
+            f"not at the goal {report.time - requested.trajectory.duration:.2f} s "
+            "after its time, and "
+            f"{requested.goal_time:g} s were allowed",
         )
-    moments = np.linspace(told.time - window, told.time + window, 9)
+    moments = np.linspace(report.time - window, report.time + window, 9)
     for what, actual, desired, allowed in (
-        ("", told.actual, asked.desired, asked.path),
-        ("velocity of ", told.actual_velocity, asked.desired_velocity, asked.path_velocity),
+        ("", report.actual, requested.desired, requested.path),
+        (
+            "velocity of ",
+            report.actual_velocity,
+            requested.desired_velocity,
+            requested.path_velocity,
+        ),
     ):
         if not np.isfinite(allowed).any():
             continue
@@ -432,8 +446,8 @@ def _violation(asked: ValidatedGoal, told: GoalFeedback, window: float) -> Outco
             return Outcome(
                 FinalStatus.ABORTED,
                 Code.PATH_TOLERANCE_VIOLATED,
-                f"{what}{told.names[worst]} was {off[worst]:.4f} off its path "
-                f"{told.time:.2f} s after the start, and {allowed[worst]:g} was allowed",
+                f"{what}{report.names[worst]} was {off[worst]:.4f} off its path "
+                f"{report.time:.2f} s after the start, and {allowed[worst]:g} was allowed",
             )
     return None
 
@@ -478,6 +492,6 @@ def _aborted(code: Code, error: RobotError) -> Outcome:
 def reason(error: RobotError) -> str:
     """What went wrong and what to do about it, as one line."""
     first, *others = error.diagnostics
-    told = first.message + (f" (and {len(others)} more faults)" if others else "")
+    report = first.message + (f" (and {len(others)} more faults)" if others else "")
     mend = _MENDS.get(first.code, first.help)
-    return f"{told}; {mend}" if mend else told
+    return f"{report}; {mend}" if mend else report

@@ -189,15 +189,16 @@ def _check_names(given: Sequence[str], names: Sequence[str]) -> None:
     missing = [name for name in names if name not in given]
     unknown = [name for name in given if name not in names]
     twice = sorted({name for name in given if list(given).count(name) > 1})
-    told = [
+    report = [
         f"{what}: {', '.join(some)}"
         for what, some in (("missing", missing), ("unknown", unknown), ("twice", twice))
         if some
     ]
-    if told:
+    if report:
         raise GoalRefused(
             Code.INVALID_JOINTS,
-            f"joint_names do not fit ({'; '.join(told)}): a goal names each of {', '.join(names)}",
+            f"joint_names do not fit ({'; '.join(report)}): "
+            f"a goal names each of {', '.join(names)}",
         )
 
 
@@ -255,13 +256,13 @@ def _start(stamp: float, now: float, late: float) -> float | None:
 
 
 def _ignored(goal: Goal) -> list[str]:
-    told = []
+    report = []
     if any(len(point.effort) for point in goal.points):
-        told.append("effort was ignored: the controller takes positions and times")
-    asked = (*goal.path_tolerance, *goal.goal_tolerance)
-    if any(tolerance.acceleration > 0 for tolerance in asked):
-        told.append("tolerances of acceleration were ignored: nobody measures it")
-    return told
+        report.append("effort was ignored: the controller takes positions and times")
+    requested = (*goal.path_tolerance, *goal.goal_tolerance)
+    if any(tolerance.acceleration > 0 for tolerance in requested):
+        report.append("tolerances of acceleration were ignored: nobody measures it")
+    return report
 
 
 @dataclass(frozen=True, slots=True)
@@ -269,11 +270,13 @@ class _Tolerances:
     names: Sequence[str]
     defaults: Defaults
 
-    def read(self, asked: Sequence[Tolerance], where: str, default: float) -> tuple[Array, Array]:
+    def read(
+        self, requested: Sequence[Tolerance], where: str, default: float
+    ) -> tuple[Array, Array]:
         """Positions and velocities (k,) that may be off; `inf` for none."""
         position = np.full(len(self.names), default)
         velocity = np.full(len(self.names), math.inf)
-        for tolerance in asked:
+        for tolerance in requested:
             if tolerance.name not in self.names:
                 raise GoalRefused(
                     Code.INVALID_GOAL, f"{where} names '{tolerance.name}', which is no joint here"
@@ -285,14 +288,15 @@ class _Tolerances:
             self.value(place, tolerance.acceleration, math.inf)
         return position, velocity
 
-    def value(self, where: str, asked: float, default: float) -> float:
+    def value(self, where: str, requested: float, default: float) -> float:
         """One tolerance. Raises GoalRefused for what is neither a size, 0 nor -1."""
-        if asked == 0:
+        if requested == 0:
             return default
-        if asked == NONE:
+        if requested == NONE:
             return math.inf
-        if not 0 < asked < math.inf:
+        if not 0 < requested < math.inf:
             raise GoalRefused(
-                Code.INVALID_GOAL, f"{where} is {asked:g}: above 0, 0 for the default, -1 for none"
+                Code.INVALID_GOAL,
+                f"{where} is {requested:g}: above 0, 0 for the default, -1 for none",
             )
-        return asked
+        return requested

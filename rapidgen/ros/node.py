@@ -63,8 +63,8 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
 
     def __init__(self, **options: Message) -> None:
         super().__init__("rapidgen", **options)
-        for name, value, told in DECLARED:
-            self.declare_parameter(name, value, _described(told))
+        for name, value, report in DECLARED:
+            self.declare_parameter(name, value, _described(report))
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, name="rapidgen", daemon=True)
         self._thread.start()
@@ -161,9 +161,9 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             if parameter.value == WHOLE and not self._is_busy:
                 continue  # What every motion begins with.
             links = [door.link for door in self._doors]
-            done, told = self.asked(set_speeds(links, float(parameter.value)))
+            done, report = self.asked(set_speeds(links, float(parameter.value)))
             if not done:
-                return SetParametersResult(successful=False, reason=told)
+                return SetParametersResult(successful=False, reason=report)
         return SetParametersResult(successful=True)
 
     @property
@@ -385,15 +385,15 @@ class GroupInterface:
                 for point in trajectory.points
             ],
             stamp=_seconds(trajectory.header.stamp),
-            path_tolerance=[self._tolerance(told) for told in request.path_tolerance],
-            goal_tolerance=[self._tolerance(told) for told in request.goal_tolerance],
+            path_tolerance=[self._tolerance(report) for report in request.path_tolerance],
+            goal_tolerance=[self._tolerance(report) for report in request.goal_tolerance],
             goal_time_tolerance=_seconds(request.goal_time_tolerance),
             has_multi_dof=bool(request.multi_dof_trajectory.points),
         )
 
-    def _tolerance(self, told: Message) -> Tolerance:
-        name = told.name.removeprefix(self._prefix)
-        return Tolerance(name, told.position, told.velocity, told.acceleration)
+    def _tolerance(self, report: Message) -> Tolerance:
+        name = report.name.removeprefix(self._prefix)
+        return Tolerance(name, report.position, report.velocity, report.acceleration)
 
     def _feedback(self, feedback: GoalFeedback) -> Message:
         message = FollowJointTrajectory.Feedback()
@@ -445,9 +445,9 @@ async def _ended(count: int) -> None:
         await asyncio.gather(*others, return_exceptions=True)
 
 
-def _seconds(told: Message) -> float:
+def _seconds(report: Message) -> float:
     """A Time or Duration in s."""
-    return float(told.sec) + float(told.nanosec) * 1e-9
+    return float(report.sec) + float(report.nanosec) * 1e-9
 
 
 def _time(stamp: int) -> Time:
@@ -457,8 +457,8 @@ def _time(stamp: int) -> Time:
 
 
 def _duration(seconds: float) -> Duration:
-    whole, rest = divmod(round(seconds * 1e9), 10**9)
-    return Duration(sec=whole, nanosec=rest)
+    complete, remaining = divmod(round(seconds * 1e9), 10**9)
+    return Duration(sec=complete, nanosec=remaining)
 
 
 def run(arguments: list[str]) -> int:

@@ -49,26 +49,26 @@ class Parameters:
 
 def read(values: Mapping[str, Any]) -> Parameters:
     """Parameters by name. Raises DiagnosticError with every fault."""
-    found = []
+    result = []
     if not values["config"]:
-        found.append(_fault("config is not set", "-p config:=robot.yaml"))
+        result.append(_fault("config is not set", "-p config:=robot.yaml"))
     for name, words in (("replace", ("refuse", "approach")), ("dense", ("refuse", "resample"))):
         if values[name] not in words:
-            told = f"{name} is '{values[name]}'"
-            found.append(_fault(told, f"it is {' or '.join(words)}"))
+            report = f"{name} is '{values[name]}'"
+            result.append(_fault(report, f"it is {' or '.join(words)}"))
     for name in ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "stamp_tolerance"):
         if not 0 <= values[name] < math.inf:
-            found.append(_fault(f"{name} is {values[name]:g}", "it is 0 or more"))
+            result.append(_fault(f"{name} is {values[name]:g}", "it is 0 or more"))
     if values["speed"] != WHOLE:
-        found.append(
+        result.append(
             _fault(
                 f"speed is {values['speed']:g}, and nothing moves yet",
                 "100, and another one while a goal is executed; plans are slower by MoveIt's "
                 "max_velocity_scaling_factor",
             )
         )
-    if found:
-        raise DiagnosticError(found)
+    if result:
+        raise DiagnosticError(result)
     return Parameters(
         values["config"],
         tuple(filter(None, values["overrides"])),
@@ -90,8 +90,8 @@ def read(values: Mapping[str, Any]) -> Parameters:
 
 def check_address(address: str, config: RobotConfig) -> None:
     """Raises DiagnosticError for what is no address, or one group's ports where there are more."""
-    found = {parse_address(address, group.ports) for group in config.groups if address}
-    if address and len(found) < len(config.groups):
+    result = {parse_address(address, group.ports) for group in config.groups if address}
+    if address and len(result) < len(config.groups):
         raise DiagnosticError(
             _fault(
                 f"address is '{address}', with the ports of one motion group, and {config.name} "
@@ -101,5 +101,5 @@ def check_address(address: str, config: RobotConfig) -> None:
         )
 
 
-def _fault(message: str, mend: str) -> Diagnostic:
-    return error("RG690", None, f"parameter {message}", mend)
+def _fault(message: str, help: str) -> Diagnostic:
+    return error("RG690", None, f"parameter {message}", help)

@@ -119,8 +119,8 @@ class RobotLink:
                 moment, joints, velocity = state.time, state.joints, state.velocity
             stamp = self._stamps.stamp(moment, self._machine())
             self._public.joint_states(JointStates(stamp, robot.group.names, joints, velocity))
-            told = health(state, robot.driver, str(robot.address))
-            self._public.status(robot_status(state.status), told)
+            report = health(state, robot.driver, str(robot.address))
+            self._public.status(robot_status(state.status), report)
 
     # What others ask for
 
@@ -139,7 +139,7 @@ class RobotLink:
         """Stop the robot, whoever moved it; goals that wait end, too. Raises RobotError."""
         robot = self._there()
         if self._follower is not None:
-            self._follower.call_off()
+            self._follower.cancel_pending()
         return await robot.stop()
 
     async def pause(self) -> None:

@@ -70,10 +70,10 @@ class CyclicBools:
 
     def remove(self, name: str) -> bool:
         """Whether there was one of that name."""
-        found = self.known.pop(name.lower(), None)
-        if found is not None:
-            found.stop()
-        return found is not None
+        result = self.known.pop(name.lower(), None)
+        if result is not None:
+            result.stop()
+        return result is not None
 
     def clear(self) -> None:
         """Remove all."""

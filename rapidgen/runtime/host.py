@@ -161,7 +161,7 @@ class RapidTask(MotionWaiter, Protocol):
         """Whether routines are still being left for PP to main."""
 
     @property
-    def stands(self) -> bool:
+    def is_stopped(self) -> bool:
         """Whether the program is stopped."""
 
     def stack(self) -> tuple[Location, ...]:
@@ -170,10 +170,10 @@ class RapidTask(MotionWaiter, Protocol):
     def charge(self, cost: int) -> None:
         """Spend `cost` nanoseconds of CPU."""
 
-    def kick(self) -> None:
+    def wake_at_next_statement(self) -> None:
         """Let `attend()` be called before the next statement."""
 
-    def attend(self) -> None:
+    def process_pending(self) -> None:
         """Obey, stand, serve traps, as is due."""
 
     def order(self, order: BaseException) -> None:

@@ -25,20 +25,20 @@ def value_text(
     value: Value,
     type_: Type | None = None,
     *,
-    whole: bool = False,
+    complete: bool = False,
 ) -> str:
     """Any value in the standard format: texts quoted, aggregates without blanks."""
     if value.__class__ is dict:
-        return "[" + ",".join(value_text(v, type_, whole=whole) for v in value.values()) + "]"
+        return "[" + ",".join(value_text(v, type_, complete=complete) for v in value.values()) + "]"
     if isinstance(value, Record):
         parts = zip(value.values(), value.rapid_type.components, strict=True)
-        texts = (value_text(part, kind, whole=whole) for part, (_, kind) in parts)
+        texts = (value_text(part, kind, complete=complete) for part, (_, kind) in parts)
         return "[" + ",".join(texts) + "]"
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"'
-    return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS, whole=whole)
+    return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS, complete=complete)
 
 
 def literal_text(value: Value, type_: Type) -> str:
@@ -76,22 +76,22 @@ def parse_value(
     tokens = _tokens(text)
     if escaped:
         tokens = [t.replace("\\\\", "\\") if t[0] == '"' else t for t in tokens]
-    value, rest = _parse(tokens, 0, type_, dims)
-    if rest != len(tokens):
+    value, remaining = _parse(tokens, 0, type_, dims)
+    if remaining != len(tokens):
         raise NotALiteral
     return value
 
 
 def _tokens(text: str) -> list[str]:
-    found = []
+    result = []
     place = _end_of_blank(text, 0)
     while place < len(text):
         match = _LITERAL.match(text, place)
         if match is None:
             raise NotALiteral
-        found.append(match.group())
+        result.append(match.group())
         place = _end_of_blank(text, match.end())
-    return found
+    return result
 
 
 def _end_of_blank(text: str, place: int) -> int:

@@ -172,9 +172,9 @@ RmqHeader = _predefined("RmqHeader")
 
 def register_type(name: str, make: Callable[[], Value], kind: Kind = "nonvalue") -> Type:
     """Declare the Python class behind an atomic type that is no value, e.g. `socketdev`."""
-    kept = Type(name.lower(), kind, (), make)
-    TYPES[name.lower()] = kept
-    return kept
+    saved = Type(name.lower(), kind, (), make)
+    TYPES[name.lower()] = saved
+    return saved
 
 
 # -- arrays --------------------------------------------------------------------------------------
@@ -333,14 +333,14 @@ class Ref:
         dims: tuple[int, ...] = (),
         name: str = "",
         *,
-        whole: bool = True,
+        complete: bool = True,
         cell: PersistentCell | None = None,
     ) -> None:
         self.type = type
         self.dims = dims
         self.name = name
         """Name of the whole datum at its origin, for ArgName."""
-        self.whole = whole
+        self.whole = complete
         """False for an element or a component."""
         self.cell = cell
         """The cell when it is (part of) a PERS."""

@@ -26,7 +26,7 @@ READABLE = frozenset({"status", "signals", "get", "log", "screen", "questions", 
 def commands(controller: VirtualController) -> dict[str, Command]:
     """Every request's function, by the word in `do`."""
     remote = _Remote(controller)
-    found: dict[str, Command] = {
+    result: dict[str, Command] = {
         "status": remote.status,
         "mode": remote.mode,
         "override": remote.override,
@@ -42,8 +42,8 @@ def commands(controller: VirtualController) -> dict[str, Command]:
         "step": remote.step,
     }
     for action in ACTIONS:
-        found[action] = remote.action(action)
-    return found
+        result[action] = remote.action(action)
+    return result
 
 
 def subscribe(
@@ -55,7 +55,7 @@ def subscribe(
     """
     known: set[int] = set()
 
-    def asked() -> None:
+    def requested() -> None:
         for question in controller.operator.questions:
             if question.number not in known:
                 known.add(question.number)
@@ -69,12 +69,12 @@ def subscribe(
     ]
     if trusted:
         ends.append(controller.operator.attach())
-    controller.operator.asked.add(asked)
+    controller.operator.asked.add(requested)
 
     def end() -> None:
         for one in ends:
             one()
-        controller.operator.asked.remove(asked)
+        controller.operator.asked.remove(requested)
 
     return end
 
@@ -125,10 +125,10 @@ class _Remote:
 
     def mode(self, request: Members) -> Json:
         """`value`: auto, manual_reduced or manual_full."""
-        wanted = request.get("value")
-        if wanted not in _MODES:
+        expected = request.get("value")
+        if expected not in _MODES:
             raise CommandError(f"value is one of {', '.join(_MODES)}")
-        self._controller.set_mode(wanted)
+        self._controller.set_mode(expected)
         return None
 
     def override(self, request: Members) -> Json:
@@ -209,11 +209,11 @@ class _Remote:
         return self._task(request), name
 
     def _task(self, request: Members) -> TaskView:
-        wanted = _text(request, "task")
+        expected = _text(request, "task")
         for task in self._controller.tasks.values():
-            if task.name.lower() == wanted.lower():
+            if task.name.lower() == expected.lower():
                 return task
-        raise CommandError(f"there is no task '{wanted}'")
+        raise CommandError(f"there is no task '{expected}'")
 
     # -- log, screen, dialogs ---------------------------------------------------------------
 

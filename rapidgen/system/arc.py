@@ -13,13 +13,13 @@ _SECTIONS: Final = ("ARC_EQUIP_IO_DI", "ARC_EQUIP_IO_DO", "ARC_EQUIP_IO_AO", "AR
 
 def arc_signals(proc: CfgText) -> tuple[ArcSignals, ...]:
     """The equipment by instance; an empty name is no signal."""
-    found: dict[str, list[tuple[str, str]]] = {}
+    result: dict[str, list[tuple[str, str]]] = {}
     for section in _SECTIONS:
         for instance in proc.instances(section):
-            names = found.setdefault(instance.text("name"), [])
+            names = result.setdefault(instance.text("name"), [])
             names += [
                 (attribute.name, str(attribute.values[0]))
                 for attribute in instance.attributes
                 if attribute.name.lower() != "name" and attribute.values and attribute.values[0]
             ]
-    return tuple(ArcSignals(name, tuple(names)) for name, names in found.items())
+    return tuple(ArcSignals(name, tuple(names)) for name, names in result.items())

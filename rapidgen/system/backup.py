@@ -77,21 +77,21 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
     proc, sio = _further(folder, "PROC", collected), _further(folder, "SIO", collected)
-    told = _robotware(info)
-    if told is None:
+    report = _robotware(info)
+    if report is None:
         collected.append(_not_told(sys_cfg))
-    found = System(
+    result = System(
         name=folder.resolve().name,
         tasks=tasks,
-        robotware=told or (_main(sys_cfg), 0),
-        robotware_told=told is not None,
+        robotware=report or (_main(sys_cfg), 0),
+        robotware_told=report is not None,
         home=home if home.is_dir() else None,
         robot_types=_robot_types(folder, collected),
         arc=() if proc is None else arc_signals(proc),
         cameras=() if sio is None else _cameras(sio),
         udp_devices=None if sio is None else _udp_devices(sio),
     )
-    return with_cfg(found, sys_cfg, eio_cfg)
+    return with_cfg(result, sys_cfg, eio_cfg)
 
 
 def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str], ...]:
@@ -126,12 +126,12 @@ def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]
 
     Raises DiagnosticError: RG701..RG706 for damaged or hostile content of SYS and EIO.
     """
-    found = [_cfg(folder, "SYS.cfg")]
+    result = [_cfg(folder, "SYS.cfg")]
     if is_there(inside(folder, "SYSPAR/EIO.cfg")):
-        found.append(_cfg(folder, "EIO.cfg"))
+        result.append(_cfg(folder, "EIO.cfg"))
     further = (_further(folder, domain, notes) for domain in DOMAINS if domain not in _READ)
-    found += [text for text in further if text is not None]
-    cfg = ControllerCfg(robotware, tuple(found))
+    result += [text for text in further if text is not None]
+    cfg = ControllerCfg(robotware, tuple(result))
     notes += faults_within(cfg)
     return cfg
 
@@ -144,7 +144,7 @@ def _further(folder: Path, domain: str, notes: list[Diagnostic]) -> CfgText | No
     try:
         return parse_cfg(read_limited(path), path=str(path))
     except DiagnosticError as fault:
-        notes += [replace(found, severity=Severity.WARNING) for found in fault.diagnostics]
+        notes += [replace(result, severity=Severity.WARNING) for result in fault.diagnostics]
         return None
 
 
@@ -206,8 +206,8 @@ def _cfg(folder: Path, name: str) -> CfgText:
 
 
 def _info(folder: Path) -> bytes:
-    found = [path for name in _INFO_FILES if is_there(path := inside(folder, name))]
-    return b"\n".join(read_limited(path) for path in found)
+    result = [path for name in _INFO_FILES if is_there(path := inside(folder, name))]
+    return b"\n".join(read_limited(path) for path in result)
 
 
 def _robotware(info: bytes) -> tuple[int, int] | None:

@@ -84,18 +84,18 @@ def additions(
         optional = {text(name) for name in items(manifest.get("optional") or [])}
     except TypeError as fault:
         raise bad_manifest(folder / "manifest.json", "'optional' is no list of names") from fault
-    found = []
+    result = []
     for name, data in texts.items():
         if name not in without:
             file = parse_cfg(data, path=str(folder / name))
             # Services of the firewall exist on a delivered controller: they are set, not added.
-            found.append(CfgFileLoad(file, name in optional, file.domain == "SIO", data.isascii()))
-    return tuple(found)
+            result.append(CfgFileLoad(file, name in optional, file.domain == "SIO", data.isascii()))
+    return tuple(result)
 
 
 def onto(
     under: BaseController,
-    given: Iterable[CfgFileLoad],
+    source: Iterable[CfgFileLoad],
     load: Load,
     *,
     open_words: bool = True,
@@ -105,7 +105,7 @@ def onto(
 
     Raises DiagnosticError RG720..RG723 for a file that no controller loads.
     """
-    files = tuple(given)
+    files = tuple(source)
     loaded = add(under.cfg, files, open_words=open_words)
     if loaded.faults:
         raise DiagnosticError(loaded.faults)

@@ -189,21 +189,21 @@ def _logical_lines(lines: list[str], start: int) -> Iterator[tuple[int, str]]:
 
 
 def _attributes(line: str, path: str, number: int) -> tuple[Attribute, ...]:
-    found: list[tuple[str, list[Scalar]]] = []
+    result: list[tuple[str, list[Scalar]]] = []
     line = line.rstrip()
     at = 0
     while at < len(line):
         token = _TOKEN.match(line, at)
-        if token is None or (token[1] is None and not found):
+        if token is None or (token[1] is None and not result):
             raise _unreadable(path, number, "a quote is not closed, or a value has no attribute")
         at = token.end()
         if token[1] is not None:
-            found.append((token[1][1:], []))
+            result.append((token[1][1:], []))
         elif token[2] is not None:
-            found[-1][1].append(token[2])
+            result[-1][1].append(token[2])
         else:
-            found[-1][1].append(scalar(token[3]))
-    return tuple(Attribute(name, tuple(values)) for name, values in found)
+            result[-1][1].append(scalar(token[3]))
+    return tuple(Attribute(name, tuple(values)) for name, values in result)
 
 
 def scalar(word: str) -> Scalar:

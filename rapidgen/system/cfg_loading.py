@@ -56,29 +56,29 @@ def add(
 
     `open_words`: statuses whose spelling on RobotWare 7 nobody has shown are taken.
     """
-    given = tuple(files)
-    needed = [addition for addition in given if not addition.optional]
+    source = tuple(files)
+    needed = [addition for addition in source if not addition.optional]
     cfg, faults = _loaded(base, needed, open_words)
     if faults:
         return LoadResult(base, faults)
     notes: list[Diagnostic] = []
-    for addition in given:
+    for addition in source:
         if addition.optional:
-            cfg, found = _loaded(cfg, [addition], open_words)
-            notes += _left_out(addition.file, found)
+            cfg, result = _loaded(cfg, [addition], open_words)
+            notes += _left_out(addition.file, result)
     return LoadResult(cfg, (), tuple(notes))
 
 
 def faults_within(cfg: ControllerCfg, *, open_words: bool = False) -> tuple[Diagnostic, ...]:
     """The same rules for what a controller has already; it loaded, so these are notes."""
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for text in cfg.domains:
-        found += _header(cfg, text)
+        findings += _header(cfg, text)
         for section in text.sections:
             for instance in section.instances:
                 place = Place(cfg, text, section.name, instance, open_words)
-                found += faults_of(place)
-    return tuple(map(_note, found))
+                findings += faults_of(place)
+    return tuple(map(_note, findings))
 
 
 def _loaded(
@@ -123,15 +123,15 @@ def _header(base: ControllerCfg, text: CfgText) -> Iterator[Diagnostic]:
             f"the domains are {', '.join(DOMAINS)}",
         )
         return
-    wanted = base.domain(text.domain).version
+    expected = base.domain(text.domain).version
     # ABB's own examples on a 7.6 (DAP) name no digits at all.
-    if text.version is not None and wanted is not None and text.version != wanted:
+    if text.version is not None and expected is not None and text.version != expected:
         yield error(
             "RG720",
             Span(text.path, 1, 1),
             f"event 120003: {text.domain} is written for {_digits(text.version)}",
             "build for the release of this controller: controller.robotware, or --backup",
-            label=f"this controller (RobotWare {_release(base)}) wants {_digits(wanted)}",
+            label=f"this controller (RobotWare {_release(base)}) wants {_digits(expected)}",
         )
 
 
@@ -195,18 +195,18 @@ def identity_text(section: str, instance: Instance) -> tuple[str, ...]:
     return tuple(instance.text(n) for n in _IDENTITY.get(section, ("Name",)))
 
 
-def _left_out(text: CfgText, found: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
-    if found:
-        first = found[0]
+def _left_out(text: CfgText, findings: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    if findings:
+        first = findings[0]
         yield error(
             first.code,
             Span(text.path, 1, 1),
             f"counts as refused, whole: {first.message}",
             "nothing: the driver does without; only the controller can tell",
-            notes=tuple(f"line {d.span.line}: {d.message}" for d in found[1:] if d.span),
+            notes=tuple(f"line {d.span.line}: {d.message}" for d in findings[1:] if d.span),
             severity=Severity.WARNING,
         )
 
 
-def _note(found: Diagnostic) -> Diagnostic:
-    return replace(found, severity=Severity.WARNING)
+def _note(findings: Diagnostic) -> Diagnostic:
+    return replace(findings, severity=Severity.WARNING)

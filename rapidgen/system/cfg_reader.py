@@ -62,13 +62,13 @@ MAX_MODULES = 2_000
 
 def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
     """CAB_TASKS in order, without modules. Raises RG708 for a fault in one, or too many."""
-    found = []
+    result = []
     for instance in _few(cfg, "CAB_TASKS", MAX_TASKS):
         name = _name(cfg, instance)
         kind = _word(cfg, instance, "Type", instance.text("Type") or "SEMISTATIC", TaskType)
         trust = instance.text("TrustLevel") or "SysFail"
         trust = _TRUST_TEXT.get(trust.upper(), trust)
-        found.append(
+        result.append(
             TaskSpec(
                 name,
                 cast(TaskType, kind),
@@ -83,7 +83,7 @@ def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
                 ),
             )
         )
-    return tuple(found)
+    return tuple(result)
 
 
 def modules_of(cfg: CfgText) -> tuple[ModuleEntry, ...]:
@@ -141,11 +141,11 @@ def groups_of(cfg: CfgText) -> tuple[MechanicalUnitGroup, ...]:
 
 def signals_of(cfg: CfgText) -> tuple[SignalSpec, ...]:
     """EIO_SIGNAL in order (`-Device` on RobotWare 6, `-Unit` on 5)."""
-    found = []
+    result = []
     for instance in cfg.instances("EIO_SIGNAL"):
         kind = _word(cfg, instance, "SignalType", instance.text("SignalType"), SignalType)
         bits = _bits(instance.text("DeviceMap") or instance.text("UnitMap"))
-        found.append(
+        result.append(
             SignalSpec(
                 _name(cfg, instance),
                 cast(SignalType, kind),
@@ -158,7 +158,7 @@ def signals_of(cfg: CfgText) -> tuple[SignalSpec, ...]:
                 instance.number("MaxLog"),
             )
         )
-    return tuple(found)
+    return tuple(result)
 
 
 def outputs_of(*cfgs: CfgText) -> tuple[SystemOutput, ...]:
@@ -191,7 +191,7 @@ def inputs_of(*cfgs: CfgText) -> tuple[SystemInput, ...]:
 
 def crosses_of(cfg: CfgText) -> tuple[CrossConnection, ...]:
     """EIO_CROSS in order: up to five actors."""
-    found = []
+    result = []
     for instance in cfg.instances("EIO_CROSS"):
         actors = []
         operators: list[Literal["AND", "OR"]] = []
@@ -202,20 +202,20 @@ def crosses_of(cfg: CfgText) -> tuple[CrossConnection, ...]:
             operators.append("OR" if instance.text(f"Oper{n}").upper() == "OR" else "AND")
         if not instance.text("Res") or not actors:
             raise _fault(cfg, instance, "a cross connection needs -Res and -Act1")
-        found.append(
+        result.append(
             CrossConnection(
                 instance.text("Name"), instance.text("Res"), tuple(actors), tuple(operators[:-1])
             )
         )
-    return tuple(found)
+    return tuple(result)
 
 
 def _few(cfg: CfgText, section: str, limit: int) -> list[Instance]:
     """The instances of a section: what is done for each of them takes time."""
-    found = list(cfg.instances(section))
-    if len(found) > limit:
-        raise _fault(cfg, found[limit], f"{section} has more than {limit:,} instances")
-    return found
+    result = list(cfg.instances(section))
+    if len(result) > limit:
+        raise _fault(cfg, result[limit], f"{section} has more than {limit:,} instances")
+    return result
 
 
 def _name(cfg: CfgText, instance: Instance) -> str:
@@ -228,28 +228,28 @@ def _name(cfg: CfgText, instance: Instance) -> str:
 def _word(cfg: CfgText, instance: Instance, attribute: str, word: str, kind: object) -> str:
     """`word` in the spelling of the Literal type `kind`."""
     known = {str(value).casefold(): str(value) for value in get_args(kind)}
-    found = known.get(word.casefold())
-    if found is None:
+    match = known.get(word.casefold())
+    if match is None:
         raise _fault(
             cfg,
             instance,
             f"-{attribute} '{word}' is none of {', '.join(known.values())}",
             suggest(word, list(known.values())),
         )
-    return found
+    return match
 
 
 def _bits(mapped: str) -> tuple[int, ...]:
     """Bits in a map such as `0-7` or `0-3,8`, the first one least significant [mem]."""
     if not re.fullmatch(r"[\d\s,-]+", mapped):
         return ()
-    found: list[int] = []
+    result: list[int] = []
     for part in mapped.split(","):
         ends = [int(end) for end in part.split("-") if end.strip()]
         if ends and max(ends) < _MAX_BIT:
             step = 1 if ends[-1] >= ends[0] else -1
-            found += range(ends[0], ends[-1] + step, step)
-    return tuple(found)
+            result += range(ends[0], ends[-1] + step, step)
+    return tuple(result)
 
 
 def _fault(cfg: CfgText, instance: Instance, label: str, help: str = "") -> DiagnosticError:

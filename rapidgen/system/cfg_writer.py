@@ -158,8 +158,8 @@ def _signal(signal: SignalSpec, unit: str) -> Instance:
     if signal.access != "Default":
         attributes.append(("Access", signal.access))
     if signal.default:
-        whole = int(signal.default)
-        attributes.append(("Default", whole if whole == signal.default else signal.default))
+        complete = int(signal.default)
+        attributes.append(("Default", complete if complete == signal.default else signal.default))
     if signal.low or signal.high:
         attributes += [("MinLog", signal.low), ("MaxLog", signal.high)]
     return _instance(*attributes)
@@ -185,5 +185,9 @@ def _section(name: str, instances: Iterable[Instance]) -> Section:
 
 def _instance(*attributes: _Row) -> Instance:
     return Instance(
-        tuple(Attribute(name, values) for name, *rest in attributes for values in (tuple(rest),))
+        tuple(
+            Attribute(name, values)
+            for name, *remaining in attributes
+            for values in (tuple(remaining),)
+        )
     )

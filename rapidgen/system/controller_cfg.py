@@ -26,8 +26,8 @@ class ControllerCfg:
 
     def names(self, domain: str, section: str) -> frozenset[str]:
         """Names of a section's instances, without case (HONG: rob_R and rob_r are one)."""
-        found = (instance.text("Name") for instance in self.instances(domain, section))
-        return frozenset(name.casefold() for name in found if name)
+        result = (instance.text("Name") for instance in self.instances(domain, section))
+        return frozenset(name.casefold() for name in result if name)
 
     @property
     def tasks(self) -> frozenset[str]:

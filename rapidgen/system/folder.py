@@ -85,9 +85,9 @@ def read_folder(
         if entry["kind"] == "cfg"
     }
     texts = {path: read_limited(place) for path, place in paths.items()}
-    given = additions(manifest, texts, without, folder)
+    source = additions(manifest, texts, without, folder)
     system = onto(
-        _under(manifest, backup, collected), given, load, open_words=open_words, notes=collected
+        _under(manifest, backup, collected), source, load, open_words=open_words, notes=collected
     )
     return replace(
         system,

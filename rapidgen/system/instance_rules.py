@@ -35,14 +35,14 @@ class Place:
         """Where the instance starts."""
         return Span(self.file.path, max(self.instance.line, 1), 1)
 
-    def fault(self, message: str, mend: str, *, code: str = "RG723") -> Diagnostic:
+    def fault(self, message: str, help: str, *, code: str = "RG723") -> Diagnostic:
         """Something that no event is known for."""
-        mark = " [mem]" if code == "RG723" else ""
-        return error(code, self.span(), f"{self.section}: {message}{mark}", mend)
+        marker = " [mem]" if code == "RG723" else ""
+        return error(code, self.span(), f"{self.section}: {message}{marker}", help)
 
-    def system_signal(self, message: str, mend: str) -> Diagnostic:
+    def system_signal(self, message: str, help: str) -> Diagnostic:
         """A fault in a system input or output."""
-        return self.fault(f"event 71391: {message}", mend, code="RG722")
+        return self.fault(f"event 71391: {message}", help, code="RG722")
 
     def unknown_section(self) -> Diagnostic:
         """The release has no such section in this domain."""
@@ -75,10 +75,10 @@ class Place:
 
     def named(self, attribute: str, known: Collection[str], what: str) -> Iterator[Diagnostic]:
         """A name that must exist, where it is given; names have no case."""
-        for given in self.instance.attributes:
-            if given.name.casefold() != attribute.casefold():
+        for source in self.instance.attributes:
+            if source.name.casefold() != attribute.casefold():
                 continue
-            for value in given.values:
+            for value in source.values:
                 if str(value).casefold() not in known:
                     yield self.fault(
                         f"there is no {what} '{value}'",
@@ -184,10 +184,10 @@ def _system_signal(
         return
     yield from _driven(place, row)
     own = where.get(row.argument, "")
-    for given in instance.attributes:
-        if given.name.startswith("Arg") and given.name not in (own, *row.others):
-            mend = f"{row.name} has its {row.argument} in -{own}" if own else "leave it out"
-            yield place.system_signal(f"{row.name} has no -{given.name}", mend)
+    for source in instance.attributes:
+        if source.name.startswith("Arg") and source.name not in (own, *row.others):
+            help = f"{row.name} has its {row.argument} in -{own}" if own else "leave it out"
+            yield place.system_signal(f"{row.name} has no -{source.name}", help)
     value = instance.text(own) if own else ""
     if row.needed and not value:
         yield place.system_signal(f"{row.name} lacks its {row.argument}", f"write it in -{own}")

@@ -24,8 +24,8 @@ Origin = tuple[tuple[int, str, int], ...]
 
 def module_name(data: bytes, fallback: str) -> str:
     """Name in the module's own text, else `fallback`."""
-    found = _MODULE.search(data)
-    return found[1].decode("latin-1") if found else fallback
+    match = _MODULE.search(data)
+    return match[1].decode("latin-1") if match else fallback
 
 
 def load_module(
@@ -51,31 +51,31 @@ def expand(path: Path) -> list[Path]:
     """
     if path.is_dir():
         programs = [p for p in sorted(path.glob("*.pgf")) if not p.name.startswith("._")]
-        found = list(module_files(path))
-        if not found and not programs:
+        result = list(module_files(path))
+        if not result and not programs:
             shelves = [inside(path, name) for name in ("SYSMOD", "PROGMOD")]
-            found = [file for one in shelves if any(module_files(one)) for file in expand(one)]
+            result = [file for one in shelves if any(module_files(one)) for file in expand(one)]
         if len(programs) == 1:
             # Tasks get their system modules from the configuration: a program names none.
             named = expand(programs[0])
-            beside = (p for p in found if p.suffix.casefold() in (".sys", ".sysx"))
-            found = [*named, *(p for p in beside if p not in named)]
+            adjacent = (p for p in result if p.suffix.casefold() in (".sys", ".sysx"))
+            result = [*named, *(p for p in adjacent if p not in named)]
     elif path.suffix.casefold() == ".pgf":
         named = [name.decode("latin-1") for name in _PROGRAM.findall(read_limited(path))]
         home = path.parent
-        found = [home_file(home, f"HOME:{name}") for name in named]
+        result = [home_file(home, f"HOME:{name}") for name in named]
     else:
         return [path]
-    if not found:
-        mend = f"modules end in {', '.join(MODULE_SUFFIXES)}"
+    if not result:
+        help = f"modules end in {', '.join(MODULE_SUFFIXES)}"
         if path.is_dir() and (path.parent / "SYSPAR").is_dir():
-            mend = f"a backup is loaded whole: name {path.parent}"
+            help = f"a backup is loaded whole: name {path.parent}"
         elif not path.is_dir():
-            mend = "a program lists files of modules: <Module>NAME.mod</Module>"
+            help = "a program lists files of modules: <Module>NAME.mod</Module>"
             if _MODULE.search(read_limited(path)):
-                mend = f"it is a module itself: call it {path.stem}.mod"
-        raise refusal("RG709", None, f"no RAPID module in {path}", mend)
-    return found
+                help = f"it is a module itself: call it {path.stem}.mod"
+        raise refusal("RG709", None, f"no RAPID module in {path}", help)
+    return result
 
 
 def load_entries(
@@ -139,11 +139,11 @@ def load_entries(
 
 
 def _note(
-    notes: list[Diagnostic] | None, code: str, place: Span | None, message: str, mend: str
+    notes: list[Diagnostic] | None, code: str, place: Span | None, message: str, help: str
 ) -> None:
     """A warning where they are collected, else an error, which is raised."""
     severity = Severity.ERROR if notes is None else Severity.WARNING
-    fault = error(code, place, message, mend, severity=severity)
+    fault = error(code, place, message, help, severity=severity)
     if notes is None:
         raise DiagnosticError(fault)
     notes.append(fault)

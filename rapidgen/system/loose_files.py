@@ -22,13 +22,13 @@ def task_folders(folder: Path) -> dict[str, list[Path]]:
     programs of several tasks are published. None where the folder has modules of its own."""
     if any(module_files(folder)):
         return {}
-    found: dict[str, list[Path]] = {}
+    result: dict[str, list[Path]] = {}
     for task in sorted(path for path in folder.iterdir() if _TASK.fullmatch(path.name)):
         below = [task, *(path for path in sorted(task.rglob("*")) if path.is_dir())]
         holding = [path for path in below if any(module_files(path))]
         if holding:
-            found[task.name] = holding
-    return found
+            result[task.name] = holding
+    return result
 
 
 def read_files(
@@ -47,10 +47,10 @@ def read_files(
 
     Raises DiagnosticError: RG701..RG709.
     """
-    given = dict(tasks) if isinstance(tasks, Mapping) else {"T_ROB1": tasks}
+    source = dict(tasks) if isinstance(tasks, Mapping) else {"T_ROB1": tasks}
     cfg_files = [Path(path) for path in cfg]
     sources: dict[str, list[Path]] = {}
-    for task, paths in given.items():
+    for task, paths in source.items():
         for path in map(Path, paths):
             if path.suffix.casefold() == ".cfg":
                 cfg_files.append(path)
@@ -70,17 +70,17 @@ def read_files(
             spec = TaskSpec(task, entry=entry, motion=task in motion)
         modules = tuple(load_module(path) for path in paths)
         specs.append(replace(spec, modules=modules))
-    found = System(
+    result = System(
         name=name,
         tasks=tuple(specs),
         robotware=robotware,
         home=home,
     )
-    return with_cfg(found, sys_cfg, eio_cfg)
+    return with_cfg(result, sys_cfg, eio_cfg)
 
 
 def _merged(texts: Sequence[CfgText], domain: str, robotware: tuple[int, int]) -> CfgText:
-    found = [text for text in texts if text.domain == domain]
-    sections = tuple(section for text in found for section in text.sections)
-    path = found[0].path if found else ""
+    result = [text for text in texts if text.domain == domain]
+    sections = tuple(section for text in result for section in text.sections)
+    path = result[0].path if result else ""
     return CfgText(domain, (robotware[0], 0), sections, path)

@@ -35,8 +35,8 @@ def read_limited(path: Path, *, below: Path | None = None) -> bytes:
             "files of a system lie inside its own folder",
         ) from fault
     except OSError as fault:
-        mend = "give the path of a file or folder that exists and may be read"
-        raise refusal("RG704", None, f"cannot read {path}: {fault.strerror}", mend) from fault
+        help = "give the path of a file or folder that exists and may be read"
+        raise refusal("RG704", None, f"cannot read {path}: {fault.strerror}", help) from fault
 
 
 def is_there(path: Path) -> bool:
@@ -74,15 +74,15 @@ def inside(root: Path, relative: str) -> Path:
 
 def home_file(home: Path, target: str) -> Path:
     """The file of `HOME:/x` (or `HOME:x`) in the folder that stands for HOME:."""
-    head, _, rest = target.partition(":")
-    if head.strip().upper() != "HOME" or not rest:
+    head, _, remaining = target.partition(":")
+    if head.strip().upper() != "HOME" or not remaining:
         raise refusal(
             "RG707",
             None,
             f"'{target}' does not lie on HOME:",
             "only files of HOME: can be read from a folder",
         )
-    return inside(home, rest.lstrip("/\\"))
+    return inside(home, remaining.lstrip("/\\"))
 
 
 def module_files(folder: Path) -> Iterator[Path]:

@@ -202,10 +202,10 @@ class MemoryTransport(asyncio.Transport):
 
     def _flush(self) -> None:
         while self._buffer:
-            taken = self._network.send(self._endpoint, bytes(self._buffer[:BUFFER]))
-            if not taken:
+            in_use = self._network.send(self._endpoint, bytes(self._buffer[:BUFFER]))
+            if not in_use:
                 break
-            del self._buffer[:taken]
+            del self._buffer[:in_use]
         if self._paused and len(self._buffer) <= self._low_water:
             self._paused = False
             self._protocol.resume_writing()

@@ -37,10 +37,10 @@ class Client:
         left = data
         while left:
             try:
-                taken = self._controller.network.send(self._endpoint, left)
+                accepted = self._controller.network.send(self._endpoint, left)
             except NetworkFault as fault:
                 raise ConnectionError(str(fault)) from fault
-            left = left[taken:]
+            left = left[accepted:]
             if left:
                 self._controller.run_for(0.001)
 
@@ -51,29 +51,29 @@ class Client:
         left; TimeoutError, with where the tasks stand, when it does not come.
         """
         _bytes("receive until", until)
-        ended = False
+        finished = False
 
-        def there() -> bool:
-            nonlocal ended
+        def target() -> bool:
+            nonlocal finished
             try:
                 data = self._controller.network.receive(self._endpoint, BUFFER)
             except NetworkFault:
                 data = b""
             if data is not None:
-                ended = not data
+                finished = not data
                 self._read += data
             if until:
-                return until in self._read or ended
-            return len(self._read) >= max(count, 1) or ended
+                return until in self._read or finished
+            return len(self._read) >= max(count, 1) or finished
 
-        wanted = repr(until) if until else f"{count or 'any'} bytes"
+        expected = repr(until) if until else f"{count or 'any'} bytes"
         seconds = self._timeout if timeout is None else timeout
-        self._until(there, f"{wanted} did not come, only {self._read!r}", seconds)
+        self._until(target, f"{expected} did not come, only {self._read!r}", seconds)
         size = count or len(self._read)
         if until and until in self._read:
             size = self._read.index(until) + len(until)
-        found, self._read = self._read[:size], self._read[size:]
-        return found
+        result, self._read = self._read[:size], self._read[size:]
+        return result
 
     def close(self) -> None:
         """End the connection."""

@@ -55,15 +55,17 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """One test for each seed."""
-    mark = metafunc.definition.get_closest_marker(MARK)
-    if mark is None or "virtual_seed" not in metafunc.fixturenames:
+    marker = metafunc.definition.get_closest_marker(MARK)
+    if marker is None or "virtual_seed" not in metafunc.fixturenames:
         return
     chosen = metafunc.config.getoption("--virtual-seed")
-    if len(mark.args) != 1 or mark.kwargs or not isinstance(mark.args[0], int):
-        given = ", ".join([*map(repr, mark.args), *(f"{k}={v!r}" for k, v in mark.kwargs.items())])
+    if len(marker.args) != 1 or marker.kwargs or not isinstance(marker.args[0], int):
+        given = ", ".join(
+            [*map(repr, marker.args), *(f"{k}={v!r}" for k, v in marker.kwargs.items())]
+        )
         what = f"{metafunc.definition.nodeid}: {MARK}({given}) is no number of seeds"
         pytest.fail(f"{what}: write @pytest.mark.{MARK}(50)", pytrace=False)
-    seeds = range(mark.args[0]) if chosen is None else (chosen,)
+    seeds = range(marker.args[0]) if chosen is None else (chosen,)
     metafunc.parametrize("virtual_seed", seeds, ids=lambda seed: f"seed{seed}", indirect=True)
 
 

@@ -17,7 +17,11 @@ def smallest(suspects: Sequence[str], breaks: Callable[[Sequence[str]], bool]) -
         rests = [[s for s in left if s not in chunk] for chunk in chunks]
         smaller = next((chunk for chunk in chunks if breaks(chunk)), None)
         # Of two parts each is the other's rest.
-        fewer = None if parts == 2 else next((rest for rest in rests if breaks(rest)), None)
+        fewer = (
+            None
+            if parts == 2
+            else next((remaining for remaining in rests if breaks(remaining)), None)
+        )
         if smaller is not None:
             left, parts = smaller, 2
         elif fewer is not None:
@@ -36,8 +40,8 @@ def minimal_assumptions(
 
     What has been found for one row explains every other one that assumes it, too.
     """
-    found: dict[str, tuple[str, ...]] = {}
+    result: dict[str, tuple[str, ...]] = {}
     for name, suspects in rows.items():
-        known = [part for part in found.values() if set(part) <= set(suspects)]
-        found[name] = min(known, key=len) if known else smallest(suspects, breaks)
-    return found
+        known = [part for part in result.values() if set(part) <= set(suspects)]
+        result[name] = min(known, key=len) if known else smallest(suspects, breaks)
+    return result

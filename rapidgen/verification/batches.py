@@ -18,8 +18,8 @@ def points_frame(
     stream: int, first: int, points: Sequence[Point], flags: int = 0, comm: int = RawComm.REQUEST
 ) -> bytes:
     """A batch of a stream."""
-    words = [word for point in points for word in words_of(point)]
-    return words_frame(stream, first % INDEX_WRAP, len(points), words, flags, comm)
+    values = [word for point in points for word in words_of(point)]
+    return words_frame(stream, first % INDEX_WRAP, len(points), values, flags, comm)
 
 
 def words_of(point: Point) -> list[int]:
@@ -40,25 +40,27 @@ def words_frame(
     stream: int,
     first: int,
     count: int,
-    words: Sequence[int],
+    values: Sequence[int],
     flags: int = 0,
     comm: int = RawComm.REQUEST,
     number: int = POINTS,
 ) -> bytes:
     """A batch of any words, that says to have `count` points; its checksum is right."""
-    whole = [stream, flags, first, count, *words]
-    return framed(number, struct.pack(f"<{len(whole) + 1}i", *whole, checksum(whole)), comm)
+    complete = [stream, flags, first, count, *values]
+    return framed(
+        number, struct.pack(f"<{len(complete) + 1}i", *complete, checksum(complete)), comm
+    )
 
 
-def checksum(words: Sequence[int]) -> int:
+def checksum(values: Sequence[int]) -> int:
     """What stands behind these words of a batch, of its head and of all that follows."""
-    found = 0
-    for word in words:
-        found = (2 * found + word + 2**31) % _MODULUS
-    return found
+    result = 0
+    for word in values:
+        result = (2 * result + word + 2**31) % _MODULUS
+    return result
 
 
-def words_to(wanted: int, words: Sequence[int], count: int) -> list[int]:
+def words_to(expected: int, values: Sequence[int], count: int) -> list[int]:
     """`count` words behind which the checksum is the one that is wanted."""
     zeros = [0] * (count - 1)
-    return [*zeros, (wanted - checksum([*words, *zeros, 0])) % _MODULUS]
+    return [*zeros, (expected - checksum([*values, *zeros, 0])) % _MODULUS]

@@ -71,12 +71,12 @@ def floats(config: RobotConfig) -> tuple[int, ...]:
     limits = [0.0, 1.0, 100.0, 3600.0, config.trajectory.min_segment]
     for joint in config.groups[0].joints:
         limits += [joint.lower, joint.upper, joint.speed]
-    found = dict.fromkeys(FLOAT32_BITS)
+    result = dict.fromkeys(FLOAT32_BITS)
     for limit in limits:
         bits = int.from_bytes(struct.pack("<f", limit), "little")
         for near in (bits, bits + 1, bits - 1):
-            found[near & 0xFFFFFFFF] = None
-    return tuple(found)
+            result[near & 0xFFFFFFFF] = None
+    return tuple(result)
 
 
 def messages_of(config: RobotConfig) -> Iterator[tuple[str, bytes]]:
@@ -93,8 +93,8 @@ def messages_of(config: RobotConfig) -> Iterator[tuple[str, bytes]]:
         for name, offset, wire in places:
             values = numbers if wire is Wire.FLOAT32 else INT32
             for value in dict.fromkeys(values):
-                told = f"{value:#010x}" if wire is Wire.FLOAT32 else str(value)
-                yield f"{kind.name}.{name}={told}", _with(base, offset, value)
+                reply = f"{value:#010x}" if wire is Wire.FLOAT32 else str(value)
+                yield f"{kind.name}.{name}={reply}", _with(base, offset, value)
 
 
 def pairs_of(config: RobotConfig, chance: random.Random, count: int) -> Iterator[tuple[str, bytes]]:
@@ -104,12 +104,12 @@ def pairs_of(config: RobotConfig, chance: random.Random, count: int) -> Iterator
         kind = chance.choice(MESSAGES)
         base, places = _plain(kind)
         fields = [(name, 4 * n, Wire.INT32) for n, name in enumerate(HEADER[1:], 1)] + places
-        told, data = [], base
+        reply, data = [], base
         for name, offset, wire in chance.sample(fields, 2):
             value = chance.choice(numbers if wire is Wire.FLOAT32 else INT32)
-            told.append(f"{name}={value}")
+            reply.append(f"{name}={value}")
             data = _with(data, offset, value)
-        yield f"{kind.name}.{' '.join(told)}", data
+        yield f"{kind.name}.{' '.join(reply)}", data
 
 
 def drawn(config: RobotConfig, chance: random.Random) -> bytes:
@@ -146,8 +146,8 @@ def _plain(kind: MessageType) -> tuple[bytes, list[tuple[str, int, Wire]]]:
 
 
 def _checked(data: bytes) -> bytes:
-    words = struct.unpack(f"<{len(data) // 4 - 1}i", data[:-4])
-    return data[:-4] + struct.pack("<i", checksum(words))
+    values = struct.unpack(f"<{len(data) // 4 - 1}i", data[:-4])
+    return data[:-4] + struct.pack("<i", checksum(values))
 
 
 def _with(data: bytes, offset: int, value: int) -> bytes:
@@ -222,11 +222,11 @@ def _streaming(bench: Bench, motion: RawLink, control: RawLink) -> None:
 
 
 def _program(bench: Bench, motion: RawLink, control: RawLink) -> None:
-    ways = [place for place, _ in bench.wave(8, duration=1.0)]
-    orders = [RawMove(messages.RawInstruction.MOVE_ABSJ, place, None) for place in ways[1:]]
-    told = Programmer(bench, motion).send(orders)
-    if not isinstance(told, messages.RawPointsAccepted):
-        raise CheckFailed(f"a program is answered with {told}")
+    paths = [place for place, _ in bench.wave(8, duration=1.0)]
+    orders = [RawMove(messages.RawInstruction.MOVE_ABSJ, place, None) for place in paths[1:]]
+    reply = Programmer(bench, motion).send(orders)
+    if not isinstance(reply, messages.RawPointsAccepted):
+        raise CheckFailed(f"a program is answered with {reply}")
     bench.wait_until_moving()
 
 
@@ -275,33 +275,33 @@ def failing(prepared: Prepared, trials: Sequence[Trial]) -> list[tuple[Trial, st
     is not served after several, they are cut in halves; what fails only together is told of the
     first one.
     """
-    found, rest = [], list(trials)
-    while rest:
-        fault, done = run_in_fork(lambda: _outcome(prepared, rest))  # noqa: B023
+    result, remaining = [], list(trials)
+    while remaining:
+        fault, done = run_in_fork(lambda: _outcome(prepared, remaining))  # noqa: B023
         if fault:
-            found += _blamed(prepared, rest[:done], fault)
-        rest = rest[done:]
-    return found
+            result += _blamed(prepared, remaining[:done], fault)
+        remaining = remaining[done:]
+    return result
 
 
 def _blamed(prepared: Prepared, batch: Sequence[Trial], fault: str) -> list[tuple[Trial, str]]:
     if len(batch) == 1:
         return [(batch[0], fault)]
     middle = len(batch) // 2
-    found = [*failing(prepared, batch[:middle]), *failing(prepared, batch[middle:])]
-    return found or [(batch[0], f"with the {len(batch) - 1} behind it: {fault}")]
+    result = [*failing(prepared, batch[:middle]), *failing(prepared, batch[middle:])]
+    return result or [(batch[0], f"with the {len(batch) - 1} behind it: {fault}")]
 
 
 def _outcome(prepared: Prepared, batch: Sequence[Trial]) -> tuple[str, int]:
     """What went wrong, and how many messages the controller got while it was in its state."""
-    bench, standing, done = prepared.bench, prepared.bench.standing, 0
+    bench, at_rest, done = prepared.bench, prepared.bench.standing, 0
     try:
         for trial in batch:
             done += 1
             _sent(prepared, trial)
-            bench.healthy()
+            bench.assert_healthy()
             lost = any(link.lost for link in prepared.links.values())
-            if trial.state != "idle" and (lost or bench.standing != standing):
+            if trial.state != "idle" and (lost or bench.standing != at_rest):
                 break
         served(prepared)
     except FAILURES as error:
@@ -346,19 +346,19 @@ def served(prepared: Prepared) -> None:
     watcher = bench.watcher()
     bench.progress(watcher)
     motion = bench.motion()
-    bench.moves_through(motion, bench.wave(3, duration=0.2))
+    bench.assert_moves_through(motion, bench.wave(3, duration=0.2))
     for link in (motion, control):
         motion.send(_long(bench))
         bench.wait_until_moving()
         bench.run(0.2)
         link.stop(what="STOP on the motion port" if link is motion else "STOP on the control port")
-        bench.rests(1, 0.5, "it was stopped")
+        bench.wait_until_at_rest(1, 0.5, "it was stopped")
     status = bench.status(watcher)
     if not status.motion_possible:
         raise CheckFailed(f"in the end no motion is possible: {status}")
     for link in (motion, control, watcher):
         link.close()
-    bench.healthy()
+    bench.assert_healthy()
 
 
 def ended(port: Port) -> Trial:

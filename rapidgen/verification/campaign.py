@@ -81,8 +81,8 @@ class Campaign:
         done = 0
         for found in in_order(self.workers, work.count, make, work.needs, self._over):
             result = work.take(cast(R, found))
-            kept = work.kept_as.dump_python(result, mode="json", exclude=MEASURED)
-            self._results.add(keys[done], kept)
+            saved = work.kept_as.dump_python(result, mode="json", exclude=MEASURED)
+            self._results.add(keys[done], saved)
             done += 1
             yield result
             if self._progress is not None:

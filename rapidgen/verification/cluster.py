@@ -57,17 +57,17 @@ class Cluster:
         try:
             self._client = Client(address, timeout=CONNECTS, set_as_default=False)
         except (OSError, ValueError) as fault:
-            mend = "start it: dask scheduler; or `make cluster` on one machine"
-            raise _none(address, "no Dask scheduler answers", mend) from fault
+            help = "start it: dask scheduler; or `make cluster` on one machine"
+            raise _none(address, "no Dask scheduler answers", help) from fault
         self._looked = self._seen = time.monotonic()
         with suppress(TimeoutError):
             self._client.wait_for_workers(1, timeout=CONNECTS)
         self._look()
         if not self._workers:
-            told = "; ".join(sorted(set(self._refused.values()))) or "it has none"
+            reply = "; ".join(sorted(set(self._refused.values()))) or "it has none"
             self._client.close()
-            mend = "start some with this rapidgen: dask worker ADDRESS --nthreads 1"
-            raise _none(address, f"no worker can be used: {told}", mend)
+            help = "start some with this rapidgen: dask worker ADDRESS --nthreads 1"
+            raise _none(address, f"no worker can be used: {reply}", help)
 
     def __enter__(self) -> Self:
         return self
@@ -101,7 +101,7 @@ class Cluster:
 
     def come(self, seconds: float) -> list[tuple[int, object]]:
         """Results that have come; what a lost worker was at is given to another one."""
-        found: list[tuple[int, object]] = []
+        result: list[tuple[int, object]] = []
         with suppress(queue.Empty):
             done = [self._come.get(timeout=min(seconds, EVERY))]
             while not self._come.empty():
@@ -110,10 +110,10 @@ class Cluster:
             for future in done:
                 given = by_key.get(future.key)
                 if given is not None and given.future is future:
-                    found += self._result(given)
+                    result += self._result(given)
         if time.monotonic() - self._looked > EVERY:
             self._look()
-        return found
+        return result
 
     def close(self) -> None:
         """Take back what was given, and leave the scheduler; its workers stay."""
@@ -156,9 +156,9 @@ class Cluster:
 
     def _look(self) -> None:
         """Who is there; new ones are asked for their build, and given the context."""
-        there = self._client.nthreads()
+        target = self._client.nthreads()
         self._looked = time.monotonic()
-        new = [worker for worker in there if worker not in {*self._workers, *self._refused}]
+        new = [worker for worker in target if worker not in {*self._workers, *self._refused}]
         answers = self._client.run(
             rejection_reason, identity(), self._key, self._context, workers=new, on_error="return"
         )
@@ -167,12 +167,12 @@ class Cluster:
             if answer is None or isinstance(answer, OSError):
                 continue  # it is gone, or will answer next time
             if answer == "":
-                self._workers[worker] = there[worker]
+                self._workers[worker] = target[worker]
                 continue
             reason = answer if isinstance(answer, str) else f"it has another rapidgen ({answer})"
             self._refused[worker] = reason
             self._tell(f"worker {worker} is refused: {reason}")
-        gone = [worker for worker in self._workers if worker not in there]
+        gone = [worker for worker in self._workers if worker not in target]
         for worker in gone:
             del self._workers[worker]
         for given in [given for given in self._given.values() if given.worker in gone]:
@@ -190,8 +190,8 @@ class Cluster:
             )
 
 
-def _none(address: str, what: str, mend: str) -> DiagnosticError:
-    return refusal("RG808", None, f"{address}: {what}", mend)
+def _none(address: str, what: str, help: str) -> DiagnosticError:
+    return refusal("RG808", None, f"{address}: {what}", help)
 
 
 # -- in the process of a Dask worker --------------------------------------------------------------

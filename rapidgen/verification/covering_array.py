@@ -29,16 +29,16 @@ def covering(factors: Mapping[str, Sequence[V]], strength: int = 2) -> list[dict
         bits.append([1 << (used + number) for number in range(len(values))])
     strength = min(strength, len(bits))
     missing = {
-        sum(found): dict(zip(chosen, found, strict=True))
+        sum(result): dict(zip(chosen, result, strict=True))
         for chosen in combinations(range(len(bits)), strength)
-        for found in product(*(bits[factor] for factor in chosen))
+        for result in product(*(bits[factor] for factor in chosen))
     }
     chance = random.Random(0)
     row, rows = {factor: own[0] for factor, own in enumerate(bits)}, []
     while True:
         rows.append(row)
-        for found in combinations(row.values(), strength):
-            missing.pop(sum(found), None)
+        for result in combinations(row.values(), strength):
+            missing.pop(sum(result), None)
         if not missing:
             break
         row = max((_row(bits, strength, missing, chance) for _ in range(TRIED)), key=_gain)[1]

@@ -58,7 +58,7 @@ def fast_stop(bench: Bench, seed: int) -> FastStop:
         off_path, _ = bench.motion_group.off_path
         from_main = _start_again(bench, chance)
         _goes_on(bench, chance, link if action == "e-stop" else None)
-        bench.healthy()
+        bench.assert_healthy()
     except FAILURES as error:
         finding = f"{action} at {share:.0%}, {off_path * 1000:.1f} mm off the path: {error}"
     return FastStop(
@@ -73,7 +73,7 @@ def _at_speed(bench: Bench, chance: random.Random) -> tuple[RawLink, float]:
         bench.motion_group.jump(_anywhere(bench, chance))
         bench.run(0.1)
         points = _way(bench, chance)
-        bench.sets_off(link, points)
+        bench.start_motion(link, points)
         bench.run(chance.uniform(0, sum(seconds for _, seconds in points[1:])))
         while not bench.standing:
             before = bench.position
@@ -96,12 +96,12 @@ def _way(bench: Bench, chance: random.Random) -> list[Point]:
     """Points from here, each as far as its quickest axis takes it at nearly its whole speed."""
     points = [(bench.position, 10.0)]
     for _ in range(chance.randrange(1, 4)):
-        here, there = points[-1][0], _anywhere(bench, chance)
+        current, target = points[-1][0], _anywhere(bench, chance)
         seconds = max(
             abs(b - a) / (0.97 * joint.speed) + joint.speed / joint.acceleration
-            for a, b, joint in zip(here, there, bench.group.joints, strict=True)
+            for a, b, joint in zip(current, target, bench.group.joints, strict=True)
         )
-        points.append((there, max(seconds, 1.1 * bench.tcp_seconds(here, there))))
+        points.append((target, max(seconds, 1.1 * bench.tcp_seconds(current, target))))
     return points
 
 
@@ -120,13 +120,13 @@ def _start_again(bench: Bench, chance: random.Random) -> bool:
     why = "the program was started, and nobody has asked for motion"
     if not refused:
         # The supervisor says so 2 s behind the start.
-        bench.stays(chance.uniform(2.2, 4), why)
+        bench.assert_at_rest(chance.uniform(2.2, 4), why)
         refused = any("from main" in str(event) for event in bench.controller.log.since(last))
     if refused:
         for action in ("stop", "pp-to-main"):
             bench.controller.perform(action)
         bench.start_again()
-        bench.stays(chance.uniform(2, 4), why)
+        bench.assert_at_rest(chance.uniform(2, 4), why)
     return refused
 
 

@@ -95,7 +95,7 @@ class History:
                 self.bench.run(self.chance.uniform(0, 0.05))
 
     def _disturbed(
-        self, link: RawLink, data: bytes, act: Callable[[], None], what: str, *, behind: bool
+        self, link: RawLink, data: bytes, act: Callable[[], None], what: str, *, after: bool
     ) -> None:
         """Send `data` and, at some time or at some statement of the driver, `act`.
 
@@ -111,7 +111,7 @@ class History:
             act()
             return
         came: list[bool] = []
-        sent = not behind
+        sent = not after
 
         def once() -> None:
             if not came:
@@ -207,13 +207,13 @@ class History:
             link.at_once(stop)
             sent.append(self.bench.now)
 
-        self._disturbed(link, self.bench.download(points), stop_now, self.step.act, behind=True)
+        self._disturbed(link, self.bench.download(points), stop_now, self.step.act, after=True)
         self.bench.until(lambda: len(link.frames) > before or link.lost, 5, "STOP is answered")
         answered = self.bench.now
         self.bench.wait_until_standing(10)
         self._on_the_way([start, *(p for p, _ in points)], since)
         assert_no_move_follows(self.orders, sent[0], answered)
-        self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")
+        self.bench.assert_at_rest(self.chance.uniform(0.5, 2), "it was stopped")
 
     def interrupted(self) -> None:
         """The program is stopped, or loses its motors, and is started again."""
@@ -228,7 +228,7 @@ class History:
         first, *more = action.split()
         perform = self.bench.controller.perform
         data = self.bench.download(points)
-        self._disturbed(link, data, lambda: perform(first), action, behind=False)
+        self._disturbed(link, data, lambda: perform(first), action, after=False)
         for part in more:
             self.bench.run(0.3)
             perform(part)
@@ -237,7 +237,9 @@ class History:
         self.bench.run(self.chance.uniform(0, 1))
         self._say("... and start again")
         self.bench.start_again()
-        self.bench.stays(3, f"the program was started after {action}; nobody asked for motion")
+        self.bench.assert_at_rest(
+            3, f"the program was started after {action}; nobody asked for motion"
+        )
 
     def superseded(self) -> None:
         """A new trajectory while the old one is under way."""
@@ -247,8 +249,8 @@ class History:
         start, since = self.bench.position, self.bench.now
         self._send(link, self.bench.download(first))
         self.bench.run(self.chance.uniform(0, 1.5))
-        here = self.bench.position
-        second = [(here, 10.0), *self._points(4)[1:]]
+        current = self.bench.position
+        second = [(current, 10.0), *self._points(4)[1:]]
         self._send(link, self.bench.download(second))
         self._comes_to(second[-1][0], 25)
         end = self.bench.position
@@ -257,9 +259,9 @@ class History:
             raise CheckFailed(
                 "the robot ended neither on the old trajectory nor at the new one's end"
             )
-        ways = list(pairwise([start, *(p for p, _ in first), here, *(p for p, _ in second)]))
+        paths = list(pairwise([start, *(p for p, _ in first), current, *(p for p, _ in second)]))
         for when, seen in self.bench.track:
-            if when >= since and all(off(seen, a, b) > 2 * CORNER for a, b in ways):
+            if when >= since and all(off(seen, a, b) > 2 * CORNER for a, b in paths):
                 raise CheckFailed(f"at {when:.3f} s the robot was on the way to nowhere")
 
     def vanishes(self) -> None:
@@ -276,7 +278,7 @@ class History:
         elif how == "reset":
             link.close(abort=True)
         self.link = None
-        self.bench.stays(self.chance.uniform(0, 1), f"its client is gone ({how})")
+        self.bench.assert_at_rest(self.chance.uniform(0, 1), f"its client is gone ({how})")
 
     def streamed(self) -> None:
         """A stream with pauses of any length, ended well, or by STOP on its control port."""
@@ -293,10 +295,10 @@ class History:
             size = min(self.chance.randrange(1, 15), cut - stream.sent, max(1, stream.room))
             flags = BEGIN if not stream.sent else NONE
             flags |= END if stream.sent + size == len(points) else NONE
-            told = stream.put(points[stream.sent : stream.sent + size], flags)
-            if not isinstance(told, messages.RawPointsAccepted):
+            reply = stream.put(points[stream.sent : stream.sent + size], flags)
+            if not isinstance(reply, messages.RawPointsAccepted):
                 break
-            accepted = told.accepted
+            accepted = reply.accepted
             self.bench.run(self.chance.choice((0.0, 0.05, self.chance.uniform(0, 3))))
         last = points[max(0, accepted - 1)][0]
         self._end_stream(ending, stream, points[cut : cut + 3], last)
@@ -308,7 +310,7 @@ class History:
                 f"{accepted} points of a stream were accepted, the robot ended "
                 f"{distance(end, last):.4f} rad off the last of them"
             )
-        self.bench.stays(self.chance.uniform(0.3, 2), f"its stream is over: {ending}")
+        self.bench.assert_at_rest(self.chance.uniform(0.3, 2), f"its stream is over: {ending}")
 
     def _end_stream(
         self, ending: str, stream: Streamer, more: Sequence[Point], last: Position
@@ -321,7 +323,7 @@ class History:
             self.bench.run(self.chance.uniform(0, 1.5))
             if isinstance(control.ask(messages.RawPause(1), 5), messages.RawAcknowledged):
                 self.bench.wait_until_standing(5)
-                self.bench.stays(self.chance.uniform(0, 2), "it is paused")
+                self.bench.assert_at_rest(self.chance.uniform(0, 2), "it is paused")
                 control.ask(messages.RawPause(0), 5)
             self._comes_to(last, 12)
         elif ending == "hole" and more:
@@ -336,7 +338,7 @@ class History:
             self.bench.wait_until_standing(10)
             self.bench.run(self.chance.uniform(0, 1))
             self.bench.controller.perform("start")
-            self.bench.stays(3, "the program was stopped in a stream and started again")
+            self.bench.assert_at_rest(3, "the program was stopped in a stream and started again")
         else:
             self._comes_to(last, 12)
         control.close()
@@ -348,7 +350,7 @@ class History:
         self._say(f"send {len(points)} points")
         start, since = self.bench.position, self.bench.now
         data = self.bench.download(points)
-        self._disturbed(link, data, lambda: control.at_once(STOP), self.step.act, behind=False)
+        self._disturbed(link, data, lambda: control.at_once(STOP), self.step.act, after=False)
         self.bench.until(lambda: bool(control.frames) or control.lost, 5, "STOP is answered")
         # What had not been received to its end by then is not stopped by that. Replies to STOPs of
         # earlier steps are none to this one.
@@ -356,7 +358,7 @@ class History:
         link.stop(5)
         self.bench.wait_until_standing(10)
         self._on_the_way([start, *(p for p, _ in points)], since)
-        self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")
+        self.bench.assert_at_rest(self.chance.uniform(0.5, 2), "it was stopped")
         control.close()
 
     def good_client(self) -> None:

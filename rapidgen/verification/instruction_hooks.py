@@ -73,7 +73,7 @@ def at_call(bench: Bench, module: str, name: str, number: int, act: Callable[[],
             left -= 1
             if left == 0:
                 act()
-                task.attend()
+                task.process_pending()
             return as_before(*arguments)
 
         return called

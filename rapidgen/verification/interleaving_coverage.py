@@ -45,13 +45,13 @@ def spots(system: System) -> RacePoints:
         and not declaration.scope
     }
     names.update(ROBOT)
-    found = {
+    result = {
         (path, tree.source.line(number))
         for path, tree in trees.items()
         for number, token in enumerate(tree.source.tokens)
         if token.casefold() in names
     }
-    lines = {spot: number for number, spot in enumerate(sorted(found))}
+    lines = {spot: number for number, spot in enumerate(sorted(result))}
     tokens = {
         path: [lines.get((path, tree.source.line(n)), -1) for n in range(len(tree.source.tokens))]
         for path, tree in trees.items()

@@ -538,7 +538,7 @@ class Splitter:
     def feed(self, data: bytes) -> list[RawFrame]:
         """Add bytes; the messages that they complete. Broken for a length that none has."""
         self._rest += data
-        found = []
+        failures = []
         while len(self._rest) >= 4:
             length = int.from_bytes(self._rest[:4], "little", signed=True)
             if not SHORTEST <= length <= LONGEST:
@@ -546,9 +546,9 @@ class Splitter:
             if len(self._rest) < 4 + length:
                 break
             _, number, comm, reply = _HEAD.unpack_from(self._rest)
-            found.append(RawFrame(number, comm, reply, self._rest[16 : 4 + length]))
+            failures.append(RawFrame(number, comm, reply, self._rest[16 : 4 + length]))
             self._rest = self._rest[4 + length :]
-        return found
+        return failures
 
 
 def framed(number: int, data: bytes, comm: int = RawComm.REQUEST, *, more: int = 0) -> bytes:

@@ -41,7 +41,7 @@ def points(bench: Bench, places: Sequence[Position]) -> Points:
 
 def _tcp(geometry: Kinematics, tool: Sequence[float], places: Points) -> Points:
     joints = geometry.map.to_urdf(places.T)
-    found = np.tile(np.array(tool, float), (len(places), 1))
+    result = np.tile(np.array(tool, float), (len(places), 1))
     for step in reversed(geometry.steps):
         axis = np.array(step.axis)
         amount = joints[step.joint] if step.joint >= 0 else 0.0
@@ -49,23 +49,23 @@ def _tcp(geometry: Kinematics, tool: Sequence[float], places: Points) -> Points:
             amount = amount + joints[joint] * share
         turn = np.broadcast_to(amount, len(places))[:, None]
         if step.prismatic:
-            found = found + turn * axis
+            result = result + turn * axis
         else:
-            along = (found @ axis)[:, None] * axis
-            found = along + np.cos(turn) * (found - along) + np.sin(turn) * np.cross(axis, found)
+            along = (result @ axis)[:, None] * axis
+            result = along + np.cos(turn) * (result - along) + np.sin(turn) * np.cross(axis, result)
         origin, turned = step.fixed
-        found = found @ [frames.rotate(turned, row) for row in _UNITS] + origin
-    return found
+        result = result @ [frames.rotate(turned, row) for row in _UNITS] + origin
+    return result
 
 
 _UNITS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
-def farthest(seen: Points, way: Points) -> float:
+def farthest(seen: Points, path: Points) -> float:
     """The largest distance of a point from the way through others, in their order."""
-    if not len(seen) or len(way) < 2:
+    if not len(seen) or len(path) < 2:
         return math.inf if len(seen) else 0.0
-    start, along = way[:-1], np.diff(way, axis=0)
+    start, along = path[:-1], np.diff(path, axis=0)
     length = np.maximum((along * along).sum(axis=1), np.finfo(float).tiny)
     at, worst = 0, 0.0
     for first in range(0, len(seen), _AT_ONCE):

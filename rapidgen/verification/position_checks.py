@@ -42,9 +42,9 @@ def changed(position: Position, axis: int, value: float) -> Position:
     return (*position[:axis], value, *position[axis + 1 :])
 
 
-def inward(joint: Joint, here: float, step: float) -> float:
+def inward(joint: Joint, current: float, step: float) -> float:
     """`step` from where a joint stands, to the side where there is more room."""
-    return here + step if joint.upper - here >= here - joint.lower else here - step
+    return current + step if joint.upper - current >= current - joint.lower else current - step
 
 
 def small_unit(joint: Joint) -> float:

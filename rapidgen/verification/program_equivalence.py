@@ -38,8 +38,8 @@ def name_of(seed: int) -> str:
 def require_programs(config: RobotConfig) -> None:
     """Refuse a driver that takes none. Raises DiagnosticError RG810."""
     if config.profile != "full":
-        mend = "take --programs away, or build it with `profile: full`"
-        raise refusal("RG810", None, f"the driver of {config.name} takes no programs", mend)
+        help = "take --programs away, or build it with `profile: full`"
+        raise refusal("RG810", None, f"the driver of {config.name} takes no programs", help)
 
 
 def compare_program(
@@ -89,7 +89,7 @@ def _look(
             other.sample = sample
             hand = [_rounded(order, rounding) for order in program]
             program_matches_rapid(Programmer(bench), bench, program, other, hand)
-            bench.healthy()
+            bench.assert_healthy()
         except FAILURES as error:
             finding = Counterexample(name, str(error), plan, bench.log())
             unlike = isinstance(error, MotionDiffers)

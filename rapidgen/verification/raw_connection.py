@@ -62,13 +62,13 @@ class RawLink:
         """Write all of `data`, letting time pass while the controller has no room."""
         while data and not self.lost:
             try:
-                taken = self._network.send(self.endpoint, data)
+                accepted = self._network.send(self.endpoint, data)
             except NetworkFault:
                 self.lost = True
                 return
-            self.sent += taken
-            self._listen(data[:taken])
-            data = data[taken:]
+            self.sent += accepted
+            self._listen(data[:accepted])
+            data = data[accepted:]
             if data:
                 self._bench.run(0.01)
 
@@ -104,9 +104,9 @@ class RawLink:
 
     def read(self) -> list[RawFrame]:
         """Frames that have arrived since the last call."""
-        found = [frame for _, frame in self.frames[self._taken :]]
+        result = [frame for _, frame in self.frames[self._taken :]]
         self._taken = len(self.frames)
-        return found
+        return result
 
     def forget(self) -> None:
         """Drop the frames so far."""
@@ -136,23 +136,23 @@ class RawLink:
 
     def expect(self, kind: type[C], seconds: float, what: str) -> C:
         """The next message of a kind that was not read yet; others before it are passed over."""
-        found: list[C] = []
+        failures: list[C] = []
 
         def arrived() -> bool:
-            while not found and len(self.frames) > self._taken:
+            while not failures and len(self.frames) > self._taken:
                 self._taken += 1
                 content = decode(self.frames[self._taken - 1][1])
                 if isinstance(content, kind):
-                    found.append(content)
-            return bool(found)
+                    failures.append(content)
+            return bool(failures)
 
         self._bench.until(arrived, seconds, what)
-        return found[0]
+        return failures[0]
 
     def told(self, kind: type[C], since: float = 0.0) -> list[tuple[float, C]]:
         """All messages of a kind that came from `since` on, and when."""
-        found = [(when, decode(frame)) for when, frame in self.frames if when >= since]
-        return [(when, content) for when, content in found if isinstance(content, kind)]
+        result = [(when, decode(frame)) for when, frame in self.frames if when >= since]
+        return [(when, content) for when, content in result if isinstance(content, kind)]
 
     def ask(self, content: RawContent, seconds: float = 2) -> RawContent:
         """Send a request; the reply to it."""
@@ -163,25 +163,25 @@ class RawLink:
 
     def reply(self, number: int, seconds: float = 2, what: str = "") -> RawContent:
         """The next reply of a type; what comes before it is passed over."""
-        found: list[RawFrame] = []
+        failures: list[RawFrame] = []
 
         def arrived() -> bool:
-            while not found and len(self.frames) > self._taken:
+            while not failures and len(self.frames) > self._taken:
                 self._taken += 1
                 frame = self.frames[self._taken - 1][1]
                 if (frame.number, frame.comm) == (number, RawComm.REPLY):
-                    found.append(frame)
-            return bool(found)
+                    failures.append(frame)
+            return bool(failures)
 
         self._bench.until(arrived, seconds, what or f"a reply of type {number} arrives")
-        return decode(found[0])
+        return decode(failures[0])
 
     def stop(self, seconds: float = 2, what: str = "STOP is answered") -> RawContent:
         """Send STOP; the reply to it."""
         self.send(STOP)
         return self.reply(JOINT_TRAJ_PT, seconds, what)
 
-    def wait_until_lost(self, seconds: float, what: str) -> None:
+    def wait_disconnected(self, seconds: float, what: str) -> None:
         """Wait for the controller to end the connection."""
         self._bench.until(lambda: self.lost, seconds, what)
 

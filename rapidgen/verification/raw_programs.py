@@ -82,7 +82,7 @@ class RawMove:
             values += self.frames
         if self.marks:
             first |= RawModal.SIGNALS
-            values += [len(self.marks), *(value for mark in self.marks for value in mark)]
+            values += [len(self.marks), *(value for marker in self.marks for value in marker)]
         for pose in (self.via, self.pose):
             if pose is not None:
                 values += [*pose[0], *pose[1]]
@@ -102,52 +102,52 @@ class Programmer:
     ) -> messages.RawContent:
         """A program in messages of some instructions; the last reply, or the first refusal."""
         self.number += 1
-        words, own, at = millionths(self.bench.position if start is None else start), flags, 0
+        values, own, at = millionths(self.bench.position if start is None else start), flags, 0
         for number, order in enumerate(orders, 1):
-            words += order.words
+            values += order.words
             last = number == len(orders)
-            if not last and len(words) + len(orders[number].words) <= _WORDS:
+            if not last and len(values) + len(orders[number].words) <= _WORDS:
                 continue
-            told = self.say(words, number - at, own if last else own & ~END, first=at)
-            words, own, at = [], flags & ~BEGIN, number
-            if isinstance(told, messages.RawPointsRefused):
+            reply = self.say(values, number - at, own if last else own & ~END, first=at)
+            values, own, at = [], flags & ~BEGIN, number
+            if isinstance(reply, messages.RawPointsRefused):
                 break
-        return told
+        return reply
 
     def say(
-        self, words: Sequence[int], count: int, flags: RawStreamFlag, first: int = 0
+        self, values: Sequence[int], count: int, flags: RawStreamFlag, first: int = 0
     ) -> messages.RawContent:
         """A batch of any words; its reply."""
-        self.link.send(words_frame(self.number, first, count, words, flags, number=PROGRAM))
+        self.link.send(words_frame(self.number, first, count, values, flags, number=PROGRAM))
         return self.link.reply(PROGRAM, 5)
 
     def takes(self, what: str, orders: Sequence[RawMove], flags: RawStreamFlag = ALL) -> int:
         """Send a program; Broken unless it is taken. Its number among the trajectories."""
-        told = self.send(orders, flags)
-        if not isinstance(told, messages.RawPointsAccepted) or told.accepted != len(orders):
-            raise CheckFailed(f"{what}: {len(orders)} instructions are right, the reply is {told}")
-        return told.trajectory
+        reply = self.send(orders, flags)
+        if not isinstance(reply, messages.RawPointsAccepted) or reply.accepted != len(orders):
+            raise CheckFailed(f"{what}: {len(orders)} instructions are right, the reply is {reply}")
+        return reply.trajectory
 
-    def refused(self, told: messages.RawContent, reason: RawReason, index: int, what: str) -> None:
+    def refused(self, reply: messages.RawContent, reason: RawReason, index: int, what: str) -> None:
         """Broken unless a reply is a refusal for that reason, at that instruction."""
-        if not isinstance(told, messages.RawPointsRefused):
-            raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {told}")
-        if (told.reason, told.point) != (reason, index):
-            raise CheckFailed(f"{what}: wanted {reason.name} at {index}, the reply is {told}")
+        if not isinstance(reply, messages.RawPointsRefused):
+            raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {reply}")
+        if (reply.reason, reply.point) != (reason, index):
+            raise CheckFailed(f"{what}: wanted {reason.name} at {index}, the reply is {reply}")
 
 
 def orders(bench: Bench, count: int, chance: random.Random) -> list[RawMove]:
     """Moves in the neighbourhood of a place that no robot finds singular, the last a stop point."""
     middle = bent(bench)
-    found = [RawMove(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
+    failures = [RawMove(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
     poses = computes(bench)
     for number in range(1, count):
         joints = near(bench, middle, chance)
         kind = chance.choice(_KINDS) if poses else RawInstruction.MOVE_ABSJ
         pose = None if kind is RawInstruction.MOVE_ABSJ else reached(bench, joints)
         zone = chance.choice((0.002, 0.005, 0.01)) if number + 1 < count else None
-        found.append(RawMove(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
-    return found
+        failures.append(RawMove(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
+    return failures
 
 
 def computes(bench: Bench) -> bool:

@@ -170,10 +170,11 @@ def _group(name: str, outcomes: Sequence[CaseResult]) -> str:
     """Its cases, open where one did not hold."""
     tried = [outcome for outcome in outcomes if not outcome.untried]
     held = sum(outcome.passed for outcome in tried)
-    mark, state = ("ok", "") if held == len(tried) else ("bad", " open")
+    marker, state = ("ok", "") if held == len(tried) else ("bad", " open")
     simulated = sum(outcome.simulated for outcome in outcomes)
     return (
-        f'<details class="group"{state}><summary>{html.escape(name)}: <span class="{mark}">{held} '
+        f'<details class="group"{state}><summary>{html.escape(name)}: '
+        f'<span class="{marker}">{held} '
         f"of {len(tried)} held</span>, {simulated:.0f} s simulated</summary>\n"
         "<table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>\n"
         f"{''.join(map(_row, outcomes))}</table></details>\n"
@@ -182,10 +183,10 @@ def _group(name: str, outcomes: Sequence[CaseResult]) -> str:
 
 def slowest(report: SuiteResult, count: int) -> list[tuple[str, float, int]]:
     """Cases that took most: name, s of CPU in all settings together, and in how many."""
-    taken: dict[str, list[float]] = {}
+    accepted: dict[str, list[float]] = {}
     for outcome in report.outcomes:
-        taken.setdefault(outcome.case, []).append(outcome.elapsed)
-    rows = sorted(((sum(s), case, len(s)) for case, s in taken.items()), reverse=True)
+        accepted.setdefault(outcome.case, []).append(outcome.elapsed)
+    rows = sorted(((sum(s), case, len(s)) for case, s in accepted.items()), reverse=True)
     return [(case, seconds, times) for seconds, case, times in rows[:count]]
 
 
@@ -230,7 +231,7 @@ def _pairs(report: SuiteResult) -> str:
 
 def missed(report: SuiteResult) -> list[tuple[str, str]]:
     """By file, the lines that no case reached, as `12, 15-17`."""
-    found = []
+    failures = []
     for path, lines in report.lines.items():
         # Lines without a statement do not part a range.
         ranges: list[list[int]] = []
@@ -245,8 +246,8 @@ def missed(report: SuiteResult) -> list[tuple[str, str]]:
                 open_range = True
         if ranges:
             texts = [f"{a}" if a == b else f"{a}-{b}" for a, b in ranges]
-            found.append((path, ", ".join(texts)))
-    return found
+            failures.append((path, ", ".join(texts)))
+    return failures
 
 
 def _name(outcome: CaseResult) -> str:
@@ -255,8 +256,8 @@ def _name(outcome: CaseResult) -> str:
 
 def complaint(outcome: CaseResult) -> str:
     """What did not hold, and the smallest part of the assumptions that makes it so."""
-    told = f", that is {' and '.join(outcome.blamed)}" if outcome.blamed else ""
-    setting = f" [{outcome.setting}{told}]" if outcome.setting else ""
+    reply = f", that is {' and '.join(outcome.blamed)}" if outcome.blamed else ""
+    setting = f" [{outcome.setting}{reply}]" if outcome.setting else ""
     return f"{outcome.case}{setting}: {outcome.detail}"
 
 
@@ -291,21 +292,21 @@ def series(bench: "Bench") -> tuple[Series, ...]:
     track, commanded = bench.track, bench.commanded
     if len(track) < 2:
         return ()
-    shown = [*track[:: max(1, len(track) // PLOTTED)], track[-1]]
-    found = [Series("executed", tuple(t for t, _ in shown), tuple(p for _, p in shown))]
+    displayed = [*track[:: max(1, len(track) // PLOTTED)], track[-1]]
+    failures = [Series("executed", tuple(t for t, _ in displayed), tuple(p for _, p in displayed))]
     for number, (sent, points) in enumerate(commanded):
         over = commanded[number + 1][0] if number + 1 < len(commanded) else bench.now
-        begun = [t for t, _ in track if sent < t <= over]
-        if not begun:
+        started = [t for t, _ in track if sent < t <= over]
+        if not started:
             continue
-        times, at = [], begun[0]
+        times, at = [], started[0]
         for index, (_, duration) in enumerate(points):
             at += duration if index else 0.0
             times.append(at)
         step = max(1, len(points) // PLOTTED)
         rows = tuple(joints for joints, _ in points[::step])
-        found.append(Series("commanded", tuple(times[::step]), rows))
-    return tuple(found)
+        failures.append(Series("commanded", tuple(times[::step]), rows))
+    return tuple(failures)
 
 
 def _plot(series: tuple[Series, ...]) -> str:

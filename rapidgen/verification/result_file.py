@@ -22,25 +22,25 @@ class Results:
             return
         # A line that was not written to its end is as good as none.
         data = path.read_bytes() if path.exists() else b""
-        whole = data[: data.rfind(b"\n") + 1]
-        if whole and not resume:
-            mend = "go on with them by --resume, or name another file"
-            raise _refused(path, "has results already", mend)
-        if whole:
-            self._read(path, whole, of)
+        complete = data[: data.rfind(b"\n") + 1]
+        if complete and not resume:
+            help = "go on with them by --resume, or name another file"
+            raise _refused(path, "has results already", help)
+        if complete:
+            self._read(path, complete, of)
         self._file = path.open("r+b" if path.exists() else "wb")
-        self._file.truncate(len(whole))
-        self._file.seek(len(whole))
-        if not whole:
+        self._file.truncate(len(complete))
+        self._file.seek(len(complete))
+        if not complete:
             self._write({"results_of": of})
 
     def _read(self, path: Path, data: bytes, of: str) -> None:
         try:
-            first, *rest = (members(json.loads(line)) for line in data.splitlines())
+            first, *remaining = (members(json.loads(line)) for line in data.splitlines())
             if text(first["results_of"]) != of:
-                mend = "name another file: the driver or rapidgen itself is not what it was"
-                raise _refused(path, "has results of something else", mend)
-            self._known = {text(row["key"]): row["result"] for row in rest}
+                help = "name another file: the driver or rapidgen itself is not what it was"
+                raise _refused(path, "has results of something else", help)
+            self._known = {text(row["key"]): row["result"] for row in remaining}
         except (ValueError, TypeError, KeyError) as fault:
             what = "is no file of results"
             raise _refused(path, what, "name another file, or one that does not exist") from fault
@@ -71,5 +71,5 @@ class Results:
         self.close()
 
 
-def _refused(path: Path, what: str, mend: str) -> DiagnosticError:
-    return refusal("RG805", None, f"{path} {what}", mend)
+def _refused(path: Path, what: str, help: str) -> DiagnosticError:
+    return refusal("RG805", None, f"{path} {what}", help)

@@ -113,10 +113,10 @@ _NAME = re.compile(r"(\d+)((?:~\d+)*)(?:/steps=(\d+(?:,\d+)*)?)?(/turns)?(/calm)
 
 def named(text: str) -> ScheduleName:
     """The name that a text is. Raises DiagnosticError RG807."""
-    found = _NAME.fullmatch(text)
-    if found is None:
+    match = _NAME.fullmatch(text)
+    if match is None:
         raise _no_name(text)
-    seed, changes, steps, turns, calm = found.groups()
+    seed, changes, steps, turns, calm = match.groups()
     chosen = tuple(int(number) for number in (steps or "").split(",") if number)
     return ScheduleName(
         int(seed),
@@ -128,8 +128,8 @@ def named(text: str) -> ScheduleName:
 
 
 def _no_name(text: str) -> DiagnosticError:
-    mend = "copy it whole from the report: 17, 17~4, 17~4/steps=1,3/turns/calm"
-    return refusal("RG807", None, f"'{text}' names no schedule", mend)
+    help = "copy it whole from the report: 17, 17~4, 17~4/steps=1,3/turns/calm"
+    return refusal("RG807", None, f"'{text}' names no schedule", help)
 
 
 def drawn(name: ScheduleName, ground: ScheduleSpace) -> TaskSchedule:

@@ -87,7 +87,7 @@ def explore(
         end = record(bench.controller) if record is not None else None
         try:
             walk.go()
-            bench.healthy()
+            bench.assert_healthy()
         except FAILURES as error:
             finding = Counterexample(schedule, str(error), "\n".join(walk.plan), bench.log())
         finally:

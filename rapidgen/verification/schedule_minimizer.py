@@ -20,29 +20,29 @@ def smaller(
     Network, order of tasks and steps are taken away, as long as the same demand does not hold:
     in the same words, whatever their figures.
     """
-    found = finding
+    result = finding
 
     def breaks(tried: ScheduleName) -> bool:
-        nonlocal found
+        nonlocal result
         came = run(tried)
         if came is None or _words(came) != _words(finding):
             return False
-        found = came
+        result = came
         return True
 
     for simpler in (replace(name, calm=True), replace(name, calm=True, turns=True)):
         if breaks(simpler):
             name = simpler
     if breaks(replace(name, steps=())):
-        return found
+        return result
     left = smallest(
         [str(number) for number in range(steps)],
         lambda part: breaks(replace(name, steps=tuple(int(number) for number in part))),
     )
     least = replace(name, steps=tuple(int(number) for number in left))
-    if len(left) < steps and found.schedule != str(least):
+    if len(left) < steps and result.schedule != str(least):
         breaks(least)
-    return found
+    return result
 
 
 def _words(finding: Counterexample) -> str:

@@ -78,24 +78,24 @@ STRENGTHS = ("default", "alone", "pairs", "triples")
 
 def assumption_choices(switches: Switches | MotionSettings) -> dict[str, tuple[Answer, ...]]:
     """Every switch that is a choice, with what may be chosen; as it is set comes first."""
-    found: dict[str, tuple[Answer, ...]] = {}
+    result: dict[str, tuple[Answer, ...]] = {}
     for switch in fields(switches):
         chosen = getattr(switches, switch.name)
         if switch.name in FIGURES:
-            found[switch.name] = (chosen, FIGURES[switch.name])
+            result[switch.name] = (chosen, FIGURES[switch.name])
         elif isinstance(chosen, bool):
-            found[switch.name] = (chosen, not chosen)
+            result[switch.name] = (chosen, not chosen)
         elif others := get_args(switch.type):
-            found[switch.name] = (chosen, *(other for other in others if other != chosen))
-    return found
+            result[switch.name] = (chosen, *(other for other in others if other != chosen))
+    return result
 
 
 def questions() -> dict[str, tuple[Answer, ...]]:
     """What a driver can notice of its controller, with the answers to it; the default first."""
     switches = assumption_choices(Switches()) | assumption_choices(MotionSettings())
     left_out = NEEDED | NOT_THE_DRIVERS
-    asked = {name: own for name, own in switches.items() if name not in left_out}
-    return asked | {"costs": COSTS, "schedule": SCHEDULES}
+    requested = {name: own for name, own in switches.items() if name not in left_out}
+    return requested | {"costs": COSTS, "schedule": SCHEDULES}
 
 
 def said(name: str, answer: Answer) -> str:
@@ -138,13 +138,13 @@ def _answered(switches: T, answers: Mapping[str, Answer]) -> T:
 
 
 def _unknown(text: str) -> Exception:
-    asked = questions()
+    requested = questions()
     name = text.partition("=")[0]
-    if name in asked:
-        mend = "one of " + ", ".join(said(name, answer) for answer in asked[name])
+    if name in requested:
+        help = "one of " + ", ".join(said(name, answer) for answer in requested[name])
     else:
-        mend = suggest(name, list(asked)) or f"there are seed, {', '.join(asked)}"
-    return refusal("RG804", None, f"nothing can be assumed as '{text}'", mend)
+        help = suggest(name, list(requested)) or f"there are seed, {', '.join(requested)}"
+    return refusal("RG804", None, f"nothing can be assumed as '{text}'", help)
 
 
 def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
@@ -153,16 +153,16 @@ def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
     The answers to any `strength` questions meet in some row. A controller's behaviour that is only
     remembered must not decide whether the driver works, nor may two of them together.
     """
-    found: dict[str, tuple[str, ...]] = {"": ()}
+    result: dict[str, tuple[str, ...]] = {"": ()}
     if not strength:
-        return found
-    asked = questions()
-    array = covering(asked, strength)
+        return result
+    requested = questions()
+    array = covering(requested, strength)
     for number, row in enumerate(array[1:], 1):
-        others = [said(n, answer) for n, answer in row.items() if answer != asked[n][0]]
+        others = [said(n, answer) for n, answer in row.items() if answer != requested[n][0]]
         # Its chances are a row's own.
-        found[f"{STRENGTHS[strength]} {number}"] = (*others, f"seed={number}")
-    return found
+        result[f"{STRENGTHS[strength]} {number}"] = (*others, f"seed={number}")
+    return result
 
 
 def possible(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, ...]]:
@@ -176,9 +176,9 @@ def possible(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str
 
 def settings(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str, Setting]:
     """A setting for each row, and the default for each further motion group."""
-    found = {name: assumed(texts) for name, texts in rows.items()}
-    if "" in found:
-        found[""] = replace(found[""], coverage=True)
+    result = {name: assumed(texts) for name, texts in rows.items()}
+    if "" in result:
+        result[""] = replace(result[""], coverage=True)
         for number, group in enumerate(config.groups[1:], 1):
-            found[group.name] = Setting(group=number, coverage=True)
-    return found
+            result[group.name] = Setting(group=number, coverage=True)
+    return result

@@ -129,15 +129,15 @@ def run_suite(
     driver = DriverUnderTest.of(config)
     started = time.monotonic()
     report = SuiteResult(config.name, driver.system.build_id)
-    asked = {"as asked": tuple(assuming)} if assuming else rows(strength)
-    report.rows = possible(config, asked)
+    requested = {"as asked": tuple(assuming)} if assuming else rows(strength)
+    report.rows = possible(config, requested)
     attempts = _attempts(config, report.rows, only) if cases or only else []
     _LOG.info("%s: %d attempts, %d settings", config.name, len(attempts), len(report.rows))
     with (
-        Results(results, f"{identity()} {report.build_id}", resume=resume) as kept,
+        Results(results, f"{identity()} {report.build_id}", resume=resume) as saved,
         hire(driver) if hire else LocalPool(driver, jobs) as workers,
     ):
-        campaign = Campaign(workers, kept, limits or Limits(), progress)
+        campaign = Campaign(workers, saved, limits or Limits(), progress)
         try:
             report.outcomes.extend(campaign.run(_suite(attempts)))
             if not assuming:
@@ -160,8 +160,8 @@ def run_suite(
 def _explored(
     report: SuiteResult, campaign: Campaign, seeds: int, progress: Progress | None
 ) -> None:
-    (found,) = each(campaign.workers, range(1), ground)
-    guide = ScheduleSelector(found)
+    (result,) = each(campaign.workers, range(1), ground)
+    guide = ScheduleSelector(result)
     # Of a run that is broken off, too.
     report.curve = guide.curve
     for explored in campaign.run(schedules(seeds, guide)):
@@ -240,9 +240,9 @@ def _explained(
         for number, case in enumerate(CASES)
         if case.name in {verdict.case for verdict in broken} - anyhow
     ][:EXPLAINED]
-    found = each(workers, work, explain)
+    result = each(workers, work, explain)
     blame: dict[tuple[str, str], tuple[str, ...]] = {}
-    for done, (one, by_setting) in enumerate(zip(work, found, strict=True), 1):
+    for done, (one, by_setting) in enumerate(zip(work, result, strict=True), 1):
         blame |= {(CASES[one.case].name, name): texts for name, texts in by_setting.items()}
         if progress is not None:
             progress("smallest pairs", done, len(work))
@@ -282,9 +282,9 @@ def ground(driver: DriverUnderTest, _item: object) -> ScheduleSpace:
 def schedule(driver: DriverUnderTest, name: str) -> ScheduleResult:
     """One schedule. Of one in which all held no story is kept."""
     config, system, fresh = driver.config, driver.system, driver.fresh
-    found = ground_of(config, system)
-    if not found.fault:
-        fresh.keep(config, system, setting_of(config, drawn(named(name), found)))
+    result = ground_of(config, system)
+    if not result.fault:
+        fresh.keep(config, system, setting_of(config, drawn(named(name), result)))
     return _kept(run_in_fork(lambda: explore(config, system, name, boot=fresh.take)))
 
 
@@ -328,7 +328,7 @@ def _verdict(case: SuiteCase, bench: Bench) -> CaseResult:
     detail = untried = ""
     try:
         case.prove(bench)
-        bench.healthy()
+        bench.assert_healthy()
     except NotApplicable as why:
         untried = str(why)
     except FAILURES as error:

@@ -164,16 +164,16 @@ class Bench:
 
     def lines(self) -> Lines:
         """Lines of RAPID that were reached here and beside; empty without `coverage`."""
-        found = self._coverage.lines() if self._coverage is not None else {}
+        result = self._coverage.lines() if self._coverage is not None else {}
         for other in self._beside:
-            add_lines(found, other.lines())
-        return found
+            add_lines(result, other.lines())
+        return result
 
     def _sample(self) -> None:
         """Keep the position when it has changed; look less often while the robot stands."""
-        here = self.position
-        if not self.track or here != self.track[-1][1]:
-            self.track.append((self.now, here))
+        current = self.position
+        if not self.track or current != self.track[-1][1]:
+            self.track.append((self.now, current))
         self._next.cancel()
         wait = SAMPLE_STANDING if self.standing else self.sample
         self._next = self.controller.scheduler.after(wait, self._sample)
@@ -244,16 +244,16 @@ class Bench:
         for action in ("reset-e-stop", "auto", "motors-on", "start"):
             self.controller.perform(action)
 
-    def stays(self, seconds: float, why: str) -> None:
+    def assert_at_rest(self, seconds: float, why: str) -> None:
         """Let time pass; Broken when the robot moved meanwhile."""
         before, start = self.position, len(self.track)
         self.run(seconds)
         still(self.track[start:], before, why)
 
-    def rests(self, within: float, then: float, why: str) -> None:
+    def wait_until_at_rest(self, within: float, then: float, why: str) -> None:
         """Wait until the robot has come to rest; Broken when it moves in the s `then`."""
         self.wait_until_standing(within)
-        self.stays(then, why)
+        self.assert_at_rest(then, why)
 
     def followed(self, path: Sequence[Position], *, since: float, corner: float = 0.05) -> None:
         """Broken unless the robot was on a prefix of `path` since then (`on_path`)."""
@@ -335,7 +335,7 @@ class Bench:
         """Where a client of ours comes from: an address that the configuration allows."""
         return next(iter(self.config.allowed_clients), "127.0.0.1")
 
-    def stranger(self, port: int) -> RawLink:
+    def connect_unlisted(self, port: int) -> RawLink:
         """A connection from an address that no configuration allows."""
         return self._link(port, address="203.0.113.77")
 
@@ -347,10 +347,10 @@ class Bench:
     def watcher(self) -> RawLink:
         """A new connection to the state server that asked for PROGRESS."""
         link = self.state()
-        self.says_hello(link)
+        self.send_hello(link)
         return link
 
-    def says_hello(self, link: RawLink, subscribe: int = 1) -> RawHelloReply:
+    def send_hello(self, link: RawLink, subscribe: int = 1) -> RawHelloReply:
         """HELLO on a state connection, and its answer."""
         link.send(encode(HELLO._replace(subscribe=subscribe), RawComm.REQUEST))
         return link.expect(RawHelloReply, 2, "HELLO is answered")
@@ -364,24 +364,26 @@ class Bench:
 
     def wave(self, count: int, *, duration: float = 0.4, size: float = 0.06) -> list[Point]:
         """`count` points from where the robot stands, back and forth within limits and speeds."""
-        here = self.position
-        steps = [self._step(axis, here, duration, size) for axis in range(len(here))]
+        current = self.position
+        steps = [self._step(axis, current, duration, size) for axis in range(len(current))]
         shares = [
-            [abs(math.sin(number * (0.35 + 0.11 * axis))) for axis in range(len(here))]
+            [abs(math.sin(number * (0.35 + 0.11 * axis))) for axis in range(len(current))]
             for number in range(count)
         ]
 
         def along(scale: float) -> list[Position]:
             return [
-                tuple(h + scale * s * share for h, s, share in zip(here, steps, row, strict=True))
+                tuple(
+                    h + scale * s * share for h, s, share in zip(current, steps, row, strict=True)
+                )
                 for row in shares
             ]
 
-        way = along(1)
-        slowest = max((self.tcp_seconds(a, b) for a, b in pairwise(way)), default=0.0)
+        path = along(1)
+        slowest = max((self.tcp_seconds(a, b) for a, b in pairwise(path)), default=0.0)
         if slowest > 0.9 * duration:
-            way = along(0.9 * duration / slowest)
-        return [(here, 10.0), *((joints, duration) for joints in way[1:])]
+            path = along(0.9 * duration / slowest)
+        return [(current, 10.0), *((joints, duration) for joints in path[1:])]
 
     @property
     def last_event(self) -> int:
@@ -396,10 +398,10 @@ class Bench:
 
     def seconds_to(self, target: Position) -> float:
         """s to a point from here: half of each axis' speed is enough, and the TCP's ceiling."""
-        here = self.position
-        joints = zip(self.group.joints, here, target, strict=True)
+        current = self.position
+        joints = zip(self.group.joints, current, target, strict=True)
         needed = [2 * abs(there - value) / joint.speed for joint, value, there in joints]
-        return max(0.5, 1.1 * self.tcp_seconds(here, target), *needed)
+        return max(0.5, 1.1 * self.tcp_seconds(current, target), *needed)
 
     def tcp(self, place: Position) -> tuple[float, ...]:
         """Where the TCP is (m) when the axes are at a place."""
@@ -417,15 +419,15 @@ class Bench:
         if limit >= CEILING or self.motion_group.kinematics is None:
             return 0.0
         shares = [n / _PIECES for n in range(_PIECES + 1)]
-        way = [
+        path = [
             self.tcp(tuple(a + share * (b - a) for a, b in zip(start, end, strict=True)))
             for share in shares
         ]
-        return max(math.dist(one, other) for one, other in pairwise(way)) * _PIECES / limit
+        return max(math.dist(one, other) for one, other in pairwise(path)) * _PIECES / limit
 
-    def _step(self, axis: int, here: Position, duration: float, size: float) -> float:
+    def _step(self, axis: int, current: Position, duration: float, size: float) -> float:
         joint = self.group.joints[axis]
-        room_up, room_down = joint.upper - here[axis], here[axis] - joint.lower
+        room_up, room_down = joint.upper - current[axis], current[axis] - joint.lower
         room = max(room_up, room_down)
         step = min(size, 0.2 * duration * joint.speed, 0.5 * room)
         return step if room_up >= room_down else -step
@@ -446,28 +448,30 @@ class Bench:
         """A trajectory from where the robot stands."""
         return [(self.position, 1.0), (place, self.seconds_to(place))]
 
-    def sets_off(self, link: RawLink, points: Sequence[Point], then: float | None = None) -> None:
+    def start_motion(
+        self, link: RawLink, points: Sequence[Point], then: float | None = None
+    ) -> None:
         """Send a trajectory, wait for the robot to move, and let it move for `then` s."""
         link.send(self.download(points))
         self.wait_until_moving()
         if then is not None:
             self.run(then)
 
-    def moves_through(self, link: RawLink, points: Sequence[Point]) -> None:
+    def assert_moves_through(self, link: RawLink, points: Sequence[Point]) -> None:
         """Send a trajectory and see it executed whole, in order, in time and without a complaint.
 
         With full speed in automatic mode, that is. Where no task is sure of its turn a corner may
         be a stop point (`Setting.corners_in_time`); the way and its time are the same there.
         """
-        since, asked = self.now, sum(d for _, d in points[1:])
+        since, requested = self.now, sum(d for _, d in points[1:])
         last = self.last_event
         link.send(self.download(points))
-        self.arrives(points, since, 30 + 3 * asked)
+        self.arrives(points, since, 30 + 3 * requested)
         group = self.motion_group
         if group.override < 1 or group.reduced:
             return
-        if self.now - since > 1.1 * asked + 3:
-            raise CheckFailed(f"{asked:.2f} s of motion took {self.now - since:.2f} s")
+        if self.now - since > 1.1 * requested + 3:
+            raise CheckFailed(f"{requested:.2f} s of motion took {self.now - since:.2f} s")
         excused = {LATE} if self.setting.corners_in_time else {LATE, CORNER_FAILURE}
         complaints = [
             event
@@ -484,7 +488,7 @@ class Bench:
                 return seen
         return self.track[0][1] if self.track else self.position
 
-    def healthy(self) -> None:
+    def assert_healthy(self) -> None:
         """Broken when a task has ended with an error: nothing that happens may do that."""
         for name, task in self.controller.tasks.items():
             if task.state == "error":

@@ -106,20 +106,20 @@ def in_order(
     A piece is made once the results of the first `needs(number)` ones have been taken, so it may
     depend on them. Once `over()` none is begun any more; those under way still come.
     """
-    given = taken = 0
+    given = accepted = 0
     results: dict[int, object] = {}
-    while taken < total:
-        if taken in results:
-            yield results.pop(taken)
-            taken += 1
-        elif given < total and needs(given) <= taken and workers.room() and not over():
+    while accepted < total:
+        if accepted in results:
+            yield results.pop(accepted)
+            accepted += 1
+        elif given < total and needs(given) <= accepted and workers.room() and not over():
             made = make(given)
             if isinstance(made, CachedResult):
                 results[given] = made.result
             else:
                 workers.give(made)
             given += 1
-        elif given == taken and over():
+        elif given == accepted and over():
             return
         else:
             results.update(workers.come(LOOK))
@@ -165,7 +165,7 @@ class LocalPool:
 
     def come(self, seconds: float) -> list[tuple[int, object]]:
         """Results that have come; a worker that was lost is replaced."""
-        found: list[tuple[int, object]] = []
+        failures: list[tuple[int, object]] = []
         for connection in wait([one for one, busy in self._pieces.items() if busy], seconds):
             assert isinstance(connection, Connection)
             piece = self._pieces[connection]
@@ -180,8 +180,8 @@ class LocalPool:
             self._pieces[connection] = None
             if not good:
                 reraise(result)
-            found.append((piece.number, result))
-        return found
+            failures.append((piece.number, result))
+        return failures
 
     def close(self) -> None:
         """Let the workers end what they are at, and go."""

@@ -25,13 +25,13 @@ class WorkerProcess:
         """Start it with a pickled context."""
         ours, theirs = socket.socketpair()
         with theirs:
-            words = [
+            values = [
                 sys.executable,
                 "-m",
                 "rapidgen.verification.worker_process",
                 str(theirs.fileno()),
             ]
-            self._process = subprocess.Popen(words, pass_fds=(theirs.fileno(),))
+            self._process = subprocess.Popen(values, pass_fds=(theirs.fileno(),))
         self._connection = Connection(ours.detach())
         self._connection.send_bytes(context)
 

@@ -57,8 +57,8 @@ def _root(seen: list[Pose], meant: list[Pose]) -> Pose:
         (frames.compose(d, frames.invert(seen[0])), frames.compose(k, frames.invert(meant[0])))
         for d, k in zip(seen[1:], meant[1:], strict=True)
     ]
-    there, here = (np.array([_turn(pair[i]) for pair in moved]) for i in (0, 1))
-    left, _, right = np.linalg.svd(there.T @ here)
+    there, current = (np.array([_turn(pair[i]) for pair in moved]) for i in (0, 1))
+    left, _, right = np.linalg.svd(there.T @ current)
     mirror = np.diag([1.0, 1.0, float(np.sign(np.linalg.det(left @ right)))])
     rotation: Matrix = left @ mirror @ right
     # (R_A - 1) x = R_X t_B - t_A

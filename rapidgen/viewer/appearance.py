@@ -115,12 +115,12 @@ def appearance(
 
     Raises DiagnosticError for a configuration that `load_config` would not take.
     """
-    found = {path: trees(path, overrides) for path in dict.fromkeys(described.values())}
+    result = {path: trees(path, overrides) for path in dict.fromkeys(described.values())}
     own = {
         group.name: tree
         for group in groups
         if group.name in described
-        and (tree := _fitting(group, found[described[group.name]])) is not None
+        and (tree := _fitting(group, result[described[group.name]])) is not None
     }
     links = shares(groups, own)
     meshes = Meshes()
@@ -149,12 +149,12 @@ def _things(cell: CellDescription, meshes: Meshes) -> Iterator[SeenThing]:
             yield SeenThing(name=thing.name, mesh=mesh, scale=thing.scale, pose=pose)
 
 
-def _fitting(group: GroupConfig, found: Mapping[str, Tree]) -> Tree | None:
+def _fitting(group: GroupConfig, result: Mapping[str, Tree]) -> Tree | None:
     """The description with a group's joints that draws something; groups of other programs may have
     other names."""
-    first = [found[group.name]] if group.name in found else []
+    first = [result[group.name]] if group.name in result else []
     names = {joint.name for joint in group.joints}
-    for tree in (*first, *found.values()):
+    for tree in (*first, *result.values()):
         if tree.visuals and names <= {joint.name for joint in tree.graph.robot.joints}:
             return tree
     return None

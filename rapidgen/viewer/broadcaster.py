@@ -50,27 +50,27 @@ class Broadcaster:
     def ask(self, data: str | bytes) -> MessageBatch:
         """Carry a request out; the answer."""
         try:
-            asked = PageRequest.model_validate_json(data)
+            requested = PageRequest.model_validate_json(data)
         except ValidationError as error:
             fault = error.errors(include_url=False, include_input=False)[0]
             where = ".".join(str(part) for part in fault["loc"])
             return _parcel([PageReply(id=0, error=f"not understood: {where} {fault['msg']}")])
-        handler = self._handlers.get(type(asked.request))
+        handler = self._handlers.get(type(requested.request))
         text = refused = ""
         if handler is None:
             refused = "what is viewed here is not commanded from here"
         else:
             try:
-                text = handler(asked.request)
+                text = handler(requested.request)
             except RequestRejected as why:
                 refused = str(why)
-        return _parcel([PageReply(id=asked.id, error=refused, text=text)])
+        return _parcel([PageReply(id=requested.id, error=refused, text=text)])
 
     def _whole(self) -> MessageBatch:
         return _parcel([message for aspect in self._aspects for message in aspect.whole()])
 
 
 def _parcel(messages: Iterable[BaseModel]) -> MessageBatch:
-    told = [*messages]
-    data = b",".join(message.model_dump_json().encode() for message in told)
-    return MessageBatch(b"[" + data + b"]", all(isinstance(message, Positions) for message in told))
+    text = [*messages]
+    data = b",".join(message.model_dump_json().encode() for message in text)
+    return MessageBatch(b"[" + data + b"]", all(isinstance(message, Positions) for message in text))

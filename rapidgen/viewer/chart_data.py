@@ -65,36 +65,36 @@ class Chart:
         return f"{self.title} [{self.unit}]" if self.unit else self.title
 
 
-def layers_of(shown: Sequence[Plottable], labels: Sequence[str]) -> list[JointCurves]:
+def layers_of(displayed: Sequence[Plottable], labels: Sequence[str]) -> list[JointCurves]:
     """What is shown as layers over one time.
 
     A trajectory beside a recording of a robot begins when the controller took it. Where the
     recording has the controller's own time, which no clock of this machine knows exactly, it begins
     where what was executed fits it best.
     """
-    taken: list[float] = []
+    in_use: list[float] = []
     executed: JointCurves | None = None
-    found: list[JointCurves] = []
-    for thing in shown:
+    result: list[JointCurves] = []
+    for thing in displayed:
         if isinstance(thing, JointRecording):
-            taken, executed = list(thing.begins), _joint_curves(thing.trajectory(), "executed")
-            found.append(executed)
+            in_use, executed = list(thing.begins), _joint_curves(thing.trajectory(), "executed")
+            result.append(executed)
         elif isinstance(thing, Recording):
-            found += _of_simulation(thing)
+            result += _of_simulation(thing)
         else:
-            found.append(_joint_curves(thing, "commanded" if len(shown) > 1 else "joints"))
-    begins = iter(taken)
-    fits = any(isinstance(thing, JointRecording) and thing.by_controller for thing in shown)
-    for index, layer in enumerate(found):
-        if layer is executed or not taken or not len(layer.times):
+            result.append(_joint_curves(thing, "commanded" if len(displayed) > 1 else "joints"))
+    begins = iter(in_use)
+    fits = any(isinstance(thing, JointRecording) and thing.by_controller for thing in displayed)
+    for index, layer in enumerate(result):
+        if layer is executed or not in_use or not len(layer.times):
             continue
-        begin = next(begins, taken[-1])
+        begin = next(begins, in_use[-1])
         moved = replace(layer, times=layer.times + begin)
         if fits and executed is not None:
             moved = replace(moved, times=moved.times + _late(moved, executed))
-        found[index] = moved
-    named = [*labels, *(layer.label for layer in found[len(labels) :])]
-    return _told_apart([replace(f, label=label) for f, label in zip(found, named, strict=False)])
+        result[index] = moved
+    named = [*labels, *(layer.label for layer in result[len(labels) :])]
+    return _told_apart([replace(f, label=label) for f, label in zip(result, named, strict=False)])
 
 
 def _joint_curves(trajectory: Trajectory, label: str) -> JointCurves:
@@ -135,12 +135,12 @@ def _order(recording: Recording) -> dict[str, int]:
 
 def _told_apart(layers: list[JointCurves]) -> list[JointCurves]:
     seen: dict[str, int] = {}
-    told = []
+    text = []
     for layer in layers:
         seen[layer.label] = seen.get(layer.label, 0) + 1
         count = seen[layer.label]
-        told.append(layer if count == 1 else replace(layer, label=f"{layer.label} {count}"))
-    return told
+        text.append(layer if count == 1 else replace(layer, label=f"{layer.label} {count}"))
+    return text
 
 
 def _late(commanded: JointCurves, executed: JointCurves) -> float:
@@ -149,12 +149,12 @@ def _late(commanded: JointCurves, executed: JointCurves) -> float:
     late = np.arange(-_SEARCHED, _SEARCHED, 0.005)
     misses = np.zeros(len(late))
     for name in names:
-        asked, done = commanded.column(name), executed.column(name)
-        if asked is None or done is None:
+        requested, done = commanded.column(name), executed.column(name)
+        if requested is None or done is None:
             continue
         for i, shift in enumerate(late):
             at = np.interp(commanded.times + shift, executed.times, done)
-            misses[i] += float(np.square(at - asked).sum())
+            misses[i] += float(np.square(at - requested).sum())
     return float(late[int(np.argmin(misses))]) if np.ptp(misses) > 0 else 0.0
 
 
@@ -220,19 +220,19 @@ def _near_limits(curves: Sequence[Curve], limits: Sequence[float]) -> Iterator[C
 def _differences(layers: Sequence[JointCurves], metres: set[str]) -> Iterator[Chart]:
     if len(layers) < 2:
         return
-    asked, done = layers[:2]
+    requested, done = layers[:2]
     by_unit: dict[str, list[Curve]] = {}
-    for name in asked.names:
-        first, second = asked.column(name), done.column(name)
+    for name in requested.names:
+        first, second = requested.column(name), done.column(name)
         if first is None or second is None or name == MOVES:
             continue
         unit, factor = _unit(name, metres)
-        within = (done.times >= asked.times[0]) & (done.times <= asked.times[-1])
+        within = (done.times >= requested.times[0]) & (done.times <= requested.times[-1])
         times = done.times[within]
-        values = (second[within] - np.interp(times, asked.times, first)) * factor
+        values = (second[within] - np.interp(times, requested.times, first)) * factor
         by_unit.setdefault(unit, []).append(Curve(name, *_finite(times, values)))
     for unit, curves in by_unit.items():
-        yield Chart(f"{done.label} minus {asked.label}", unit, tuple(curves))
+        yield Chart(f"{done.label} minus {requested.label}", unit, tuple(curves))
 
 
 def _finite(times: Array, values: Array) -> tuple[Array, Array]:

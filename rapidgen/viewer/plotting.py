@@ -70,7 +70,7 @@ class Plot:
 
 
 def plot(
-    *shown: Plottable,
+    *displayed: Plottable,
     labels: Sequence[str] = (),
     group: Group | None = None,
     linear: Sequence[str] = (),
@@ -82,7 +82,7 @@ def plot(
     recording of a robot brings its own); then what the second is from the first. `labels` are
     names of what is shown, `linear` joints in m where no group tells.
     """
-    for thing in shown:
+    for thing in displayed:
         if not isinstance(thing, Plottable):
             raise TypeError(
                 "plot takes trajectories and recordings, not "
@@ -90,7 +90,7 @@ def plot(
             )
         if group is None and isinstance(thing, JointRecording):
             group = thing.group
-    layers = layers_of(shown, labels)
+    layers = layers_of(displayed, labels)
     return Plot(
         title or " and ".join(layer.label for layer in layers),
         tuple(charts_of(layers, group, linear)),

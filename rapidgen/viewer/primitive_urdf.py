@@ -127,13 +127,13 @@ def _slides(group: GroupConfig, step: ChainLink) -> bool:
 def _radii(chain: Sequence[ChainLink]) -> list[float]:
     """Of the limb to each step, stout at the base and slender at the flange."""
     lengths = [hypot(*step.xyz) for step in chain]
-    whole = max(_SHORTEST, sum(lengths))
-    found, done = [], 0.0
+    complete = max(_SHORTEST, sum(lengths))
+    result, done = [], 0.0
     for length in lengths or [0.0]:
-        share = done / whole
-        found.append(whole * (_STOUT + (_SLENDER - _STOUT) * share))
+        share = done / complete
+        result.append(complete * (_STOUT + (_SLENDER - _STOUT) * share))
         done += length
-    return found
+    return result
 
 
 def _quill(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:

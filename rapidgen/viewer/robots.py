@@ -86,8 +86,8 @@ class ToolAndWorkObject:
     def configured(cls, config: GroupConfig) -> "ToolAndWorkObject":
         """Those of the configuration."""
         placed = config.work_object
-        whole = frames.compose(_frame(placed.user_frame), _frame(placed.object_frame))
-        return cls(_frame(config.tool.frame), config.tool.held, whole)
+        complete = frames.compose(_frame(placed.user_frame), _frame(placed.object_frame))
+        return cls(_frame(config.tool.frame), config.tool.held, complete)
 
     def tcp(self, kinematics: Kinematics | None, posture: Posture) -> frames.Pose | None:
         """The TCP in the world (a stationary one stands); None: there is no geometry."""

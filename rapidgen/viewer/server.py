@@ -65,19 +65,21 @@ def serve_page(
     """
     server = _Server(watched, _assets(), files)
     server.start(host, port)
-    shown = "127.0.0.1" if host == "0.0.0.0" else host
+    displayed = "127.0.0.1" if host == "0.0.0.0" else host
     return Page(
-        f"http://{shown}:{server.port}/#token={server.door.token}", server.stop, server.hub.renew
+        f"http://{displayed}:{server.port}/#token={server.door.token}",
+        server.stop,
+        server.hub.renew,
     )
 
 
 def _assets() -> dict[str, tuple[bytes, str]]:
-    found = {}
+    result = {}
     if ASSETS.is_dir():
         for path in ASSETS.iterdir():
             if path.suffix in _TYPES:
-                found[path.name] = (path.read_bytes(), _TYPES[path.suffix])
-    if "index.html" not in found:
+                result[path.name] = (path.read_bytes(), _TYPES[path.suffix])
+    if "index.html" not in result:
         raise refusal(
             "RG920",
             None,
@@ -85,7 +87,7 @@ def _assets() -> dict[str, tuple[bytes, str]]:
             "in a checkout, `make page` builds it; a wheel has it",
             exit_code=1,
         )
-    return found
+    return result
 
 
 class _Server:
@@ -171,18 +173,18 @@ class _Server:
         return response
 
     async def _asset(self, request: web.Request) -> web.Response:
-        found = self._assets.get(request.match_info.get("name", "index.html"))
-        if found is None:
+        match = self._assets.get(request.match_info.get("name", "index.html"))
+        if match is None:
             return web.Response(status=404)
-        return web.Response(body=found[0], content_type=found[1], charset="utf-8")
+        return web.Response(body=match[0], content_type=match[1], charset="utf-8")
 
     async def _file(self, request: web.Request) -> web.Response:
         if not self.door.admitted(request, self.port):
             return web.Response(status=403)
-        found = self._files.get(request.match_info["name"])
-        if found is None:
+        match = self._files.get(request.match_info["name"])
+        if match is None:
             return web.Response(status=404)
-        return web.Response(body=found, content_type="application/octet-stream")
+        return web.Response(body=match, content_type="application/octet-stream")
 
     async def _admitted(self, request: web.Request) -> web.Response:
         return web.Response(status=204 if self.door.admitted(request, self.port) else 403)
@@ -228,8 +230,8 @@ class _Server:
             _LOG.info("a page has gone: %d now", len(self._viewers))
         return socket
 
-    def _begin(self, viewer: PageConnection, whole: MessageBatch) -> None:
-        viewer.send(text_frame(whole.data))
+    def _begin(self, viewer: PageConnection, complete: MessageBatch) -> None:
+        viewer.send(text_frame(complete.data))
         viewer.knows = True
 
     def _tell(self, parcel: MessageBatch) -> None:

@@ -41,32 +41,32 @@ class Interpreter:
         default_factory=dict
     )
 
-    def lines(self, heard: SocketPiece) -> Iterator[SocketLogLine]:
+    def lines(self, received: SocketPiece) -> Iterator[SocketLogLine]:
         """The lines that a piece completes."""
-        if heard.change in ("open", "close"):
+        if received.change in ("open", "close"):
             for way in ("in", "out"):
-                self._splitters.pop((heard.task, heard.local, heard.peer, way), None)
-            yield _line(heard, "", "connected" if heard.change == "open" else "closed")
+                self._splitters.pop((received.task, received.local, received.peer, way), None)
+            yield _line(received, "", "connected" if received.change == "open" else "closed")
             return
-        key = (heard.task, heard.local, heard.peer, heard.change)
+        key = (received.task, received.local, received.peer, received.change)
         splitter = self._splitters.setdefault(key, FrameSplitter())
-        splitter.feed(heard.data)
+        splitter.feed(received.data)
         try:
             while (frame := splitter.next()) is not None:
-                yield _framed(heard, frame)
+                yield _framed(received, frame)
         except FramingError:
             del self._splitters[key]
-            yield _line(heard, "", _plain(heard.data))
+            yield _line(received, "", _plain(received.data))
 
 
-def _framed(heard: SocketPiece, frame: Frame) -> SocketLogLine:
+def _framed(received: SocketPiece, frame: Frame) -> SocketLogLine:
     name = _NAMES.get(frame.number, f"type {frame.number}")
     try:
         content = decode(frame)
     except ContentError as why:
-        return _line(heard, name, f"{why}: {frame.data[:40].hex(' ')}", fault=True)
+        return _line(received, name, f"{why}: {frame.data[:40].hex(' ')}", fault=True)
     reply = "reply " if frame.comm == Comm.REPLY else ""
-    return _line(heard, f"{reply}{name}", _said(content))
+    return _line(received, f"{reply}{name}", _said(content))
 
 
 def _said(content: Content) -> str:
@@ -90,13 +90,13 @@ def _plain(data: bytes) -> str:
     return text if text.isprintable() else data[: _LONGEST // 3].hex(" ")
 
 
-def _line(heard: SocketPiece, name: str, text: str, *, fault: bool = False) -> SocketLogLine:
+def _line(received: SocketPiece, name: str, text: str, *, fault: bool = False) -> SocketLogLine:
     return SocketLogLine(
-        time=heard.time,
-        way=heard.change,
-        task=heard.task,
-        local=heard.local,
-        peer=heard.peer,
+        time=received.time,
+        way=received.change,
+        task=received.task,
+        local=received.local,
+        peer=received.peer,
         name=name,
         text=text if len(text) <= _LONGEST else text[:_LONGEST] + "…",
         fault=fault,

@@ -36,7 +36,7 @@ class StateStatistics:
         """What changed last, empty before anything did."""
         self._told: Event | None = None
 
-    def take(self, state: State, told: Event | None = None) -> None:
+    def take(self, state: State, text: Event | None = None) -> None:
         """The next state, and the newest entry of the controller's log."""
         if self._last is not None:
             if state.number == self._last.number + 1:
@@ -47,9 +47,9 @@ class StateStatistics:
             if changed:
                 self.event = "; ".join(changed)
         self._last = state
-        if told is not None and told != self._told:
-            self._told = told
-            self.event = str(told)
+        if text is not None and text != self._told:
+            self._told = text
+            self.event = str(text)
 
     def jitter(self) -> tuple[float, float]:
         """Median and 99th percentile of how far intervals are from their median, s."""
@@ -72,7 +72,7 @@ def activity(state: State) -> str:
 
 def changes(before: Status, after: Status) -> list[str]:
     """What a change of status means, in words."""
-    found = []
+    result = []
     for name, true, false in (
         ("drives", "motors on", "motors off"),
         ("e_stopped", "emergency stop", "emergency stop released"),
@@ -81,16 +81,16 @@ def changes(before: Status, after: Status) -> list[str]:
     ):
         old, new = getattr(before, name), getattr(after, name)
         if old is not new and new is not TriState.UNKNOWN:
-            found.append(true if new is TriState.TRUE else false)
+            result.append(true if new is TriState.TRUE else false)
     if before.mode is not after.mode:
-        found.append(
+        result.append(
             {Mode.AUTO: "automatic mode", Mode.MANUAL: "manual mode"}.get(
                 after.mode, "mode unknown"
             )
         )
     if (before.in_error, before.error_code) != (after.in_error, after.error_code):
-        found.append(error_text(after) or "error gone")
-    return found
+        result.append(error_text(after) or "error gone")
+    return result
 
 
 def error_text(status: Status) -> str:
@@ -158,7 +158,7 @@ def _unit(kind: str) -> tuple[str, float]:
 
 def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str, str]]:
     """Joint, value and speed in degrees or mm, and where between its limits (`bar` letters)."""
-    found = []
+    result = []
     for joint, value, speed, wire in zip(
         group.joints,
         state.joints,
@@ -167,9 +167,9 @@ def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str,
         strict=True,
     ):
         unit, factor = _unit(joint.kind)
-        here, moving = f"{value * factor:8.2f} {unit}", f"{speed * factor:7.1f} {unit}/s"
-        found.append((joint.name, here, moving, _bar(wire, joint.lower, joint.upper, bar)))
-    return found
+        current, moving = f"{value * factor:8.2f} {unit}", f"{speed * factor:7.1f} {unit}/s"
+        result.append((joint.name, current, moving, _bar(wire, joint.lower, joint.upper, bar)))
+    return result
 
 
 def as_table(

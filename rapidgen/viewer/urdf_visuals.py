@@ -25,12 +25,12 @@ FLANGE = "flange"
 NameOf = Callable[[Visual], str]
 
 
-def shares(groups: Sequence[GroupConfig], found: Mapping[str, Tree]) -> dict[str, frozenset[str]]:
+def shares(groups: Sequence[GroupConfig], result: Mapping[str, Tree]) -> dict[str, frozenset[str]]:
     """Which links of its description each group draws: those behind its own joints; what carries no
     robot is the first group's."""
     made: dict[str, frozenset[str]] = {}
-    for tree in dict.fromkeys(found.values()):
-        own = [group for group in groups if found.get(group.name) is tree]
+    for tree in dict.fromkeys(result.values()):
+        own = [group for group in groups if result.get(group.name) is tree]
         by_joint = {joint.name: group.name for group in own for joint in group.joints}
         owner = {
             link: next(
@@ -55,10 +55,10 @@ def drawn(group: GroupConfig, tree: Tree, links: frozenset[str], name_of: NameOf
     stands = _stands(group, tree)
     end, last = _last(group, tree)
     chain = steps_of(group, group.chain)
-    found = aligned(partial(_along, group, last, stands), partial(along, chain), len(names))
-    if found is None:
+    result = aligned(partial(_along, group, last, stands), partial(along, chain), len(names))
+    if result is None:
         return None
-    root, flange = found
+    root, flange = result
     robot = Element("robot", name=group.name)
     SubElement(robot, "link", name=BASE)
     passive: dict[str, tuple[tuple[int, float], ...]] = {}
@@ -94,7 +94,7 @@ def _stands(group: GroupConfig, tree: Tree) -> dict[str, float]:
     path = (*tree.graph.ancestors(end), end) if end is not None else ()
     arm = dropwhile(lambda joint: not axes.get(joint.name, "").startswith("rax"), path)
     still = [joint.name for joint in arm if joint.is_actuated and joint.name not in axes]
-    return dict(zip(still, (kept.value for kept in group.kept), strict=False))
+    return dict(zip(still, (saved.value for saved in group.kept), strict=False))
 
 
 def _last(group: GroupConfig, tree: Tree) -> tuple[str, tuple[UrdfJoint, ...]]:

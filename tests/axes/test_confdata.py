@@ -57,10 +57,10 @@ def test_one_posture_has_the_confdata_that_a_controller_stored(row):
     place, turn, configuration = row
     own = Kinematics.of(load_config("irb120").groups[0])
     world = tuple(v / 1000 for v in place), frames.normalise(turn)
-    found = own.solutions(frames.within(BASE, world), (0.0,) * 6)
-    assert len(found) > 1
-    assert [own.configuration(p) for p in found].count(configuration) == 1
-    assert own.configuration(own.fitting(found, configuration, "turn")) == configuration
+    result = own.solutions(frames.within(BASE, world), (0.0,) * 6)
+    assert len(result) > 1
+    assert [own.configuration(p) for p in result].count(configuration) == 1
+    assert own.configuration(own.fitting(result, configuration, "turn")) == configuration
 
 
 @pytest.mark.parametrize("row", STANDING)
@@ -68,6 +68,6 @@ def test_a_wrist_with_an_offset_has_the_confdata_that_a_controller_stored(row):
     place, turn, configuration = row
     own = Kinematics.of(load_config("crb15000").groups[0])
     pose = tuple(v / 1000 for v in place), frames.normalise(turn)
-    found = own.solutions(pose, (0.0,) * 6)
-    assert len(found) > 1
-    assert own.configuration(own.fitting(found, configuration, "turn")) == configuration
+    result = own.solutions(pose, (0.0,) * 6)
+    assert len(result) > 1
+    assert own.configuration(own.fitting(result, configuration, "turn")) == configuration

@@ -19,8 +19,8 @@ def back(arm, posture, here):
     pose, wanted = arm.forward(posture), arm.configuration(posture)
     if arm.seventh < 0:
         return arm.fitting(arm.solutions(pose, here, wanted), wanted, "turn")
-    found = arm.at_arm_angle(pose, arm.arm.arm_angle(posture), here)
-    return next((one for one in found if arm.misfit(one, wanted) == 0.0), None)
+    result = arm.at_arm_angle(pose, arm.arm.arm_angle(posture), here)
+    return next((one for one in result if arm.misfit(one, wanted) == 0.0), None)
 
 
 @pytest.mark.parametrize("robot", ["irb120", "irb5400", "crb15000", "irb14000", "irb14050"])
@@ -32,18 +32,18 @@ def test_a_posture_is_found_again_from_anywhere(robot):
             posture, here = (
                 tuple(draw.uniform(j.lower, j.upper) for j in group.joints) for _ in "ab"
             )
-            found = back(arm, posture, here)
-            assert found is not None, posture
-            assert arm.misfit(found, arm.configuration(posture)) == 0.0
+            result = back(arm, posture, here)
+            assert result is not None, posture
+            assert arm.misfit(result, arm.configuration(posture)) == 0.0
             pose = arm.forward(posture)
-            assert frames.error(arm.forward(found), pose) == pytest.approx((0.0,) * 6, abs=1e-6)
+            assert frames.error(arm.forward(result), pose) == pytest.approx((0.0,) * 6, abs=1e-6)
             if arm.seventh >= 0:
-                turned = arm.arm.arm_angle(found) - arm.arm.arm_angle(posture)
+                turned = arm.arm.arm_angle(result) - arm.arm.arm_angle(posture)
                 assert turned - FULL_TURN * round(turned / FULL_TURN) == pytest.approx(0, abs=1e-6)
 
 
 def test_an_arm_that_has_no_angle_has_no_slopes():
     x, y, z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     wrist = (0.0, 0.5, 0.0)
-    axes = [(frames.ORIGIN, way) for way in (z, x, y, x, z)] + [(wrist, x), (wrist, z)]
+    axes = [(frames.ORIGIN, path) for path in (z, x, y, x, z)] + [(wrist, x), (wrist, z)]
     assert ArmAngle(y).slopes(axes) == [0.0] * 7

@@ -80,9 +80,9 @@ def test_inverse_undoes_forward(group):
     for posture in postures(group, 40 if own.is_closed_form else 6):
         pose = own.forward(posture)
         assert own.follow(pose, posture) == pytest.approx(posture, abs=1e-5)
-        found = own.solutions(pose, posture)
-        assert found[0] == pytest.approx(posture, abs=1e-5)
-        for other in found:
+        result = own.solutions(pose, posture)
+        assert result[0] == pytest.approx(posture, abs=1e-5)
+        for other in result:
             assert difference(own.forward(other), pose) < 1e-6
 
 
@@ -117,14 +117,14 @@ def test_an_independent_package_finds_the_same_postures(group):
         )
         mine = [arm.solve(pose, branch, angles[3]) for branch in BRANCHES]
         mine = sorted(wrapped(a) for a in mine if a is not None)
-        found = [
+        result = [
             wrapped(a) for a in robot.reach(theirs).joints.reshape(-1, 6) if not np.isnan(a).any()
         ]
         for solution in mine:
             gap = min(max(abs(math.remainder(a - b, 2 * math.pi)) for a, b in
-                          zip(solution, other, strict=True)) for other in found)  # fmt: skip
+                          zip(solution, other, strict=True)) for other in result)  # fmt: skip
             assert gap < 1e-6
-        assert len(mine) == len(found)
+        assert len(mine) == len(result)
 
 
 # ABB's product data: flange at zero. IRB 120: 374 mm out, 630 mm up (ROB0149EN, the drawing
@@ -169,9 +169,9 @@ def test_a_palletiser_at_zero_has_the_tool_of_six_axes_whose_wrist_is_bent_down(
     # tool0 and wobj0 of a working IRB 660 [code EdgarIvanMM]: quaternion 0,0,1,0, cf1 and cf6.
     own = kinematics("irb660")
     pose = (tuple(mm / 1000 for mm in place), (0.0, 0.0, 1.0, 0.0))
-    found = own.follow(pose, (0.0,) * 4)
-    assert found is not None
-    assert tuple(math.floor(found[k] / (math.pi / 2)) for k in (0, 3)) == quadrants
+    result = own.follow(pose, (0.0,) * 4)
+    assert result is not None
+    assert tuple(math.floor(result[k] / (math.pi / 2)) for k in (0, 3)) == quadrants
 
 
 def test_a_track_moves_the_base():
@@ -179,9 +179,9 @@ def test_a_track_moves_the_base():
     home = (0.0,) * len(own.group.joints)
     place = [j.axis for j in own.group.joints].index("eax_a")
     moved = tuple(0.5 if i == place else v for i, v in enumerate(home))
-    here, there = own.forward(home), own.forward(moved)
-    assert frames.distance(here[0], there[0]) == pytest.approx(0.5)
-    assert own.follow(there, moved) == pytest.approx(moved, abs=1e-9)
+    here, target = own.forward(home), own.forward(moved)
+    assert frames.distance(here[0], target[0]) == pytest.approx(0.5)
+    assert own.follow(target, moved) == pytest.approx(moved, abs=1e-9)
 
 
 def test_the_singular_wrist_keeps_axis_4():
@@ -226,10 +226,10 @@ def test_cfx_tells_the_eight_branches_apart():
     # +4 behind axis 1, +2 behind the lower arm [mem], +1 axis 5 negative
     own = kinematics("irb120")
     posture = (0.1, 0.2, 0.3, 0.7, 0.5, 0.4)
-    found = {own.configuration(p)[3] for p in own.solutions(own.forward(posture), posture)}
+    result = {own.configuration(p)[3] for p in own.solutions(own.forward(posture), posture)}
     assert own.configuration(posture)[3] == 0
     assert own.configuration((0.1, 0.2, 0.3, 0.7, -0.5, 0.4))[3] == 1
-    assert found >= {0, 1}
+    assert result >= {0, 1}
     assert own.configuration((0.1, -1.5, -1.5, 0.7, 0.5, 0.4))[3] & 4
 
 
@@ -259,8 +259,8 @@ def test_cfx_and_the_turn_make_a_configuration():
 def test_the_programmed_turn_is_the_one_closest_to_its_quarter(cf6, turn):
     own = kinematics("irb120")
     posture = (0.1, 0.2, 0.3, 0.7, 0.5, math.radians(20))
-    found = own.solutions(own.forward(posture), posture)
-    chosen = own.fitting(found, (0, 0, cf6, 0), "turn")
+    result = own.solutions(own.forward(posture), posture)
+    chosen = own.fitting(result, (0, 0, cf6, 0), "turn")
     assert math.degrees(chosen[5]) == pytest.approx(20 + 360 * turn)
     assert chosen[3] == pytest.approx(0.7)
 
@@ -306,8 +306,8 @@ def test_endlessly_many_postures_of_a_pose_are_compared_all_at_once(monkeypatch)
     wrapped = numeric_ik._wrapped
     monkeypatch.setattr(numeric_ik, "_wrapped", lambda *a: calls.append(1) or wrapped(*a))
     own = Kinematics.of(load_config("irb14050").groups[0])
-    near = tuple((j.lower + j.upper) / 2 for j in own.group.joints)
-    list(own.found(((0.0, 0.0, 0.05), (0.0, 1.0, 0.0, 0.0)), near))
+    start = tuple((j.lower + j.upper) / 2 for j in own.group.joints)
+    list(own.found(((0.0, 0.0, 0.05), (0.0, 1.0, 0.0, 0.0)), start))
     assert len(calls) < 10_000  # 5,926 starts
 
 

@@ -27,9 +27,9 @@ def beside(one, other):
 def test_every_posture_is_among_those_of_its_pose(gofa):
     for posture in postures(gofa, 300, seed=1):
         pose = gofa.forward(posture)
-        found = gofa.solutions(pose, (0.0,) * 6)
-        assert min(beside(posture, other) for other in found) < 1e-5
-        for other in found:
+        result = gofa.solutions(pose, (0.0,) * 6)
+        assert min(beside(posture, other) for other in result) < 1e-5
+        for other in result:
             assert max(map(abs, frames.error(gofa.forward(other), pose))) < 1e-9
 
 
@@ -37,11 +37,11 @@ def test_iteration_knows_no_posture_more(gofa):
     # Newton's method from some thousand starts, which knows nothing of the wrist.
     for posture in postures(gofa, 6, seed=2):
         pose = gofa.forward(posture)
-        found = gofa.solutions(pose, (0.0,) * 6)
+        result = gofa.solutions(pose, (0.0,) * 6)
         for others in gofa.arm.rounds(pose, posture):
             for other in others:
                 inside = any(True for _ in gofa._turned(other))
-                assert not inside or min(beside(other, one) for one in found) < 1e-5
+                assert not inside or min(beside(other, one) for one in result) < 1e-5
 
 
 @pytest.mark.parametrize("elbow", [-76.5, -77.1])
@@ -49,18 +49,18 @@ def test_postures_by_the_stretched_elbow_are_found(gofa, elbow):
     # There the reach ends, and two of four branches meet.
     for posture in postures(gofa, 40, seed=3):
         stretched = (*posture[:2], math.radians(elbow), *posture[3:])
-        found = gofa.solutions(gofa.forward(stretched), (0.0,) * 6)
-        assert min(beside(stretched, other) for other in found) < 1e-4
+        result = gofa.solutions(gofa.forward(stretched), (0.0,) * 6)
+        assert min(beside(stretched, other) for other in result) < 1e-4
 
 
 def test_a_posture_nearby_stays_on_its_branch(gofa):
     draw = random.Random(4)
     for posture in postures(gofa, 200, seed=4):
         start = tuple(v + draw.uniform(-0.01, 0.01) for v in posture)
-        found = gofa.follow(gofa.forward(posture), start)
-        assert found is not None
-        assert max(map(abs, frames.error(gofa.forward(found), gofa.forward(posture)))) < 1e-8
-        assert beside(found, posture) < 0.3
+        result = gofa.follow(gofa.forward(posture), start)
+        assert result is not None
+        assert max(map(abs, frames.error(gofa.forward(result), gofa.forward(posture)))) < 1e-8
+        assert beside(result, posture) < 0.3
 
 
 def test_out_of_reach_there_is_none(gofa):

@@ -26,9 +26,9 @@ def test_a_reachable_pose_is_found_from_afar(group):
             (j.lower + j.upper) / 2 if j.axis.startswith("rax") else v
             for j, v in zip(group.joints, posture, strict=True)
         )
-        found = own.solutions(pose, start)
-        assert found
-        for other in found[:2]:
+        result = own.solutions(pose, start)
+        assert result
+        for other in result[:2]:
             assert max(map(abs, frames.error(own.forward(other), pose))) < 1e-6
             for value, joint in zip(other, group.joints, strict=True):
                 assert joint.lower - 1e-5 <= value <= joint.upper + 1e-5

@@ -64,7 +64,7 @@ def test_a_posture_in_robotstudio(row):
 def test_an_arm_angle_in_robotstudio(row):
     joints, _, _, about_z, about_y = row
     arm = single()
-    axes = arm.arm.search(posture_of(arm, joints), whole=True).lines(
+    axes = arm.arm.search(posture_of(arm, joints), complete=True).lines(
         [math.radians(v) for v in joints]
     )[1]
     for reference, angle in (((0.0, 0.0, 1.0), about_z), ((0.0, 1.0, 0.0), about_y)):
@@ -88,8 +88,8 @@ def test_the_home_target_of_public_programs(name, side):
         (x_ / 1000, side * y_ / 1000, z_ / 1000),
         frames.normalise((w, side * x, y, side * z)),
     )
-    found = next(arm.at_arm_angle(target, math.radians(side * ARM_ANGLE), from_afar))
-    assert found == pytest.approx(home, abs=1e-4)
+    match = next(arm.at_arm_angle(target, math.radians(side * ARM_ANGLE), from_afar))
+    assert match == pytest.approx(home, abs=1e-4)
 
 
 def test_a_pose_that_is_reached_with_another_arm_angle_alone_is_told_so():
@@ -116,8 +116,8 @@ def test_a_pose_with_its_arm_angle_is_found_from_afar():
     for _ in range(15):
         posture = tuple(draw.uniform(j.lower, j.upper) for j in arm.group.joints)
         pose, angle = arm.forward(posture), arm.arm.arm_angle(posture)
-        found = next(arm.at_arm_angle(pose, angle, start))
-        assert max(map(abs, frames.error(arm.forward(found), pose))) < 1e-7
-        assert math.remainder(arm.arm.arm_angle(found) - angle, 2 * math.pi) == pytest.approx(
+        match = next(arm.at_arm_angle(pose, angle, start))
+        assert max(map(abs, frames.error(arm.forward(match), pose))) < 1e-7
+        assert math.remainder(arm.arm.arm_angle(match) - angle, 2 * math.pi) == pytest.approx(
             0, abs=1e-7
         )

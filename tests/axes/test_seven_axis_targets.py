@@ -126,8 +126,8 @@ def test_confdata_tells_the_postures_of_one_arm_angle_apart(row):
     name, tool, place, turn, configuration, angle, degrees = row
     arm, flange = arm_of(name), flange_of(tool, place, turn)
     middle = tuple((j.lower + j.upper) / 2 for j in arm.group.joints)
-    found = list(arm.at_arm_angle(flange, math.radians(angle), middle))
-    chosen = arm.fitting(found, configuration, "turn")
-    assert len(found) > 1
+    result = list(arm.at_arm_angle(flange, math.radians(angle), middle))
+    chosen = arm.fitting(result, configuration, "turn")
+    assert len(result) > 1
     assert [math.degrees(v) for v in chosen] == pytest.approx(degrees, abs=0.6)
     assert not arm.matches(chosen, (*configuration[:3], configuration[3] ^ 4))

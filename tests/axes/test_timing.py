@@ -60,8 +60,8 @@ def test_resampling_keeps_the_ends_and_stays_inside(points, period):
 def test_thinning_drops_what_lies_on_the_way_only():
     times = np.arange(7) * 0.02
     points = np.array([[0, 0], [1, 0], [2, 0], [3, 0], [3, 1], [3, 2], [3, 3]], dtype=float)
-    kept = decimate(times, points, 0.05, 1e-6)
-    assert kept.tolist() == [0, 3, 6]
+    saved = decimate(times, points, 0.05, 1e-6)
+    assert saved.tolist() == [0, 3, 6]
     assert decimate(times, points, 0.2, 1e-6).tolist() == [0, 3, 6]
     assert decimate(times, points, 0.2, 2.0).tolist() == [0, 6]
 
@@ -73,7 +73,7 @@ def test_times_must_increase():
 
 def test_no_segment_is_shorter_than_the_period():
     random = np.random.default_rng(1)
-    for whole in [*random.uniform(0.1, 3, 200), *np.arange(1, 40) * 0.1]:
-        fresh, _ = resample(np.array([0, whole]), np.zeros((2, 1)), 0.1)
+    for complete in [*random.uniform(0.1, 3, 200), *np.arange(1, 40) * 0.1]:
+        fresh, _ = resample(np.array([0, complete]), np.zeros((2, 1)), 0.1)
         assert np.diff(fresh).min() >= 0.1 - 1e-6
         assert np.diff(fresh).max() < 0.2

@@ -10,8 +10,8 @@ from tests.controller.test_booting import CELL, PROGRAM
 PLAIN = PROGRAM.replace("ValToStr(ClkRead(clock9))", '"done"')
 
 
-def run(capsys, *words):
-    code = main(["run", *map(str, words)])
+def run(capsys, *text):
+    code = main(["run", *map(str, text)])
     captured = capsys.readouterr()
     return code, captured.out.splitlines(), captured.err
 
@@ -84,7 +84,7 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
         ("MoveAbsJ [[180,0,0,0,0,0],other.extax], v100, fine, tool0;", [], "`--robot` takes"),
     ],
 )
-def test_what_ends_a_program_has_a_mend(tmp_path, capsys, statement, words, mend):
+def test_what_ends_a_program_has_a_mend(tmp_path, capsys, statement, words, help):
     path = tmp_path / "a.mod"
     path.write_text(
         "MODULE a\nCONST robtarget other := [[300,0,400],[0,0,1,0],[0,2,-2,1],"
@@ -92,5 +92,5 @@ def test_what_ends_a_program_has_a_mend(tmp_path, capsys, statement, words, mend
         f"PROC main()\nVAR num n;\n{statement}\nENDPROC\nENDMODULE\n"
     )
     assert main(["run", str(path), *words]) == 1
-    told = capsys.readouterr().err
-    assert mend in told[told.index("error[RG407]") :]
+    text = capsys.readouterr().err
+    assert help in text[text.index("error[RG407]") :]

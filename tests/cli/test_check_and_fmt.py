@@ -35,8 +35,8 @@ def test_json_is_one_array_also_for_none(folder, capsys):
     assert main(["check", "good.mod", "--format", "json"]) == 0
     assert json.loads(capsys.readouterr().out) == []
     assert main(["check", "bad.mod", "--format", "json"]) == 1
-    found = json.loads(capsys.readouterr().out)
-    assert [(f["code"], f["path"], f["line"], f["column"]) for f in found] == [
+    result = json.loads(capsys.readouterr().out)
+    assert [(f["code"], f["path"], f["line"], f["column"]) for f in result] == [
         ("RG307", "bad.mod", 2, 18)
     ]
 
@@ -107,8 +107,8 @@ def test_configurations_by_name_and_path(folder, capsys):
 def test_what_a_build_would_refuse_is_told(folder, capsys, line, code):
     (folder / "taken.yaml").write_text(f"model: irb120\n{line}\n")
     assert main(["check", "taken.yaml", "--format", "json"]) == 1
-    (told,) = json.loads(capsys.readouterr().out)
-    assert (told["code"], told["path"], told["line"]) == (code, "taken.yaml", 2)
+    (text,) = json.loads(capsys.readouterr().out)
+    assert (text["code"], text["path"], text["line"]) == (code, "taken.yaml", 2)
     assert main(["build", "taken.yaml"]) == 2
     assert not (folder / "rapid_out").exists()
 
@@ -170,8 +170,8 @@ def test_modules_of_a_backup_that_no_task_loads_are_judged_alone(backup, capsys)
     capsys.readouterr()
     part.write_text("MODULE 1part\nENDMODULE\n")
     assert main(["check", str(backup), "--format", "json"]) == 1
-    found = json.loads(capsys.readouterr().out)
-    assert [(f["code"], f["path"]) for f in found if f["severity"] == "error"] == [
+    result = json.loads(capsys.readouterr().out)
+    assert [(f["code"], f["path"]) for f in result if f["severity"] == "error"] == [
         ("RG205", str(part))
     ]
 
@@ -207,11 +207,11 @@ LOADED = GOOD.replace(
 )
 
 
-def overloads(capsys, *words):
+def overloads(capsys, *text):
     """Messages of RG333."""
-    assert main(["check", *words, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    return [f["message"] for f in found if f["code"] == "RG333"]
+    assert main(["check", *text, "--json"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    return [f["message"] for f in result if f["code"] == "RG333"]
 
 
 def test_loads_are_compared_with_the_payload_of_the_robot_that_is_named(folder, capsys):
@@ -246,9 +246,9 @@ def test_loads_are_compared_with_the_robot_of_a_backup(backup, capsys, kind, mas
             "MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n"
             f'      -name "ROB_1" -use_robot_type "{kind}" -use_joint_0 "rob1_1"\n'
         )
-    found = overloads(capsys, str(backup))
-    assert len(found) == bool(robot)
-    assert all(robot in message for message in found)
+    result = overloads(capsys, str(backup))
+    assert len(result) == bool(robot)
+    assert all(robot in message for message in result)
 
 
 def test_loads_are_compared_with_the_robot_of_a_generated_folder(folder, capsys):
@@ -256,7 +256,7 @@ def test_loads_are_compared_with_the_robot_of_a_generated_folder(folder, capsys)
     assert overloads(capsys, "out") == []
     module = folder / "out" / "HOME" / "rapidgen" / "ROS_motion.mod"
     text = module.read_text(encoding="latin-1")
-    head, mark, rest = text.partition("\n    LOCAL ")
+    head, marker, remaining = text.partition("\n    LOCAL ")
     datum = "\n    PERS loaddata own := [9, [0, 0, 50], [1, 0, 0, 0], 0, 0, 0];"
-    module.write_text(head + datum + mark + rest, encoding="latin-1")
+    module.write_text(head + datum + marker + remaining, encoding="latin-1")
     assert overloads(capsys, "out") == ["a load of 9 kg is more than irb120 carries, 3 kg"]

@@ -10,11 +10,11 @@ def test_it_says_each_step_and_what_comes_next(tmp_path, capsys, monkeypatch):
     drawn = []
     monkeypatch.setattr(plotting.Plot, "save", lambda plot, path: drawn.append(plot) or path)
     assert main(["demo", "--output", str(tmp_path / "demo")]) == 0
-    said = capsys.readouterr()
-    steps = re.findall(r"^(\w+):? {2,}", said.err, re.MULTILINE)
+    message = capsys.readouterr()
+    steps = re.findall(r"^(\w+):? {2,}", message.err, re.MULTILINE)
     assert steps == ["build", "boot", "connect", "move", "draw", "next"]
-    assert "%, joints at" in said.err
-    assert "31 points" in said.out
+    assert "%, joints at" in message.err
+    assert "31 points" in message.out
     assert (tmp_path / "demo" / "irb120" / "README.md").is_file()
     # By the controller's clock nothing of the robot's is ahead of its command.
     difference = drawn[0].charts[-1]

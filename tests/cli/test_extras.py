@@ -80,7 +80,7 @@ def test_only_what_an_extra_is_for_needs_it():
 
 
 @pytest.mark.parametrize(
-    ("words", "extra"),
+    ("text", "extra"),
     [
         ("status rws://192.0.2.1", "web"),
         ("plan irb120 --to rws://192.0.2.1", "web"),
@@ -91,9 +91,9 @@ def test_only_what_an_extra_is_for_needs_it():
         ("test irb120 --cluster tcp://127.0.0.1:1", "cluster"),
     ],
 )
-def test_a_command_names_its_extra(words, extra):
+def test_a_command_names_its_extra(text, extra):
     code, out, err = plain(
-        "from rapidgen.cli.app import main; sys.exit(main(sys.argv[1:]))", *words.split()
+        "from rapidgen.cli.app import main; sys.exit(main(sys.argv[1:]))", *text.split()
     )
     assert code == 2
     assert "error[RG905]" in err

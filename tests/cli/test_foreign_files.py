@@ -144,8 +144,8 @@ def status(command, place):
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)
     before = signal.signal(signal.SIGALRM, waits)
     with open("/proc/self/statm") as file:
-        taken = int(file.read().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (taken + MEMORY, hard))
+        in_use = int(file.read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (in_use + MEMORY, hard))
     signal.alarm(WAIT)
     try:
         return main(command.replace("dir://", f"dir://{place}/").split())
@@ -159,10 +159,10 @@ def status(command, place):
 def test_a_file_is_refused(place, capsys, path, command, make):
     make(place / path, None)
     assert status(command, place) in (1, 2)
-    said = "".join(capsys.readouterr())
-    assert "error[RG" in said
-    assert "help" in said
-    assert path in said
+    message = "".join(capsys.readouterr())
+    assert "error[RG" in message
+    assert "help" in message
+    assert path in message
 
 
 @pytest.mark.parametrize(("path", "command", "make"), rows(IN_FOLDERS, (pipe, device, large, link)))
@@ -197,6 +197,6 @@ def test_links_pipes_and_devices_in_home_are_left_out(folders, place, capsys):
         )
     )
     assert status("run backup", place) == 0
-    said = capsys.readouterr().out
-    assert "notes.txtTRUE" in said
-    assert all(f"{make.__name__}FALSE" in said for make in (pipe, device, link))
+    message = capsys.readouterr().out
+    assert "notes.txtTRUE" in message
+    assert all(f"{make.__name__}FALSE" in message for make in (pipe, device, link))

@@ -14,8 +14,8 @@ def listening(pid):
     own = set()
     for path in Path(f"/proc/{pid}/fd").iterdir():
         target = str(path.readlink()) if path.is_symlink() else ""
-        if found := re.fullmatch(r"socket:\[(\d+)\]", target):
-            own.add(found[1])
+        if match := re.fullmatch(r"socket:\[(\d+)\]", target):
+            own.add(match[1])
     rows = [row.split() for row in Path(f"/proc/{pid}/net/tcp").read_text().splitlines()[1:]]
     six = Path(f"/proc/{pid}/net/tcp6")
     rows += [row.split() for row in six.read_text().splitlines()[1:]] if six.exists() else []
@@ -62,9 +62,9 @@ def test_the_table_names_every_socket_that_sim_listens_on(start, rows):
     for key in named & {*sim.ready}:
         for port in ports_of(sim.ready[key]):
             of_port.setdefault(port, set()).add(key)
-    found = listening(sim.process.pid)
-    assert len(found) == 8  # motion, state, control; control socket; FTP, SFTP, RWS; page
-    for address, port in found:
+    result = listening(sim.process.pid)
+    assert len(result) == 8  # motion, state, control; control socket; FTP, SFTP, RWS; page
+    for address, port in result:
         assert port in of_port, f"{address}:{port} is not in the table"
         # What follows --host says so in its row.
         for keys, row in rows:

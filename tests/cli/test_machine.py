@@ -34,9 +34,9 @@ def shell(command, folder, **environment):
     )
 
 
-@pytest.mark.parametrize("words", ["explain all", "run good.mod", "robots", "--help"])
-def test_output_that_has_no_room_is_said(folder, words):
-    done = shell(f"$RG {words} >/dev/full", folder)
+@pytest.mark.parametrize("text", ["explain all", "run good.mod", "robots", "--help"])
+def test_output_that_has_no_room_is_said(folder, text):
+    done = shell(f"$RG {text} >/dev/full", folder)
     assert done.returncode == 1
     assert "error[RG903]: cannot go on: No space left" in done.stderr
     assert "Traceback" not in done.stderr
@@ -48,19 +48,19 @@ def test_a_folder_that_has_gone_is_said(folder):
     assert "error[RG903]: cannot go on: No such file" in done.stderr
 
 
-@pytest.mark.parametrize("words", ["explain all", "run good.mod", "robots"])
-def test_a_closed_stdout_is_no_fault(folder, words):
-    done = shell(f"$RG {words} >&-", folder)
+@pytest.mark.parametrize("text", ["explain all", "run good.mod", "robots"])
+def test_a_closed_stdout_is_no_fault(folder, text):
+    done = shell(f"$RG {text} >&-", folder)
     assert (done.returncode, done.stderr) == (0, "")
 
 
-@pytest.mark.parametrize("words", ["explain all", "run good.mod", "robots", "schema"])
-def test_a_reader_that_has_gone_is_no_fault(folder, words):
+@pytest.mark.parametrize("text", ["explain all", "run good.mod", "robots", "schema"])
+def test_a_reader_that_has_gone_is_no_fault(folder, text):
     reader, writer = os.pipe()
     os.close(reader)
     with os.fdopen(writer, "wb") as gone:
         done = subprocess.run(
-            [sys.executable, "-m", "rapidgen.cli", *words.split()],
+            [sys.executable, "-m", "rapidgen.cli", *text.split()],
             cwd=folder,
             stdout=gone,
             stderr=subprocess.PIPE,
@@ -69,9 +69,9 @@ def test_a_reader_that_has_gone_is_no_fault(folder, words):
     assert (done.returncode, done.stderr) == (141, b"")
 
 
-@pytest.mark.parametrize("words", ["check nowhere.mod", "robots show none", "run good.mod"])
-def test_nor_one_of_the_errors(folder, words):
-    done = shell(f"{{ sleep 0.2; $RG {words}; echo $? >code; }} 2>&1 | true", folder)
+@pytest.mark.parametrize("text", ["check nowhere.mod", "robots show none", "run good.mod"])
+def test_nor_one_of_the_errors(folder, text):
+    done = shell(f"{{ sleep 0.2; $RG {text}; echo $? >code; }} 2>&1 | true", folder)
     assert done.returncode == 0
     assert (folder / "code").read_text() == "141\n"
 
@@ -109,8 +109,8 @@ def test_a_name_that_is_too_long(folder, capsys, verb):
 def test_a_loop_of_links(folder, capsys, verb):
     os.symlink("loop.mod", "loop.mod")
     assert main([verb, "."]) in (1, 2)
-    shown = capsys.readouterr()
-    assert "Too many levels of symbolic links" in shown.out + shown.err
+    displayed = capsys.readouterr()
+    assert "Too many levels of symbolic links" in displayed.out + displayed.err
 
 
 def test_a_file_that_breaks_off_while_it_is_read(folder, capsys):
@@ -118,10 +118,10 @@ def test_a_file_that_breaks_off_while_it_is_read(folder, capsys):
     assert "error[RG704]" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("words", [["fmt", ""], ["check", ""], ["build", "irb120", "-o", ""]])
-def test_an_empty_argument_is_not_the_folder_one_is_in(folder, capsys, words):
+@pytest.mark.parametrize("text", [["fmt", ""], ["check", ""], ["build", "irb120", "-o", ""]])
+def test_an_empty_argument_is_not_the_folder_one_is_in(folder, capsys, text):
     (folder / "ugly.mod").write_text(GOOD.lower())
-    assert main(words) == 2
+    assert main(text) == 2
     assert "an argument is empty" in capsys.readouterr().err
     assert (folder / "ugly.mod").read_text() == GOOD.lower()
 
@@ -181,5 +181,5 @@ def test_figures_that_no_num_holds_are_refused(override):
 
 
 def test_a_long_value_is_shown_short():
-    found = refusal(load_config, "irb120", overrides=[f"ports.motion={'a' * 5000}"])
-    assert len(found.diagnostics[0].message) < 200
+    result = refusal(load_config, "irb120", overrides=[f"ports.motion={'a' * 5000}"])
+    assert len(result.diagnostics[0].message) < 200

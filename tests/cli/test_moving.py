@@ -41,8 +41,8 @@ def cell(tmp_path_factory):
         sim.close()
 
 
-def told(capsys, *words, code=0):
-    assert main(list(words)) == code
+def told(capsys, *text, code=0):
+    assert main(list(text)) == code
     return capsys.readouterr()
 
 
@@ -56,13 +56,13 @@ def at_home(cell, capsys):
 
 def test_joints_are_typed_in_degrees(cell, capsys):
     path, sim = cell
-    shown = told(capsys, "move", path, "--joints", "-10,5,0,0,30,0", "--to", "sim")
-    assert "at joint_1 -10.00 deg, joint_2 5.00 deg" in shown.out
+    displayed = told(capsys, "move", path, "--joints", "-10,5,0,0,30,0", "--to", "sim")
+    assert "at joint_1 -10.00 deg, joint_2 5.00 deg" in displayed.out
     wanted = [math.radians(angle) for angle in (-10, 5, 0, 0, 30, 0)]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
-    columns = next(line for line in shown.err.splitlines() if "joint " in line).split()
+    columns = next(line for line in displayed.err.splitlines() if "joint " in line).split()
     assert columns == ["joint", "now", "least", "most", "end", "lower", "upper"]
-    assert max(map(len, shown.err.splitlines())) < 100
+    assert max(map(len, displayed.err.splitlines())) < 100
 
 
 def test_some_by_name_and_in_radians(cell, capsys):
@@ -99,13 +99,13 @@ def test_a_pose_as_it_was_told_is_where_the_robot_goes(cell, capsys):
     assert positions(sim) == pytest.approx(before, abs=1e-4)
     x, y, z = (float(value) for value in line.split()[1].split(",")[:3])
     told(capsys, "move", path, "--pose", f"{x},{y},{z - 50}", "--to", "sim")
-    found = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
-    assert found["position"] == pytest.approx([x / 1000, y / 1000, (z - 50) / 1000], abs=1e-4)
+    result = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
+    assert result["position"] == pytest.approx([x / 1000, y / 1000, (z - 50) / 1000], abs=1e-4)
 
 
 def test_a_pose_of_joints_asks_no_robot(capsys):
-    shown = told(capsys, "pose", "irb120", "--joints", HOME)
-    assert shown.out.splitlines() == [
+    displayed = told(capsys, "pose", "irb120", "--joints", HOME)
+    assert displayed.out.splitlines() == [
         "pose    364.35,0.00,594.00,0.50000,0.00000,0.86603,0.00000  (mm, quaternion)",
         "joints  0.00,0.00,0.00,0.00,30.00,0.00  (deg, mm)",
     ]
@@ -114,11 +114,11 @@ def test_a_pose_of_joints_asks_no_robot(capsys):
 def test_a_dry_run_draws_and_sends_nothing(cell, capsys, tmp_path):
     path, sim = cell
     before = positions(sim)
-    words = ["move", path, "--joints", "20,20,20,20,20,20", "--to", "sim", "--dry-run"]
-    shown = told(capsys, *words, "--plot", str(tmp_path / "p.png"))
-    assert shown.out == "dry run: 2 points would be executed; nothing was sent\n"
-    assert [found.name for found in tmp_path.iterdir()] == ["p.png"]
-    assert json.loads(told(capsys, *words, "--json").out)["dry_run"] is True
+    text = ["move", path, "--joints", "20,20,20,20,20,20", "--to", "sim", "--dry-run"]
+    displayed = told(capsys, *text, "--plot", str(tmp_path / "p.png"))
+    assert displayed.out == "dry run: 2 points would be executed; nothing was sent\n"
+    assert [result.name for result in tmp_path.iterdir()] == ["p.png"]
+    assert json.loads(told(capsys, *text, "--json").out)["dry_run"] is True
     assert positions(sim) == before
 
 
@@ -162,21 +162,21 @@ def test_jog_of_the_tool(cell, capsys):
 def test_signals_of_a_driver_are_read_and_set(cell, capsys):
     path, _ = cell
     assert told(capsys, "io", path, "gripper", "1", "--to", "sim").out == "gripper  DO  1\n"
-    found = json.loads(told(capsys, "io", path, "--to", "sim", "--json").out)
-    assert [(s["name"], s["value"]) for s in found] == [
+    result = json.loads(told(capsys, "io", path, "--to", "sim", "--json").out)
+    assert [(s["name"], s["value"]) for s in result] == [
         ("gripper", 1.0),
         ("part", 0.0),
         ("count", 0.0),
     ]
-    shown = told(capsys, "io", path, "count", "1234567", "--to", "sim")
-    assert shown.out == "count  GO  1234567\n"
-    shown = told(capsys, "io", "irb120", "--to", "127.0.0.1:1,1,1")
-    assert shown.out == ""
-    assert "irb120 has no signals" in shown.err
+    displayed = told(capsys, "io", path, "count", "1234567", "--to", "sim")
+    assert displayed.out == "count  GO  1234567\n"
+    displayed = told(capsys, "io", "irb120", "--to", "127.0.0.1:1,1,1")
+    assert displayed.out == ""
+    assert "irb120 has no signals" in displayed.err
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "said"),
+    ("text", "code", "said"),
     [
         (["move"], 2, "where to?"),
         (["move", "--joints", HOME, "--pose", "1,2,3"], 2, "--joints and --pose were given"),
@@ -210,18 +210,18 @@ def test_signals_of_a_driver_are_read_and_set(cell, capsys):
         (["pose", "--joints", "1"], 2, "1 values for 6 joints"),
     ],
 )
-def test_typed_wrong(cell, capsys, words, code, said):
+def test_typed_wrong(cell, capsys, text, code, message):
     path, sim = cell
     before = positions(sim)
-    verb, *rest = words
-    shown = told(capsys, verb, path, *rest, "--to", "sim", code=code)
-    assert said in " ".join(shown.err.split())
-    assert "Traceback" not in shown.err
+    verb, *remaining = text
+    displayed = told(capsys, verb, path, *remaining, "--to", "sim", code=code)
+    assert message in " ".join(displayed.err.split())
+    assert "Traceback" not in displayed.err
     assert positions(sim) == before
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("text", "said"),
     [
         (["move", "--joints", "1,2,x"], "'x' is no number"),
         (["move", "--joints", "joint_1=1,2"], "'2' is not NAME=VALUE"),
@@ -232,10 +232,10 @@ def test_typed_wrong(cell, capsys, words, code, said):
         (["jog", "joint_1=five"], "'five' is no number"),
     ],
 )
-def test_what_is_typed_wrong_is_told_before_a_robot_is_asked(capsys, words, said):
-    verb, *rest = words
-    shown = told(capsys, verb, "irb120", *rest, "--to", "127.0.0.1:1,1,1", code=2)
-    assert said in " ".join(shown.err.split())
+def test_what_is_typed_wrong_is_told_before_a_robot_is_asked(capsys, text, message):
+    verb, *remaining = text
+    displayed = told(capsys, verb, "irb120", *remaining, "--to", "127.0.0.1:1,1,1", code=2)
+    assert message in " ".join(displayed.err.split())
 
 
 @pytest.mark.parametrize(
@@ -256,11 +256,11 @@ def test_interrupted_move_stops_and_prints_position(cell, capsys, ignored, numbe
     while positions(sim)[0] < 0.01:
         assert process.poll() is None, process.communicate()
     process.send_signal(number)
-    _, shown = process.communicate(timeout=60)
+    _, displayed = process.communicate(timeout=60)
     assert process.returncode == 130
     degrees = math.degrees(positions(sim)[0])
-    told = re.search(r"Ctrl-C: the robot stands at joint_1 (\S+) deg", shown)
-    assert told, shown
+    told = re.search(r"Ctrl-C: the robot stands at joint_1 (\S+) deg", displayed)
+    assert told, displayed
     # Two decimals, and a state is a message old.
     assert float(told[1]) == pytest.approx(degrees, abs=0.05)
     assert degrees < 90

@@ -78,7 +78,7 @@ def test_what_cannot_be_written_is_refused_before_anything_runs(capsys, program,
         ("WaitTestAndSet busy", "WaitTestAndSet waits for its flag"),
     ],
 )
-def test_what_a_task_waits_for_is_told(capsys, tmp_path, statement, told):
+def test_what_a_task_waits_for_is_told(capsys, tmp_path, statement, text):
     (tmp_path / "cell.yaml").write_text("signals: {di1: {kind: DI}, gi1: {kind: GI}}")
     path = tmp_path / "waits.mod"
     path.write_text(
@@ -90,7 +90,7 @@ def test_what_a_task_waits_for_is_told(capsys, tmp_path, statement, told):
     words = ["run", str(path), "--cell", str(tmp_path / "cell.yaml"), "--max-time", "5"]
     assert main(words) == 1
     err = capsys.readouterr().err
-    assert told in err
+    assert text in err
     assert "waits.mod:10 (main)" in err
 
 

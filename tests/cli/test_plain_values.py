@@ -31,7 +31,7 @@ SAID = [
 
 def made(words, cls=None):
     """What a verb gets from the words, or how it is refused."""
-    found = []
+    result = []
     app = typer.Typer()
 
     @app.command(cls=cls)
@@ -41,24 +41,24 @@ def made(words, cls=None):
         time: Annotated[float, typer.Option(min=0)] = 2.0,
         cycle: Annotated[Literal["once", "forever"], typer.Option()] = "once",
         file: Annotated[Path | None, typer.Option()] = None,
-        there: Annotated[Path | None, typer.Option(exists=True)] = None,
+        target: Annotated[Path | None, typer.Option(exists=True)] = None,
         more: Annotated[list[str] | None, typer.Option()] = None,
         name: str = "",
         switch: Annotated[bool, typer.Option("--on/--off")] = True,
         named: Annotated[str, typer.Option(callback=lambda text: text + "!")] = "n",
     ):
-        found.append((files, count, time, cycle, file, there, more, name, switch, named))
+        result.append((files, count, time, cycle, file, target, more, name, switch, named))
 
     try:
         typer.main.get_command(app).main(args=words, standalone_mode=False)
     except TyperException as fault:
         return fault.format_message()
-    return [(one, type(one)) for one in found[0]]
+    return [(one, type(one)) for one in result[0]]
 
 
-@pytest.mark.parametrize("words", SAID, ids=" ".join)
-def test_words_become_what_typer_makes_of_them(words):
-    assert made(words, PlainCommand) == made(words)
+@pytest.mark.parametrize("text", SAID, ids=" ".join)
+def test_words_become_what_typer_makes_of_them(text):
+    assert made(text, PlainCommand) == made(text)
 
 
 def test_a_plain_word_is_taken_and_another_is_left_to_typer():

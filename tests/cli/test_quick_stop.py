@@ -29,8 +29,8 @@ def test_it_is_the_codecs_stop():
 )
 def test_ports_are_those_of_the_configuration(target):
     path = target if "/" in target else f"{ROBOTS}/{target}.yaml"
-    whole = {group.name: group.ports.motion for group in load_config(target).groups}
-    assert motion_ports(path) == whole
+    complete = {group.name: group.ports.motion for group in load_config(target).groups}
+    assert motion_ports(path) == complete
 
 
 @pytest.mark.parametrize(
@@ -47,8 +47,8 @@ def test_ports_are_those_of_the_configuration(target):
 def test_files_of_a_users_own(tmp_path, text):
     path = tmp_path / "cell.yaml"
     path.write_text(text)
-    whole = {group.name: group.ports.motion for group in load_config(path).groups}
-    assert motion_ports(str(path)) == whole
+    complete = {group.name: group.ports.motion for group in load_config(path).groups}
+    assert motion_ports(str(path)) == complete
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_what_takes_a_closer_look_is_left_to_the_whole_way(tmp_path, text):
 
 
 @pytest.mark.parametrize(
-    ("words", "places"),
+    ("text", "places"),
     [
         (["10.0.0.1"], [("10.0.0.1", 11000)]),
         (["robot.lab:12000,12002,12001"], [("robot.lab", 12000)]),
@@ -95,9 +95,9 @@ def test_what_takes_a_closer_look_is_left_to_the_whole_way(tmp_path, text):
         ([], []),
     ],
 )
-def test_where_it_goes(words, places):
-    assert addresses(words) == places
-    assert control_addresses(words) == [
+def test_where_it_goes(text, places):
+    assert addresses(text) == places
+    assert control_addresses(text) == [
         (host, 12001 if port == 12000 else port + 1) for host, port in places
     ]
 

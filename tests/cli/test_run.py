@@ -64,8 +64,8 @@ def program(tmp_path: Path) -> Path:
     return path
 
 
-def run(capsys, *words: object) -> tuple[int, list[str], str]:
-    code = main(["run", *map(str, words)])
+def run(capsys, *text: object) -> tuple[int, list[str], str]:
+    code = main(["run", *map(str, text)])
     captured = capsys.readouterr()
     return code, captured.out.splitlines(), captured.err
 
@@ -163,10 +163,10 @@ def test_trace_profile_coverage(capsys, program: Path, tmp_path: Path) -> None:
 
     lcov = tmp_path / "c.lcov"
     assert run(capsys, program, "--coverage", lcov)[0] == 0
-    found = lcov.read_text().splitlines()
-    assert f"SF:{program}" in found
-    assert {"DA:6,3", "DA:8,0", "DA:12,1", "DA:16,0", "FNDA:1,main", "FNDA:0,divide"} <= set(found)
-    branches = [line.split(",")[2:] for line in found if line.startswith("BRDA:7,")]
+    result = lcov.read_text().splitlines()
+    assert f"SF:{program}" in result
+    assert {"DA:6,3", "DA:8,0", "DA:12,1", "DA:16,0", "FNDA:1,main", "FNDA:0,divide"} <= set(result)
+    branches = [line.split(",")[2:] for line in result if line.startswith("BRDA:7,")]
     assert branches == [["0", "0"], ["1", "3"]]
 
 

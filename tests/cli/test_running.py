@@ -25,8 +25,8 @@ def own(tmp_path, monkeypatch):
 
 
 def test_a_simulator_is_found_while_it_runs():
-    with published(ARM) as told:
-        assert told
+    with published(ARM) as text:
+        assert text
         assert running() == ([ARM], [])
         assert str(find_simulator("irb120")) == "127.0.0.1:11000,11002"
         assert str(find_simulator()) == "127.0.0.1:11000,11002"
@@ -49,28 +49,28 @@ def test_groups_are_told_apart():
 
 
 @pytest.mark.parametrize(
-    ("there", "name", "message", "note"),
+    ("target", "name", "message", "note"),
     [
         ([], "irb120", "no simulator of yours runs", ""),
         ([YUMI], "irb120", "no simulator of 'irb120' runs, but others do", "irb14000 (process 8)"),
         ([ARM, Simulator("irb120", 9, {})], "irb120", "2 simulators run", "(process 9)"),
     ],
 )
-def test_what_is_not_clear_is_refused(there, name, message, note):
+def test_what_is_not_clear_is_refused(target, name, message, note):
     with ExitStack() as stack:
-        for one in there:
+        for one in target:
             stack.enter_context(published(one))
-        (found,) = refusal(find_simulator, name).diagnostics
-    assert found.code == "RG642"
-    assert message in found.message
-    assert note in " ".join(found.notes)
+        (result,) = refusal(find_simulator, name).diagnostics
+    assert result.code == "RG642"
+    assert message in result.message
+    assert note in " ".join(result.notes)
 
 
 def test_others_are_not_counted_where_it_is_not_clear_which():
     with published(ARM), published(YUMI), published(Simulator("irb120", 9, {})):
-        (found,) = refusal(find_simulator, "irb120").diagnostics
-    assert found.message == "2 simulators run"
-    assert [note.partition(" ")[0] for note in found.notes] == ["irb120", "irb120"]
+        (result,) = refusal(find_simulator, "irb120").diagnostics
+    assert result.message == "2 simulators run"
+    assert [note.partition(" ")[0] for note in result.notes] == ["irb120", "irb120"]
 
 
 def test_one_that_ended_without_a_word_is_told_of_and_forgotten(caplog):
@@ -91,8 +91,8 @@ def test_one_that_ended_without_a_word_is_told_of_and_forgotten(caplog):
 def test_a_folder_that_others_may_write_is_not_believed(own):
     own.mkdir()
     own.chmod(0o777)
-    with published(ARM) as told:
-        assert not told
+    with published(ARM) as text:
+        assert not text
         assert running() == ([], [])
 
 
@@ -107,8 +107,8 @@ def test_damaged_files_are_passed_over(own):
 def test_it_is_told_of_where_nobody_answers_on_this_machine(capsys):
     with published(ARM):
         assert main(["monitor", "irb120", "--to", "127.0.0.1:1,1"]) == 1
-    told = "note: a simulator of irb120 runs at 127.0.0.1:11000,11002,11001: `--to sim`"
-    assert told in capsys.readouterr().err
+    text = "note: a simulator of irb120 runs at 127.0.0.1:11000,11002,11001: `--to sim`"
+    assert text in capsys.readouterr().err
     assert main(["monitor", "irb120", "--to", "127.0.0.1:1,1"]) == 1
     assert "a simulator of" not in capsys.readouterr().err
 

@@ -80,9 +80,9 @@ def test_view_ends_by_a_signal_that_another_thread_gets(viewed):
 def cabinet(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
-    found = load_target([path])
-    with ControllerRunner.boot(found, clock="real") as cabinet:
-        cabinet.serve = lambda: sim._serve(cabinet, found, "127.0.0.1", 1.0, {})
+    result = load_target([path])
+    with ControllerRunner.boot(result, clock="real") as cabinet:
+        cabinet.serve = lambda: sim._serve(cabinet, result, "127.0.0.1", 1.0, {})
         yield cabinet
 
 

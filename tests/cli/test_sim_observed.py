@@ -18,9 +18,9 @@ def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(TEXT)
     wanted = Outputs(coverage=(tmp_path / "c.lcov",), plots=(tmp_path / "p.png",))
-    found = load_target([path])
+    result = load_target([path])
     with (
-        ControllerRunner.boot(found, tracing=wanted.tracing) as cabinet,
+        ControllerRunner.boot(result, tracing=wanted.tracing) as cabinet,
         observing(cabinet, wanted),
     ):
         cabinet.run(lambda: cabinet.controller.now > 2)

@@ -270,10 +270,10 @@ def test_each_port_is_looked_at(role, capsys):
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
-        taken = ports[role] = other.getsockname()[1]
-        told = [word for name, port in ports.items() for word in ("--set", f"ports.{name}={port}")]
-        assert main(["sim", "irb120", *told]) == 1
-    assert f"error[RG431]: port {taken} of 127.0.0.1 cannot be had" in capsys.readouterr().err
+        in_use = ports[role] = other.getsockname()[1]
+        text = [word for name, port in ports.items() for word in ("--set", f"ports.{name}={port}")]
+        assert main(["sim", "irb120", *text]) == 1
+    assert f"error[RG431]: port {in_use} of 127.0.0.1 cannot be had" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -27,12 +27,12 @@ def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(star
     known = tmp_path / "known_hosts"
     known.write_text(sftp["host_key"] + "\n")
     url = f"sftp://Default%20User@127.0.0.1:{sftp['port']}"
-    there = ["irb120", "--to", url, "--known-hosts", str(known)]
+    target = ["irb120", "--to", url, "--known-hosts", str(known)]
     secret = {"RAPIDGEN_PASSWORD": sftp["password"]}
-    done = rapidgen("deploy", *there, "--yes", **secret)
+    done = rapidgen("deploy", *target, "--yes", **secret)
     assert done.returncode == 0, done.stderr
     assert sftp["password"] not in done.stdout + done.stderr
-    assert rapidgen("plan", *there, "--detailed-exitcode", **secret).returncode == 0
+    assert rapidgen("plan", *target, "--detailed-exitcode", **secret).returncode == 0
     # The other face shows the same files, and they are what `build` writes.
     built = tmp_path / "built"
     assert rapidgen("build", "irb120", "--out", str(built)).returncode == 0
@@ -42,10 +42,10 @@ def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(star
         client.connect("127.0.0.1", ftp["port"])
         client.login(ftp["user"], ftp["password"])
         for module in modules:
-            found = io.BytesIO()
+            result = io.BytesIO()
             path = module.relative_to(built / "HOME").as_posix()
-            client.retrbinary(f"RETR {path}", found.write)
-            assert found.getvalue() == module.read_bytes(), path
+            client.retrbinary(f"RETR {path}", result.write)
+            assert result.getvalue() == module.read_bytes(), path
     code, out, err = sim.end()
     assert (code, out) == (0, "")
     assert "Traceback" not in err
@@ -56,12 +56,12 @@ def test_a_file_port_that_is_taken_and_a_host_of_the_network_are_refused():
         other.bind(("127.0.0.1", 0))
         other.listen()
         port = other.getsockname()[1]
-        taken = rapidgen("sim", "irb120", "--ports", "auto", "--sftp", str(port))
-    assert (taken.returncode, taken.stdout) == (1, "")
-    assert "RG561" in taken.stderr
+        in_use = rapidgen("sim", "irb120", "--ports", "auto", "--sftp", str(port))
+    assert (in_use.returncode, in_use.stdout) == (1, "")
+    assert "RG561" in in_use.stderr
     outside = rapidgen("sim", "irb120", "--ports", "auto", "--host", "0.0.0.0", "--ftp", "0")
     assert (outside.returncode, outside.stdout) == (2, "")
     assert "RG560" in outside.stderr
-    for process in (taken, outside):
+    for process in (in_use, outside):
         assert "Traceback" not in process.stderr
     assert rapidgen("sim", "irb120", "--ftp", "65536").returncode == 2

@@ -78,11 +78,11 @@ def test_an_interruption_while_it_starts_ends_it_without_a_traceback():
         (["explain", "RG9999"], "RG902"),
     ],
 )
-def test_a_command_typed_wrong_is_told_what_to_do(words, told, capsys):
+def test_a_command_typed_wrong_is_told_what_to_do(words, text, capsys):
     assert main(words) == 2
-    shown = capsys.readouterr()
-    assert told.casefold() in (shown.err + shown.out).casefold()
-    assert "Traceback" not in shown.err
+    displayed = capsys.readouterr()
+    assert text.casefold() in (displayed.err + displayed.out).casefold()
+    assert "Traceback" not in displayed.err
 
 
 def test_version_and_explain_go_to_stdout(capsys):
@@ -94,13 +94,13 @@ def test_version_and_explain_go_to_stdout(capsys):
 
 def test_nothing_typed_is_asking_for_help(capsys):
     assert main([]) == 0
-    shown = capsys.readouterr()
-    assert "Commands:" in shown.out
-    assert shown.err == ""
+    displayed = capsys.readouterr()
+    assert "Commands:" in displayed.out
+    assert displayed.err == ""
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "exit_code"),
+    ("text", "code", "exit_code"),
     [
         (["move", "irb120", "--json"], "RG901", 2),
         (["status", "--json", "host:0"], "RG657", 2),
@@ -108,11 +108,11 @@ def test_nothing_typed_is_asking_for_help(capsys):
         (["test", "", "--json"], "RG901", 2),
     ],
 )
-def test_an_error_is_json_where_json_was_asked_for(words, code, exit_code, capsys):
-    assert main(words) == exit_code
-    shown = capsys.readouterr()
-    assert [found["code"] for found in json.loads(shown.out)["errors"]] == [code]
-    assert shown.err == ""
+def test_an_error_is_json_where_json_was_asked_for(text, code, exit_code, capsys):
+    assert main(text) == exit_code
+    displayed = capsys.readouterr()
+    assert [result["code"] for result in json.loads(displayed.out)["errors"]] == [code]
+    assert displayed.err == ""
 
 
 def test_what_is_given_up_is_told_in_json(monkeypatch, capsys):
@@ -121,9 +121,9 @@ def test_what_is_given_up_is_told_in_json(monkeypatch, capsys):
 
     monkeypatch.setattr("rapidgen.client.connect_target.resolve", given_up)
     assert main(["pose", "irb120", "--joints", "0,0,0,0,0,0", "--json"]) == 130
-    shown = capsys.readouterr()
-    assert [found["code"] for found in json.loads(shown.out)["errors"]] == ["RG906"]
-    assert shown.err == ""
+    displayed = capsys.readouterr()
+    assert [result["code"] for result in json.loads(displayed.out)["errors"]] == ["RG906"]
+    assert displayed.err == ""
     assert main(["pose", "irb120", "--joints", "0,0,0,0,0,0"]) == 130
     assert capsys.readouterr().err == "\nstopped\n"
 
@@ -142,14 +142,14 @@ def test_each_room_that_does_something_has_a_logger(room):
 
 def test_what_is_done_is_said(tmp_path, capsys):
     assert main(["-v", "build", "irb120", "-o", str(tmp_path / "out")]) == 0
-    said = capsys.readouterr().err
-    assert "rapidgen.config: irb120: " in said
-    assert "rapidgen.generate: " in said
+    message = capsys.readouterr().err
+    assert "rapidgen.config: irb120: " in message
+    assert "rapidgen.generate: " in message
     (tmp_path / "disk").mkdir()
     assert main(["-v", "deploy", "irb120", "--to", f"dir://{tmp_path}/disk", "--yes"]) == 0
-    said = capsys.readouterr().err
-    assert f"rapidgen.deploy: dir://{tmp_path}/disk: logged in" in said
-    assert re.search(r"rapidgen.deploy: .*wrote .*ROS_motion", said)
+    message = capsys.readouterr().err
+    assert f"rapidgen.deploy: dir://{tmp_path}/disk: logged in" in message
+    assert re.search(r"rapidgen.deploy: .*wrote .*ROS_motion", message)
 
 
 @pytest.mark.parametrize(
@@ -167,8 +167,8 @@ def test_how_much_is_said(words, levels, capsys):
     log = logging.getLogger("rapidgen.client")
     for level in ("debug", "info", "warning", "error"):
         getattr(log, level)("this is %s", level)
-    told = [line.rpartition(" ")[2] for line in capsys.readouterr().err.splitlines()]
-    assert [word for word in told if word in ("debug", "info", "warning", "error")] == levels
+    text = [line.rpartition(" ")[2] for line in capsys.readouterr().err.splitlines()]
+    assert [word for word in text if word in ("debug", "info", "warning", "error")] == levels
 
 
 def test_the_package_is_the_command_too():
@@ -184,5 +184,5 @@ def test_a_command_that_is_told_can_be_typed(tmp_path, monkeypatch, capsys):
     following = shlex.split(capsys.readouterr().err.split("next: rapidgen ")[1])
     assert following == ["build", "my cell.yaml"]
     assert main(["run", "my cell.yaml"]) == 2
-    told = capsys.readouterr().err.split("`rapidgen ")[1].split("`")[0]
-    assert shlex.split(told) == ["sim", "my cell.yaml"]
+    text = capsys.readouterr().err.split("`rapidgen ")[1].split("`")[0]
+    assert shlex.split(text) == ["sim", "my cell.yaml"]

@@ -47,8 +47,8 @@ def said(capsys):
 
 def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert main(["status", host, "--json"]) == 0
-    told = json.loads(said(capsys))
-    assert (told["state"], told["mode"], told["running"]) == ("motoron", "AUTO", False)
+    text = json.loads(said(capsys))
+    assert (text["state"], text["mode"], text["running"]) == ("motoron", "AUTO", False)
     assert main(["start", host]) == 2  # nobody is there to answer
     assert main(["start", host, "--yes", "--main"]) == 0
     assert f"{host}: the program runs" in said(capsys)
@@ -74,14 +74,14 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
     assert main(["symbols", host]) == 0
     assert "T_ROB1/MainModule/list  per  num{3}" in said(capsys)
     assert main(["symbols", host, "--json"]) == 0
-    told = {one["path"]: one for one in json.loads(said(capsys))}
-    assert told["T_ROB1/MainModule/list"]["dims"] == [3]
+    text = {one["path"]: one for one in json.loads(said(capsys))}
+    assert text["T_ROB1/MainModule/list"]["dims"] == [3]
     assert main(["symbols", host, "T_ROB1/MainModule/list", "--json"]) == 0
     assert json.loads(said(capsys))["value"] == "[4,5,6]"
 
 
 @pytest.mark.parametrize(
-    ("words", "code", "hint"),
+    ("text", "code", "hint"),
     [
         (["symbols", "T_ROB1/nothing"], 2, "T_ROB1 --kind any"),
         (["symbols", "T_ROB1/MainModule/nothing"], 1, "rapidgen symbols"),
@@ -95,10 +95,10 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
         (["start"], 2, "THE ROBOT MAY MOVE"),
     ],
 )
-def test_what_is_not_there_is_told_with_what_there_is(host, capsys, words, code, hint):
-    assert main([words[0], host, *words[1:]]) == code
+def test_what_is_not_there_is_told_with_what_there_is(host, capsys, text, code, hint):
+    assert main([text[0], host, *text[1:]]) == code
     output = capsys.readouterr()
-    assert output.out.count("\n") == 0 or words == ["start"]
+    assert output.out.count("\n") == 0 or text == ["start"]
     assert hint in output.err
 
 
@@ -128,16 +128,16 @@ class Followed:
     ],
     ids=["all", "only-newer", "cleared", "numbers-anew"],
 )
-def test_a_followed_log_goes_on_behind_a_lost_connection(back, shown, monkeypatch, capsys):
+def test_a_followed_log_goes_on_behind_a_lost_connection(back, displayed, monkeypatch, capsys):
     def entries(texts):
         return [LogEvent(0, int(t[0]), "info", 10125, t[2], t[2], "", ()) for t in texts]
 
-    found = Followed(entries(["1 a", "2 b"]), entries(back))
-    monkeypatch.setattr("rapidgen.cli.rws_session.controller", lambda *_: nullcontext(found))
+    result = Followed(entries(["1 a", "2 b"]), entries(back))
+    monkeypatch.setattr("rapidgen.cli.rws_session.controller", lambda *_: nullcontext(result))
     monkeypatch.setattr("time.sleep", lambda seconds: None)
     assert main(["log", "rws://nowhere", "--follow", "--json"]) == 130
-    *told, _ = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert [f"{event['number']} {event['title']}" for event in told] == shown
+    *text, _ = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert [f"{event['number']} {event['title']}" for event in text] == displayed
 
 
 @pytest.mark.parametrize(("answer", "code"), [("Grant", 0), ("Deny", 1)])
@@ -181,9 +181,9 @@ def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):
 def test_wrong_words_are_explained(words, code, exit_code, capsys, monkeypatch):
     monkeypatch.delenv("RAPIDGEN_PASSWORD", raising=False)
     assert main(words) == exit_code
-    told = capsys.readouterr().err
-    assert code in told
-    assert ":p@" not in told
+    text = capsys.readouterr().err
+    assert code in text
+    assert ":p@" not in text
 
 
 class Tasks:
@@ -220,15 +220,15 @@ class Tasks:
     ],
 )
 def test_status_names_the_fix_of_a_background_task_that_has_ended(name, execution, words, capsys):
-    told = state(
+    text = state(
         Tasks(
             TaskState("T_ROB1", "normal", "linked", "stopped", True, True),
             TaskState(name, "semistatic", "linked", execution, False, False),
         )
     )
-    show(told)
+    show(text)
     fixes = [line for line in capsys.readouterr().out.splitlines() if line.startswith("! ")]
-    assert [f"! {fix}" for fix in told["fixes"]] == fixes
+    assert [f"! {fix}" for fix in text["fixes"]] == fixes
     assert len(fixes) == bool(words)
     assert all(word in fixes[0] for word in words)
     assert all(("driver" in fix) == ("ROS" in name) for fix in fixes)

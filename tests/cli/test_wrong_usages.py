@@ -49,14 +49,14 @@ def test_all_rows_are_read():
 
 
 @pytest.mark.parametrize(("words", "exit_code", "code", "told", "mend"), ROWS)
-def test_typed_wrong(place, capsys, words, exit_code, code, told, mend):
+def test_typed_wrong(place, capsys, words, exit_code, code, told, help):
     folder = str(place / "folder")
     before = sorted(place.rglob("*"))
     assert main(shlex.split(words.replace("{folder}", folder))) == int(exit_code)
-    shown = capsys.readouterr()
-    text = shown.err + shown.out
-    found = text[text.index(f"error[{code}]: ") :]
-    assert told.replace("{folder}", folder) in found
-    assert mend in found.partition("= help: ")[2]
+    displayed = capsys.readouterr()
+    text = displayed.err + displayed.out
+    result = text[text.index(f"error[{code}]: ") :]
+    assert told.replace("{folder}", folder) in result
+    assert help in result.partition("= help: ")[2]
     assert "Traceback" not in text
     assert sorted(place.rglob("*")) == before

@@ -86,18 +86,20 @@ def hello_reply(script, control_port, *, foreign=False):
     data += struct.pack("<4i", features, script.capacity, script.joints, 0)
     data += struct.pack("<4f", script.state_period, 0.1, 0.00873, 0.005)
     data += struct.pack("<30f", *[-v for v in limits], *limits, *[4.0] * 10)
-    told = (stream.ring, stream.preload, stream.batch, len(stream.signals)) if stream else (0,) * 4
-    data += struct.pack("<iifii", control_port if script.control else 0, *told)
+    report = (
+        (stream.ring, stream.preload, stream.batch, len(stream.signals)) if stream else (0,) * 4
+    )
+    data += struct.pack("<iifii", control_port if script.control else 0, *report)
     return frame(1300, 3, 1, data)
 
 
 def pieces(buffer):
     """The whole frames at the beginning of a buffer, and what is left of it."""
-    found = []
+    result = []
     while len(buffer) >= 4 and len(buffer) >= 4 + (n := struct.unpack("<i", buffer[:4])[0]):
-        found.append(buffer[: 4 + n])
+        result.append(buffer[: 4 + n])
         buffer = buffer[4 + n :]
-    return found, buffer
+    return result, buffer
 
 
 class FakeController:
@@ -200,8 +202,8 @@ class FakeController:
             buffer += data
             if self.script.read_pause:
                 self._ended.wait(self.script.read_pause)
-            found, buffer = pieces(buffer)
-            for piece in found:
+            result, buffer = pieces(buffer)
+            for piece in result:
                 self._take(client, piece)
 
     def _take(self, client, piece):
@@ -284,8 +286,8 @@ class FakeController:
             self.position = points[-1]
             return
         before, after = points[passed - 1], points[passed]
-        share = (elapsed - times[passed - 1]) / (times[passed] - times[passed - 1])
-        self.position = [a + share * (b - a) for a, b in zip(before, after, strict=True)]
+        fraction = (elapsed - times[passed - 1]) / (times[passed] - times[passed - 1])
+        self.position = [a + fraction * (b - a) for a, b in zip(before, after, strict=True)]
 
     # The control port
 
@@ -295,8 +297,8 @@ class FakeController:
         buffer = b""
         while data := client.recv(4096):
             buffer += data
-            found, buffer = pieces(buffer)
-            for piece in found:
+            result, buffer = pieces(buffer)
+            for piece in result:
                 number = HEAD.unpack_from(piece)[1]
                 if number == 1300:
                     client.sendall(self._hello(self.script.foreign_control))
@@ -329,19 +331,19 @@ class FakeController:
             client.sendall(script.raw_state)
             return
         subscribed = False
-        told = 0
+        report = 0
         client.setblocking(False)
-        heard = b""
+        received = b""
         pending = []
         while not self._ended.is_set():
             with contextlib.suppress(BlockingIOError):
                 data = client.recv(4096)
                 if not data:
                     return
-                heard += data
+                received += data
             out = b""
-            if len(heard) >= 36:
-                heard = heard[36:]
+            if len(received) >= 36:
+                received = received[36:]
                 self.hellos += 1
                 if script.rapidgen:
                     out += self._hello()
@@ -363,10 +365,10 @@ class FakeController:
                     out += progress + self.extra + self.repeated
                     self.extra = b""
                 if subscribed and script.feedback:
-                    told += 1
+                    report += 1
                     pad = [0.0] * (10 - script.joints)
                     values = [*self.position, *pad, *[0.0] * 20]
-                    out += frame(15, 1, 0, struct.pack("<2if30f", 0, 7, told * 0.02, *values))
+                    out += frame(15, 1, 0, struct.pack("<2if30f", 0, 7, report * 0.02, *values))
                 moving_for = time.monotonic() - self._started if self._moving else 0.0
             if moving_for < script.silent_after:
                 pending.append(out)

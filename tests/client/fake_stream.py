@@ -160,8 +160,8 @@ class StreamModel:
             left, duration, start, goal = self.segment
             step = min(left, passed)
             left, passed = left - step, passed - step
-            share = 1 - left / duration
-            self.position = [a + share * (b - a) for a, b in zip(start, goal, strict=True)]
+            fraction = 1 - left / duration
+            self.position = [a + fraction * (b - a) for a, b in zip(start, goal, strict=True)]
             self.segment = (left, duration, start, goal)
             if left <= 0:
                 self.reached += 1
@@ -202,8 +202,8 @@ class StreamModel:
     def progress(self):
         counts = [self.accepted % WRAP, self.planned % WRAP, self.reached % WRAP]
         state = PAUSED if self.paused else self.state
-        told = (*counts, *self._fault())
-        return frame(1301, 1, 0, struct.pack("<8i", self.trajectory, state, *told))
+        report = (*counts, *self._fault())
+        return frame(1301, 1, 0, struct.pack("<8i", self.trajectory, state, *report))
 
     # The control port
 
@@ -212,8 +212,10 @@ class StreamModel:
         if number == 11:
             self.halt(STOPPED, STOP_REASON)
             joints = self.position + [0.0] * (10 - self.joints)
-            told = struct.pack("<3i10f", self.trajectory, self.reached % WRAP, STOP_REASON, *joints)
-            return frame(11, 3, 1) + frame(1303, 1, 0, told)
+            report = struct.pack(
+                "<3i10f", self.trajectory, self.reached % WRAP, STOP_REASON, *joints
+            )
+            return frame(11, 3, 1) + frame(1303, 1, 0, report)
         if self.refuse_control:
             return frame(number, 3, 2, struct.pack("<i", self.refuse_control))
         if number == 1304:

@@ -64,9 +64,9 @@ class Altered:
 
     def feed(self, data):
         """What arrives instead, and whether the connection goes on."""
-        found, self._buffer = pieces(self._buffer + data)
+        result, self._buffer = pieces(self._buffer + data)
         out = b""
-        for message in found:
+        for message in result:
             self._number += 1
             changed = self._alter(self._port, self._number, message)
             if changed is CUT:

@@ -153,6 +153,6 @@ class SimulatedDriver:
             return
         model = self.model
         model.advance(self.loop.time())
-        told = joint_frame(model.position) + status_frame(in_motion=int(model.is_moving))
-        pipe.tell(told + (model.progress() if model.trajectory else b""))
+        report = joint_frame(model.position) + status_frame(in_motion=int(model.is_moving))
+        pipe.tell(report + (model.progress() if model.trajectory else b""))
         self.loop.call_later(self.period, self._tell_state, pipe)

@@ -86,7 +86,7 @@ class CoreMachine(RuleBasedStateMachine):
 
     def owner(self):
         """What both clients do whenever something has changed."""
-        for port in self.core.blind_stops():
+        for port in self.core.unmonitored_stops():
             assert self.core.ports[port].is_open
             self.stops += 1
         for port in (Port.CONTROL, Port.MOTION):
@@ -141,18 +141,18 @@ class CoreMachine(RuleBasedStateMachine):
     @rule(room=st.integers(0, 64), state=st.sampled_from([1, 2, 7, 8]))
     def acknowledged(self, room, state):
         stream, end = self.waiting.popleft()
-        told = messages.PointsAccepted(stream, 1, end, room, 0, 0, state)
+        report = messages.PointsAccepted(stream, 1, end, room, 0, 0, state)
         if stream == self.run.stream:
             self.room = max(self.room, end + room)
-        self.take(Port.MOTION, encode_reply(1302, told))
+        self.take(Port.MOTION, encode_reply(1302, report))
 
     @precondition(lambda self: self.waiting)
     @rule(reason=NUMBER, point=NUMBER, joint=NUMBER, accepted=NUMBER)
     def refused(self, reason, point, joint, accepted):
         stream, _ = self.waiting.popleft()
-        told = messages.PointsRefused(stream, 1, accepted, reason, point, joint)
+        report = messages.PointsRefused(stream, 1, accepted, reason, point, joint)
         self.cut |= self.core.ports[Port.MOTION].is_open and stream == self.run.stream
-        self.take(Port.MOTION, encode_reply(1302, told))
+        self.take(Port.MOTION, encode_reply(1302, report))
 
     @precondition(lambda self: self.run is not None)
     @rule(
@@ -161,10 +161,10 @@ class CoreMachine(RuleBasedStateMachine):
         fault=st.tuples(NUMBER, NUMBER, NUMBER),
     )
     def progress(self, counts, state, fault):
-        told = messages.ProgressReport(1, int(state), *counts, *fault)
+        report = messages.ProgressReport(1, int(state), *counts, *fault)
         # who tells that points were given to the planner makes room for others
         self.room = max(self.room, self.sent + RING)
-        self.take(Port.STATE, encode(told) * 2)
+        self.take(Port.STATE, encode(report) * 2)
 
     # One rule for all that may end a motion: most stories shall get far.
 
@@ -244,9 +244,9 @@ class CoreMachine(RuleBasedStateMachine):
         assert 0 <= progress.fraction <= 1
         if run.phase is Phase.OVER:
             assert (run.result is None) is not (run.error is None)
-            blind = ConnectionLost | RobotTimeout | ProtocolError
-            if isinstance(run.error, blind):
-                assert self.core.blind_stops() == []
+            unmonitored = ConnectionLost | RobotTimeout | ProtocolError
+            if isinstance(run.error, unmonitored):
+                assert self.core.unmonitored_stops() == []
         assert len(self.core.state_port.messages) <= 32
         assert len(self.core.state_port.events) <= 64
 

@@ -38,7 +38,7 @@ def test_an_answer_that_has_come_or_is_not_awaited_is_not_late():
     schedule, pending = sent()
     schedule.forget()
     assert not schedule.is_late(1000.0, 0.0)
-    assert not schedule.is_awaited
+    assert not schedule.is_armed
     assert not HeartbeatSchedule(2.0).is_late(1000.0, 0.0)
 
 
@@ -64,11 +64,11 @@ def test_it_begins_at_once_and_ends_with_the_motion():
     assert schedule.due(0.0, moves=True) == 2.0
     pending = PendingReply(messages.HEARTBEAT.number)
     schedule.sent(0.0, 2.0, pending)
-    assert schedule.is_awaited
+    assert schedule.is_armed
     pending.reply = messages.HeartbeatReply(1, 2)
     assert schedule.due(0.1, moves=False) == 0.0
     schedule.sent(0.1, 0.0, pending)
-    assert not schedule.is_awaited
+    assert not schedule.is_armed
     assert schedule.due(5.0, moves=False) is None
     assert schedule.due(0.1, moves=True) == 2.0
     assert HeartbeatSchedule(0.0).due(0.0, moves=True) is None

@@ -97,11 +97,11 @@ def test_ctrl_c_returns_when_the_robot_stands(fake, patient, monkeypatch):
 def test_a_block_that_ends_before_its_motion_is_told(fake, patient):
     controller = fake()
     with (
-        pytest.warns(RuntimeWarning, match=r"0 of 2 points.*result\(\)") as told,
+        pytest.warns(RuntimeWarning, match=r"0 of 2 points.*result\(\)") as report,
         Robot(controller.address, timeouts=patient()) as robot,
     ):
         robot.execute(LONG)
-    assert told[0].filename == __file__
+    assert report[0].filename == __file__
     assert controller.stops
     with pytest.warns(RuntimeWarning, match="left: the robot"):
         _cell(fake, patient)
@@ -110,9 +110,9 @@ def test_a_block_that_ends_before_its_motion_is_told(fake, patient):
         async with AsyncRobot(fake().address, timeouts=patient()) as robot:
             await robot.execute(LONG)
 
-    with pytest.warns(RuntimeWarning, match="0 of 2 points") as told:
+    with pytest.warns(RuntimeWarning, match="0 of 2 points") as report:
         asyncio.run(run())
-    assert told[0].filename == __file__
+    assert report[0].filename == __file__
 
 
 def _cell(fake, patient):

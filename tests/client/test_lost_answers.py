@@ -58,16 +58,16 @@ def test_the_robot_stands_when_execute_raises(fault, way):
     kind = {"download": 11, "stream": 1302}[way]
     with lossy(once("motion", fault, kind=kind)) as (robot, controller):
         with pytest.raises(LOST, match="the robot stands") as error:
-            robot.execute(wiggle(robot), way=way)
+            robot.execute(wiggle(robot), mode=way)
         assert "then go on" in error.value.diagnostics[0].help
         assert stands(robot, controller)
 
 
 def test_the_robot_stands_when_a_program_is_not_answered():
     with lossy(once("motion", cut, kind=1309)) as (robot, controller):
-        there = robot.state.joints[0] + 0.3, *robot.state.joints[1:]
+        target = robot.state.joints[0] + 0.3, *robot.state.joints[1:]
         with pytest.raises(LOST, match="the robot stands"):
-            robot.run(Program().move_joints(there))
+            robot.run(Program().move_joints(target))
         assert stands(robot, controller)
 
 
@@ -118,7 +118,7 @@ def test_without_progress_a_motion_ends_when_the_robot_stands_at_its_end():
         lost.clear()
         with lossy(alter) as (robot, controller):
             path = wiggle(robot)
-            moving = robot.execute(path, way=way)
+            moving = robot.execute(path, mode=way)
             lost.append(True)
             began = robot.time()
             result = moving.result()
@@ -139,11 +139,11 @@ def test_without_progress_a_long_stand_on_the_way_is_not_stopped():
         lost.clear()
         with lossy(alter) as (robot, controller):
             here = robot.state.joints
-            there, goal = ((here[0] + turn, *here[1:]) for turn in (0.2, 0.4))
+            target, goal = ((here[0] + turn, *here[1:]) for turn in (0.2, 0.4))
             if is_program:
-                moving = robot.run(Program().move_joints(there).wait(6).move_joints(goal))
+                moving = robot.run(Program().move_joints(target).wait(6).move_joints(goal))
             else:
-                moving = robot.execute(Trajectory([0, 2, 8, 10], [here, there, there, goal]))
+                moving = robot.execute(Trajectory([0, 2, 8, 10], [here, target, target, goal]))
             lost.append(True)
             assert moving.result().deviation < 1e-3
             assert robot.state.joints[0] == pytest.approx(goal[0], abs=1e-3)
@@ -152,22 +152,22 @@ def test_without_progress_a_long_stand_on_the_way_is_not_stopped():
 
 def test_progress_is_asked_for_again():
     """A state server that has forgotten who asked for PROGRESS sends it after another HELLO."""
-    told = {"lost": False, "hellos": 0}
+    report = {"lost": False, "hellos": 0}
 
     def alter(which, number, message):
         kind = int.from_bytes(message[4:8], "little")
         if which == "state" and kind == 1300:
-            told["hellos"] += 1
-            told["lost"] = False
-        return b"" if told["lost"] and which == "state" and kind == 1301 else message
+            report["hellos"] += 1
+            report["lost"] = False
+        return b"" if report["lost"] and which == "state" and kind == 1301 else message
 
     with lossy(alter) as (robot, _):
         here = robot.state.joints
         path = Trajectory([0, 4], [here, (here[0] + 0.3, *here[1:])])
         moving = robot.execute(path)
-        told["lost"] = True
+        report["lost"] = True
         result = moving.result()
-        assert (told["hellos"], told["lost"]) == (2, False)
+        assert (report["hellos"], report["lost"]) == (2, False)
         assert result.seconds == pytest.approx(4, abs=0.5)
 
 
@@ -199,7 +199,7 @@ def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
     try:
         with client(proxy.address) as robot:
             with pytest.raises(RobotError, match="the robot stands"):
-                robot.execute(LONG, way=way)
+                robot.execute(LONG, mode=way)
             with controller.lock:
                 assert controller.stops
                 assert not controller._moving

@@ -59,9 +59,9 @@ def test_what_no_robot_does_is_told_with_its_instruction():
     with driven() as (robot, _):
         program = square(robot).move_linear(((5.0, 0.0, 0.5), (1, 0, 0, 0)))
         program.move_to(((9.0, 0, 0), (1, 0, 0, 0))).move_joints([9.0] * 6)
-        with pytest.raises(InvalidProgram) as told:
+        with pytest.raises(InvalidProgram) as report:
             robot.run(program)
-        assert [d.message.partition(":")[0] for d in told.value.diagnostics] == [
+        assert [d.message.partition(":")[0] for d in report.value.diagnostics] == [
             "instruction 5",
             "instruction 6",
             "instruction 7",
@@ -86,7 +86,7 @@ def test_what_no_robot_does_is_told_with_its_instruction():
         ),
     ],
 )
-def test_a_line_out_of_reach_is_told_as_that(name, to, code, told):
+def test_a_line_out_of_reach_is_told_as_that(name, to, code, report):
     config = load_config(name)
     group = Group.of(config, config.groups[0])
     start = group.map.to_controller(BENT)
@@ -95,23 +95,23 @@ def test_a_line_out_of_reach_is_told_as_that(name, to, code, told):
         check_program(program, group, start=start, most=10)
     (fault,) = error.value.diagnostics
     assert fault.code == code
-    assert told in fault.message
+    assert report in fault.message
 
 
 def test_a_scara_sets_no_signals_on_the_way_of_a_joint_move():
     config = replace(load_config("irb910sc"), signals=(ExposedSignal("valve", "DO", "write"),))
     group, here = Group.of(config, config.groups[0]), (0.9, -0.3, 0.0, 0.3)
-    there = group.poses.pose(here)
+    target = group.poses.pose(here)
     on_the_way = [Trigger.before(0.01, "valve")]
     for program in (
         Program().move_joints(here, triggers=on_the_way),
-        Program().move_to(there, triggers=on_the_way),
+        Program().move_to(target, triggers=on_the_way),
     ):
         with pytest.raises(InvalidProgram) as error:
             check_program(program, group, start=here, most=10)
         assert [fault.code for fault in error.value.diagnostics] == ["RG670"]
         assert "on which side of it the arm is" in str(error.value)
-    check_program(Program().move_linear(there, triggers=on_the_way), group, start=here, most=10)
+    check_program(Program().move_linear(target, triggers=on_the_way), group, start=here, most=10)
 
 
 def test_single_moves_and_what_lies_where():
@@ -141,7 +141,7 @@ def test_a_circle_is_one():
 
 
 @pytest.mark.parametrize(("degrees", "told"), [(239.0, None), (239.8, "longer than 239.5 degrees")])
-def test_a_circle_is_not_too_long(degrees, told):
+def test_a_circle_is_not_too_long(degrees, report):
     """The driver, which has it in whole micrometres, refuses it from 240 degrees on."""
     config = load_config("irb120")
     group = Group.of(config, config.groups[0])
@@ -152,10 +152,10 @@ def test_a_circle_is_not_too_long(degrees, told):
         for angle in (turn / 2, turn)
     )
     program = Program().move_circular(via, end)
-    if told is None:
+    if report is None:
         check_program(program, group, start=start, most=10)
         return
-    with pytest.raises(InvalidProgram, match=told):
+    with pytest.raises(InvalidProgram, match=report):
         check_program(program, group, start=start, most=10)
 
 
@@ -172,7 +172,7 @@ def test_more_than_the_ring_holds_is_streamed():
         assert execution.progress.reached == 200
         assert not complaints(controller)
         with pytest.raises(InvalidProgram, match="ring holds"):
-            robot.run(program, way="download")
+            robot.run(program, mode="download")
 
 
 def test_a_stop_gives_a_prefix_with_its_index():
@@ -180,9 +180,9 @@ def test_a_stop_gives_a_prefix_with_its_index():
         execution = robot.run(square(robot))
         robot.wait_until(lambda _: execution.progress.reached >= 1, 20)
         robot.stop()
-        with pytest.raises(MotionStopped) as told:
+        with pytest.raises(MotionStopped) as report:
             execution.result()
-        assert 1 <= told.value.reached < 5
+        assert 1 <= report.value.reached < 5
         assert robot.run(square(robot)).result().deviation < 1e-4
 
 
@@ -236,8 +236,8 @@ def test_signals_are_set_on_the_way():
         assert [opened[1] - start[0][1], closed[1] - start[0][1]] == pytest.approx(
             [0.02, 0.07], abs=2e-3
         )
-        ((value, there),) = flow
-        assert (value, there[2] - start[0][2]) == pytest.approx((0.5, 0.07), abs=2e-3)
+        ((value, target),) = flow
+        assert (value, target[2] - start[0][2]) == pytest.approx((0.5, 0.07), abs=2e-3)
         assert [v for v, _ in level] == [7]
         assert not complaints(controller)
 
@@ -309,9 +309,9 @@ def test_a_signal_that_does_not_come_ends_a_program():
     with cell() as (robot, _):
         robot.move_to(BENT, speed=1.0)
         program = Program().wait_for("part", timeout=0.5).move_linear(moved(robot.pose, z=0.05))
-        with pytest.raises(MotionFailed) as told:
+        with pytest.raises(MotionFailed) as report:
             robot.run(program).result()
-        assert (told.value.reason, told.value.reached) == (Reason.WAITED, 0)
+        assert (report.value.reason, report.value.reached) == (Reason.WAITED, 0)
         assert np.allclose(np.hstack(robot.pose), np.hstack(robot.pose_of(BENT)), atol=1e-5)
 
 
@@ -333,16 +333,16 @@ def test_another_tool_in_another_object():
         robot.move_to(BENT, speed=1.0)
         (x, y, z), q = robot.pose
         tip = frames.transform(((x, y, z), q), (0.0, 0.0, 0.1))
-        there = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
+        target = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
         program = Program(speed=0.2, zone="z10").move_linear(moved(robot.pose, z=0.01))
-        program.use(tool="grip", work_object="table").move_linear(there)
+        program.use(tool="grip", work_object="table").move_linear(target)
         execution = robot.run(program)
         assert "another tool" in execution.warnings[0].message
         assert execution.result().deviation < 1e-4
         assert np.allclose(robot.pose[0], (x, y + 0.05, z), atol=1e-5)
         assert not complaints(controller)
         with pytest.raises(InvalidProgram, match="no tool"):
-            robot.run(Program().use(tool="gripp").move_linear(there))
+            robot.run(Program().use(tool="gripp").move_linear(target))
 
 
 def test_a_tool_and_an_object_by_values():
@@ -354,12 +354,12 @@ def test_a_tool_and_an_object_by_values():
         robot.move_to(BENT, speed=1.0)
         (x, y, z), q = robot.pose
         tip = frames.transform(((x, y, z), q), (0.0, 0.0, 0.1))
-        there = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
+        target = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
         program = Program(speed=0.2, zone="z10").move_linear(moved(robot.pose, z=0.01))
-        program.use(tool=grip, work_object=table).move_linear(there)
+        program.use(tool=grip, work_object=table).move_linear(target)
         assert len(program) == 4
-        program.use(tool="grip", work_object="table").move_linear(moved(there, y=0.02))
-        program.use(tool=longer).use(tool=grip).move_linear(there)
+        program.use(tool="grip", work_object="table").move_linear(moved(target, y=0.02))
+        program.use(tool=longer).use(tool=grip).move_linear(target)
         execution = robot.run(program)
         assert "does not move" in execution.warnings[0].message
         assert execution.result().deviation < 1e-4
@@ -389,11 +389,11 @@ UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
         (UserWorkObject(UPRIGHT, ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),
     ],
 )
-def test_values_of_no_tool_are_told(own, told):
+def test_values_of_no_tool_are_told(own, report):
     key = "tool" if isinstance(own, UserTool) else "work_object"
     with cell() as (robot, _):
         program = Program().use(**{key: own}).move_linear(robot.pose)
-        with pytest.raises(InvalidProgram, match=told) as error:
+        with pytest.raises(InvalidProgram, match=report) as error:
             robot.run(program)
         assert error.value.diagnostics[0].message.startswith("instruction 0")
 
@@ -455,12 +455,12 @@ def test_a_jog_is_small_and_stands_soon_after_a_lost_client():
             jogging.result()
 
 
-@pytest.mark.parametrize("ended", ["reset", "closed"])
+@pytest.mark.parametrize("finished", ["reset", "closed"])
 @pytest.mark.parametrize(
     "lost",
     [(Port.MOTION,), (Port.CONTROL,), (Port.STATE,), (Port.MOTION, Port.CONTROL, Port.STATE)],
 )
-def test_a_jog_stands_soon_after_a_connection_is_cut(lost, ended):
+def test_a_jog_stands_soon_after_a_connection_is_cut(lost, finished):
     with driven(reconnect=0.0) as (robot, controller):
         group = controller.motion.group("rob1")
         jogging = robot.later.jog(joint_1=-0.2, speed=0.02)
@@ -468,7 +468,7 @@ def test_a_jog_stands_soon_after_a_connection_is_cut(lost, ended):
         assert not group.is_standing
         since = controller.now
         for port in lost:
-            cut(robot, controller, port, ended)
+            cut(robot, controller, port, finished)
         while not group.is_standing and controller.now - since < 1.0:
             robot.sleep(0.01)
         # 0.3 s is allowed; but who waits for 0.2 s of silence has not seen that it was cut.
@@ -480,9 +480,9 @@ def test_a_jog_stands_soon_after_a_connection_is_cut(lost, ended):
         assert group.positions() == here
 
 
-def cut(robot, controller, port, ended):
+def cut(robot, controller, port, finished):
     """One connection is reset, as by a computer that crashed, or closed, as by a program's end."""
-    if ended == "closed":
+    if finished == "closed":
         robot._carrier._links[port].transport.close()
         return
     for device in tuple(controller.sockets.in_use):

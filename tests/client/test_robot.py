@@ -297,9 +297,9 @@ def test_reconnects_as_told_and_never_moves_by_itself(connected, comes):
 
 def test_nobody_there(client):
     # Taken, so that nobody else gets it, and not listened on.
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        port = taken.getsockname()[1]
+    with socket.socket() as accepted:
+        accepted.bind(("127.0.0.1", 0))
+        port = accepted.getsockname()[1]
         with pytest.raises(ConnectionFailed, match="refused"):
             client(f"127.0.0.1:{port},{port}").__enter__()
 
@@ -401,7 +401,7 @@ def test_no_frame_goes_out_behind_a_stop_that_came_before_the_lock():
 def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
     controller = fake(stream=StreamModel() if way == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
-        execution = robot.execute(LONG, way=way)
+        execution = robot.execute(LONG, mode=way)
         wait = robot._carrier.guard.wait
 
         def interrupt(timeout=None):
@@ -419,7 +419,7 @@ def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
 def test_ctrl_c_between_two_waits_stops_the_robot(fake, patient, monkeypatch, comes, place, way):
     controller = fake(stream=StreamModel() if way == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
-        execution = robot.execute(LONG, way=way)
+        execution = robot.execute(LONG, mode=way)
         goes_on = getattr(robot._carrier, place)
 
         def interrupt(*arguments):

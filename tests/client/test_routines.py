@@ -160,9 +160,9 @@ def test_a_routine_is_called_and_tells_its_results():
 
 def test_what_a_routine_raises_comes_back():
     with with_routines() as (robot, controller):
-        with pytest.raises(RoutineFailed) as told:
+        with pytest.raises(RoutineFailed) as report:
             robot.call("weld", -1.0, False, False, "")
-        assert (told.value.number > 0, told.value.name) == (True, "ERR_ARGVALERR")
+        assert (report.value.number > 0, report.value.name) == (True, "ERR_ARGVALERR")
         with pytest.raises(RoutineFailed, match="weld_failed") as own:
             robot.call("named", "")
         assert own.value.name == "weld_failed"
@@ -180,10 +180,10 @@ def test_what_a_routine_raises_comes_back():
 
 def test_an_error_that_stops_the_program_is_told_with_its_place():
     with with_routines() as (robot, controller):
-        with pytest.raises(RoutineFailed, match=r"cell/divides/\d+") as told:
+        with pytest.raises(RoutineFailed, match=r"cell/divides/\d+") as report:
             robot.call("divides")
-        assert "PP to Main" in told.value.diagnostics[0].help
-        assert (told.value.number, told.value.event.code) == (0, 40199)
+        assert "PP to Main" in report.value.diagnostics[0].help
+        assert (report.value.number, report.value.event.code) == (0, 40199)
         assert controller.task("T_ROB1").state == "error"
 
 
@@ -199,14 +199,14 @@ def test_texts_and_values_of_functions_come_back():
 def test_a_routine_gets_poses_and_joints():
     with with_routines() as (robot, controller):
         robot.move_to(BENT, speed=1.0)
-        there = moved(robot.pose, y=0.05)
+        target = moved(robot.pose, y=0.05)
         with robot.recording() as recording:
-            assert robot.call("reach", there, [0.0] * 6, 1.0) == (3.0,)
+            assert robot.call("reach", target, [0.0] * 6, 1.0) == (3.0,)
         ways = [robot.pose_of(joints)[0] for joints in recording.positions]
-        assert min(np.linalg.norm(np.subtract(way, there[0])) for way in ways) < 1e-3
+        assert min(np.linalg.norm(np.subtract(way, target[0])) for way in ways) < 1e-3
         assert robot.state.joints == pytest.approx([0.0] * 6, abs=1e-4)
-        far = (9.0, 0.0, 0.0), there[1]
-        for given in ((far, [0.0] * 6), (there, [9.0] * 6), (there, [0.0] * 5), (1.0, [0.0] * 6)):
+        far = (9.0, 0.0, 0.0), target[1]
+        for given in ((far, [0.0] * 6), (target, [9.0] * 6), (target, [0.0] * 5), (1.0, [0.0] * 6)):
             with pytest.raises(InvalidProgram):
                 robot.call("reach", *given, 1.0)
         assert not complaints(controller)
@@ -217,14 +217,14 @@ def test_targets_come_back_as_a_routine_leaves_them():
         robot.move_to(BENT, speed=1.0)
         (x, y, z), q = robot.pose
         zero = [0.0] * 6
-        there, place, name, following = robot.call(
+        target, place, name, following = robot.call(
             "taught", zero, robot.pose, BENT, "p10", robot.pose
         )
-        assert np.allclose(np.hstack(there.pose), (x, y, z + 0.01, *q), atol=1e-5)
+        assert np.allclose(np.hstack(target.pose), (x, y, z + 0.01, *q), atol=1e-5)
         assert place == pytest.approx([BENT[0], np.pi / 6, *BENT[2:]], abs=1e-5)
         assert (name, following.configuration) == ("p10!", (-1, 2, -3, 4))
         assert np.allclose(np.hstack(following.pose), (x, y, z + 0.01, 0, 0, 0, 1), atol=1e-5)
-        program = Program(speed=0.2).move_to(there.pose, configuration=there.configuration)
+        program = Program(speed=0.2).move_to(target.pose, configuration=target.configuration)
         robot.run(program).result()
         assert np.allclose(robot.pose[0], (x, y, z + 0.01), atol=1e-5)
         # Nobody checks what a routine leaves.
@@ -241,8 +241,8 @@ def test_external_axes_of_a_target_come_back_by_their_names():
         _,
     ):
         home = [0.0] * len(robot.state.joints)
-        there, place, *_ = robot.call("taught", home, robot.pose, home, "", robot.pose)
-        assert there.external == {"track": pytest.approx(0.0), "positioner": pytest.approx(0.0)}
+        target, place, *_ = robot.call("taught", home, robot.pose, home, "", robot.pose)
+        assert target.external == {"track": pytest.approx(0.0), "positioner": pytest.approx(0.0)}
         assert place == pytest.approx([0.0, np.pi / 6, *home[2:]], abs=1e-5)
 
 
@@ -275,10 +275,10 @@ def test_nothing_else_begins_while_a_routine_runs():
         robot._core.motion, motion = None, robot._core.motion
         for way in ("download", "stream"):
             with pytest.raises(TrajectoryRefused) as refused:
-                robot.run(Program().move_joints([0.1] * 6), way=way)
+                robot.run(Program().move_joints([0.1] * 6), mode=way)
             assert refused.value.reason is Reason.MOVING
         with pytest.raises(TrajectoryRefused) as refused:
-            robot.execute(wiggle(robot), way="download")
+            robot.execute(wiggle(robot), mode="download")
         assert refused.value.reason is Reason.MOVING
         robot._core.motion = motion
         assert execution.result().deviation < 1e-4
@@ -291,9 +291,9 @@ def test_a_stop_leaves_a_routine_wherever_it_is():
         robot.sleep(3)
         assert robot.state.is_moving
         robot.stop()
-        with pytest.raises(MotionStopped) as told:
+        with pytest.raises(MotionStopped) as report:
             execution.result()
-        assert told.value.reached == 0
+        assert report.value.reached == 0
         assert controller.task("T_ROB1")["cell:undone"] is True
         here = robot.state.joints
         robot.sleep(2)

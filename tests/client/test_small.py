@@ -133,20 +133,20 @@ def test_both_clients_have_the_same_surface(blocking, asynchronous):
     """Names, signatures and docstrings; what iterates or gives a handle of its own but for that."""
 
     def surface(kind):
-        found = {}
+        result = {}
         for name in dir(kind):
             member = getattr(kind, name)
             # `data[...]` cannot be awaited: both have read_data and write_data.
             if name.startswith("_") or name == "data":
                 continue
             signature = inspect.signature(member) if callable(member) else None
-            found[name] = (
+            result[name] = (
                 str(signature).replace("AsyncIterator", "Iterator"),
                 inspect.getdoc(member),
             )
             if name == "extend" or (name == "execute" and "Cell" in kind.__name__):
-                found[name] = list(signature.parameters)
-        return found
+                result[name] = list(signature.parameters)
+        return result
 
     assert surface(blocking) == surface(asynchronous)
     assert surface(blocking)

@@ -49,8 +49,8 @@ def test_streams_to_the_end(connected):
         assert stream.progress.fraction == 1.0
         assert stream.stopped_position == pytest.approx(result.state.joints)
     executed = [q for _, q in controller.script.stream.executed]
-    asked = [q for _, q in wave(600)]
-    assert np.array(executed) == pytest.approx(np.array(asked), abs=1e-6)
+    requested = [q for _, q in wave(600)]
+    assert np.array(executed) == pytest.approx(np.array(requested), abs=1e-6)
 
 
 def test_nothing_appended_is_nothing_done(connected):
@@ -128,8 +128,8 @@ def test_stop_from_another_thread(connected):
 
 
 def test_closing_stops_a_stream(connected):
-    told = pytest.warns(RuntimeWarning, match="was stopped")
-    with told, connected(**streams(speed=1)) as (robot, controller):
+    report = pytest.warns(RuntimeWarning, match="was stopped")
+    with report, connected(**streams(speed=1)) as (robot, controller):
         robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
     assert controller.script.stream.state == TrajectoryState.STOPPED
 
@@ -174,7 +174,7 @@ def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(connected):
         assert [d for _, d in controller.points] == pytest.approx([0.1, 0.1, 0.1])
         for what in (
             lambda: robot.stream(fallback=False).append([0], [[0.02] * 6]),
-            lambda: robot.execute(Trajectory([0, 1], [[0.02] * 6] * 2), way="stream"),
+            lambda: robot.execute(Trajectory([0, 1], [[0.02] * 6] * 2), mode="stream"),
             robot.pause,
             lambda: robot.read_signal(0),
             lambda: robot.next_feedback(),
@@ -191,7 +191,7 @@ def test_execute_tells_the_way(connected):
         assert execution.way == "stream"
         assert execution.planned_seconds == pytest.approx(10)
         assert execution.result().way == "stream"
-        execution = robot.execute(short.reversed(), way="stream")
+        execution = robot.execute(short.reversed(), mode="stream")
         assert execution.result().points == 2
         assert execution.trajectory.names == robot.group.names
 
@@ -201,7 +201,7 @@ def test_what_no_number_of_a_stream_holds_is_downloaded(connected):
     with connected(**streams(ring=64), capacity=1000) as (robot, _):
         assert robot.way_for(path) == "download"
         with pytest.raises(InvalidTrajectory, match="RG623"):
-            robot.execute(path, way="stream")
+            robot.execute(path, mode="stream")
 
 
 def test_pause_speed_and_signals(fake, client, comes):
@@ -269,14 +269,14 @@ def test_a_control_port_that_nobody_knows(fake, client):
             stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
 
 
-@pytest.mark.parametrize("heard", [True, False])
-def test_stop_goes_over_both_ports_and_one_of_them_may_be_silent(connected, heard, comes):
-    script = {**streams(speed=1), "control_hears_stop": heard}
-    with connected(**script, hasty={} if heard else {"stop": 3}) as (robot, controller):
+@pytest.mark.parametrize("received", [True, False])
+def test_stop_goes_over_both_ports_and_one_of_them_may_be_silent(connected, received, comes):
+    script = {**streams(speed=1), "control_hears_stop": received}
+    with connected(**script, hasty={} if received else {"stop": 3}) as (robot, controller):
         stream = robot.stream()
         stream.append([0, 30], [[0.0] * 6, [0.3] * 6])
         robot.stop()
-        assert comes(lambda: len(controller.stops) == (2 if heard else 1))
+        assert comes(lambda: len(controller.stops) == (2 if received else 1))
         assert stream.stopped_position is not None
         with pytest.raises(MotionStopped):
             stream.result()
@@ -294,7 +294,7 @@ def test_events(connected, comes):
         data = struct.pack("<3i240s", 5, 24, 3, b"Corner path failure")
         strange = struct.pack("<3i240s", 1, 10, 9, b"?")
         missed = struct.pack("<3i240s", 0, 7, 2, b"")
-        controller.extra = b"".join(frame(1308, 1, 0, told) for told in (data, strange, missed))
+        controller.extra = b"".join(frame(1308, 1, 0, report) for report in (data, strange, missed))
         assert comes(lambda: len(robot.events) == 3)
         first, second, third = robot.events
         assert str(third) == "7 events were not told"
@@ -309,16 +309,16 @@ def test_events(connected, comes):
 def test_feedback(fake, client, comes):
     controller = fake()
 
-    def told(time):
+    def report(time):
         pad = [0.0] * 4
         joints, rates = [0.1] * 6, [0.2] * 6
         return frame(15, 1, 0, struct.pack("<2if30f", 0, 7, time, *joints, *pad, *rates, *pad,
                                            *[0.0] * 10))  # fmt: skip
 
     with client(controller.address, feedback=True) as robot:
-        controller.extra = told(999.5)
+        controller.extra = report(999.5)
         assert comes(lambda: robot._core.state_port.feedbacks == 1)
-        controller.repeated = told(0.5)
+        controller.repeated = report(0.5)
         feedback = robot.next_feedback()
         # where the wire's clock began again, this one goes on
         assert feedback.time == pytest.approx(1000.5)

@@ -153,9 +153,9 @@ def test_a_hundred_thousand_points():
     assert model.most_waiting <= model.ring
     # 30 points a message but for a few
     assert np.mean(model.sizes) > 28
-    asked = [q for _, q in wave(count)]
+    requested = [q for _, q in wave(count)]
     executed = [q for _, q in model.executed]
-    assert np.abs(np.array(executed) - np.array(asked)).max() <= 0.5e-6 + 1e-12
+    assert np.abs(np.array(executed) - np.array(requested)).max() <= 0.5e-6 + 1e-12
     # nothing adds up: the durations of all points give the time of the last
     assert sum(round(d * 1e6) for d, _ in model.executed) == round(0.1 * count * 1e6)
 
@@ -287,8 +287,8 @@ def test_a_controller_that_takes_no_heartbeat():
         driver.model.refuse_control = int(Reason.NOT_ALLOWED)
         with robot.stream() as stream:
             stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
-        asked = [number for _, port, number in driver.log if number == 1306]
-    assert len(asked) == 1
+        requested = [number for _, port, number in driver.log if number == 1306]
+    assert len(requested) == 1
 
 
 def test_who_sees_nothing_sends_no_heartbeat_either():
@@ -352,20 +352,20 @@ def test_one_message_with_the_state_of_before_is_not_believed():
     # it does not move before the end has come
     with streamed(preload=60.0) as (robot, driver):
         stream = robot.stream()
-        progress, told = driver.model.progress, []
+        progress, report = driver.model.progress, []
 
         def stale():
             # put together of two tasks' data: this trajectory's number, the state of another
             data = progress()
-            if driver.model.reached == 0 and not told:
-                told.append(data)
+            if driver.model.reached == 0 and not report:
+                report.append(data)
                 return data[:20] + DONE.to_bytes(4, "little") + data[24:]
             return data
 
         driver.model.progress = stale
         stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
         robot.sleep(0.5)
-        assert told
+        assert report
         assert not stream.is_over
         assert stream.result().seconds > 9
 
@@ -376,7 +376,7 @@ def test_stop_and_what_stands(control):
         stream = robot.stream()
         filling = stream.later.extend(wave())
         robot.sleep(30)
-        asked = driver.loop.time()
+        requested = driver.loop.time()
         state = robot.stop()
         with pytest.raises(MotionStopped) as error:
             filling.result()
@@ -385,15 +385,15 @@ def test_stop_and_what_stands(control):
             stream.append([1e6], [[0.0] * 6])
         assert stream.stopped_position == pytest.approx(state.joints)
         stops = [(t, port) for t, port, number in driver.log if number == 11]
-        assert stops[0] == (pytest.approx(asked + 0.001), driver.CONTROL if control else 11000)
+        assert stops[0] == (pytest.approx(requested + 0.001), driver.CONTROL if control else 11000)
         # and the next one
         with robot.stream() as stream:
             stream.append([0, 1], [state.joints, state.joints])
     assert driver.model.trajectory == 2
     # nothing of the stopped stream behind the STOP
     first = next(n for n, (_, _, number) in enumerate(driver.log) if number == 11)
-    behind = [entry for entry in driver.log[first + 1 :] if entry[2] == 1302]
-    assert len(behind) == 1 + (behind[0][0] != behind[-1][0])
+    after = [entry for entry in driver.log[first + 1 :] if entry[2] == 1302]
+    assert len(after) == 1 + (after[0][0] != after[-1][0])
 
 
 def test_an_exception_in_the_block_stops_the_robot():
@@ -513,12 +513,12 @@ def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
         assert execution.way == "stream"
         # 1,000 are the most that the driver holds as a whole
         with pytest.raises(NotReady):
-            robot.execute(long, way="download")
+            robot.execute(long, mode="download")
         began = driver.model.reached
         result = execution.result()
         assert execution.trajectory.positions.shape == (5000, 6)
         with pytest.raises(InvalidTrajectory, match="holds 1000"):
-            robot.execute(long, way="download")
+            robot.execute(long, mode="download")
     assert began < 128
     assert result.points == 5000
     assert result.way == "stream"
@@ -536,7 +536,7 @@ def test_a_trajectory_is_checked_once(monkeypatch, points, way):
         if way == "append":
             robot.stream().append([0, 1], [[0.0] * 6] * 2)
         else:
-            robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), way=way)
+            robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), mode=way)
         robot.stop()
     assert len(checks) == 1
 

@@ -48,13 +48,13 @@ def test_motion_begins_at_once_however_long_the_trajectory():
     def begins(points, way):
         with driven() as (robot, _):
             path = Trajectory(*map(np.array, zip(*wave(points), strict=True)))
-            asked = robot.time()
-            execution = robot.execute(path, way=way)
+            requested = robot.time()
+            execution = robot.execute(path, mode=way)
             state = robot.wait_until(lambda s: s.is_moving, 60)
             robot.stop()
             with pytest.raises(MotionStopped):
                 execution.result()
-            return state.time - asked
+            return state.time - requested
 
     short, long = begins(150, "stream"), begins(1000, "stream")
     assert long == pytest.approx(short, abs=0.1)
@@ -191,8 +191,8 @@ def test_events_and_feedback():
         robot.sleep(2)
         assert robot.events
         assert {event.type for event in robot.events} <= set(EventType)
-        told = {event.code for event in robot.events}
-        assert told & {event.code for event in controller.log}
+        report = {event.code for event in robot.events}
+        assert report & {event.code for event in controller.log}
 
 
 def test_two_arms_stream_each_for_itself():

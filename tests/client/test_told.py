@@ -60,8 +60,8 @@ def test_a_scale_that_is_named_fits(irb120):
         fast = Trajectory([0, seconds], [HOME, [1.7, 0, 0, 0, 0, 0]])
         with pytest.raises(InvalidTrajectory) as error:
             check_trajectory(fast, irb120, start=HOME)
-        share = float(error.value.diagnostics[0].help.split("scaled(")[1].split(")")[0])
-        check_trajectory(fast.scaled(share), irb120, start=HOME)
+        fraction = float(error.value.diagnostics[0].help.split("scaled(")[1].split(")")[0])
+        check_trajectory(fast.scaled(fraction), irb120, start=HOME)
 
 
 @pytest.mark.parametrize("value", [math.inf, -math.inf, math.nan])
@@ -98,9 +98,9 @@ def test_a_traceback_shows_place_and_mend(tmp_path):
     bad.write_text("model: irb120\nmodle: irb120\n")
     with pytest.raises(DiagnosticError) as error:
         load_config(bad)
-    shown = "".join(traceback.format_exception(error.value))
-    assert f"{bad}:2" in shown
-    assert "did you mean" in shown
+    displayed = "".join(traceback.format_exception(error.value))
+    assert f"{bad}:2" in displayed
+    assert "did you mean" in displayed
 
 
 @pytest.mark.parametrize(
@@ -214,10 +214,10 @@ _CAPACITY, _PERIOD, _LOWER, _RING = 44, 56, 72, 196
         (_LOWER + 80 + 8, "<f", 0.0, "of joint 3"),
     ],
 )
-def test_a_hello_that_no_driver_can_mean_is_refused(fake, client, offset, packing, value, said):
+def test_a_hello_that_no_driver_can_mean_is_refused(fake, client, offset, packing, value, message):
     controller = fake()
     controller.script.hello = edited(hello_reply(controller.script, 0), offset, packing, value)
-    with pytest.raises(IncompatibleDriver, match=said):
+    with pytest.raises(IncompatibleDriver, match=message):
         client(controller.address).__enter__()
 
 

@@ -104,8 +104,8 @@ def test_a_recording_of_a_simulator_is_told_from_a_text(tmp_path):
     path.write_bytes(b"\x89MCAP0\r\n\x01")
     with pytest.raises(InvalidTrajectory) as error:
         Trajectory.from_csv(path)
-    (found,) = error.value.diagnostics
-    assert found.help == (
+    (result,) = error.value.diagnostics
+    assert result.help == (
         f"it is a recording: `rapidgen view {path} --csv FILE.csv` writes its positions"
     )
 
@@ -239,9 +239,9 @@ def test_finding_has_the_line_of_its_file(irb120, tmp_path):
     path.write_text("\n".join(rows))
     with pytest.raises(InvalidTrajectory) as error:
         check_trajectory(Trajectory.from_csv(path), irb120, start=[0.0] * 10)
-    (found,) = error.value.diagnostics
-    assert (found.code, found.span.line) == ("RG614", 4)
-    assert irb120.names[2] in found.message
+    (result,) = error.value.diagnostics
+    assert (result.code, result.span.line) == ("RG614", 4)
+    assert irb120.names[2] in result.message
 
 
 def test_names_that_do_not_fit(irb120):
@@ -335,11 +335,11 @@ def test_timed_wants_the_joints_of_the_robot(irb120):
     """A joint that is missing is told; one that the robot does not have is not dropped."""
     ends = np.zeros((2, 7))
     named = (*irb120.names, "gripper")
-    for width, names, said in (
+    for width, names, message in (
         (5, named[:5], "joints are missing: joint_6"),
         (7, named, "no joint 'gripper'"),
         (5, (), "5 joints, the robot has 6"),
     ):
         path = Trajectory.from_points(ends[:, :width], seconds=1.0, names=names)
-        with pytest.raises(InvalidTrajectory, match=said):
+        with pytest.raises(InvalidTrajectory, match=message):
             path.timed(irb120)

@@ -45,11 +45,11 @@ def test_move(controller, points, tmp_path, capsys):
     executed = tmp_path / "executed.csv"
     words = ["move", "irb120", str(points), "--to", controller.address, "--yes"]
     assert main([*words, "--record", str(executed)]) == 0
-    shown = capsys.readouterr()
-    done, at = shown.out.splitlines()
+    displayed = capsys.readouterr()
+    done, at = displayed.out.splitlines()
     assert re.fullmatch(r"done: 2 points in \d\.\d\d s, 0\.0000 \(rad, m\).*", done)
     assert at.startswith("at joint_1 11.46 deg, joint_2 5.73 deg")
-    assert "plain simple_message" in " ".join(shown.err.split())
+    assert "plain simple_message" in " ".join(displayed.err.split())
     recorded = Trajectory.from_csv(executed)
     assert recorded.names == tuple(JOINTS)
     assert recorded.positions[-1].tolist() == pytest.approx(GOAL)
@@ -57,8 +57,8 @@ def test_move(controller, points, tmp_path, capsys):
 
 def test_move_as_json(controller, points, capsys):
     assert main(["move", "irb120", str(points), "--to", controller.address, "-y", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["joints"]["joint_6"] == pytest.approx(0.3)
+    report = json.loads(capsys.readouterr().out)
+    assert report["joints"]["joint_6"] == pytest.approx(0.3)
 
 
 def test_move_at_another_speed_with_an_approach(controller, points):
@@ -86,9 +86,9 @@ def test_move_asks_and_takes_no_answer_from_a_pipe(controller, points, capsys):
 @pytest.mark.parametrize("words", [["--yes"], ["--move-real-robot", "192.0.2.2"], []])
 def test_a_real_robot_needs_its_host_twice(points, words, capsys):
     assert main(["move", "irb120", str(points), "--to", "192.0.2.1", *words]) == 2
-    shown = capsys.readouterr().err
-    assert "RG640" in shown
-    assert "--move-real-robot 192.0.2.1" in shown
+    displayed = capsys.readouterr().err
+    assert "RG640" in displayed
+    assert "--move-real-robot 192.0.2.1" in displayed
 
 
 def test_a_name_is_no_loopback(points, capsys):
@@ -150,13 +150,13 @@ def test_monitor(controller, capsys):
     words = ["monitor", "irb120", "--to", controller.address, "--json", "--count", "30"]
     controller.script.status = {"in_error": 1, "error_code": 7}
     assert main(words) == 0
-    told = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
-    assert told[-1]["joints"]["joint_1"] == 0.0
-    assert told[-1]["error_code"] == 7
-    assert (told[-1]["in_error"], told[0]["in_motion"]) == (True, False)
-    when = datetime.fromisoformat(told[-1]["time"])
+    report = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    assert report[-1]["joints"]["joint_1"] == 0.0
+    assert report[-1]["error_code"] == 7
+    assert (report[-1]["in_error"], report[0]["in_motion"]) == (True, False)
+    when = datetime.fromisoformat(report[-1]["time"])
     assert abs((datetime.now(timezone.utc) - when).total_seconds()) < 3600
-    assert 0 < told[-1]["jitter_p50"] <= told[-1]["jitter_p99"] < 1
+    assert 0 < report[-1]["jitter_p50"] <= report[-1]["jitter_p99"] < 1
 
 
 def test_the_live_table(controller):
@@ -249,11 +249,11 @@ def test_move_tells_which_way_the_points_go(streaming, many, capsys, words, way)
         assert "RG617" in capsys.readouterr().err
         return
     assert main([*call, "--json"]) == 0
-    shown = capsys.readouterr()
-    told = json.loads(shown.out)
-    assert (told["way"], told["points"]) == ("stream", 150)
-    assert told["starved"] >= 0  # how often depends on this machine's load; test_stream_clock.py
-    assert "sent while it moves" in " ".join(shown.err.split())
+    displayed = capsys.readouterr()
+    report = json.loads(displayed.out)
+    assert (report["way"], report["points"]) == ("stream", 150)
+    assert report["starved"] >= 0  # how often depends on this machine's load; test_stream_clock.py
+    assert "sent while it moves" in " ".join(displayed.err.split())
 
 
 def test_a_fault_on_the_way_is_told_with_its_point(streaming, many, capsys):
@@ -291,7 +291,7 @@ def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
     )
     with Robot(streaming.address) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.2] * 6], seconds=20)
-        result = motion_progress.follow(robot.execute(path, way="stream"))
+        result = motion_progress.follow(robot.execute(path, mode="stream"))
     assert result.points == 2
     assert "moving" in terminal.getvalue()
     assert "done" in terminal.getvalue()
@@ -330,8 +330,8 @@ def test_words_of_a_monitor():
         )
     assert watcher.event == "the stream ran out of points"
     event = Event(0.0, 50024, EventType.ERROR, "Corner path failure", 1)
-    for told in (event, None):
-        watcher.take(SimpleNamespace(number=2, time=2, status=Status(), trajectory=None), told)
+    for report in (event, None):
+        watcher.take(SimpleNamespace(number=2, time=2, status=Status(), trajectory=None), report)
     assert watcher.event == "50024 Corner path failure"
 
 
@@ -399,15 +399,15 @@ ENDED = {"in_error": 1, "error_code": 53, "possible": 0}
 
 
 @pytest.mark.parametrize(
-    ("told", "message"),
+    ("report", "message"),
     [
         (ENDED, "a server task of the driver has ended, nothing moves"),
         ({**ENDED, "in_error": 0}, ""),
         ({**ENDED, "error_code": 40}, ""),
     ],
 )
-def test_doctor_names_the_fix_of_a_server_task_that_has_ended(told, message, tmp_path, capsys):
-    with FakeController(status=told) as fake:
+def test_doctor_names_the_fix_of_a_server_task_that_has_ended(report, message, tmp_path, capsys):
+    with FakeController(status=report) as fake:
         motion, state = fake.ports["motion"], fake.ports["state"]
         config = tmp_path / "cell.yaml"
         config.write_text(
@@ -417,9 +417,9 @@ def test_doctor_names_the_fix_of_a_server_task_that_has_ended(told, message, tmp
         words = ["doctor", str(config), "--to", f"dir://{tmp_path}/HOME", "--host", "127.0.0.1"]
         main([*words, "--json"])
     checks = json.loads(capsys.readouterr().out)
-    found = [c for c in checks if c["area"] == "driver" and c["verdict"] == "fail"]
-    assert [message in check["found"] for check in found] == [True] * bool(message)
-    assert all("warm start" in check["mend"] for check in found)
+    result = [c for c in checks if c["area"] == "driver" and c["verdict"] == "fail"]
+    assert [message in check["found"] for check in result] == [True] * bool(message)
+    assert all("warm start" in check["mend"] for check in result)
 
 
 def test_monitor_names_the_fix_of_a_server_task_that_has_ended(capsys):

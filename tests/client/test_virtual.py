@@ -66,7 +66,7 @@ def test_a_driver_of_the_basic_profile(boot, client):
         with pytest.raises(MotionStopped):
             execution.result(60)
         with pytest.raises(NotSupported):
-            robot.execute(path, way="stream")
+            robot.execute(path, mode="stream")
 
 
 def test_a_stream(boot, client):
@@ -109,9 +109,9 @@ def test_both_arms_of_a_cell(boot, patient):
             cell.execute({first: paths[first], second: bad})
         # one arm is stopped on its way: so is the other
         slow = {name: path.scaled(0.02) for name, path in paths.items()}
-        under_way = cell.execute(slow)
+        in_progress = cell.execute(slow)
         robots[first].stop()
         with pytest.raises(MotionStopped):
-            under_way.result(60)
+            in_progress.result(60)
         for robot in robots.values():
             robot.wait_until(lambda s: not s.is_moving, 60)

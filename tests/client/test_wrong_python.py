@@ -95,10 +95,10 @@ WRONG = {
 
 @pytest.mark.parametrize("case", WRONG)
 def test_typed_wrong(case):
-    call, kind, told, mend = WRONG[case]
+    call, kind, report, mend = WRONG[case]
     with pytest.raises(kind) as caught:
         call()
-    assert told in str(caught.value)
+    assert report in str(caught.value)
     assert mend in " ".join(d.help for d in caught.value.diagnostics)
 
 

@@ -42,18 +42,18 @@ def six(**changes):
     """A plain six-axis robot; `changes` are the parts of joint_3."""
     first = arm([f"joint_{n}" for n in (1, 2)])
     third = joint("joint_3", "link_2", "link_3", **changes) + links("link_3")
-    rest = "".join(
+    remaining = "".join(
         joint(f"joint_{n}", f"link_{n - 1}", f"link_{n}") + links(f"link_{n}") for n in (4, 5, 6)
     )
-    return robot(links("base_link"), first, third, rest)
+    return robot(links("base_link"), first, third, remaining)
 
 
 BASE = links("base_link")
 SIX = "joints:\n" + "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in range(1, 7))
 
 
-def errors(found):
-    return sorted(code for code, d in found.items() if d.severity is Severity.ERROR)
+def errors(result):
+    return sorted(code for code, d in result.items() if d.severity is Severity.ERROR)
 
 
 def only(code, checked):

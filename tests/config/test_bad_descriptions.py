@@ -101,8 +101,8 @@ def test_a_document_type_inside_of_a_text_is_none(check):
     text = robot(
         BASE, "<!-- <!DOCTYPE x> -->", '<link name="a"><![CDATA[<!DOCTYPE]]></link>', arm()
     )
-    _, found = check(text)
-    assert "RG060" not in found
+    _, result = check(text)
+    assert "RG060" not in result
 
 
 @pytest.mark.parametrize("name", ["a&#10;b", "a&#x9;b", "a&#x85;b", "a&#x200B;b"])
@@ -127,9 +127,9 @@ def included(tmp_path, part, top=""):
 )
 def test_a_fault_of_an_included_file_is_said_there(tmp_path, part, code, line):
     first, second = refused(tmp_path, included(tmp_path, part), "robot.xacro")
-    for said in (first, second):
-        assert said[code].span.path.endswith("part.xacro"), said[code]
-        assert said[code].span.line == line
+    for message in (first, second):
+        assert message[code].span.path.endswith("part.xacro"), message[code]
+        assert message[code].span.line == line
 
 
 @pytest.mark.parametrize("name", ["arm\x1b[31m.urdf", "a\nb.urdf", "\udcff.urdf"])

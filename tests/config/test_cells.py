@@ -77,8 +77,8 @@ def test_a_cell_is_built_and_moves(tmp_path, case):
     carriers = [p for p in group.positioners if {s.joint for s in p.chain} & set(external)]
     assert bool(carriers) == ("positioner" in case)
     with Bench(config, make_system(config, build(config))) as bench:
-        bench.moves_through(bench.motion(), bench.wave(3, duration=1.0))
-        bench.healthy()
+        bench.assert_moves_through(bench.motion(), bench.wave(3, duration=1.0))
+        bench.assert_healthy()
 
 
 YUMI = (find_shipped("irb14000").parent / "urdf" / "irb14000.urdf").read_text()

@@ -34,9 +34,9 @@ def kept(folder):
 @pytest.mark.parametrize("change", ["model", "code"])
 def test_another_file_or_other_code_makes_it_anew(folder, monkeypatch, tmp_path, change):
     shipped_groups("irb120")
-    found = json.loads(kept(folder).read_text())
-    found["groups"][0]["name"] = "kept"
-    kept(folder).write_text(json.dumps(found))
+    result = json.loads(kept(folder).read_text())
+    result["groups"][0]["name"] = "kept"
+    kept(folder).write_text(json.dumps(result))
     assert shipped_groups("irb120")[0].name == "kept"
     if change == "code":
         (tmp_path / "code.py").write_text("12")

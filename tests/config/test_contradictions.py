@@ -15,8 +15,8 @@ from tests.config.drawing import BASE, arm, drawn, errors, only, robot
 def test_18_an_axis_that_is_drawn_the_other_way_round(check, head):
     text = drawn("crb15000", turned=["rax_3"], mirrored=["rax_3"], name_of="x")
     fault = only("RG048", check(text, head=head))
-    config, found = check(text, pasted(fault), head=head)
-    assert not errors(found)
+    config, result = check(text, pasted(fault), head=head)
+    assert not errors(result)
     third = config.groups[0].joints[2]
     assert third.sign == -1
     assert math.degrees(third.lower) == pytest.approx(-225)
@@ -34,12 +34,12 @@ def pasted(fault):
 def test_18_a_range_that_is_mirrored_while_the_axis_is_not(check):
     text = drawn("irb120", mirrored=["rax_3"])
     fault = only("RG048", check(text))
-    config, found = check(text, pasted(fault))
-    assert not errors(found)
+    config, result = check(text, pasted(fault))
+    assert not errors(result)
     assert math.degrees(config.groups[0].joints[2].lower) == pytest.approx(-110)
     # With the model its range counts.
-    config, found = check(text, head="model: irb120")
-    assert found["RG049"].severity is Severity.WARNING
+    config, result = check(text, head="model: irb120")
+    assert result["RG049"].severity is Severity.WARNING
     assert math.degrees(config.groups[0].joints[2].lower) == pytest.approx(-110)
 
 
@@ -71,9 +71,9 @@ def test_17_a_serial_arm_is_known_by_its_shape(check):
 def test_17_a_lever_arm_is_known_by_its_shape(check):
     text = drawn("irb2400", name_of="x")
     fault = only("RG047", check(text))
-    config, found = check(text, "coupling: 1")
+    config, result = check(text, "coupling: 1")
     assert "coupling: 1" in fault.help
-    assert not errors(found)
+    assert not errors(result)
     assert config.groups[0].coupling == 1
 
 
@@ -87,17 +87,17 @@ def test_19_the_dimensions_of_another_variant(check, model, other, off):
 
 def test_19_ranges_that_differ_from_the_model(check):
     text = drawn("irb120").replace('lower="-2.87', 'lower="-1.87')
-    config, found = check(text, head="model: irb120")
-    assert found["RG049"].severity is Severity.WARNING
-    assert "known -165..165 deg" in found["RG049"].message
+    config, result = check(text, head="model: irb120")
+    assert result["RG049"].severity is Severity.WARNING
+    assert "known -165..165 deg" in result["RG049"].message
     assert math.degrees(config.groups[0].joints[0].lower) == pytest.approx(-165)
 
 
 def test_19_a_speed_beyond_the_known_one(check):
     speed = load_config("irb120").groups[0].joints[5].speed
-    _, found = check(drawn("irb120").replace(f'velocity="{speed}"', 'velocity="9"'))
-    assert found["RG049"].severity is Severity.WARNING
-    assert "speed 515.7 deg/s, known 420" in found["RG049"].message
+    _, result = check(drawn("irb120").replace(f'velocity="{speed}"', 'velocity="9"'))
+    assert result["RG049"].severity is Severity.WARNING
+    assert "speed 515.7 deg/s, known 420" in result["RG049"].message
 
 
 @pytest.mark.parametrize(
@@ -114,8 +114,8 @@ def test_20_an_axis_of_the_arm_without_a_joint(check, lines):
     joints = "joints:\n" + "\n".join(f"  joint_{n}: {{axis: {a}}}" for n, a in lines.items())
     urdf = f"  ignore_joints: [{', '.join(ignored)}]"
     fault = only("RG021", check(drawn("irb120"), joints, urdf=urdf))
-    config, found = check(drawn("irb120"), f"{joints}\n{keep_line(fault)}", urdf=urdf)
-    assert not errors(found)
+    config, result = check(drawn("irb120"), f"{joints}\n{keep_line(fault)}", urdf=urdf)
+    assert not errors(result)
     assert len(config.groups[0].kept) == len(ignored)
 
 
@@ -162,7 +162,7 @@ def test_an_end_that_is_turned_against_the_flange_is_said(check):
     start = text.rindex("rpy=")
     turned = text[:start] + re.sub('rpy="[^"]*"', 'rpy="0 0 0"', text[start:], count=1)
     for description, said in ((text, False), (turned, True)):
-        made, found = check(description)
+        made, result = check(description)
         assert made
-        assert ("RG055" in found) is said
-    assert "the end is turned by 90 deg from its flange" in found["RG055"].message
+        assert ("RG055" in result) is said
+    assert "the end is turned by 90 deg from its flange" in result["RG055"].message

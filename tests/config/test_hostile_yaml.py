@@ -86,6 +86,6 @@ def test_hostile_yaml_is_rejected(tmp_path, monkeypatch, kind, name):
         READERS[kind](path)
     assert time.thread_time() - began < LIMIT
     assert [one.name for one in tmp_path.iterdir()] == ["a.yaml"]
-    for found in refused.value.diagnostics:
-        assert found.code.startswith("RG")
-        assert len(found.message) < 1000
+    for result in refused.value.diagnostics:
+        assert result.code.startswith("RG")
+        assert len(result.message) < 1000

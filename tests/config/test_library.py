@@ -29,10 +29,10 @@ def test_every_figure_has_its_source(variant):
 
 @pytest.mark.parametrize("variant", variants(), ids=lambda v: v.name)
 def test_an_arm_is_recognised(variant):
-    found = recognise(variant.skeleton, variant.name)
+    result = recognise(variant.skeleton, variant.name)
     # Variants of one family may have one geometry.
-    assert found.variant.family == variant.family
-    assert found.difference.turned == ()
+    assert result.variant.family == variant.family
+    assert result.difference.turned == ()
 
 
 def test_most_variants_have_dimensions_from_two_sources():
@@ -50,6 +50,6 @@ def test_the_family_of_a_name(name, number):
 def test_of_arms_with_one_geometry_the_named_type_is_meant():
     known = next(v for v in variants() if v.name == "IRB 52-7/1.45")
     for name, meant in (("IRB52_long_rev1", "52"), ("irb1600_10_145", "1600"), ("arm", None)):
-        found = align(known.skeleton.lines, name)
-        assert found is not None
-        assert meant is None or found.variant.family == meant
+        result = align(known.skeleton.lines, name)
+        assert result is not None
+        assert meant is None or result.variant.family == meant

@@ -24,8 +24,8 @@ def faults(tmp_path, text, **options):
     return [d for d in caught.value.diagnostics if d.severity is Severity.ERROR]
 
 
-def places(found):
-    return [(d.code, d.span.line, d.span.column) for d in found]
+def places(result):
+    return [(d.code, d.span.line, d.span.column) for d in result]
 
 
 def test_five_faults_are_five_findings_with_their_places(tmp_path):
@@ -39,16 +39,16 @@ def test_five_faults_are_five_findings_with_their_places(tmp_path):
         "state: {rate: 20}\n"  # duplicate
         "network: {bind: 300.1.1.1}\n"  # no address
     )
-    found = faults(tmp_path, text)
-    assert places(found) == [
+    result = faults(tmp_path, text)
+    assert places(result) == [
         ("RG005", 2, 1),
         ("RG006", 3, 24),
         ("RG014", 5, 31),
         ("RG004", 7, 1),
         ("RG006", 8, 17),
     ]
-    assert "did you mean 'controller'?" in found[0].help
-    assert all(d.span.path.endswith("cell.yaml") for d in found)
+    assert "did you mean 'controller'?" in result[0].help
+    assert all(d.span.path.endswith("cell.yaml") for d in result)
 
 
 @pytest.mark.parametrize(
@@ -64,9 +64,9 @@ def test_five_faults_are_five_findings_with_their_places(tmp_path):
     ],
 )
 def test_a_key_at_a_wrong_place_is_told_where_it_stands(tmp_path, text, mend):
-    (found,) = faults(tmp_path, f"model: irb120\n{text}\n")
-    assert found.code == "RG005"
-    assert mend in found.help
+    (result,) = faults(tmp_path, f"model: irb120\n{text}\n")
+    assert result.code == "RG005"
+    assert mend in result.help
 
 
 @pytest.mark.parametrize(
@@ -82,8 +82,8 @@ def test_what_follows_from_a_fault_is_no_fault_of_its_own(tmp_path, text):
 
 
 def test_a_fault_in_the_schema_does_not_hide_one_in_the_meaning(tmp_path):
-    found = faults(tmp_path, "model: irb120\nports: {motion: x, state: 11001}\n")
-    assert sorted(d.code for d in found) == ["RG006", "RG012"]
+    result = faults(tmp_path, "model: irb120\nports: {motion: x, state: 11001}\n")
+    assert sorted(d.code for d in result) == ["RG006", "RG012"]
 
 
 def test_four_lines_are_enough_for_a_shipped_model(tmp_path):
@@ -103,8 +103,8 @@ def test_a_version_is_read_as_written(tmp_path, text, version):
 
 @pytest.mark.parametrize("text", ["4", "5.14", "9", "yes", "[6]", "true", ".inf"])
 def test_other_versions_are_refused(tmp_path, text):
-    found = faults(tmp_path, f"model: irb120\ncontroller: {{robotware: {text}}}")
-    assert [d.code for d in found] == ["RG006"]
+    result = faults(tmp_path, f"model: irb120\ncontroller: {{robotware: {text}}}")
+    assert [d.code for d in result] == ["RG006"]
 
 
 @pytest.mark.parametrize(
@@ -117,9 +117,9 @@ def test_other_versions_are_refused(tmp_path, text):
     ],
 )
 def test_a_text_of_the_wrong_form_is_told_the_form_in_words(tmp_path, line, wanted):
-    (found,) = [d for d in faults(tmp_path, f"{line}\nmodel: irb120\n") if d.code == "RG006"]
-    assert found.message.endswith(f"must be {wanted}")
-    assert "[A-Z" not in f"{found.message}{found.help}"
+    (result,) = [d for d in faults(tmp_path, f"{line}\nmodel: irb120\n") if d.code == "RG006"]
+    assert result.message.endswith(f"must be {wanted}")
+    assert "[A-Z" not in f"{result.message}{result.help}"
 
 
 def test_irc5_does_not_run_robotware_7(tmp_path):
@@ -128,8 +128,8 @@ def test_irc5_does_not_run_robotware_7(tmp_path):
 
 
 def test_yaml_1_2_reads_yes_as_a_text_and_9e9_as_a_number(tmp_path):
-    found = faults(tmp_path, "model: irb120\ncommissioning: yes\ntcp_speed_limit: 9E9\n")
-    assert [d.message for d in found] == [
+    result = faults(tmp_path, "model: irb120\ncommissioning: yes\ntcp_speed_limit: 9E9\n")
+    assert [d.message for d in result] == [
         "'commissioning': must be true or false (YAML 1.2: `yes` and `on` are texts), not 'yes'",
         "'tcp_speed_limit': must be at most 10000, not 9000000000.0",
     ]
@@ -137,9 +137,9 @@ def test_yaml_1_2_reads_yes_as_a_text_and_9e9_as_a_number(tmp_path):
 
 @pytest.mark.parametrize("ceiling", ["0.5", "9.99"])
 def test_a_ceiling_in_m_per_s_is_refused(tmp_path, ceiling):
-    (found,) = faults(tmp_path, f"model: irb120\ntcp_speed_limit: {ceiling}\n")
-    assert (found.code, found.span.line) == ("RG006", 2)
-    assert f"{float(ceiling) * 1000:g}" in found.help
+    (result,) = faults(tmp_path, f"model: irb120\ntcp_speed_limit: {ceiling}\n")
+    assert (result.code, result.span.line) == ("RG006", 2)
+    assert f"{float(ceiling) * 1000:g}" in result.help
     assert load(tmp_path, "model: irb120\ntcp_speed_limit: 10\n").groups[0].tcp_speed_limit == 0.01
 
 
@@ -158,14 +158,14 @@ def test_octal_looking_numbers_are_decimal(tmp_path):
     ],
 )
 def test_a_key_without_a_value_is_refused(tmp_path, text, place, word):
-    found = [d for d in faults(tmp_path, text) if d.code == "RG023"]
-    assert [d.span.line for d in found] == [place]
-    assert word in found[0].message
+    result = [d for d in faults(tmp_path, text) if d.code == "RG023"]
+    assert [d.span.line for d in result] == [place]
+    assert word in result[0].message
 
 
 def test_a_decimal_comma_is_told_as_such(tmp_path):
-    found = faults(tmp_path, "model: irb120\ntool: {name: t, load: {mass: 1,2}}\n")
-    assert "1.2" in found[0].help
+    result = faults(tmp_path, "model: irb120\ntool: {name: t, load: {mass: 1,2}}\n")
+    assert "1.2" in result[0].help
 
 
 @pytest.mark.parametrize("name", ["\\ud800", "\\e[31m", "\\x07", "\\0"])
@@ -205,9 +205,9 @@ def test_a_fault_in_an_override_points_at_it():
 
 
 def test_group_keys_at_the_top_need_one_group(tmp_path):
-    found = faults(tmp_path, "model: irb14000\nports: {motion: 12000}\n")
-    assert places(found) == [("RG010", 2, 1)]
-    assert "groups.rob_l.ports" in found[0].help
+    result = faults(tmp_path, "model: irb14000\nports: {motion: 12000}\n")
+    assert places(result) == [("RG010", 2, 1)]
+    assert "groups.rob_l.ports" in result[0].help
 
 
 def test_two_groups_get_ports_and_tasks_of_their_own(tmp_path):
@@ -243,10 +243,10 @@ def test_groups_do_not_share_ports_or_tasks(tmp_path):
         ("{allowed_clients: [0.0.0.0]}", "192.168.1.10"),
     ],
 )
-def test_an_address_that_no_machine_has_is_refused(tmp_path, network, told):
+def test_an_address_that_no_machine_has_is_refused(tmp_path, network, text):
     (fault,) = faults(tmp_path, f"model: irb120\nnetwork: {network}\n")
     assert (fault.code, fault.span.line) == ("RG006", 2)
-    assert told in fault.help
+    assert text in fault.help
 
 
 @pytest.mark.parametrize("address", ["10.0.0.7", "192.168.125.1", "127.0.0.1", "203.0.113.9"])
@@ -322,9 +322,9 @@ def test_what_the_schema_cannot_say_is_checked(tmp_path):
     ],
 )
 def test_what_is_wrong_is_told_with_what_mends_it(tmp_path, text):
-    found = faults(tmp_path, text)
-    assert found
-    assert [d.message for d in found if not d.help] == []
+    result = faults(tmp_path, text)
+    assert result
+    assert [d.message for d in result if not d.help] == []
 
 
 @pytest.mark.parametrize("name", shipped_names())
@@ -385,9 +385,9 @@ HOSTILE = {
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_input_is_one_finding(tmp_path, name):
-    found = faults(tmp_path, HOSTILE[name])
-    assert len(found) == 1
-    assert found[0].code in ("RG002", "RG003", "RG006")
+    result = faults(tmp_path, HOSTILE[name])
+    assert len(result) == 1
+    assert result[0].code in ("RG002", "RG003", "RG006")
 
 
 def test_nothing_and_nowhere(tmp_path):
@@ -433,14 +433,14 @@ def test_what_is_not_closed_is_told_where_it_was_opened(tmp_path, text, opened, 
 
 
 def test_a_misspelt_joint_is_one_finding(tmp_path):
-    found = faults(tmp_path, "model: irb120\njoints: {joint_22: {upper: 90}}")
-    assert places(found) == [("RG015", 2, 10)]
-    assert "did you mean 'joint_2'?" in found[0].help
+    result = faults(tmp_path, "model: irb120\njoints: {joint_22: {upper: 90}}")
+    assert places(result) == [("RG015", 2, 10)]
+    assert "did you mean 'joint_2'?" in result[0].help
 
 
 def test_a_joint_of_ones_own_lacks_everything_in_one_finding(tmp_path):
-    (found,) = faults(tmp_path, "joints: {swing: {upper: 90}}")
-    assert (found.code, found.message) == ("RG007", "joint 'swing' lacks axis, lower, speed")
+    (result,) = faults(tmp_path, "joints: {swing: {upper: 90}}")
+    assert (result.code, result.message) == ("RG007", "joint 'swing' lacks axis, lower, speed")
 
 
 def test_radians_in_the_configuration_look_odd(tmp_path):
@@ -463,8 +463,8 @@ def test_an_axis_of_length_0_turns_nothing(tmp_path):
 @pytest.mark.parametrize("joints", ["[{name: joint_1}]", "6"])
 def test_joints_that_are_no_mapping_are_one_fault(tmp_path, joints):
     """Each step of the model's chain was one more, in a file that is not the user's."""
-    (found,) = faults(tmp_path, f"model: irb120_track\njoints: {joints}\n")
-    assert (found.code, found.message) == ("RG006", "'joints': must be a mapping")
+    (result,) = faults(tmp_path, f"model: irb120_track\njoints: {joints}\n")
+    assert (result.code, result.message) == ("RG006", "'joints': must be a mapping")
 
 
 def test_data_have_one_name_each_and_need_the_control_port(tmp_path):
@@ -475,8 +475,8 @@ def test_data_have_one_name_each_and_need_the_control_port(tmp_path):
         '  "cell:count": {type: num}\n'
         '  "other:COUNT": {type: bool}\n'
     )
-    found = places(faults(tmp_path, text))
-    assert [(code, line) for code, line, _ in found] == [("RG014", 3), ("RG014", 5)]
+    result = places(faults(tmp_path, text))
+    assert [(code, line) for code, line, _ in result] == [("RG014", 3), ("RG014", 5)]
     basic = "model: irb120\nprofile: basic\ndata: {'cell:count': {type: num}}\n"
     assert [p[0] for p in places(faults(tmp_path, basic))] == ["RG014"]
     for name in ("count", "cell:", "cell:a b"):

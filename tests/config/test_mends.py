@@ -186,8 +186,8 @@ def lines_of(help_text):
 
 def paste(config, help_text):
     """A configuration with the lines of a mend in place of those that it had."""
-    found = lines_of(help_text)
-    for key, block in found.items():
+    result = lines_of(help_text)
+    for key, block in result.items():
         if key == "urdf":
             config["urdf"] = config.get("urdf", "") + block.split("urdf:", 1)[1]
         elif key == "joints" and "joints" in config:
@@ -197,7 +197,7 @@ def paste(config, help_text):
             config["joints"] = f"joints: {json.dumps(merged)}"
         else:
             config[key] = block
-    return bool(found)
+    return bool(result)
 
 
 def load(check, case, config):
@@ -208,51 +208,51 @@ def load(check, case, config):
 @pytest.mark.parametrize("name", WORDS)
 def test_a_finding_without_lines_has_none(check, name):
     case = WORDS[name]
-    _, found = load(check, case, case.config)
-    assert not lines_of(found[case.code].help)
+    _, result = load(check, case, case.config)
+    assert not lines_of(result[case.code].help)
 
 
 @pytest.mark.parametrize("name", LINES)
 def test_a_printed_line_is_safe_to_paste(tmp_path, check, name):
-    case, said = LINES[name], set()
+    case, message = LINES[name], set()
     config = dict(case.config)
     known = load_config(case.model).groups[0] if case.model else None
     for _ in range(6):
-        made, found = load(check, case, config)
+        made, result = load(check, case, config)
         if made:
             break
-        (first, *_) = errors(found)
-        if case.code not in said:
-            assert case.code in found, found
+        (first, *_) = errors(result)
+        if case.code not in message:
+            assert case.code in result, result
         if "???" in config.get("joints", ""):
             assert first == "RG022"
             config["joints"] = answered(config["joints"], known)
             continue
-        said.add(first)
-        if not paste(config, found[first].help):
+        message.add(first)
+        if not paste(config, result[first].help):
             break
         if "FOLDER" in config.get("urdf", ""):
             assert load(check, case, config)[0] is None
             (tmp_path / "arm" / "urdf").mkdir(parents=True)
             (tmp_path / "arm" / "urdf" / "arm.xacro").write_text(MACRO)
             config["urdf"] = config["urdf"].replace("FOLDER", str(tmp_path / "arm"))
-    assert case.code in said
-    assert made, found
+    assert case.code in message
+    assert made, result
     if known is None:
         assert [j.name for j in made.groups[0].joints] == [f"l_joint_{n}" for n in range(1, 7)]
         return
     own = made.groups[0]
     assert own.coupling == known.coupling
     limits = {j.axis: (j.lower, j.upper) for j in known.joints}
-    kept = {axis.axis for axis in own.kept}
-    assert limits.keys() <= {j.axis for j in own.joints} | kept
+    saved = {axis.axis for axis in own.kept}
+    assert limits.keys() <= {j.axis for j in own.joints} | saved
     for joint in own.joints:
         if joint.axis in limits:
             assert (joint.lower, joint.upper) == pytest.approx(limits[joint.axis], abs=2e-4)
     moved_as(own, known)
     with Bench(made, make_system(made, build(made))) as bench:
-        bench.moves_through(bench.motion(), bench.wave(3, duration=1.0))
-        bench.healthy()
+        bench.assert_moves_through(bench.motion(), bench.wave(3, duration=1.0))
+        bench.assert_healthy()
 
 
 def answered(joints, known):

@@ -114,7 +114,7 @@ def test_arguments_of_a_macro(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("said", "wanted"),
+    ("message", "wanted"),
     [
         ({}, ("omnicore", (7, 10))),
         ({"robotware": "7.20"}, ("omnicore", (7, 20))),
@@ -122,19 +122,19 @@ def test_arguments_of_a_macro(tmp_path):
     ],
 )
 @pytest.mark.parametrize("source", ["crb15000", "crb15000_10_152", "urdf"])
-def test_a_robot_without_an_irc5_gets_none(tmp_path, source, said, wanted):
+def test_a_robot_without_an_irc5_gets_none(tmp_path, source, message, wanted):
     path = tmp_path / "cell.yaml"
     if source == "urdf":
         (tmp_path / "r.urdf").write_text(drawn("crb15000", name_of="gofa"))
-        new(path, urdf=tmp_path / "r.urdf", **said)
+        new(path, urdf=tmp_path / "r.urdf", **message)
     else:
-        new(path, robot=source, **said)
+        new(path, robot=source, **message)
     config = load_config(path)
     assert (config.controller, config.robotware) == wanted
 
 
 @pytest.mark.parametrize(
-    ("said", "wanted"),
+    ("message", "wanted"),
     [
         ({}, ("irc5", (6, 15))),
         ({"robotware": "5.61"}, ("irc5", (5, 61))),
@@ -144,13 +144,13 @@ def test_a_robot_without_an_irc5_gets_none(tmp_path, source, said, wanted):
     ],
 )
 @pytest.mark.parametrize("source", ["irb1600", "irb1600_10_145", "urdf"])
-def test_controller_and_robotware_are_as_said(tmp_path, source, said, wanted):
+def test_controller_and_robotware_are_as_said(tmp_path, source, message, wanted):
     path = tmp_path / "cell.yaml"
     if source == "urdf":
         (tmp_path / "r.urdf").write_text(drawn("irb1600", name_of="x"))
-        new(path, urdf=tmp_path / "r.urdf", **said)
+        new(path, urdf=tmp_path / "r.urdf", **message)
     else:
-        new(path, robot=source, **said)
+        new(path, robot=source, **message)
     config = load_config(path)
     assert (config.controller, config.robotware) == wanted
 
@@ -186,8 +186,8 @@ def axes_of(path):
 def test_axes_are_said_on_the_command_line(tmp_path):
     (tmp_path / "r.urdf").write_text(f'<robot name="r">{chain(names=range(3, 10))}</robot>')
     path = tmp_path / "cell.yaml"
-    said = [f"joint_{n}=rax_{n - 3}" for n in range(4, 10)]
-    new(path, urdf=tmp_path / "r.urdf", joint=said, track=["joint_3=eax_a"], coupling=0)
+    message = [f"joint_{n}=rax_{n - 3}" for n in range(4, 10)]
+    new(path, urdf=tmp_path / "r.urdf", joint=message, track=["joint_3=eax_a"], coupling=0)
     assert axes_of(path) == ["rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6", "eax_a"]
     assert codes(path, urdf=tmp_path / "r.urdf", joint=["joint_1=rax_1"]) == (["RG020"], 2)
 
@@ -236,7 +236,7 @@ def test_a_scara_whose_export_ends_at_the_quill_is_known_by_its_two_arms(tmp_pat
     assert "IRB 920T-6/0.55" in path.read_text()
     assert [round(math.degrees(j.upper)) for j in group.joints[:2]] == [140, 150]
     assert group.joints[2].sign == -1
-    assert next((kept.axis, kept.must_stand) for kept in group.kept) == ("rax_4", False)
+    assert next((saved.axis, saved.must_stand) for saved in group.kept) == ("rax_4", False)
     urdf.write_text(SCARA.format(x=0, y=0.26))  # bent where the file says 0
     new(path, urdf=urdf, speed=100, force=True)
     offset = next(line for line in path.read_text().splitlines() if line.startswith("  b:"))
@@ -286,19 +286,19 @@ def test_an_arm_of_abb_is_one_whatever_its_neighbours_are_called(tmp_path):
 @pytest.fixture
 def person(monkeypatch):
     """Somebody who answers; what was asked."""
-    asked = []
+    requested = []
 
     def answers(*given):
         left = iter(given)
 
         def prompt(question, default=None, **_):
-            asked.append(question)
+            requested.append(question)
             answer = next(left)
             return default if answer is None else answer
 
         monkeypatch.setattr(wizard, "is_terminal", lambda: True)
         monkeypatch.setattr(wizard.typer, "prompt", prompt)
-        return asked
+        return requested
 
     return answers
 
@@ -307,7 +307,7 @@ def test_a_person_is_asked_for_what_is_open(tmp_path, person, capsys):
     (tmp_path / "r.urdf").write_text(
         f'<robot name="irb">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
     )
-    asked = person("axis 1", None, None, "eax_a", "0")
+    requested = person("axis 1", None, None, "eax_a", "0")
     new(tmp_path / "cell.yaml", urdf=tmp_path / "r.urdf")
     # What is usual comes first; where one is no axis of the arm the other six are told by that.
     joints = load_config(tmp_path / "cell.yaml").groups[0].joints
@@ -315,10 +315,10 @@ def test_a_person_is_asked_for_what_is_open(tmp_path, person, capsys):
         ("1", "rax_1"), ("2", "rax_2"), ("3", "rax_3"), ("4", "rax_4"), ("5", "rax_5"),
         ("6", "rax_6"), ("7", "eax_a"),
     ]  # fmt: skip
-    assert len(asked) == 5
-    told = capsys.readouterr().err
-    assert "| ?      joint_7" in told
-    assert "one of rax_1" in told
+    assert len(requested) == 5
+    text = capsys.readouterr().err
+    assert "| ?      joint_7" in text
+    assert "one of rax_1" in text
 
 
 def test_a_person_names_the_robot(tmp_path, person):

@@ -23,8 +23,8 @@ from tests.config.drawing import (
 
 
 def test_a_plain_robot_has_no_findings(check):
-    config, found = check(robot(BASE, arm()))
-    assert not found
+    config, result = check(robot(BASE, arm()))
+    assert not result
     assert axes(config) == {f"joint_{n}": f"rax_{n}" for n in range(1, 7)}
     assert [link.joint for link in config.groups[0].chain] == list(axes(config))
 
@@ -72,8 +72,8 @@ def test_04_order_in_the_chain_is_not_the_order_of_numbers(check):
 
 def test_04_document_order_does_not_matter(check):
     parts = [joint(f"joint_{n}", f"l{n - 1}", f"l{n}") for n in (4, 1, 6, 2, 5, 3)]
-    config, found = check(robot(links(*(f"l{n}" for n in range(7))), *parts))
-    assert not found
+    config, result = check(robot(links(*(f"l{n}" for n in range(7))), *parts))
+    assert not result
     assert list(axes(config)) == [f"joint_{n}" for n in range(1, 7)]
 
 
@@ -82,10 +82,10 @@ def test_05_numbers_off_by_one(check):
 
 
 def test_06_a_prefix_is_resolved_and_said(check):
-    config, found = check(robot(BASE, arm([f"cell_joint_{n}_a" for n in range(1, 7)])))
-    assert not errors(found)
-    assert found["RG036"].severity is Severity.WARNING
-    assert "cell_joint_1_a = rax_1" in found["RG036"].message
+    config, result = check(robot(BASE, arm([f"cell_joint_{n}_a" for n in range(1, 7)])))
+    assert not errors(result)
+    assert result["RG036"].severity is Severity.WARNING
+    assert "cell_joint_1_a = rax_1" in result["RG036"].message
     assert config is not None
 
 
@@ -98,11 +98,11 @@ def test_06_one_name_that_is_spelt_otherwise(check):
 def test_06_names_with_blanks_are_mapped_by_hand(check):
     names = [f"Revolute {n}" for n in (14, 15, 16, 17, 18, 19)]
     text = robot(BASE, arm(names))
-    _, found = check(text)
-    assert '"Revolute 14"' in found["RG035"].help
+    _, result = check(text)
+    assert '"Revolute 14"' in result["RG035"].help
     lines = "\n".join(f'  "{name}": {{axis: rax_{n}}}' for n, name in enumerate(names, 1))
-    config, found = check(text, f"joints:\n{lines}")
-    assert not found
+    config, result = check(text, f"joints:\n{lines}")
+    assert not result
     assert axes(config)["Revolute 16"] == "rax_3"
 
 
@@ -112,14 +112,14 @@ def test_07_degrees_in_place_of_radians(check):
 
 
 def test_07_the_widest_real_axis_passes(check):
-    config, found = check(six(lower=-460 * DEGREE, upper=460 * DEGREE))
-    assert not errors(found)
+    config, result = check(six(lower=-460 * DEGREE, upper=460 * DEGREE))
+    assert not errors(result)
     assert config.groups[0].joints[2].upper == pytest.approx(460 * DEGREE, abs=0.01 * DEGREE)
 
 
 def test_07_a_speed_of_degrees_is_a_warning(check):
-    _, found = check(six(velocity=46))
-    assert found["RG037"].severity is Severity.WARNING
+    _, result = check(six(velocity=46))
+    assert result["RG037"].severity is Severity.WARNING
 
 
 @pytest.mark.parametrize(
@@ -137,13 +137,13 @@ def test_07_a_speed_of_degrees_is_a_warning(check):
 )
 def test_07_and_09_speeds_of_linear_and_turning_axes(check, kind, velocity, code, said, speed):
     track = joint("track", "base_link", "rail", kind, lower=0, upper=2, velocity=velocity)
-    config, found = check(
+    config, result = check(
         robot(BASE, arm(), track, links("rail")), f"{SIX}\n  track: {{axis: eax_a}}"
     )
-    told = {c: d for c, d in found.items() if c in ("RG037", "RG039")}
-    assert set(told) == ({code} if code else set())
+    text = {c: d for c, d in result.items() if c in ("RG037", "RG039")}
+    assert set(text) == ({code} if code else set())
     if code:
-        assert said in told[code].message
+        assert said in text[code].message
     if speed is not None:
         assert next(j for j in config.groups[0].joints if j.name == "track").speed == (
             pytest.approx(speed)
@@ -153,14 +153,14 @@ def test_07_and_09_speeds_of_linear_and_turning_axes(check, kind, velocity, code
 @pytest.mark.parametrize("missing", [{"limit": False}, {"lower": None}, {"velocity": None}])
 def test_08_missing_limits(check, missing):
     only("RG038", check(six(**missing)))
-    config, found = check(
+    config, result = check(
         six(**missing),
         "joints:\n"
         + "\n".join(
             f"  joint_{n}: {{axis: rax_{n}, lower: -10, upper: 10, speed: 5}}" for n in range(1, 7)
         ),
     )
-    assert not errors(found)
+    assert not errors(result)
     assert config.groups[0].joints[2].upper == math.radians(10)
 
 
@@ -170,8 +170,8 @@ def test_09_placeholders_are_errors(check, figures):
 
 
 def test_09_a_velocity_of_100_is_a_warning_and_unsure(check):
-    config, found = check(six(velocity=100))
-    assert found["RG039"].severity is Severity.WARNING
+    config, result = check(six(velocity=100))
+    assert result["RG039"].severity is Severity.WARNING
     assert config.groups[0].joints[2].unsure
 
 
@@ -182,8 +182,8 @@ def test_10_a_continuous_robot_axis(check):
 
 def test_10_a_continuous_external_axis_is_an_independent_one(check):
     text = robot(BASE, arm(), joint("table", "base_link", "top", "continuous"), links("top"))
-    config, found = check(text, f"{SIX}\n  table: {{axis: eax_a}}")
-    assert found["RG040"].severity is Severity.WARNING
+    config, result = check(text, f"{SIX}\n  table: {{axis: eax_a}}")
+    assert result["RG040"].severity is Severity.WARNING
     assert axes(config)["table"] == "eax_a"
 
 
@@ -214,8 +214,8 @@ def scara(lower, upper):
 
 
 def test_11_metres_become_millimetres_and_it_is_said(check):
-    config, found = check(scara(-0.18, 0), SCARA)
-    assert found["RG041"].severity is Severity.INFO
+    config, result = check(scara(-0.18, 0), SCARA)
+    assert result["RG041"].severity is Severity.INFO
     third = config.groups[0].joints[2]
     assert (third.kind, third.lower, third.upper, third.speed) == ("prismatic", -0.18, 0, 1.0)
 
@@ -225,8 +225,8 @@ def test_11_metres_become_millimetres_and_it_is_said(check):
     [(0, 180, Severity.ERROR), (0, 0.0005, Severity.ERROR), (0, 60, Severity.WARNING)],
 )
 def test_11_strokes_that_are_none(check, lower, upper, severity):
-    _, found = check(scara(lower, upper), SCARA)
-    assert found["RG041"].severity is severity
+    _, result = check(scara(lower, upper), SCARA)
+    assert result["RG041"].severity is severity
 
 
 def test_11_a_unit_that_contradicts_the_joint(check):
@@ -240,8 +240,8 @@ def mimicking(of="joint_3", kind="continuous"):
 
 
 def test_12_mimic_joints_are_left_out(check):
-    config, found = check(mimicking())
-    assert not found
+    config, result = check(mimicking())
+    assert not result
     assert len(config.groups[0].joints) == 6
 
 
@@ -263,8 +263,8 @@ def test_12_a_mimic_in_the_chain_follows(check):
         joint("joint_6", "link_5b", "link_6"),
         links("link_5b", "link_6"),
     )
-    config, found = check(text)
-    assert not found
+    config, result = check(text)
+    assert not result
     assert config.groups[0].chain[5].follows == (("joint_5", -1.0),)
 
 
@@ -289,8 +289,8 @@ def test_13_a_passive_joint_that_is_not_marked(check):
     text = robot(BASE, arm(), still, links("tail_link"))
     fault = only("RG043", check(text))
     assert "ignore_joints: [tail]" in fault.help
-    config, found = check(text, urdf="  ignore_joints: [tail]")
-    assert not found
+    config, result = check(text, urdf="  ignore_joints: [tail]")
+    assert not result
     assert len(config.groups[0].joints) == 6
 
 
@@ -303,8 +303,8 @@ def test_14_a_gripper(check):
     text = robot(BASE, arm(), finger, links("finger"))
     only("RG044", check(text))
     only("RG044", check(text, SIX))
-    _, found = check(text, urdf="  ignore_joints: [finger_joint]")
-    assert not found
+    _, result = check(text, urdf="  ignore_joints: [finger_joint]")
+    assert not result
 
 
 def test_15_seven_joints_need_a_mapping(check):
@@ -315,8 +315,8 @@ def test_15_seven_joints_need_a_mapping(check):
     lines = fault.help
     for n in (1, 2, 3, 4, 5, 6):
         lines = lines.replace(f'joint_{n}: {{axis: "???"}}', f"joint_{n}: {{axis: rax_{n}}}")
-    config, found = check(text, lines.replace('"???"', "eax_a"))
-    assert not found
+    config, result = check(text, lines.replace('"???"', "eax_a"))
+    assert not result
     assert axes(config)["joint_7"] == "eax_a"
 
 
@@ -334,9 +334,9 @@ def track():
 def test_16_a_track_under_the_robot_is_external(check):
     fault = only("RG046", check(track()))
     assert "rail" in fault.message
-    config, found = check(track(), f"{SIX}\n  rail: {{axis: eax_a, unit: mm}}")
-    assert not errors(found)
-    assert "its base moves" in found["RG046"].message
+    config, result = check(track(), f"{SIX}\n  rail: {{axis: eax_a, unit: mm}}")
+    assert not errors(result)
+    assert "its base moves" in result["RG046"].message
     assert config.groups[0].chain[0].joint == "rail"
     assert config.groups[0].joints[6].upper == 4.2
 
@@ -351,8 +351,8 @@ def test_16_a_joint_on_another_branch_is_no_robot_axis(check):
 def test_17_a_lever_robot_needs_its_coupling(check):
     text = robot(BASE, arm(), name="abb_irb2400_12_155")
     only("RG047", check(text))
-    config, found = check(text, "coupling: 1")
-    assert not found
+    config, result = check(text, "coupling: 1")
+    assert not result
     assert config.groups[0].coupling == 1
 
 
@@ -363,8 +363,8 @@ def test_17_a_palletiser_of_nobodys_list_needs_its_coupling_too(check):
     passive = "  ignore_joints: [joint_4, joint_5]"
     only("RG047", check(text, f"joints:\n{lines}", urdf=passive))
     only("RG021", check(text, f"coupling: 0\njoints:\n{lines}", urdf=passive))
-    kept = "coupling: 0\nkeep: {rax_4: 0, rax_5: 30}"
-    config, _ = check(text, f"{kept}\njoints:\n{lines}", urdf=passive)
+    saved = "coupling: 0\nkeep: {rax_4: 0, rax_5: 30}"
+    config, _ = check(text, f"{saved}\njoints:\n{lines}", urdf=passive)
     assert config.groups[0].coupling == 0
     assert [(k.axis, k.must_stand) for k in config.groups[0].kept] == [
         ("rax_4", True),
@@ -375,8 +375,8 @@ def test_17_a_palletiser_of_nobodys_list_needs_its_coupling_too(check):
 
 
 def test_17_a_serial_robot_has_none(check):
-    _, found = check(robot(BASE, arm(), name="irb6700_200_260"), "coupling: 1")
-    assert found["RG047"].severity is Severity.WARNING
+    _, result = check(robot(BASE, arm(), name="irb6700_200_260"), "coupling: 1")
+    assert result["RG047"].severity is Severity.WARNING
 
 
 def test_20_four_joints(check):
@@ -385,8 +385,8 @@ def test_20_four_joints(check):
     lines = "coupling: 1\njoints:\n" + "\n".join(
         f"  joint_{n}: {{axis: rax_{axis}}}" for n, axis in ((1, 1), (2, 2), (3, 3), (4, 6))
     )
-    config, found = check(text, lines)
-    assert not found
+    config, result = check(text, lines)
+    assert not result
     assert axes(config)["joint_4"] == "rax_6"
 
 
@@ -406,8 +406,8 @@ def test_21_no_tree(check, extra):
 
 
 def test_21_two_roots_are_a_warning(check):
-    config, found = check(robot(BASE, links("world"), arm()))
-    assert found["RG051"].severity is Severity.WARNING
+    config, result = check(robot(BASE, links("world"), arm()))
+    assert result["RG051"].severity is Severity.WARNING
     assert config is not None
 
 
@@ -420,8 +420,8 @@ def two_arms():
 def test_22_two_robots_in_one_description(check):
     fault = only("RG052", check(two_arms()))
     assert "left_6, right_6" in fault.message
-    config, found = check(two_arms(), urdf="  tip: right_6")
-    assert not errors(found)
+    config, result = check(two_arms(), urdf="  tip: right_6")
+    assert not errors(result)
     assert axes(config)["right_joint_6"] == "rax_6"
 
 
@@ -474,8 +474,8 @@ def test_23_a_joint_that_no_axis_is_needs_no_direction(check, ignored):
     kind = "revolute" if ignored else "fixed"
     more = joint("more", "link_6", "tool0", kind).replace("0 0 1", "0 0 0")
     urdf = "  ignore_joints: [more]" if ignored else ""
-    _, found = check(robot(BASE, arm(), more, links("tool0")), urdf=urdf)
-    assert not found
+    _, result = check(robot(BASE, arm(), more, links("tool0")), urdf=urdf)
+    assert not result
 
 
 @pytest.mark.parametrize("old", [' name="joint_3"', '<parent link="link_2"/>', ' type="revolute"'])
@@ -486,8 +486,8 @@ def test_23_missing_parts(check, old):
 
 
 def test_24_a_limit_rounded_outwards_comes_back(check):
-    config, found = check(six(lower=-3.1416, upper=3.1416))
-    assert found["RG054"].severity is Severity.INFO
+    config, result = check(six(lower=-3.1416, upper=3.1416))
+    assert result["RG054"].severity is Severity.INFO
     third = config.groups[0].joints[2]
     assert (third.lower, third.upper) == (-math.pi, math.pi)
 
@@ -510,8 +510,8 @@ def test_24_one_limit_of_ones_own_stays_and_the_urdf_completes_the_other(check, 
 
 
 def test_24_one_limit_of_ones_own_is_judged_with_that_of_the_urdf(check):
-    _, found = check(six(lower=-1.4, upper=1.4), "joints:\n  joint_3: {lower: 85}")
-    assert errors(found) == ["RG014"]
+    _, result = check(six(lower=-1.4, upper=1.4), "joints:\n  joint_3: {lower: 85}")
+    assert errors(result) == ["RG014"]
 
 
 def test_25_no_mesh_is_opened(check, tmp_path, monkeypatch):
@@ -533,8 +533,8 @@ def test_25_no_mesh_is_opened(check, tmp_path, monkeypatch):
         '<link name="base_link"/>',
         f'<link name="base_link">{mesh.format("link.stl")}{mesh.format("package://a/b.dae")}</link>',
     )
-    config, found = check(text)
-    assert not found
+    config, result = check(text)
+    assert not result
     assert config is not None
     assert not [name for name in opened if name.endswith((".stl", ".dae"))]
 
@@ -550,8 +550,8 @@ ARGUMENT = (
 def test_26_an_argument_that_no_file_declares(check):
     fault = only("RG056", check(ARGUMENT, urdf="  args: {prefx: a_}", suffix=".xacro"))
     assert "did you mean 'prefix'?" in fault.help
-    config, found = check(ARGUMENT, urdf="  args: {prefix: a_}", suffix=".xacro")
-    assert not errors(found)
+    config, result = check(ARGUMENT, urdf="  args: {prefix: a_}", suffix=".xacro")
+    assert not errors(result)
     assert axes(config)["a_joint_1"] == "rax_1"
 
 
@@ -562,7 +562,7 @@ def test_27_two_packages_of_one_name(check, tmp_path):
         (folder / "package.xml").write_text("<package><name>arm_pkg</name></package>")
         (folder / "a.xacro").write_text(f"<robot {XACRO}>{BASE}{arm()}</robot>")
     text = f'<robot name="r" {XACRO}><xacro:include filename="$(find arm_pkg)/a.xacro"/></robot>'
-    config, found = check(text, suffix=".xacro", package_paths=[tmp_path / "forks"])
-    assert found["RG057"].severity is Severity.WARNING
-    assert str(tmp_path / "forks" / "one") in found["RG057"].label
+    config, result = check(text, suffix=".xacro", package_paths=[tmp_path / "forks"])
+    assert result["RG057"].severity is Severity.WARNING
+    assert str(tmp_path / "forks" / "one") in result["RG057"].label
     assert config is not None

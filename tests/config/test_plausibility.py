@@ -107,8 +107,8 @@ def test_a_robot_that_is_recognised_has_its_payload(tmp_path):
     (tmp_path / "robot.urdf").write_text(drawn("irb120"))
     joints = ", ".join(f"joint_{n}: {{axis: rax_{n}}}" for n in range(1, 7))
     text = f"urdf: {{file: robot.urdf}}\njoints: {{{joints}}}\ntool: {{name: g, load: {{mass: 9}}}}"
-    (found,) = [d for d in findings(tmp_path, text) if d.code == "RG070"]
-    assert "the 3 kg payload of IRB 120-3/0.58" in found.message
+    (result,) = [d for d in findings(tmp_path, text) if d.code == "RG070"]
+    assert "the 3 kg payload of IRB 120-3/0.58" in result.message
 
 
 def test_payloads_have_sources_and_survive_a_manifest():
@@ -129,8 +129,8 @@ def test_loads_of_a_cell_are_held_against_its_strongest_robot(tmp_path):
         "loads: {part: {mass: 4}}\n"
         "tools: {gun: {frame: {position: [0, 0, 0.2]}, load: {mass: 1}}}\n"
     )
-    found = load_cell(path).diagnostics
-    assert sorted((d.code, d.span.line) for d in found) == [
+    result = load_cell(path).diagnostics
+    assert sorted((d.code, d.span.line) for d in result) == [
         ("RG070", 2),
         ("RG071", 1),
         ("RG071", 3),

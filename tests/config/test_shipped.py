@@ -188,8 +188,8 @@ def test_own_urdfs_have_the_models_geometry(path):
     from rapidgen.config.urdf.robot import read_robot
 
     description = expand(Request(path, Packages({}, [], path.parent)))
-    graph, found = build_graph(read_robot(description, None), None)
-    assert not found
+    graph, result = build_graph(read_robot(description, None), None)
+    assert not result
     for group in load_config(path.stem).groups:
         draft = GroupDraft(group.name, joints=[JointDraft(j.name, j.axis) for j in group.joints])
         made = replace(group, chain=tuple(chain(graph, draft, "")))

@@ -53,9 +53,9 @@ def test_names_of_variants_are_their_own():
 def test_a_variant_that_is_not_known_enough_says_what_it_lacks(tmp_path, variant):
     with pytest.raises(DiagnosticError) as fault:
         loaded(tmp_path, variant)
-    (found,) = fault.value.diagnostics
-    assert found.code == "RG009"
-    assert all(text in found.message for text in missing_figures(variant))
+    (result,) = fault.value.diagnostics
+    assert result.code == "RG009"
+    assert all(text in result.message for text in missing_figures(variant))
 
 
 def test_new_writes_a_variant(tmp_path, capsys):

@@ -80,9 +80,9 @@ def test_a_described_cell_answers_the_program(program, cell, tmp_path):
 
 
 def test_a_guessed_cell_has_what_the_program_names(program):
-    found = load_target([program], BootOptions(cell="guess"))
-    assert found.guessed is not None
-    named = {one.name: one.type for one in found.guessed.named}
+    result = load_target([program], BootOptions(cell="guess"))
+    assert result.guessed is not None
+    named = {one.name: one.type for one in result.guessed.named}
     assert named == {
         "doGrip": "signaldo",
         "diGripped": "signaldi",
@@ -93,8 +93,8 @@ def test_a_guessed_cell_has_what_the_program_names(program):
         "wTable": "wobjdata",
         "clock9": "clock",
     }
-    assert found.guessed.named[0].span.line == 3
-    (table,) = found.guessed.cell.work_objects
+    assert result.guessed.named[0].span.line == 3
+    (table,) = result.guessed.cell.work_objects
     x, y, z = table.user_frame.position
     assert (0.3 < x < 0.4, y, 0.1 < z < 0.3) == (True, 0, True), "an IRB 120 reaches it"
 
@@ -115,15 +115,15 @@ def test_what_a_program_waits_for_on_a_guessed_input_comes_half_a_second_later(t
             ("diA", 1),
         ]
         assert controller.now == pytest.approx(2.0, abs=0.25)
-        said = [event.texts for event in controller.log if event.code == GUESSED]
-        assert said[0] == ("diA becomes 1",)
-        assert len(said) == 5
+        message = [event.texts for event in controller.log if event.code == GUESSED]
+        assert message[0] == ("diA becomes 1",)
+        assert len(message) == 5
 
 
 def test_without_a_cell_nothing_is_made_up(program):
-    found = load_target([program])
-    assert found.guessed is None
-    assert found.system.signals == ()
+    result = load_target([program])
+    assert result.guessed is None
+    assert result.system.signals == ()
 
 
 @pytest.mark.parametrize(
@@ -136,8 +136,8 @@ def test_without_a_cell_nothing_is_made_up(program):
     ],
 )
 def test_strangers_start_where_their_robots_usually_do(model, first, second):
-    found = [shown(group, usual_start(group)) for group in load_config(model).groups]
-    assert found == [text for text in (first, second) if text]
+    result = [shown(group, usual_start(group)) for group in load_config(model).groups]
+    assert result == [text for text in (first, second) if text]
 
 
 def test_a_driver_starts_at_zero():
@@ -147,9 +147,9 @@ def test_a_driver_starts_at_zero():
 def refused(call, *words):
     with pytest.raises(DiagnosticError) as caught:
         call()
-    (found,) = caught.value.diagnostics
-    assert all(word in f"{found.message} {found.help}" for word in words), found
-    return found.code
+    (result,) = caught.value.diagnostics
+    assert all(word in f"{result.message} {result.help}" for word in words), result
+    return result.code
 
 
 def test_a_start_that_the_robot_cannot_have_is_refused(program):
@@ -221,10 +221,10 @@ def test_a_faulty_value_is_no_missing_one_too(tmp_path):
     path.write_text("signals:\n  a: {kind: XX}\ntools:\n  1x: {}\n")
     with pytest.raises(DiagnosticError) as fault:
         load_cell(path)
-    found = fault.value.diagnostics
-    assert [(d.code, d.span.line) for d in found] == [("RG006", 2), ("RG006", 4)]
-    assert "`rapidgen schema --cell` has all keys" in found[0].help
-    assert "begin with a letter" in found[1].help
+    result = fault.value.diagnostics
+    assert [(d.code, d.span.line) for d in result] == [("RG006", 2), ("RG006", 4)]
+    assert "`rapidgen schema --cell` has all keys" in result[0].help
+    assert "begin with a letter" in result[1].help
     path.write_text("- doGrip\n")
     with pytest.raises(DiagnosticError, match="a cell file is a mapping of keys") as fault:
         load_cell(path)
@@ -277,9 +277,9 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
         " ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], BootOptions(cell="guess", robot="irb1600"))
-    assert found.guessed is not None
-    assert {one.name: one.type for one in found.guessed.named} == {
+    result = load_target([path], BootOptions(cell="guess", robot="irb1600"))
+    assert result.guessed is not None
+    assert {one.name: one.type for one in result.guessed.named} == {
         "sig_a": "signaldo",
         "M7": "mecunit",
         "pHome": "robtarget",
@@ -294,8 +294,8 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         "nParts": "num",
         "Sensor": "signaldi",
     }
-    assert [one.name for one in found.guessed.unknown] == ["unheard"]
-    with VirtualController.boot(found, cycle="once") as controller:
+    assert [one.name for one in result.guessed.unknown] == ["unheard"]
+    with VirtualController.boot(result, cycle="once") as controller:
         start = controller.positions()
         controller.run(max_time=20)
         assert controller.signals["sig_a"] == 1
@@ -306,12 +306,12 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
 
 def test_a_folder_with_a_folder_for_each_task_is_those_tasks(tmp_path):
     text = "MODULE m\n PROC main()\n  {} doMet, 1;\n ENDPROC\nENDMODULE\n"
-    for task, said in (("T_ROB_L", "SetDO"), ("T_ROB_R", "WaitDO")):
+    for task, message in (("T_ROB_L", "SetDO"), ("T_ROB_R", "WaitDO")):
         (tmp_path / task).mkdir()
-        (tmp_path / task / "m.mod").write_text(text.format(said))
-    found = load_target([tmp_path], BootOptions(cell="guess", robot="irb14000"))
-    assert [group.task for group in found.groups] == ["T_ROB_L", "T_ROB_R"]
-    with VirtualController.boot(found, cycle="once") as controller:
+        (tmp_path / task / "m.mod").write_text(text.format(message))
+    result = load_target([tmp_path], BootOptions(cell="guess", robot="irb14000"))
+    assert [group.task for group in result.groups] == ["T_ROB_L", "T_ROB_R"]
+    with VirtualController.boot(result, cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
 
 
@@ -334,9 +334,9 @@ def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path)
         "  MoveJ q, v100, fine, tRod \\WObj:=wAway;\n  MoveJ [[0,0,0],[0,0,0,0],[0,0,0,0],"
         "[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], BootOptions(cell="guess"))
-    assert found.likely == RobotCandidate("irb4600", 2, 2)
-    assert found.groups[0].model == "irb4600"
+    result = load_target([path], BootOptions(cell="guess"))
+    assert result.likely == RobotCandidate("irb4600", 2, 2)
+    assert result.groups[0].model == "irb4600"
     assert load_target([path], BootOptions(cell="guess", robot="irb1600")).likely is None
     assert load_target([path]).groups[0].model == "irb120"
     text = path.read_text().replace("MODULE far\n", "MODULE far\n VAR num i := 3;\n")
@@ -353,18 +353,18 @@ def test_an_arm_angle_guesses_the_robot_with_seven_axes(eax_a, robot, tmp_path):
         "MODULE angle\n PROC main()\n  MoveJ [[300,0,400],[0,0.707107,0.707107,0],[0,0,0,0],"
         f"[{eax_a},9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], BootOptions(cell="guess"))
-    assert found.groups[0].model == robot
+    result = load_target([path], BootOptions(cell="guess"))
+    assert result.groups[0].model == robot
 
 
 def test_loose_files_are_on_the_controller_that_is_said(program, cell):
     """An OmniCore before anybody came: its tasks, its robot, its firewall (backups of 7.5, 7.6)."""
-    found = load_target([program], BootOptions(robotware=(7, 6), cell=cell))
-    assert found.system.robotware == (7, 6)
-    assert found.cfg.tasks == {"t_rob1"}
-    assert found.cfg.units == {"rob_1"}
-    assert "rapidsockets" in found.cfg.names("SIO", "FIREWALL_MANAGEMENT")
-    assert found.cfg.signal("doGrip").text("SignalType") == "DO"
+    result = load_target([program], BootOptions(robotware=(7, 6), cell=cell))
+    assert result.system.robotware == (7, 6)
+    assert result.cfg.tasks == {"t_rob1"}
+    assert result.cfg.units == {"rob_1"}
+    assert "rapidsockets" in result.cfg.names("SIO", "FIREWALL_MANAGEMENT")
+    assert result.cfg.signal("doGrip").text("SignalType") == "DO"
 
 
 def test_what_tells_its_release_is_not_given_another(program):

@@ -61,34 +61,34 @@ def files(tmp_path):
     return tmp_path
 
 
-def shown(files, **wishes):
+def shown(files, **options):
     lines: list[str] = []
-    found = load_target([files / "cam.mod"], BootOptions(**wishes))
-    with VirtualController.boot(found, cycle="once") as controller:
+    result = load_target([files / "cam.mod"], BootOptions(**options))
+    with VirtualController.boot(result, cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: lines.append(line))
-        ended = controller.run(max_time=60)
-        return lines, ended, controller.now, str(controller.task("T_ROB1").fault)
+        finished = controller.run(max_time=60)
+        return lines, finished, controller.now, str(controller.task("T_ROB1").fault)
 
 
 def test_images_come_in_turn_with_what_the_cell_says_is_in_them(files):
-    lines, ended, now, _ = shown(files, cell=files / "cell.yaml")
+    lines, finished, now, _ = shown(files, cell=files / "cell.yaml")
     part = ["Part[10,20,0]7ok", "Part[30,0,0]0"]
     assert lines == [*part, "none of 2", "none of 2", *part, "none of 2"]
-    assert ended == "finished"
+    assert finished == "finished"
     assert now == pytest.approx(0.6, abs=0.1), "each image takes 0.2 s"
 
 
 def test_jobs_and_parameters_are_changed_in_program_mode(files):
-    lines, ended, now, _ = shown(files, cell=files / "cell.yaml", entry="changes")
+    lines, finished, now, _ = shown(files, cell=files / "cell.yaml", entry="changes")
     assert lines == ["a.job", "gain 3", "2", "run mode"]
-    assert ended == "finished"
+    assert finished == "finished"
     assert now == pytest.approx(1.2, abs=0.1), "a job takes a second"
 
 
 def test_a_guessed_camera_sees_one_thing(files):
-    lines, ended, _, _ = shown(files, cell="guess")
+    lines, finished, _, _ = shown(files, cell="guess")
     assert lines == ["Cam1[0,0,0]0", "none of 0"] * 3
-    assert ended == "finished"
+    assert finished == "finished"
 
 
 def test_a_camera_of_which_nothing_is_said_stops_the_program(files, tmp_path):

@@ -264,14 +264,14 @@ def test_two_entry_routines_are_in_the_way_of_their_task_only() -> None:
         controller.start_program()
         controller.run(max_time=1)
         assert (controller.task("T1").state, controller.task("T2").state) == ("empty", "finished")
-        said = next(e for e in controller.log if e.task == "T1")
-        assert said.texts == ("Global routine name main ambiguous",)
+        message = next(e for e in controller.log if e.task == "T1")
+        assert message.texts == ("Global routine name main ambiguous",)
 
 
 def test_a_backup_without_an_entry_routine_boots() -> None:
     """[backup]: controllers save them so, and wait for a program."""
-    whole = System("s", (task("T1", "VAR num n;"),), robot_types={"ROB_1": "IRB 120"})
-    with VirtualController(whole) as controller:
+    complete = System("s", (task("T1", "VAR num n;"),), robot_types={"ROB_1": "IRB 120"})
+    with VirtualController(complete) as controller:
         assert [d.severity for d in controller.diagnostics] == [Severity.WARNING]
         assert controller.task("T1").state == "empty"
 

@@ -56,21 +56,21 @@ ENDMODULE
 def run(tmp_path, text, **options):
     path = tmp_path / "program.mod"
     path.write_text(text)
-    shown: list[str] = []
+    displayed: list[str] = []
     with VirtualController.from_files([path], cycle="once", **options) as controller:
-        controller.operator.subscribe(lambda _task, line: shown.append(line))
-        ended = controller.run(max_time=120)
-        return ended, shown, controller.where(), controller
+        controller.operator.subscribe(lambda _task, line: displayed.append(line))
+        finished = controller.run(max_time=120)
+        return finished, displayed, controller.where(), controller
 
 
 def test_a_server_hears_its_words_and_numbers_and_the_end_last(tmp_path):
-    ended, shown, _, controller = run(tmp_path, SERVER, cell="guess")
-    assert ended == "finished"
-    assert shown[:4] == ["unknown", "seven", "unknown", "go"], "with more behind it"
-    assert "seven" in shown[4:], "alone"
-    said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
-    assert any(text.startswith("7 ") for text in said), "a number with more behind it"
-    assert said[-1] == "quit"
+    finished, displayed, _, controller = run(tmp_path, SERVER, cell="guess")
+    assert finished == "finished"
+    assert displayed[:4] == ["unknown", "seven", "unknown", "go"], "with more behind it"
+    assert "seven" in displayed[4:], "alone"
+    message = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert any(text.startswith("7 ") for text in message), "a number with more behind it"
+    assert message[-1] == "quit"
 
 
 COUNTING = """MODULE counting
@@ -129,13 +129,13 @@ ENDMODULE
 def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp_path):
     path = tmp_path / "counting.mod"
     path.write_text(COUNTING)
-    shown: list[str] = []
+    displayed: list[str] = []
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        controller.operator.subscribe(lambda _task, line: displayed.append(line))
         run_past_stops(controller, max_time=300)
-        said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
-    assert "3 0 0 0 0 30 0 #" in said
-    assert {"moved", "on", "off"} <= set(shown)
+        message = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert "3 0 0 0 0 30 0 #" in message
+    assert {"moved", "on", "off"} <= set(displayed)
 
 
 BINARY = """MODULE binary
@@ -188,11 +188,11 @@ ENDMODULE
 
 def test_a_server_of_binary_messages_hears_their_length_and_the_numbers_it_tests(tmp_path):
     """Length first, in the order of bytes that the program unpacks [S4 UnpackRawBytes]."""
-    ended, shown, where, controller = run(tmp_path, BINARY, cell="guess")
-    assert shown[:4] == ["begin", "between", "end 0", "unknown"]
-    assert (ended, "waits for bytes" in where[0]) == ("deadlock", True)
-    said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
-    assert said[0] == "00 0e 00 00 01 2c ff ff 00 00 00 00 00 00 00 00"
+    finished, displayed, where, controller = run(tmp_path, BINARY, cell="guess")
+    assert displayed[:4] == ["begin", "between", "end 0", "unknown"]
+    assert (finished, "waits for bytes" in where[0]) == ("deadlock", True)
+    message = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert message[0] == "00 0e 00 00 01 2c ff ff 00 00 00 00 00 00 00 00"
 
 
 FIELDS = """MODULE fields
@@ -238,13 +238,13 @@ ENDMODULE
 def test_a_text_of_fields_has_what_each_is_compared_with(tmp_path):
     path = tmp_path / "fields.mod"
     path.write_text(FIELDS)
-    shown: list[str] = []
+    displayed: list[str] = []
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, line: shown.append(line))
+        controller.operator.subscribe(lambda _task, line: displayed.append(line))
         run_past_stops(controller, max_time=300)
-        said = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
-    assert said[:3] == ["250;left;", "250;right;", "J;012;"]
-    assert shown[:3] == ["left", "right", "twelve"]
+        message = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
+    assert message[:3] == ["250;left;", "250;right;", "J;012;"]
+    assert displayed[:3] == ["left", "right", "twelve"]
 
 
 def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
@@ -254,9 +254,9 @@ def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
         "  SocketListen s;\n  SocketAccept s, c;\n  SocketAccept s, d;\n"
         '  SocketReceive d \\Str:=said;\n  IF said = "a" TPWrite said;\n ENDPROC\nENDMODULE\n'
     )
-    ended, shown, _, _ = run(tmp_path, two, cell="guess")
-    assert ended == "finished"
-    assert shown == ["a"]
+    finished, displayed, _, _ = run(tmp_path, two, cell="guess")
+    assert finished == "finished"
+    assert displayed == ["a"]
 
 
 def test_a_copy_of_what_is_received_is_compared_whole_and_errors_are_not_said(tmp_path):
@@ -264,15 +264,15 @@ def test_a_copy_of_what_is_received_is_compared_whole_and_errors_are_not_said(tm
         '   IF StrPart(said, 1, 1) = "G" TPWrite "go";\n',
         '   also := said;\n   IF also = "gate" AND ERRNO <> ERR_SOCK_TIMEOUT TPWrite "gate";\n',
     ).replace(" VAR bool ok;", " VAR bool ok;\n VAR string also;")
-    _, shown, _, controller = run(tmp_path, text, cell="guess")
-    assert "gate" in shown
+    _, displayed, _, controller = run(tmp_path, text, cell="guess")
+    assert "gate" in displayed
     assert "1161" not in str(controller.guessed.answered)
 
 
 def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
-    ended, shown, where, _ = run(tmp_path, CLIENT, cell="guess")
-    assert shown == ["got 12"], "as many bytes as it reads"
-    assert ended == "deadlock"
+    finished, displayed, where, _ = run(tmp_path, CLIENT, cell="guess")
+    assert displayed == ["got 12"], "as many bytes as it reads"
+    assert finished == "deadlock"
     assert "waits for bytes" in where[0]
 
 
@@ -283,13 +283,13 @@ def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tm
             "   SocketSend c", "   TPWrite said + StrPart(said, 5, 1);\n   SocketSend c"
         )
     )
-    shown: list[str] = []
+    displayed: list[str] = []
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, line: shown.append(line))
-        ended = run_past_stops(controller, max_time=120)
-        assert ended == "finished"
+        controller.operator.subscribe(lambda _task, line: displayed.append(line))
+        finished = run_past_stops(controller, max_time=120)
+        assert finished == "finished"
         assert ("server.mod:24", "ERR_OUTOFBND") in controller.guessed.stopped
-        assert "shortt" in shown, "the one behind that which stopped it"
+        assert "shortt" in displayed, "the one behind that which stopped it"
 
 
 def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
@@ -305,15 +305,15 @@ def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
 
 @pytest.mark.parametrize("text", [SERVER, CLIENT])
 def test_without_a_guess_nobody_is_there(tmp_path, text):
-    _, shown, _, controller = run(tmp_path, text)
-    assert shown == []
+    _, displayed, _, controller = run(tmp_path, text)
+    assert displayed == []
     assert "ERR_SOCK" in str(controller.task("T_ROB1").fault)
 
 
 def test_on_real_sockets_nobody_is_made_up(tmp_path):
     path = tmp_path / "server.mod"
     path.write_text(SERVER)
-    found = load_target([path], BootOptions(cell="guess"))
-    with VirtualController.boot(found, host="127.0.0.1", cycle="once") as controller:
+    result = load_target([path], BootOptions(cell="guess"))
+    with VirtualController.boot(result, host="127.0.0.1", cycle="once") as controller:
         controller.run(max_time=10)
         assert controller.sockets.on_awaited is None

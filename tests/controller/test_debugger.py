@@ -102,8 +102,8 @@ def test_stack_values_and_setting_them(boot):
     number = debugger.add(Breakpoint("m", 18)).number
     controller.run_for(1.0)
     assert [f.routine.name for f in debugger.frames("T_ROB1")] == ["main", "work"]
-    shown = {v.name: (v.type, v.text) for v in debugger.variables("T_ROB1")}
-    assert shown == {
+    displayed = {v.name: (v.type, v.text) for v in debugger.variables("T_ROB1")}
+    assert displayed == {
         "k": ("num", "1"),
         "n": ("num", "1"),
         "text": ("string", '"a"'),
@@ -140,13 +140,13 @@ def test_stack_values_and_setting_them(boot):
 def test_passes(boot, hits, expected):
     controller, debugger = boot()
     debugger.add(Breakpoint("m", 10, hits=hits))
-    found = []
+    result = []
     while controller.now < 2.3:
         controller.run_for(2.4 - controller.now)
         if debugger.halt is not None:
-            found.append(int(debugger.evaluate("T_ROB1", "i").text))
+            result.append(int(debugger.evaluate("T_ROB1", "i").text))
             debugger.resume()
-    assert found == expected
+    assert result == expected
 
 
 def test_condition_and_log_point(boot):

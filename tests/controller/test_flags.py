@@ -35,17 +35,17 @@ ENDMODULE
 def run(tmp_path, text, cell):
     path = tmp_path / "flag.mod"
     path.write_text(text)
-    shown: list[str] = []
+    displayed: list[str] = []
     with VirtualController.from_files([path], cell=cell, cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, line: shown.append(line))
-        ended = controller.run(max_time=60)
-        return ended, shown, controller.guessed.answered
+        controller.operator.subscribe(lambda _task, line: displayed.append(line))
+        finished = controller.run(max_time=60)
+        return finished, displayed, controller.guessed.answered
 
 
 def test_each_becomes_what_it_is_looked_at_for_and_is_told(tmp_path):
-    ended, shown, answered = run(tmp_path, PROGRAM, "guess")
-    assert ended == "finished"
-    assert shown == ["started", "three", "new"]
+    finished, displayed, answered = run(tmp_path, PROGRAM, "guess")
+    assert finished == "finished"
+    assert displayed == ["started", "three", "new"]
     given = [("bStart", "TRUE"), ("nOrder", "3"), ("nOrder", "0"), ("bNew", "TRUE")]
     assert answered == given
 
@@ -58,8 +58,8 @@ def test_what_the_program_sets_itself_is_left_alone(tmp_path):
 
 
 def test_without_a_guess_nobody_sets_it(tmp_path):
-    ended, shown, answered = run(tmp_path, PROGRAM, "")
-    assert (ended, shown, answered) == ("time", [], [])
+    finished, displayed, answered = run(tmp_path, PROGRAM, "")
+    assert (finished, displayed, answered) == ("time", [], [])
 
 
 TOGETHER = {
@@ -90,8 +90,8 @@ def test_what_has_to_hold_together_does(name, tmp_path):
         " ENDPROC\n FUNC bool asked()\n  RETURN nPart = 4 AND NOT (NOT bAuto);\n ENDFUNC\n"
         "ENDMODULE\n"
     )
-    ended, _, answered = run(tmp_path, text, "guess")
-    assert ended == "finished"
+    finished, _, answered = run(tmp_path, text, "guess")
+    assert finished == "finished"
     assert answered
 
 

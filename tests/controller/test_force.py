@@ -68,17 +68,17 @@ def boot(tmp_path):
 
 
 def run(controller):
-    shown: list[str] = []
-    controller.operator.subscribe(lambda _task, text: shown.append(text))
+    displayed: list[str] = []
+    controller.operator.subscribe(lambda _task, text: displayed.append(text))
     controller.run(max_time=60)
-    return shown, controller.task("T_ROB1").fault
+    return displayed, controller.task("T_ROB1").fault
 
 
 def test_a_sensor_reads_what_the_file_says_and_the_robot_presses_along_its_path(boot):
     with boot("main") as controller:
-        shown, fault = run(controller)
+        displayed, fault = run(controller)
         assert fault is None
-        assert shown == [
+        assert displayed == [
             "2.5[0,0,60]0",
             "[0,0,-5,0,0,0]",
             "force TRUE",
@@ -97,11 +97,11 @@ def test_a_sensor_reads_what_the_file_says_and_the_robot_presses_along_its_path(
         ("searches", "FCRefStart is not available"),
     ],
 )
-def test_what_cannot_be_stops_and_says_so(boot, entry, told):
+def test_what_cannot_be_stops_and_says_so(boot, entry, report):
     with boot(entry) as controller:
-        shown, fault = run(controller)
-        assert told in fault.title
-        assert shown == (["force TRUE", "force FALSE"] if entry == "searches" else [])
+        displayed, fault = run(controller)
+        assert report in fault.title
+        assert displayed == (["force TRUE", "force FALSE"] if entry == "searches" else [])
 
 
 def test_without_a_word_about_the_sensor_the_program_stops(boot):
@@ -113,6 +113,6 @@ def test_without_a_word_about_the_sensor_the_program_stops(boot):
 
 def test_a_guessed_sensor_measures_nothing(boot):
     with boot("main", cell="guess") as controller:
-        shown, fault = run(controller)
+        displayed, fault = run(controller)
         assert fault is None
-        assert shown[1] == "[0,0,0,0,0,0]"
+        assert displayed[1] == "[0,0,0,0,0,0]"

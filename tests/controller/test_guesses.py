@@ -18,9 +18,9 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         '  x := x + sizeOf("k");\n  p := lookUp(x);\n  MoveJ p, v100, fine, tool0;\n'
         '  %"later"% 3;\n  TPWrite "x " + ValToStr(x);\n ENDPROC\nENDMODULE\n'
     )
-    found = load_target([path], BootOptions(cell="guess"))
-    assert found.guessed is not None
-    named = {one.name: one.type for one in found.guessed.named}
+    result = load_target([path], BootOptions(cell="guess"))
+    assert result.guessed is not None
+    named = {one.name: one.type for one in result.guessed.named}
     assert named == {
         "di1": "signaldi",
         "closeGrip": "proc",
@@ -31,18 +31,18 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         "lookUp": "func robtarget",
         "later": "proc",
     }, "what countOf takes is not known, so there is none"
-    shown: list[str] = []
-    with VirtualController.boot(found, cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, text: shown.append(text))
+    displayed: list[str] = []
+    with VirtualController.boot(result, cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
         controller.run(max_time=20)
         assert "ERR_REFUNKFUN" in str(controller.task("T_ROB1").fault)
     text = path.read_text().replace("  x := 3 + countOf(strange{2});\n", "")
     path.write_text(text)
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, text: shown.append(text))
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
         start = controller.positions()
         assert controller.run(max_time=20) == "finished"
-        assert shown == ["x 5"], "a function gives 0, FALSE, and where the robot stands"
+        assert displayed == ["x 5"], "a function gives 0, FALSE, and where the robot stands"
         assert controller.positions() == pytest.approx(start, abs=1e-5)
 
 
@@ -55,12 +55,12 @@ def test_a_routine_in_no_file_has_the_optional_arguments_of_all_its_calls(tmp_pa
         '  logs \\Debug, "three" \\Code:=3;\n  logs "four" \\Code:=4 \\Twice;\n'
         '  TPWrite "behind";\n ENDPROC\nENDMODULE\n'
     )
-    shown: list[str] = []
+    displayed: list[str] = []
     with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, text: shown.append(text))
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
         controller.run(max_time=5)
         assert controller.task("T_ROB1").fault is None
-    assert shown == ["behind"]
+    assert displayed == ["behind"]
 
 
 def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
@@ -69,10 +69,10 @@ def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
         "MODULE calls\n VAR intnum i;\n PROC main()\n  CONNECT i WITH later;\n"
         '  ITimer \\Single, 0.1, i;\n  WaitTime 1;\n  TPWrite "end";\n ENDPROC\nENDMODULE\n'
     )
-    found = load_target([path], BootOptions(cell="guess"))
-    assert found.guessed is not None
-    assert {one.name: one.type for one in found.guessed.named} == {"later": "trap"}
-    with VirtualController.boot(found, cycle="once") as controller:
+    result = load_target([path], BootOptions(cell="guess"))
+    assert result.guessed is not None
+    assert {one.name: one.type for one in result.guessed.named} == {"later": "trap"}
+    with VirtualController.boot(result, cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
 
 
@@ -149,13 +149,13 @@ def test_the_size_of_an_array_that_nobody_says_is_a_constant(tmp_path):
         " PROC main()\n  FOR i FROM 1 TO maxParts DO\n   many{i} := few{i};\n  ENDFOR\n"
         "  TPWrite ValToStr(Dim(few, 1) + many{3});\n ENDPROC\nENDMODULE\n"
     )
-    found = load_target([path], BootOptions(cell="guess"))
-    assert [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR] == []
-    shown: list[str] = []
-    with VirtualController.boot(found, cycle="once") as controller:
-        controller.operator.subscribe(lambda _task, text: shown.append(text))
+    result = load_target([path], BootOptions(cell="guess"))
+    assert [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR] == []
+    displayed: list[str] = []
+    with VirtualController.boot(result, cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
         controller.run(max_time=5)
-    assert shown == ["6"]
+    assert displayed == ["6"]
 
 
 FAR = """MODULE far

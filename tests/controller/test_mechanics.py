@@ -149,7 +149,7 @@ def test_an_unknown_type_asks_for_a_robot():
     system = two_robots(("ROB_1", "ROB1_360_1.6_6"), ("ROB_2", "ROB2_360_1.6_6"))
     with pytest.raises(DiagnosticError) as caught:
         mechanics(system)
-    assert [found.code for found in caught.value.diagnostics] == ["RG432"]
+    assert [result.code for result in caught.value.diagnostics] == ["RG432"]
     assert [group.model for group in mechanics(system, "irb1200")[0]] == ["irb1200", "irb1200"]
 
 

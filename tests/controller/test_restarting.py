@@ -9,15 +9,15 @@ PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
 def test_what_was_taken_before_a_restart_is_carried_out(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
-    done, taken = [], []
+    done, in_use = [], []
     with ControllerRunner.boot(load_target([path]), clock="real") as cabinet:
 
         def restart_and_more():
             cabinet.ask_restart()
-            taken.append(cabinet.post(lambda: done.append(cabinet.restarts)))
+            in_use.append(cabinet.post(lambda: done.append(cabinet.restarts)))
 
-        cabinet.on_restart.append(lambda: taken.append(cabinet.post(lambda: done.append(-1))))
+        cabinet.on_restart.append(lambda: in_use.append(cabinet.post(lambda: done.append(-1))))
         cabinet.post(restart_and_more)
         cabinet.run(lambda: cabinet.restarts == 1)
-    assert taken == [True, False]
+    assert in_use == [True, False]
     assert done == [0]

@@ -31,8 +31,8 @@ def test_round_robin_never_splits_so_short_a_loop() -> None:
 
 
 def test_a_switch_at_every_pers_access_finds_the_lost_update() -> None:
-    found = {final(seed, switch_at_pers=True)[0] for seed in range(20)}
-    assert min(found) < 20, found
+    result = {final(seed, switch_at_pers=True)[0] for seed in range(20)}
+    assert min(result) < 20, result
 
 
 def test_a_seed_replays_exactly() -> None:

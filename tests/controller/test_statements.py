@@ -21,8 +21,8 @@ ADDS = 5
 def controller(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
-    with VirtualController.from_files([path], tracing=True) as found:
-        yield found
+    with VirtualController.from_files([path], tracing=True) as result:
+        yield result
 
 
 def hears(controller, *, enough=lambda line: False):
@@ -37,10 +37,10 @@ def hears(controller, *, enough=lambda line: False):
 
 
 def test_a_tracer_hears_no_more_of_what_it_wants_no_more_of(controller):
-    heard = hears(controller, enough=lambda line: line == ADDS)
+    received = hears(controller, enough=lambda line: line == ADDS)
     controller.run_for(10.5)
-    assert heard.count(ADDS) == 1
-    assert heard.count(ADDS + 1) == 11
+    assert received.count(ADDS) == 1
+    assert received.count(ADDS + 1) == 11
 
 
 def test_who_comes_later_hears_all(controller):

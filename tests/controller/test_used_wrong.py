@@ -289,11 +289,11 @@ def test_a_controller_that_nobody_closes_ends_with_the_program():
 
 def test_a_callback_that_never_ends_does_not_hold_up_the_end_of_the_program(files, monkeypatch):
     monkeypatch.setattr("rapidgen.controller.thread._LEAVING", 0.05)
-    held, ended = threading.Event(), threading.Event()
+    held, finished = threading.Event(), threading.Event()
 
     def hold():
         held.set()
-        ended.wait(60)
+        finished.wait(60)
 
     with VirtualController.from_files(files, clock="real") as controller:
         controller.start()
@@ -304,5 +304,5 @@ def test_a_callback_that_never_ends_does_not_hold_up_the_end_of_the_program(file
             controller._thread._leave()
             assert not controller._thread._stands.is_set()
         finally:
-            ended.set()
+            finished.set()
             holder.join()

@@ -108,17 +108,17 @@ def verdict(home: Path, *sets: DriverSet | None) -> str:
     does, keeps its tasks from loading; and ROS_common refuses where any BUILD_ID differs.
     'MIXED' is what must never be.
     """
-    found = modules_on(home)
+    result = modules_on(home)
     for number, wanted in enumerate(sets):
         expected = {f.path: f.data for f in wanted.files if f.kind == "module"} if wanted else {}
-        if found == expected:
+        if result == expected:
             return f"set {number}" if wanted else "empty"
     paths = {f.path for s in sets if s is not None for f in s.files if f.kind == "module"}
     for task in TASKS:
         ids = set()
         loads = True
         for path in (p for p in paths if task in MODULES[p]):
-            data = found.get(path, b"")
+            data = result.get(path, b"")
             loads &= re.fullmatch(rb"MODULE .*ENDMODULE\s*", data, re.S) is not None
             ids |= set(re.findall(rb'CONST string \w+ := "([^"]*)"', data))
         if loads and len(ids) == 1:

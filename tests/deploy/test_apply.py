@@ -43,9 +43,9 @@ def test_a_manifest_that_says_otherwise_is_written_anew(kit, home, transport):
     wanted = kit.driver(OLD)
     kit.deploy(transport, wanted)
     path = home / "rapidgen_deploy/manifest.json"
-    said = json.loads(path.read_text())
-    said["files"][0]["sha256"] = "0" * 64
-    path.write_text(json.dumps(said))
+    message = json.loads(path.read_text())
+    message["files"][0]["sha256"] = "0" * 64
+    path.write_text(json.dumps(message))
     plan = make_plan(transport, wanted)
     assert {c.action for c in plan.changes} == {"same"}
     assert not plan.is_empty
@@ -250,10 +250,10 @@ def test_backups_are_pruned_and_all_of_them_can_be_restored(kit, home, transport
     sets = [kit.driver(f"{n:012x}") for n in range(1, 9)]
     for wanted in sets:
         kit.deploy(transport, wanted)
-    kept = {p.name for p in (home / "rapidgen_deploy/backup").iterdir()}
-    assert kept == {"4", "5", "6", "7", "8"}
+    retained = {p.name for p in (home / "rapidgen_deploy/backup").iterdir()}
+    assert retained == {"4", "5", "6", "7", "8"}
     history = make_plan(transport, sets[-1]).had.history
-    assert {str(p.id) for p in history} == kept
+    assert {str(p.id) for p in history} == retained
     for past in history:
         assert backup_set(transport, "", past.id).build_id == past.build_id
 
@@ -282,9 +282,9 @@ def test_a_damaged_backup_is_refused(kit, home, transport):
 def test_a_damaged_manifest_is_refused_and_overwrite_is_the_way_out(
     kit, home, transport, spoil, sets
 ):
-    theirs = home / "rapidgen/ROS_motion.mod"
-    theirs.parent.mkdir()
-    theirs.write_text("MODULE ROS_motion\nENDMODULE\n")
+    foreign = home / "rapidgen/ROS_motion.mod"
+    foreign.parent.mkdir()
+    foreign.write_text("MODULE ROS_motion\nENDMODULE\n")
     before = tree(home)
     old, new = kit.driver(OLD), kit.driver(NEW)
     kit.deploy(transport, old, overwrite=True)

@@ -76,9 +76,9 @@ def test_what_others_changed_meanwhile_stays(kit, controller):
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1"])
 def test_texts_of_others_keep_their_letters(kit, controller, encoding):
     word = "Größe" if encoding == "latin-1" else "Größe 夹具"
-    theirs = SYS.replace("theirs", word)
+    foreign = SYS.replace("theirs", word)
     path = controller / "SYSPAR/SYS.cfg"
-    path.write_bytes(theirs.encode(encoding))
+    path.write_bytes(foreign.encode(encoding))
     kit.deploy(FolderTransport(controller), kit.driver(OLD))
     merged = path.read_bytes().decode(encoding)
     assert "T_ROS_server" in merged
@@ -117,13 +117,13 @@ def test_without_syspar_loading_is_a_step_at_the_pendant(kit, home):
     assert any("loading removes nothing" in s and "signalMotorOn" in s for s in steps)
 
 
-@pytest.mark.parametrize("said", [7, "x", [["Name"]], [["Name", 3]], [[3, []]], [3], {"a": 1}])
-def test_instances_in_a_manifest_that_are_none_make_it_damaged(kit, controller, said):
+@pytest.mark.parametrize("message", [7, "x", [["Name"]], [["Name", 3]], [[3, []]], [3], {"a": 1}])
+def test_instances_in_a_manifest_that_are_none_make_it_damaged(kit, controller, message):
     transport = FolderTransport(controller)
     kit.deploy(transport, kit.driver(OLD))
     path = controller / "HOME/rapidgen_deploy/manifest.json"
     manifest = json.loads(path.read_text())
     key = next(key for key, old in manifest["cfg_before"].items() if old)
-    manifest["cfg_before"][key] = said
+    manifest["cfg_before"][key] = message
     path.write_text(json.dumps(manifest))
     assert refused(make_plan, transport, None, verb="uninstall") == ["RG531"]

@@ -97,9 +97,9 @@ def test_cut_everywhere(kit, tmp_path, case, mode):
         with pytest.raises(DiagnosticError):
             kit.deploy(Cutting(work, mode, at, how), after, verb=verb, overwrite=overwrite)
         place = f"{case} {mode}: {how} {name} {path} ({at}/{total})"
-        found = kit.verdict(work, before, after)
+        result = kit.verdict(work, before, after)
         if not stranger:
-            assert found in allowed, place
+            assert result in allowed, place
         assert (work / "mine.mod").read_text() == "MODULE mine\nENDMODULE\n", place
         undo = tmp_path / "undo"
         shutil.rmtree(undo, ignore_errors=True)

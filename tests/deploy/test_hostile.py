@@ -131,12 +131,12 @@ def test_garbled_answers_are_a_diagnostic_each(liar):
     codes: dict[str, int] = {}
     for number in range(ANSWERS):
         liar.step, liar.lie = number % 12, lies(rng)
-        found = outcome(liar.port)
-        assert found
-        codes[found[0].code] = codes.get(found[0].code, 0) + 1
-        shown = render(found)
-        assert "s3cret-word" not in shown
-        assert "\x1b" not in shown
+        result = outcome(liar.port)
+        assert result
+        codes[result[0].code] = codes.get(result[0].code, 0) + 1
+        displayed = render(result)
+        assert "s3cret-word" not in displayed
+        assert "\x1b" not in displayed
     assert set(codes) <= {"RG501", "RG502", "RG504", "RG505", "RG506", "RG507", "RG529"}
     assert min(codes["RG501"], codes["RG504"], codes["RG505"]) > 10
 
@@ -152,5 +152,5 @@ def test_garbled_answers_are_a_diagnostic_each(liar):
 )
 def test_hostile_listings(liar, data):
     liar.step, liar.data = 999, data
-    for found in outcome(liar.port):
-        assert found.code in ("RG504", "RG505", "RG506", "RG529")
+    for result in outcome(liar.port):
+        assert result.code in ("RG504", "RG505", "RG506", "RG529")

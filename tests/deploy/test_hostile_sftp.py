@@ -49,17 +49,17 @@ def attempt(action, port, login, timeout=TIMEOUT):
     try:
         transport = Target("sftp", "127.0.0.1", port, "").open(login, timeout)
         action(transport)
-        found = ()
+        result = ()
     except DiagnosticError as error:
-        found = error.diagnostics
+        result = error.diagnostics
     finally:
         if transport is not None:
             transport.close()
-    assert all(d.code.startswith("RG5") for d in found)
-    shown = render(found)
-    assert WORD not in shown
-    assert "\x1b" not in shown
-    return found
+    assert all(d.code.startswith("RG5") for d in result)
+    displayed = render(result)
+    assert WORD not in displayed
+    assert "\x1b" not in displayed
+    return result
 
 
 # -- the line -----------------------------------------------------------------------------------
@@ -129,10 +129,10 @@ def test_a_spoilt_line_is_a_diagnostic(service, tmp_path):
         rng = random.Random(f"line {seed}")
         line = Line(service.port, rng, rng.randrange(2), rng.randrange(14))
         try:
-            found = attempt(look, line.port, access(service, tmp_path, line.port))
+            result = attempt(look, line.port, access(service, tmp_path, line.port))
         finally:
             line.close()
-        code = found[0].code if found else "through"
+        code = result[0].code if result else "through"
         codes[code] = codes.get(code, 0) + 1
     # SSH covers every byte but the padding of the first packets.
     assert codes.get("through", 0) < SEEDS / 5, codes
@@ -205,12 +205,12 @@ def test_garbled_answers_are_a_diagnostic_or_harmless(kit, service, liar, home, 
             shutil.rmtree(path)
         shutil.copytree(start, home, dirs_exist_ok=True)
         liar.count, liar.at, liar.rng = 0, rng.randint(1, total), rng
-        found = attempt(lambda t: kit.deploy(t, new), service.port, login)
-        code = found[0].code if found else "through"
+        result = attempt(lambda t: kit.deploy(t, new), service.port, login)
+        code = result[0].code if result else "through"
         codes[code] = codes.get(code, 0) + 1
         place = f"seed {seed}, answer {liar.at} of {total}: {code}"
         assert kit.verdict(home, old, new) in ("set 0", "set 1", "refuses"), place
-        if not found:
+        if not result:
             assert kit.verdict(home, new) == "set 0", place
     assert codes["RG504"] > SEEDS / 10, codes
 
@@ -237,8 +237,8 @@ def test_a_listing_without_an_end_ends(service, liar, tmp_path, monkeypatch, lis
 
     monkeypatch.setattr(liar, "_send_packet", endless)
     login = access(service, tmp_path, service.port)
-    found = attempt(lambda t: t.entries(""), service.port, login, HONEST)
-    assert [d.code for d in found] == ["RG504"]
+    result = attempt(lambda t: t.entries(""), service.port, login, HONEST)
+    assert [d.code for d in result] == ["RG504"]
 
 
 def test_a_server_that_falls_silent_is_a_diagnostic(service, liar, tmp_path, monkeypatch):
@@ -250,9 +250,9 @@ def test_a_server_that_falls_silent_is_a_diagnostic(service, liar, tmp_path, mon
         return False
 
     monkeypatch.setattr(paramiko.ServerInterface, "check_channel_subsystem_request", wait)
-    found = attempt(lambda t: None, service.port, access(service, tmp_path, service.port))
+    result = attempt(lambda t: None, service.port, access(service, tmp_path, service.port))
     silent.set()
-    assert [d.code for d in found] == ["RG505"]
+    assert [d.code for d in result] == ["RG505"]
 
 
 def test_a_request_without_an_answer_says_that_it_timed_out(service, liar, tmp_path, monkeypatch):
@@ -267,5 +267,5 @@ def test_a_request_without_an_answer_says_that_it_timed_out(service, liar, tmp_p
     transport._sftp.get_channel().settimeout(TIMEOUT)
     with contextlib.closing(transport), pytest.raises(DiagnosticError) as refused:
         transport.entries("rapidgen")
-    (found,) = refused.value.diagnostics
-    assert (found.code, found.message) == ("RG505", "rapidgen: timed out")
+    (result,) = refused.value.diagnostics
+    assert (result.code, result.message) == ("RG505", "rapidgen: timed out")

@@ -129,11 +129,11 @@ def test_nothing_is_deployed_before_its_instances_are_out(kit, controller):
     assert refused(apply, transport, plan) == ["RG534"]
     assert refused(apply, transport, plan, overwrite=True) == ["RG534"]
     assert files(controller) == before
-    said = " | ".join(step.what for step in plan.steps)
-    assert "back the controller up" in said
-    assert "Controller > Task: ROS_StateServer; ROS_MotionServer |" in said
-    assert "T_LOG" not in said
-    assert "user.sys" not in said
+    message = " | ".join(step.what for step in plan.steps)
+    assert "back the controller up" in message
+    assert "Controller > Task: ROS_StateServer; ROS_MotionServer |" in message
+    assert "T_LOG" not in message
+    assert "user.sys" not in message
     assert [step.stops_motion for step in plan.steps].count(True) == 1
 
 
@@ -183,19 +183,19 @@ SYSSIG_OUT:
 
 
 @pytest.mark.parametrize(
-    ("theirs", "action"),
+    ("foreign", "action"),
     [(OUTPUT.format(""), "same"), (OUTPUT.format(' -Arg1 "x"'), "use"), ("", "add")],
 )
-def test_its_system_outputs_are_used(kit, controller, theirs, action):
+def test_its_system_outputs_are_used(kit, controller, foreign, action):
     transport = FolderTransport(controller)
     (controller / "SYSPAR/SYS.cfg").write_text(CLEAN)
-    (controller / "SYSPAR/EIO.cfg").write_text(EIO + theirs)
+    (controller / "SYSPAR/EIO.cfg").write_text(EIO + foreign)
     plan = kit.deploy(transport, kit.driver(BUILD, outputs=OUTPUT.format("")))
     assert {c.action for c in plan.cfg if "SYSSIG_OUT" in c.key} == {action}
     text = parse_cfg((controller / "SYSPAR/EIO.cfg").read_bytes())
     assert len(list(text.instances("SYSSIG_OUT"))) == 1
     kit.deploy(transport, None, verb="uninstall")
-    assert (controller / "SYSPAR/EIO.cfg").read_text() == EIO + theirs
+    assert (controller / "SYSPAR/EIO.cfg").read_text() == EIO + foreign
 
 
 def test_a_signal_that_another_output_drives_is_refused(kit, controller):
@@ -303,18 +303,18 @@ def built(kit, tmp_path):
 def test_doctor_names_it_and_a_copy_loads_it_again(kit, controller, tmp_path, monkeypatch):
     target = parse_target(f"dir://{controller}")
     checks = run_checks(target, Access(), kit.driver(BUILD), hello=lambda host, port: None)
-    (found,) = [c for c in checks if c.area == "drivers"]
-    assert (found.verdict, "ROS_common.sys -AllTask" in found.found) == ("fail", True)
+    (result,) = [c for c in checks if c.area == "drivers"]
+    assert (result.verdict, "ROS_common.sys -AllTask" in result.found) == ("fail", True)
     folder = built(kit, tmp_path)
     monkeypatch.chdir(tmp_path)
     assert refused(deploy_verb, str(folder), [f"dir://{controller}"], yes=True) == ["RG534"]
     (copy,) = (tmp_path / ".rapidgen/before").rglob("*.cfg")
-    kept = parse_cfg(copy.read_bytes())
-    assert [i.text("Name") for i in kept.instances("CAB_TASKS")] == [
+    retained = parse_cfg(copy.read_bytes())
+    assert [i.text("Name") for i in retained.instances("CAB_TASKS")] == [
         "ROS_StateServer",
         "ROS_MotionServer",
     ]
-    assert len([i for s in kept.sections for i in s.instances]) == len(GOES)
+    assert len([i for s in retained.sections for i in s.instances]) == len(GOES)
 
 
 def test_somebody_elses_task_with_a_name_of_ours_is_not_taken_over(kit, controller):
@@ -343,12 +343,12 @@ def test_a_copy_of_what_loads_the_other_driver_outlives_a_second_run(kit, contro
     """Between the runs half of its instances were deleted, as the steps say."""
     transport, folder = FolderTransport(controller), tmp_path / "before"
     first = make_plan(transport, kit.driver(BUILD))
-    (whole,) = save_neighbours([first], folder)
-    text = whole.read_bytes()
+    (complete,) = save_neighbours([first], folder)
+    text = complete.read_bytes()
     path = controller / "SYSPAR/SYS.cfg"
     path.write_text(ABB_DRIVER.replace('-Name "ROS_StateServer" -TrustLevel "None"', ""))
-    (rest,) = save_neighbours([make_plan(transport, kit.driver(BUILD))], folder)
-    assert (whole.name, rest.name) == ("SYS.cfg", "SYS-2.cfg")
-    assert whole.read_bytes() == text
+    (remaining,) = save_neighbours([make_plan(transport, kit.driver(BUILD))], folder)
+    assert (complete.name, remaining.name) == ("SYS.cfg", "SYS-2.cfg")
+    assert complete.read_bytes() == text
     assert b"ROS_StateServer" in text
-    assert save_neighbours([first], folder) == [whole]
+    assert save_neighbours([first], folder) == [complete]

@@ -11,8 +11,8 @@ from tests.refusal import refusal
 
 
 def message(url):
-    (found,) = refusal(parse_target, url).diagnostics
-    return found.code, found.message, found.help
+    (result,) = refusal(parse_target, url).diagnostics
+    return result.code, result.message, result.help
 
 
 def test_a_line_in_the_registry_is_enough(monkeypatch, tmp_path):
@@ -29,8 +29,8 @@ def test_a_line_in_the_registry_is_enough(monkeypatch, tmp_path):
     assert (target.port, target.shown) == (4711, "usb://cell/HOME")
     assert parse_target("usb://[::1]:80/HOME").shown == "usb://[::1]:80/HOME"
     assert connect(target, Access(timeout=3)).entries("") == ()
-    ((asked, login, timeout),) = opened
-    assert (asked, login.user, login.password.get(), timeout) == (target, "me", "word", 3)
+    ((requested, login, timeout),) = opened
+    assert (requested, login.user, login.password.get(), timeout) == (target, "me", "word", 3)
     assert message("usp://cell") == (
         "RG509",
         "--to usp://cell: unknown scheme 'usp'",
@@ -52,13 +52,13 @@ def test_a_folder_of_this_machine_needs_no_login(monkeypatch, tmp_path):
 
 
 def test_only_where_keys_are_taken_one_stands_for_a_password(monkeypatch):
-    asked = []
+    requested = []
 
     def find(login, host, port, *, secrets, ask, needed):
-        asked.append((ask, needed))
+        requested.append((ask, needed))
         return Credentials("u")
 
     monkeypatch.setattr("rapidgen.deploy.target.find_password", find)
     for url in ("sftp://h/", "ftp://h/"):
         credentials(parse_target(url), Access(identity="key", ask=True))
-    assert asked == [(False, False), (True, True)]
+    assert requested == [(False, False), (True, True)]

@@ -29,9 +29,9 @@ def module(name, *tasks, build=BUILD):
     ],
 )
 def test_fences_are_as_few_modules_as_touch_every_task(files, fences):
-    found = DriverSet("cell", BUILD, (6, 15), tuple(files)).fences()
-    assert sorted(found) == [f"{name}.mod" for name in fences]
-    assert set(found.values()) == {b'CONST string b := "incomplete--";'}
+    result = DriverSet("cell", BUILD, (6, 15), tuple(files)).blocking_modules()
+    assert sorted(result) == [f"{name}.mod" for name in fences]
+    assert set(result.values()) == {b'CONST string b := "incomplete--";'}
 
 
 def instance(**attributes):
@@ -57,8 +57,8 @@ def instance(**attributes):
         ("OTHER", instance(A=1, B=("x", 2)), "1 x 2"),
     ],
 )
-def test_an_instance_is_shown_by_what_tells_it_from_others(section, found, key):
-    assert shown_key(section, found) == key
+def test_an_instance_is_shown_by_what_tells_it_from_others(section, result, key):
+    assert shown_key(section, result) == key
 
 
 def group(name, **keys):
@@ -114,15 +114,15 @@ def joint(name, kind="revolute", **keys):
         ),
     ],
 )
-def test_keys_of_a_configuration_that_differ(old, new, told):
-    assert changed_keys(old, new) == told
+def test_keys_of_a_configuration_that_differ(old, new, text):
+    assert changed_keys(old, new) == text
 
 
 class Memory:
     """Web services that have some symbols, and answer others with a status."""
 
-    def __init__(self, found, status=404):
-        self.found, self.status = found, status
+    def __init__(self, result, status=404):
+        self.found, self.status = result, status
 
     def symbol(self, path):
         if path in self.found:
@@ -131,7 +131,7 @@ class Memory:
 
 
 @pytest.mark.parametrize(
-    ("found", "build"),
+    ("result", "build"),
     [
         ({"T1/A/id": BUILD, "T1/B/id": BUILD}, BUILD),
         ({"T1/A/id": BUILD, "T1/B/id": "ba9876543210"}, ""),
@@ -140,9 +140,9 @@ class Memory:
         ({}, ""),
     ],
 )
-def test_the_build_of_a_task_is_one_that_all_its_modules_carry(found, build):
-    assert build_in(Memory(found), "T1", ("A/id", "B/id")) == build
-    assert build_in(Memory(found), "T1", ()) == ""
+def test_the_build_of_a_task_is_one_that_all_its_modules_carry(result, build):
+    assert build_in(Memory(result), "T1", ("A/id", "B/id")) == build
+    assert build_in(Memory(result), "T1", ()) == ""
 
 
 def test_a_controller_that_cannot_answer_is_no_task_without_a_build():

@@ -59,18 +59,18 @@ def new(kit, build="dddddddddddd", **options):
 
 def old_world(home):
     """What a restart finds while the first release's cfg is loaded: 'old' or 'refuses'."""
-    found = {
+    result = {
         name: (home / "ROS" / name).read_text() if (home / "ROS" / name).is_file() else ""
         for names in OLD_TASKS.values()
         for name in names
     }
     if all(
-        text == RECORDED[f"HOME/ROS/{name}"].replace("\r\n", "\n") for name, text in found.items()
+        text == RECORDED[f"HOME/ROS/{name}"].replace("\r\n", "\n") for name, text in result.items()
     ):
         return "old"
     for names in OLD_TASKS.values():
-        whole = all(re.fullmatch(r"MODULE .*ENDMODULE\s*", found[n], re.S) for n in names)
-        if whole and len({re.search('"(.*)"', found[n])[1] for n in names}) == 1:
+        complete = all(re.fullmatch(r"MODULE .*ENDMODULE\s*", result[n], re.S) for n in names)
+        if complete and len({re.search('"(.*)"', result[n])[1] for n in names}) == 1:
             return "MIXED"
     return "refuses"
 
@@ -138,8 +138,8 @@ def test_where_only_home_is_seen_each_step_has_its_instances_and_t_rob1_is_kept(
     assert "Group: " not in deleted
     assert "ROS_on_power POWER_ON T_ROB1" in deleted
     assert "HOME:/ROS/ROS_common.sys in T_ROB1, T_ROS_RECV, T_ROS_STATE;" in deleted
-    (kept,) = [s for s in steps if s.startswith("keep T_ROB1 ")]
-    assert kept.endswith('(-BindRef 0 -Entry "main" -UseMechanicalUnitGroup "rob1")')
+    (retained,) = [s for s in steps if s.startswith("keep T_ROB1 ")]
+    assert retained.endswith('(-BindRef 0 -Entry "main" -UseMechanicalUnitGroup "rob1")')
     (load,) = [s for s in steps if s.startswith("load HOME:/rapidgen_deploy/SYS.cfg")]
     assert load.endswith("Load parameters and replace duplicates")
     places = [

@@ -39,14 +39,14 @@ def run(capsys):
         app.command(verb.__name__)(verb)
     command = typer.main.get_command(app)
 
-    def run_(*words):
-        shown = ""
+    def run_(*text):
+        displayed = ""
         try:
-            code = command.main(args=[str(w) for w in words], standalone_mode=False)
+            code = command.main(args=[str(w) for w in text], standalone_mode=False)
         except DiagnosticError as error:
-            code, shown = error.exit_code, render(error.diagnostics)
-        said = capsys.readouterr()
-        return code or 0, said.out, said.err + shown
+            code, displayed = error.exit_code, render(error.diagnostics)
+        message = capsys.readouterr()
+        return code or 0, message.out, message.err + displayed
 
     return run_
 
@@ -104,8 +104,8 @@ def test_keys_are_told_as_people_write_them(run, home):
     assert run("deploy", "irb120", *url, "--yes")[0] == 0
     changed = ("joints.joint_2.upper=90", "trajectory.start_tolerance=0.3", "ports.motion=12000")
     out = run("plan", "irb120", *url, *(word for key in changed for word in ("--set", key)))[1]
-    told = [line for line in out.splitlines() if "→" in line]
-    assert told == [
+    text = [line for line in out.splitlines() if "→" in line]
+    assert text == [
         "  ~ joints.joint_2.upper: 110 → 90",
         "  ~ ports.motion: 11000 → 12000",
         "  ~ trajectory.start_tolerance: 0.5 → 0.3",
@@ -140,9 +140,9 @@ def test_a_fleet_is_told_once_and_summed_up(run, tmp_path):
 
 
 def test_a_plan_is_json_where_that_was_asked_for(run, home):
-    told = json.loads(run("plan", "irb120", "--to", f"dir://{home}", "--json")[1])
-    assert [plan["target"] for plan in told] == [f"dir://{home}"]
-    assert {file["action"] for file in told[0]["files"]} == {"add"}
+    text = json.loads(run("plan", "irb120", "--to", f"dir://{home}", "--json")[1])
+    assert [plan["target"] for plan in text] == [f"dir://{home}"]
+    assert {file["action"] for file in text[0]["files"]} == {"add"}
 
 
 def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built, home, monkeypatch):
@@ -150,9 +150,9 @@ def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built,
     words = ("deploy", built(OLD), "--to", url, "--yes", "--json")
     for result in ("done", "same"):
         code, out, _ = run(*words)
-        told = json.loads(out)
-        assert (code, told["errors"]) == (0, [])
-        assert [(c["target"], c["result"]) for c in told["controllers"]] == [(url, result)]
+        text = json.loads(out)
+        assert (code, text["errors"]) == (0, [])
+        assert [(c["target"], c["result"]) for c in text["controllers"]] == [(url, result)]
     rows = json.loads(run("rollback", built(OLD), "--to", url, "--list", "--json")[1])
     assert rows == []
 
@@ -161,10 +161,10 @@ def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built,
 
     monkeypatch.setattr(FolderTransport, "write", full)
     code, out, _ = run("deploy", built(NEW), "--to", url, "--yes", "--json")
-    told = json.loads(out)
-    assert (code, told["controllers"][0]["result"]) == (1, "failed")
-    assert [found["code"] for found in told["errors"]] == ["RG507"]
-    assert told["controllers"][0]["errors"] == told["errors"]
+    text = json.loads(out)
+    assert (code, text["controllers"][0]["result"]) == (1, "failed")
+    assert [found["code"] for found in text["errors"]] == ["RG507"]
+    assert text["controllers"][0]["errors"] == text["errors"]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -175,23 +175,23 @@ def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
     homes = [tmp_path / f"c{n}" for n in range(3)]
     for home in homes:
         home.mkdir()
-    heard, whole, begin = threading.Event(), FolderTransport.write, Interruption.begin
+    received, complete, begin = threading.Event(), FolderTransport.write, Interruption.begin
     handled = []
 
     def write(self, path, data):
-        whole(self, path, data)
-        if path.endswith(STAGED) and self._root == homes[1] and not heard.is_set():
+        complete(self, path, data)
+        if path.endswith(STAGED) and self._root == homes[1] and not received.is_set():
             # What is raised anywhere in the main thread may be raised between two waits.
             handled.append(signal.getsignal(number))
             signal.pthread_kill(threading.main_thread().ident, number)
-            assert heard.wait(60)
+            assert received.wait(60)
 
-    def told(self):
+    def text(self):
         begin(self)
-        heard.set()
+        received.set()
 
     monkeypatch.setattr(FolderTransport, "write", write)
-    monkeypatch.setattr(Interruption, "begin", told)
+    monkeypatch.setattr(Interruption, "begin", text)
     urls = [word for home in homes for word in ("--to", f"dir://{home}")]
     code, out, err = run("deploy", built(OLD), *urls, "--yes", "--parallel", "1")
     assert code == 130
@@ -206,12 +206,12 @@ def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
 
 def test_an_interruption_begins_nothing_more_wherever_it_comes(monkeypatch):
     """Leaving a pool begins what was handed in."""
-    begun, told = [], threading.Event()
+    started, text = [], threading.Event()
     hand_in, begin = ThreadPoolExecutor.submit, Interruption.begin
 
     def work(target):
-        begun.append(target)
-        told.wait(30)
+        started.append(target)
+        text.wait(30)
 
     def submit(pool, guarded, target):
         if target == "third":
@@ -220,13 +220,13 @@ def test_an_interruption_begins_nothing_more_wherever_it_comes(monkeypatch):
 
     def tells(self):
         begin(self)
-        told.set()
+        text.set()
 
     monkeypatch.setattr(Interruption, "begin", tells)
     monkeypatch.setattr(ThreadPoolExecutor, "submit", submit)
     with pytest.raises(KeyboardInterrupt):
         on_all(["first", "second", "third"], work, parallel=1)
-    assert begun == ["first"]
+    assert started == ["first"]
 
 
 def test_nobody_there_to_answer(run, built, home, monkeypatch):
@@ -264,8 +264,8 @@ def test_rollback_lists_and_restores_and_uninstall_saves_edits(
     code, _, err = run("uninstall", built(NEW), "--to", url, "--yes", "--overwrite")
     assert code == 0
     assert list(home.iterdir()) == []
-    (kept,) = (tmp_path / ".rapidgen").rglob("ROS_motion.mod")
-    assert kept.read_text() == "mine"
+    (retained,) = (tmp_path / ".rapidgen").rglob("ROS_motion.mod")
+    assert retained.read_text() == "mine"
 
 
 def test_several_controllers_stop_at_the_first_failure(run, built, tmp_path, kit):
@@ -322,12 +322,12 @@ def test_doctor_warns_of_the_delivered_password_and_of_other_programs(
     for password in ("robotics", "changed"):
         monkeypatch.setenv("RAPIDGEN_PASSWORD", password)
         _, out, _ = run("doctor", built(OLD), "--to", url, "--json")
-        found = [c for c in json.loads(out) if c["area"] in ("passwords", "reach")]
+        result = [c for c in json.loads(out) if c["area"] in ("passwords", "reach")]
         if password == "robotics":
-            assert [c["verdict"] for c in found] == ["ok", "warn"]
+            assert [c["verdict"] for c in result] == ["ok", "warn"]
             assert "robotics" not in out
         else:
-            assert [c["verdict"] for c in found] == ["fail"]
+            assert [c["verdict"] for c in result] == ["fail"]
     service.close()
 
 
@@ -363,9 +363,9 @@ def test_a_file_for_sftp_that_is_not_there_is_no_fault_of_the_line(
     ],
 )
 def test_bad_urls(url, code):
-    (found,) = refusal(parse_target, url).diagnostics
-    assert found.code == code
-    assert "s3cret" not in str(found)
+    (result,) = refusal(parse_target, url).diagnostics
+    assert result.code == code
+    assert "s3cret" not in str(result)
 
 
 @pytest.mark.parametrize(
@@ -373,21 +373,21 @@ def test_bad_urls(url, code):
     [("ftp:/h/HOME", "ftp://h/HOME"), ("sftp:me@h", "sftp://me@h"), ("dir:/x", "dir:///x")],
 )
 def test_a_url_with_too_few_slashes(url, meant):
-    (found,) = refusal(parse_target, url).diagnostics
-    assert (found.code, found.help) == ("RG509", f"write {meant}")
+    (result,) = refusal(parse_target, url).diagnostics
+    assert (result.code, result.help) == ("RG509", f"write {meant}")
 
 
 @pytest.mark.parametrize("others", [0o040, 0o020, 0o010, 0o004, 0o002, 0o001])
 def test_a_secrets_file_that_others_may_use_in_any_way_is_not_used(tmp_path, others):
     file = tmp_path / "secrets.toml"
     file.write_text('[default]\npassword = "s3cret"\n')
-    asked = (Credentials(""), "10.0.0.1", 21)
+    requested = (Credentials(""), "10.0.0.1", 21)
     for own in (0o600, 0o400):
         file.chmod(own | others)
-        (found,) = refusal(find_password, *asked, secrets=file, ask=False).diagnostics
-        assert (found.code, found.help) == ("RG511", f"chmod 600 {file}")
+        (result,) = refusal(find_password, *requested, secrets=file, ask=False).diagnostics
+        assert (result.code, result.help) == ("RG511", f"chmod 600 {file}")
         file.chmod(own)
-        assert find_password(*asked, secrets=file, ask=False).password.get() == "s3cret"
+        assert find_password(*requested, secrets=file, ask=False).password.get() == "s3cret"
 
 
 def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp_path, monkeypatch):
@@ -396,10 +396,10 @@ def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp
         '["10.0.0.1"]\nuser = "u"\npassword = "s3cret"\n[default]\npassword = "other"\n'
     )
     file.chmod(0o644)
-    asked, given = (Credentials(""), "10.0.0.1", 21), {"secrets": file, "ask": False}
-    assert refused(find_password, *asked, **given)[0] == "RG511"
+    requested, given = (Credentials(""), "10.0.0.1", 21), {"secrets": file, "ask": False}
+    assert refused(find_password, *requested, **given)[0] == "RG511"
     file.chmod(0o600)
-    login = find_password(*asked, **given)
+    login = find_password(*requested, **given)
     assert (login.user, login.password.get()) == ("u", "s3cret")
     assert "s3cret" not in f"{login!r} {login.password} {login.password!r}"
     assert redact("530 no such pass s3cret", login) == "530 no such pass ***"
@@ -410,7 +410,7 @@ def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp
     assert login.password.get() == "from env"
     assert Credentials("Default User", Secret("robotics")).is_default
     file.write_text('password = "s3cret\n')
-    assert "s3cret" not in render(refusal(find_password, *asked, **given).diagnostics)
+    assert "s3cret" not in render(refusal(find_password, *requested, **given).diagnostics)
 
 
 def test_no_password_is_tried_where_nobody_can_be_asked(run, home, built, monkeypatch):
@@ -471,14 +471,14 @@ def test_a_plan_with_a_backup_looks_for_data_of_the_users_program(run, home, tmp
     backup = write_backup(tmp_path / "cell")
     cfg = backup / "SYSPAR/SYS.cfg"
     cfg.write_text(cfg.read_text().replace("T_MOVE", "T_ROB1"))
-    words = ("irb120", "--to", f"dir://{home}", "--backup", backup, "--set", "payload.name=lPart")
-    code, _, err = run("plan", *words)
+    text = ("irb120", "--to", f"dir://{home}", "--backup", backup, "--set", "payload.name=lPart")
+    code, _, err = run("plan", *text)
     assert code == 2
     assert "RG113" in err
     assert "loaddata lPart" in err
     program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
     program.write_text(program.read_text().replace("  PROC", "  PERS loaddata lPart;\n  PROC", 1))
-    assert run("plan", *words)[0] == 0
+    assert run("plan", *text)[0] == 0
 
 
 def test_a_mark_at_the_beginning_of_a_file_is_no_part_of_it(tmp_path):
@@ -497,9 +497,9 @@ def test_a_file_without_the_password_that_is_asked_for_is_named(tmp_path, monkey
     secrets = tmp_path / "secrets.toml"
     secrets.write_text('[10.0.0.1]\npassword = "s3cret"\n')  # tables in tables, to TOML
     secrets.chmod(0o600)
-    asked = (Credentials(""), "10.0.0.1", 21)
-    (found,) = refusal(find_password, *asked, secrets=secrets, ask=True).diagnostics
-    assert (found.code, str(secrets) in found.help) == ("RG512", True)
-    assert '["10.0.0.1"]' in found.help
-    (found,) = refusal(find_password, *asked, secrets=None, ask=True).diagnostics
-    assert found.help.startswith("--secrets FILE")
+    requested = (Credentials(""), "10.0.0.1", 21)
+    (result,) = refusal(find_password, *requested, secrets=secrets, ask=True).diagnostics
+    assert (result.code, str(secrets) in result.help) == ("RG512", True)
+    assert '["10.0.0.1"]' in result.help
+    (result,) = refusal(find_password, *requested, secrets=None, ask=True).diagnostics
+    assert result.help.startswith("--secrets FILE")

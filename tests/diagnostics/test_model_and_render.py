@@ -56,22 +56,22 @@ def test_full_shows_source_line_and_carets_under_the_span():
 
 
 def test_carets_stand_under_the_text_behind_a_tab():
-    found = Diagnostic("RG001", Severity.ERROR, "m", Span("cell.yaml", 3, 2, 3, 7))
-    shown = render([found], lines_of=lines_of).splitlines()
-    assert shown[3].index("count") == shown[4].index("^^^^^")
+    result = Diagnostic("RG001", Severity.ERROR, "m", Span("cell.yaml", 3, 2, 3, 7))
+    displayed = render([result], lines_of=lines_of).splitlines()
+    assert displayed[3].index("count") == displayed[4].index("^^^^^")
 
 
 @pytest.mark.parametrize("format", [Format.FULL, Format.CONCISE, Format.GITHUB])
 def test_control_characters_never_reach_the_terminal(format):
-    found = Diagnostic(
+    result = Diagnostic(
         "RG001",
         Severity.ERROR,
         "odd \x1b[2J name\x9b",
         Span("cell.yaml", 3, 1),
         help="no \x07 bell",
     )
-    shown = render([found], format, lines_of=lines_of)
-    assert not {c for c in shown if ord(c) < 32 or 127 <= ord(c) < 160} - {"\n"}
+    displayed = render([result], format, lines_of=lines_of)
+    assert not {c for c in displayed if ord(c) < 32 or 127 <= ord(c) < 160} - {"\n"}
 
 
 def test_json_is_one_array_with_places_from_one():
@@ -111,21 +111,21 @@ def test_colour_is_only_there_when_asked_for():
 
 
 def test_a_place_that_cannot_be_read_still_gives_message_and_help(tmp_path):
-    found = Diagnostic(
+    result = Diagnostic(
         "RG001", Severity.ERROR, "m", Span(str(tmp_path / "gone"), 7, 1), "here", "h"
     )
-    shown = render([found])
-    assert "gone:7:1" in shown
-    assert "here" in shown
-    assert "help: h" in shown
+    displayed = render([result])
+    assert "gone:7:1" in displayed
+    assert "here" in displayed
+    assert "help: h" in displayed
 
 
 def test_a_very_long_line_is_shown_around_its_mark():
     text = "x" * 1_000_000 + "BAD" + "y" * 1_000_000
-    found = Diagnostic("RG001", Severity.ERROR, "m", Span("f", 1, 1_000_001, 1, 1_000_004))
-    shown = render([found], lines_of=lambda _: [text])
-    assert "BAD" in shown
-    assert len(shown) < 1000
+    result = Diagnostic("RG001", Severity.ERROR, "m", Span("f", 1, 1_000_001, 1, 1_000_004))
+    displayed = render([result], lines_of=lambda _: [text])
+    assert "BAD" in displayed
+    assert len(displayed) < 1000
 
 
 def test_suggest_ignores_case_and_keeps_quiet_when_nothing_is_close():

@@ -13,11 +13,11 @@ FILES = sorted((PACKAGE / "diagnostics" / "pages").glob("*.md"))
 
 
 def used_codes():
-    found = {}
+    result = {}
     for path in PACKAGE.rglob("*.py"):
         for code in re.findall(r"[\"'](RG\d{3,4})[\"']", path.read_text(encoding="utf-8")):
-            found.setdefault(code, path)
-    return found
+            result.setdefault(code, path)
+    return result
 
 
 def test_every_used_code_has_a_page():

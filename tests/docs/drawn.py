@@ -22,5 +22,5 @@ class Picture:
     def put(self, drawn: str) -> None:
         """Put a picture in the place of the page's."""
         text, old = PAGE.read_text(encoding="utf-8"), self.on_the_page()
-        whole = f"{self.begin}{old}{self.end}"
-        PAGE.write_text(text.replace(whole, f"{self.begin}{drawn}{self.end}"), "utf-8")
+        complete = f"{self.begin}{old}{self.end}"
+        PAGE.write_text(text.replace(complete, f"{self.begin}{drawn}{self.end}"), "utf-8")

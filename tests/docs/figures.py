@@ -62,14 +62,14 @@ def anything() -> list[tuple[float, str]]:
 @cache
 def classes() -> list[type]:
     """Classes of the package but for exceptions and RAPID records."""
-    found = {
+    result = {
         thing
         for name in modules()
         if not name.endswith("__main__") and name not in _NEEDS_ROS
         for thing in vars(importlib.import_module(name)).values()
         if inspect.isclass(thing) and thing.__module__ == name
     }
-    return [c for c in found if not issubclass(c, BaseException | Record)]
+    return [c for c in result if not issubclass(c, BaseException | Record)]
 
 
 def of_ours(bases: tuple[type, ...]) -> list[type]:
@@ -80,8 +80,8 @@ def of_ours(bases: tuple[type, ...]) -> list[type]:
 def inheritance_depths() -> list[tuple[float, str]]:
     """How deep classes are below their first ancestor."""
 
-    def depth(found: type) -> int:
-        return max((1 + depth(base) for base in of_ours(found.__bases__)), default=0)
+    def depth(result: type) -> int:
+        return max((1 + depth(base) for base in of_ours(result.__bases__)), default=0)
 
     return sorted(((depth(c), f"{c.__module__}.{c.__name__}") for c in classes()), reverse=True)
 

@@ -54,7 +54,7 @@ def searched(site: Path, queries: list[str]) -> list[list[str]]:
         text=True,
         check=True,
     )
-    return [list(dict.fromkeys(page for page, *_ in found)) for found in json.loads(done.stdout)]
+    return [list(dict.fromkeys(page for page, *_ in result)) for result in json.loads(done.stdout)]
 
 
 def _node() -> str:
@@ -69,10 +69,10 @@ def main() -> int:
     """1 when a question is not found."""
     site, show_all = Path(sys.argv[1]), "--table" in sys.argv
     queries = [query for words, _ in ASKED.values() for query in words]
-    found = dict(zip(queries, searched(site, queries), strict=True))
+    result = dict(zip(queries, searched(site, queries), strict=True))
     missed = 0
     for question, (words, pages) in ASKED.items():
-        firsts = {query: found[query][:SEEN] for query in words}
+        firsts = {query: result[query][:SEEN] for query in words}
         answered = any(not set(pages).isdisjoint(first) for first in firsts.values())
         listed = [not {QUESTIONS, *pages}.isdisjoint(first) for first in firsts.values()]
         is_good = answered and all(listed)

@@ -36,18 +36,18 @@ class Seen:
         """A routine of a task, the first time."""
         self._once(task, f"{routine.module.name}: {routine.name}")
 
-    def news(self, news) -> None:
+    def news(self, events) -> None:
         """Bytes between the client and a task, as messages; each kind in turn once."""
         splitter = FrameSplitter()
-        splitter.feed(news.data)
+        splitter.feed(events.data)
         kinds = []
         while (frame := splitter.next()) is not None:
             kinds.append(type(decode(frame)).__name__)
-        arrow = {"in": "──▶", "out": "◀──"}.get(news.change)
+        arrow = {"in": "──▶", "out": "◀──"}.get(events.change)
         if arrow and kinds:
             told = Counter(kinds)
             text = ", ".join(k if n == 1 else f"{k} × {n}" for k, n in told.items())
-            self._once(news.task, f"client {arrow} {text}")
+            self._once(events.task, f"client {arrow} {text}")
 
     def _once(self, task: str, text: str) -> None:
         if (task, text) not in self.known:
@@ -78,8 +78,8 @@ async def _live(robot, controller, seen) -> None:
     async with robot:
         await robot.wait_until(lambda _: controller.now > 2 * IDLE, timeout=3 * IDLE)
         here = list(robot.state.joints)
-        there = [here[0] + 0.2, *here[1:]]
-        points = [here, there, here, there]
+        target = [here[0] + 0.2, *here[1:]]
+        points = [here, target, here, target]
         seen.listens = True
         seen.events.append(("client", "core/checks.py: every point within limits and speeds"))
         execution = await robot.execute(

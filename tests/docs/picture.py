@@ -20,8 +20,8 @@ def layers() -> list[list[str]]:
     """Rooms of the import contract, top to bottom; those of one layer do not import each other."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     contracts = tomllib.loads(text)["tool"]["importlinter"]["contracts"]
-    found = next(contract["layers"] for contract in contracts if contract["type"] == "layers")
-    return [layer.split(" : ") for layer in found]
+    match = next(contract["layers"] for contract in contracts if contract["type"] == "layers")
+    return [layer.split(" : ") for layer in match]
 
 
 def says(package: str) -> str:
@@ -44,7 +44,7 @@ def draw() -> str:
         for name in layer:
             own = [module for module in modules() if room(module) == name]
             out += entry(name, says(f"rapidgen.{name}"), 0)
-            below = {room(found) for module in own for found in graph[module]} - {name, ""}
+            below = {room(result) for module in own for result in graph[module]} - {name, ""}
             out += textwrap.wrap(
                 f"imports {' '.join(sorted(below)) or 'no room'}",
                 WIDTH,

@@ -93,9 +93,9 @@ def bar(start: Vector, end: Vector, width: float, colour: str, nearer: float = 0
     return Bar((x, y), (u, v), width, colour, (a + b) / 2 + nearer)
 
 
-def ground(found: list[Bar]) -> Iterator[Bar]:
+def ground(result: list[Bar]) -> Iterator[Bar]:
     """A grid of 500 mm under what is drawn."""
-    reach = max(max(abs(b.start[0]), abs(b.end[0])) for b in found)
+    reach = max(max(abs(b.start[0]), abs(b.end[0])) for b in result)
     count = max(1, math.ceil(reach / 0.5))
     for n in range(-1, count + 1):
         yield bar((n * 0.5, -0.5, 0.0), (n * 0.5, 0.5, 0.0), 0.8, GROUND, -9.0)
@@ -105,20 +105,20 @@ def ground(found: list[Bar]) -> Iterator[Bar]:
 
 def model(name: str) -> list[Bar]:
     """All arms of a model on their ground."""
-    found: list[Bar] = []
+    result: list[Bar] = []
     for group in load_config(name).groups:
         own = Kinematics.of(group)
         assert own is not None
         degrees = POSTURES.get(name, {}).get(group.name, (0.0,) * len(group.joints))
         poses = list(chain(own, degrees))
         size = max(frames.norm(pose[0]) for _, pose in poses)
-        found += bars(own, degrees, size)
-    return [*ground(found), *sorted(found, key=lambda b: b.depth)]
+        result += bars(own, degrees, size)
+    return [*ground(result), *sorted(result, key=lambda b: b.depth)]
 
 
-def fitted(found: list[Bar], left: float, top: float) -> list[Bar]:
+def fitted(result: list[Bar], left: float, top: float) -> list[Bar]:
     """Lines of a model in the cell of the sheet that begins there."""
-    places = [p for b in found for p in (b.start, b.end)]
+    places = [p for b in result for p in (b.start, b.end)]
     low = [min(p[i] for p in places) for i in (0, 1)]
     high = [max(p[i] for p in places) for i in (0, 1)]
     room = (CELL[0] - 30, CELL[1] - HEAD - 30)
@@ -131,7 +131,7 @@ def fitted(found: list[Bar], left: float, top: float) -> list[Bar]:
     def place(p: tuple[float, float]) -> tuple[float, float]:
         return round(p[0] * scale + shift[0], 1), round(p[1] * scale + shift[1], 1)
 
-    return [Bar(place(b.start), place(b.end), b.width, b.colour, b.depth) for b in found]
+    return [Bar(place(b.start), place(b.end), b.width, b.colour, b.depth) for b in result]
 
 
 def sheet() -> Iterator[tuple[str, float, float, list[Bar]]]:
@@ -149,12 +149,12 @@ def draw() -> str:
         f'{rows * CELL[1]}" font-family="sans-serif" font-size="14" stroke-linecap="round">',
         '<rect width="100%" height="100%" fill="white"/>',
     ]
-    for name, left, top, found in sheet():
+    for name, left, top, result in sheet():
         out.append(f'<text x="{left + 12}" y="{top + 20}">{escape(name)}</text>')
         out += [
             f'<path d="M{b.start[0]:g} {b.start[1]:g}L{b.end[0]:g} {b.end[1]:g}" '
             f'stroke="{b.colour}" stroke-width="{b.width:g}"/>'
-            for b in found
+            for b in result
         ]
     return "\n".join([*out, "</svg>", ""])
 

@@ -59,7 +59,7 @@ def test_every_file_that_a_chapter_names_is_there():
     for title, text in chapters:
         rooms = [PACKAGE / room for room in title.split(", ")]
         for named in re.findall(r"`([\w/]+\.py|[\w/]+/)`", text):
-            found = [path for room in rooms for path in room.rglob(named)]
-            missing += [(title, named)] * (not found and not (ROOT / named).exists())
+            result = [path for room in rooms for path in room.rglob(named)]
+            missing += [(title, named)] * (not result and not (ROOT / named).exists())
     assert len(chapters) > 10
     assert missing == []

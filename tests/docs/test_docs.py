@@ -58,7 +58,7 @@ FENCE = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 def blocks(path, kind):
     return [
-        text for found, text in FENCE.findall(path.read_text(encoding="utf-8")) if found == kind
+        text for result, text in FENCE.findall(path.read_text(encoding="utf-8")) if result == kind
     ]
 
 
@@ -104,7 +104,7 @@ def test_commands(path, tmp_path, environment):
             if stands:
                 # In one go: what stands there may be the text of another.
                 written = "|".join(map(re.escape, stands))
-                command = re.sub(written, lambda found: stands[found[0]], command)
+                command = re.sub(written, lambda result: stands[result[0]], command)
             words = shlex.split(command, comments=True)
             assert words[0] in ("rapidgen", "cat", "ls", "pytest"), line
             if words[-1] == "&":
@@ -118,21 +118,21 @@ def test_commands(path, tmp_path, environment):
             if at_address.WRITTEN in line:
                 run, password = agreed, at_address.PASSWORD
             own = {**environment, "RAPIDGEN_PASSWORD": password}
-            code, said = run(words, cwd=tmp_path, env=own)
+            code, message = run(words, cwd=tmp_path, env=own)
             again = JOGS if words[1:2] == ["jog"] else 0
-            while again and HELD_UP.search(said):
+            while again and HELD_UP.search(message):
                 again -= 1
-                code, said = run(words, cwd=tmp_path, env=own)
-            assert code == int(wanted or 0), (line, said)
+                code, message = run(words, cwd=tmp_path, env=own)
+            assert code == int(wanted or 0), (line, message)
 
 
 def elsewhere(lines):
     """What ports that a page writes are to be replaced by: this machine may use them otherwise."""
-    found = re.search(r"--port-offset (\d+)", "\n".join(lines))
-    if found is None:
+    match = re.search(r"--port-offset (\d+)", "\n".join(lines))
+    if match is None:
         return {}
-    written, free = int(found[1]), free_port(beside=2) - 11000
-    return {found[0]: f"--port-offset {free}"} | {
+    written, free = int(match[1]), free_port(adjacent=2) - 11000
+    return {match[0]: f"--port-offset {free}"} | {
         str(port + written): str(port + free) for port in (11000, 11001, 11002)
     }
 
@@ -165,12 +165,12 @@ def agreed(words, **where):
     os.write(ours, b"y\n" * 8)
     process = subprocess.Popen(words, stdin=theirs, stdout=theirs, stderr=theirs, **where)
     os.close(theirs)
-    said = b""
+    message = b""
     with open(ours, "rb", buffering=0) as terminal, suppress(OSError):
         # The other end is closed: an error on Linux.
         while block := terminal.read(4096):
-            said += block
-    return process.wait(200), said.decode()
+            message += block
+    return process.wait(200), message.decode()
 
 
 @pytest.mark.parametrize("path", [p for p in PAGES if blocks(p, "python")], ids=lambda p: p.name)
@@ -196,8 +196,8 @@ def test_no_command_stands_where_it_is_not_run(path):
         if kind != "console":
             for line in text.splitlines():
                 assert not re.match(r"(\$ )?rapidgen ", line), (path.name, line)
-    rest = re.sub(FENCE, "", path.read_text(encoding="utf-8"))
-    for line in re.findall(r"^    (rapidgen .*)$", rest, re.MULTILINE):
+    remaining = re.sub(FENCE, "", path.read_text(encoding="utf-8"))
+    for line in re.findall(r"^    (rapidgen .*)$", remaining, re.MULTILINE):
         assert re.search(r"\[|\b[A-Z]{3,}\b", line), (path.name, line)
 
 

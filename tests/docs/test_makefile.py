@@ -44,9 +44,9 @@ def test_every_tool_is_run_by_a_target(path):
 
 def test_the_trials_of_foreign_programs_are_named():
     named = re.search(r"PROGRAM the trial \((.+?); default", MAKEFILE)[1].split(", ")
-    there = {
+    target = {
         path.stem
         for path in (ROOT / "tools" / "foreign").glob("*.py")
         if MAIN in path.read_text(encoding="utf-8")
     }
-    assert set(named) == there - {"trial"}
+    assert set(named) == target - {"trial"}

@@ -12,11 +12,11 @@ PACKAGE = ROOT / "rapidgen"
 @cache
 def modules() -> dict[str, Path]:
     """Files of the package by dotted name; a package's own file has the package's name."""
-    found = {}
+    result = {}
     for path in sorted(PACKAGE.rglob("*.py")):
         parts = path.relative_to(ROOT).with_suffix("").parts
-        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
-    return found
+        result[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return result
 
 
 @cache
@@ -36,7 +36,7 @@ def imports() -> dict[str, frozenset[str]]:
     """Modules of the package that each module imports anywhere, for types only as well."""
     known = modules()
     return {
-        name: frozenset(found for found in _imported(path, known) if found != name)
+        name: frozenset(result for result in _imported(path, known) if result != name)
         for name, path in known.items()
     }
 
@@ -54,13 +54,13 @@ def _imported(path: Path, known: dict[str, Path]) -> Iterator[str]:
 def circles(graph: Mapping[str, Iterable[str]]) -> list[list[str]]:
     """Nodes that lead to one another, each set once, the largest first."""
     backward: dict[str, set[str]] = {name: set() for name in graph}
-    for name, found in graph.items():
-        for other in found:
+    for name, result in graph.items():
+        for other in result:
             backward[other].add(name)
     seen: set[str] = set()
-    ended = [name for start in graph for name in _walk(start, graph, seen)]
+    finished = [name for start in graph for name in _walk(start, graph, seen)]
     seen.clear()
-    parts = [sorted(_walk(name, backward, seen)) for name in reversed(ended)]
+    parts = [sorted(_walk(name, backward, seen)) for name in reversed(finished)]
     return sorted((part for part in parts if len(part) > 1), key=len, reverse=True)
 
 
@@ -68,15 +68,15 @@ def _walk(start: str, graph: Mapping[str, Iterable[str]], seen: set[str]) -> lis
     """What is reached from a node and was not seen before, in the order in which it ends."""
     if start in seen:
         return []
-    ended, stack = [], [(start, iter(graph[start]))]
+    finished, stack = [], [(start, iter(graph[start]))]
     seen.add(start)
     while stack:
-        here, rest = stack[-1]
-        following = next((name for name in rest if name not in seen), None)
+        here, remaining = stack[-1]
+        following = next((name for name in remaining if name not in seen), None)
         if following is None:
-            ended.append(here)
+            finished.append(here)
             stack.pop()
         else:
             seen.add(following)
             stack.append((following, iter(graph[following])))
-    return ended
+    return finished

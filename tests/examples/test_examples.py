@@ -86,7 +86,7 @@ def test_notebooks(here, monkeypatch, path):
     monkeypatch.setattr(plotting, "ASSETS", here)
     cells = json.loads(path.read_text())["cells"]
     assert all(not cell.get("outputs") for cell in cells)
-    names, shown = {}, 0
+    names, displayed = {}, 0
     for cell in cells:
         if cell["cell_type"] != "code":
             continue
@@ -97,5 +97,5 @@ def test_notebooks(here, monkeypatch, path):
             value = eval(compile(ast.Expression(last.value), path.name, "eval"), names)
             html = getattr(value, "_repr_html_", None)
             assert (html() if html is not None else repr(value)) or value is None
-            shown += html is not None
-    assert shown >= 2
+            displayed += html is not None
+    assert displayed >= 2

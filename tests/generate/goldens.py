@@ -15,8 +15,8 @@ WHOLE = ("irb2400-rw5", "two_arms_track-rw6", "irb460-rw7")
 def kept(example: Path) -> dict[str, bytes]:
     """Files by path that are kept of an example's output: all, or the cfg text."""
     files = build(load_config(example)).files
-    whole = example.stem in WHOLE
-    return {file.path: file.data for file in files if whole or file.path.endswith(".cfg")}
+    complete = example.stem in WHOLE
+    return {file.path: file.data for file in files if complete or file.path.endswith(".cfg")}
 
 
 def main() -> None:

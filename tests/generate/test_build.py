@@ -30,8 +30,8 @@ def output(irb120):
 
 
 def text_of(output, name):
-    (found,) = [f for f in output.files if f.path.endswith(name)]
-    return found.data.decode("latin-1")
+    (result,) = [f for f in output.files if f.path.endswith(name)]
+    return result.data.decode("latin-1")
 
 
 def test_two_builds_are_equal_byte_for_byte(irb120, output):
@@ -86,18 +86,18 @@ def test_set_changes_only_what_it_says(output):
     changed = build(
         load_config("irb120", overrides=["trajectory.capacity=5000", "ports.motion=12000"])
     )
-    found = []
+    result = []
     for old, new in zip(output.files, changed.files, strict=True):
         assert old.path == new.path
         if old.kind in ("readme", "manifest"):
             continue
         lines = zip(old.data.splitlines(), new.data.splitlines(), strict=True)
-        found += [new_line.strip().decode() for a, new_line in lines if a != new_line]
-    ids = [line for line in found if changed.build_id in line]
-    rest = sorted(line for line in found if changed.build_id not in line)
+        result += [new_line.strip().decode() for a, new_line in lines if a != new_line]
+    ids = [line for line in result if changed.build_id in line]
+    remaining = sorted(line for line in result if changed.build_id not in line)
     # One in each module, and one in the reply to HELLO.
     assert len(ids) == 17
-    assert rest == ["CONST num ROS_CAPACITY := 5000;", "LOCAL CONST num PORT := 12000;"]
+    assert remaining == ["CONST num ROS_CAPACITY := 5000;", "LOCAL CONST num PORT := 12000;"]
 
 
 def test_text_rules(output):
@@ -156,9 +156,9 @@ def test_text_beyond_ascii_is_refused_with_the_reason(irb120, name):
     """It stands in comments; a virtual 6.15 did not load a system module for one character."""
     with pytest.raises(DiagnosticError) as caught:
         build(replace(irb120, name=name))
-    found = caught.value.diagnostics[0]
-    assert found.code == "RG101"
-    assert "did not load" in found.notes[0]
+    result = caught.value.diagnostics[0]
+    assert result.code == "RG101"
+    assert "did not load" in result.notes[0]
 
 
 def test_what_a_controller_loads_is_ascii(irb120):

@@ -74,8 +74,8 @@ def test_the_result_loads_and_only_adds(backup, tmp_path):
     for text in texts.values():
         cell = read_cell(backup).cfg
         for section in text.sections:
-            there = {identity(section.name, i) for i in cell.instances(text.domain, section.name)}
-            assert not there & {identity(section.name, i) for i in section.instances}
+            target = {identity(section.name, i) for i in cell.instances(text.domain, section.name)}
+            assert not target & {identity(section.name, i) for i in section.instances}
     write(output, tmp_path / "out")
     system = read_folder(tmp_path / "out", backup)
     assert [task.name for task in system.tasks[:2]] == ["T_MOVE", "T_PLC"]

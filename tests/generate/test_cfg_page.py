@@ -33,9 +33,9 @@ WORDS = ("Type", "TrustLevel", "Shelf", "Status", "SignalType", "Access")
 def table(heading):
     """Cells by the line that they are of."""
     text = PAGE.read_text(encoding="utf-8").split(f"## {heading}\n")[1].split("\n## ")[0]
-    found = re.findall(r"^\| `([^`]+)` \| (.+) \|$", text, re.M)
+    match = re.findall(r"^\| `([^`]+)` \| (.+) \|$", text, re.M)
     columns = (*BUILDS, "source")
-    return {line: dict(zip(columns, cells.split(" | "), strict=True)) for line, cells in found}
+    return {line: dict(zip(columns, cells.split(" | "), strict=True)) for line, cells in match}
 
 
 def cfg_texts(release):
@@ -64,9 +64,9 @@ def lines_of(text):
 @pytest.mark.parametrize("release", BUILDS)
 def test_each_line_has_a_row_and_each_row_a_line(release):
     rows = table("Lines")
-    shown = {line for line, cells in rows.items() if cells[release] != "-"}
+    displayed = {line for line, cells in rows.items() if cells[release] != "-"}
     written = {line for _, text in cfg_texts(release) for line in lines_of(text)}
-    assert written == shown
+    assert written == displayed
 
 
 @pytest.mark.parametrize("release", BUILDS)
@@ -81,9 +81,9 @@ def test_what_nobody_has_shown_is_in_files_that_may_be_refused(release):
 @pytest.mark.parametrize("release", BUILDS)
 def test_the_first_lines(release):
     rows = table("The first line of a file")
-    shown = {line: cells[release].split()[0] for line, cells in rows.items()}
+    displayed = {line: cells[release].split()[0] for line, cells in rows.items()}
     for _, text in cfg_texts(release):
-        assert shown[text.domain] == "{}:{}".format(*text.version)
+        assert displayed[text.domain] == "{}:{}".format(*text.version)
 
 
 def test_every_row_has_marks_and_a_source():
@@ -102,9 +102,9 @@ def test_a_release_without_known_digits_is_asked_for(version, domains):
     overrides = [f"controller.robotware={version}", f"controller.type={kind}"]
     with pytest.raises(DiagnosticError) as caught:
         build(load_config("irb120", overrides=overrides))
-    for found, domain in zip(caught.value.diagnostics, domains, strict=True):
-        assert found.code == "RG105"
-        assert f"SYSPAR/{domain}.cfg" in found.help
+    for result, domain in zip(caught.value.diagnostics, domains, strict=True):
+        assert result.code == "RG105"
+        assert f"SYSPAR/{domain}.cfg" in result.help
     given = [f"controller.cfg_header.{d}=9:77" for d in ("SYS", "EIO", "SIO")]
     files = build(load_config("irb120", overrides=[*overrides, *given])).files
     assert {parse_cfg(f.data).version for f in files if f.kind == "cfg"} == {(9, 77)}

@@ -33,9 +33,9 @@ def test_every_kind_of_robot_has_one():
 def test_the_golden_is_what_is_built(path):
     folder = GOLDENS / path.stem
     files = (p for p in folder.rglob("*") if p.is_file())
-    found = {p.relative_to(folder).as_posix(): p.read_bytes() for p in files}
+    result = {p.relative_to(folder).as_posix(): p.read_bytes() for p in files}
     wanted = kept(path)
-    differing = [name for name in {*found, *wanted} if found.get(name) != wanted.get(name)]
+    differing = [name for name in {*result, *wanted} if result.get(name) != wanted.get(name)]
     assert differing == [], "python -m tests.generate.goldens"
 
 
@@ -54,15 +54,15 @@ def test_an_example_is_checked_booted_and_driven(path, tmp_path):
     try:
         for number in range(len(config.groups)):
             own = bench.of_group(number)
-            own.moves_through(own.motion(), own.wave(3))
-        bench.healthy()
+            own.assert_moves_through(own.motion(), own.wave(3))
+        bench.assert_healthy()
     finally:
         bench.close()
 
 
 def test_no_golden_without_its_example():
-    found = {p.name for p in GOLDENS.iterdir() if p.is_dir()}
-    assert found == {p.stem for p in EXAMPLES}
+    result = {p.name for p in GOLDENS.iterdir() if p.is_dir()}
+    assert result == {p.stem for p in EXAMPLES}
 
 
 def test_of_the_whole_ones_one_is_coupled_one_has_two_arms_and_a_track_one_is_of_robotware_7():

@@ -64,12 +64,12 @@ def as_moved(bench, before):
         ),
     ],
 )
-def test_the_readme_tells(tmp_path, keep, said):
+def test_the_readme_tells(tmp_path, keep, message):
     (tmp_path / "cell.yaml").write_text(
         f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nkeep: {keep}\njoints:\n{JOINTS}\n"
     )
     files = build(load_config(tmp_path / "cell.yaml")).files
-    assert [f for f in files if f.kind == "readme" and said in f.data.decode()]
+    assert [f for f in files if f.kind == "readme" and message in f.data.decode()]
 
 
 @pytest.mark.parametrize("keep", ["[rax_5]", "{rax_5: 30}"])

@@ -26,17 +26,17 @@ def modules():
 def test_every_line_of_rapid_has_a_template_whose_text_it_is(modules):
     plain = 0
     for text, lines in modules.values():
-        found = origin_of(text, lines)
+        result = origin_of(text, lines)
         made = text.splitlines()
-        assert [line for line, _, _ in found.lines] == [*range(1, len(made) + 1)]
-        for line, template, number in found.lines:
+        assert [line for line, _, _ in result.lines] == [*range(1, len(made) + 1)]
+        for line, template, number in result.lines:
             source = (TEMPLATES / template).read_text().splitlines()[number - 1]
-            assert found.templates[template].splitlines()[number - 1] == source
+            assert result.templates[template].splitlines()[number - 1] == source
             # What is outside of tags is in the line as it is.
-            rest = made[line - 1]
+            remaining = made[line - 1]
             for piece in outside(source):
-                assert piece in rest, (template, number, rest)
-                rest = rest.partition(piece)[2]
+                assert piece in remaining, (template, number, remaining)
+                remaining = remaining.partition(piece)[2]
             plain += "{" not in source
     assert plain > 2000
 
@@ -59,9 +59,9 @@ def test_a_text_of_other_templates_has_names_and_lines_alone(modules):
         (text, [(1, lines[0][1], 10**9)]),
         (text, [(1, lines[0][1], 0)]),
     ):
-        found = origin_of(bad, told)
-        assert found.lines == tuple(told)
-        assert found.templates == {}
+        result = origin_of(bad, told)
+        assert result.lines == tuple(told)
+        assert result.templates == {}
 
 
 @pytest.mark.parametrize(

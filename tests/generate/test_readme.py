@@ -91,14 +91,14 @@ def test_what_is_copied_as_told_lies_where_the_cfg_looks_for_it(two_groups):
         (copied,) = re.findall(
             r"^2\. Copy `(HOME/[^`]+)` with all that is in it", text, re.MULTILINE
         )
-        kept = PurePosixPath(copied)
-        there = {
-            "HOME:/" + str(PurePosixPath(path).relative_to(kept.parent))
+        saved = PurePosixPath(copied)
+        target = {
+            "HOME:/" + str(PurePosixPath(path).relative_to(saved.parent))
             for path in files
-            if PurePosixPath(path).is_relative_to(kept)
+            if PurePosixPath(path).is_relative_to(saved)
         }
-        assert set(re.findall(r'-File "([^"]+)"', files["SYS.cfg"])) == there
-        assert f"delete `HOME:/{kept.name}`" in text
+        assert set(re.findall(r'-File "([^"]+)"', files["SYS.cfg"])) == target
+        assert f"delete `HOME:/{saved.name}`" in text
 
 
 def test_each_group_is_tried_at_its_own_ports(two_groups):

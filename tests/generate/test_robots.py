@@ -42,16 +42,16 @@ def test_boots_and_moves(name, generation):
         for number in range(len(config.groups)):
             own = bench.of_group(number)
             state, points = own.state(), own.wave(3, duration=1.0)
-            own.moves_through(own.motion(), points)
+            own.assert_moves_through(own.motion(), points)
             own.run(0.5)
             state.read()
-            told = state.expect(RawJointPosition, 2, "a JOINT arrives").joints
+            text = state.expect(RawJointPosition, 2, "a JOINT arrives").joints
             count = len(own.position)
-            assert distance(told[:count], points[-1][0]) < 1e-6
-            assert told[count:] == (0.0,) * (MAX_JOINTS - count)
+            assert distance(text[:count], points[-1][0]) < 1e-6
+            assert text[count:] == (0.0,) * (MAX_JOINTS - count)
         others = [e for e in bench.controller.log if e.type is not EventType.INFO]
         assert [str(e) for e in others] == []
-        bench.healthy()
+        bench.assert_healthy()
     finally:
         bench.close()
 

@@ -57,8 +57,8 @@ def test_a_file_that_no_build_made_is_not_taken_away(here, capsys):
     own = here / "x/HOME/rapidgen/my_calibration.mod"
     own.write_text("MODULE my_calibration\nENDMODULE\n")
     assert main(["build", "irb120", "-o", "x"]) == 2
-    assert "error[RG102]" in (shown := capsys.readouterr().err)
-    assert "HOME/rapidgen/my_calibration.mod" in shown
+    assert "error[RG102]" in (displayed := capsys.readouterr().err)
+    assert "HOME/rapidgen/my_calibration.mod" in displayed
     assert own.exists()
     own.unlink()
     (here / "x/manifest.json").write_text("{")

@@ -20,12 +20,12 @@ from rapidgen.system.model import ArcSignals, SignalSpec, System, UdpDevice
 
 def test_events_have_numbers_domains_and_the_controllers_time():
     scheduler = Scheduler()
-    log, told = EventLog(scheduler, capacity=3), []
+    log, report = EventLog(scheduler, capacity=3), []
     first = log.info(10_015, "one")
-    end = log.subscribe(told.append)
+    end = log.subscribe(report.append)
     scheduler.at(3 * S, lambda: log.warning(50_024, "two", "a", "", "b", task="T_ROB1"))
     scheduler.advance()
-    second, third = told[0], log.error(130_001, "three")
+    second, third = report[0], log.error(130_001, "three")
     end()
     fourth = log.write(71_101, EventType.WARNING, "four")
     events = [first, second, third, fourth]
@@ -38,7 +38,7 @@ def test_events_have_numbers_domains_and_the_controllers_time():
         Domain.PAINT,
         Domain.IO,
     ]
-    assert told == [second, third]
+    assert report == [second, third]
     assert list(log) == [second, third, fourth]
     assert len(log) == 3
     assert log.since(2) == [third, fourth]
@@ -114,8 +114,8 @@ def test_the_date_of_a_virtual_and_of_a_real_clock():
 def test_a_camera_sees_its_images_in_turn():
     one, two = Seen("one"), Seen("two")
     camera = Camera("cam", images=[(one, two), (), (two,)])
-    told = []
-    camera.changed.add(lambda: told.append(camera.taken))
+    report = []
+    camera.changed.add(lambda: report.append(camera.taken))
     camera.under_way = 4
     camera.look(1, keep=False)
     assert list(camera.results) == [(1, one), (1, two)]
@@ -124,18 +124,18 @@ def test_a_camera_sees_its_images_in_turn():
     assert list(camera.results) == [(1, one), (1, two), (3, two)]
     camera.look(4, keep=False)
     assert list(camera.results) == [(4, one), (4, two)]
-    assert (camera.taken, camera.under_way, told) == (4, 0, [1, 2, 3, 4])
-    blind = Camera("blind")
-    blind.look(1, keep=False)
-    assert not blind.results
+    assert (camera.taken, camera.under_way, report) == (4, 0, [1, 2, 3, 4])
+    unmonitored = Camera("blind")
+    unmonitored.look(1, keep=False)
+    assert not unmonitored.results
 
 
 def test_cameras_of_a_configuration_may_be_described():
     described = {"left": Camera("LEFT", job="a")}
-    found = cameras(["Left", "Right"], described)
-    assert list(found) == ["left", "right"]
-    assert found["left"] is described["left"]
-    assert found["right"].name == "Right"
+    result = cameras(["Left", "Right"], described)
+    assert list(result) == ["left", "right"]
+    assert result["left"] is described["left"]
+    assert result["right"].name == "Right"
     assert cameras(["Left"])["left"].name == "Left"
 
 
@@ -154,26 +154,26 @@ def test_egm_identities_are_taken_and_freed():
     assert sessions.device("other") is None
     assert EgmSessions(None).device("any:") == UdpDevice("any")
     # [manual 3HAC073318 5.2: four at a time]
-    taken = [sessions.take(task) for task in ("A", "B", "A", "A")]
-    assert len(taken) == MAX_IDENTITIES
+    in_use = [sessions.take(task) for task in ("A", "B", "A", "A")]
+    assert len(in_use) == MAX_IDENTITIES
     assert sessions.take("B") is None
     sessions.close_task("A")
     free = [sessions.take("C") for _ in range(4)]
     assert [s is None for s in free] == [False, False, False, True]
-    sessions.free(taken[1])
-    sessions.free(taken[1])
+    sessions.free(in_use[1])
+    sessions.free(in_use[1])
     assert sessions.take("D") is not None
 
 
 def test_egm_ends():
     session = EgmSessions(None).take("A")
-    told, scheduler = [], Scheduler()
-    session.changed.add(lambda: told.append(1))
+    report, scheduler = [], Scheduler()
+    session.changed.add(lambda: report.append(1))
     assert not session.running
     session.streaming = True
     assert session.running
     session.streaming, session.guided = False, True
-    session.limit = timer = scheduler.after(S, lambda: told.append("late"))
+    session.limit = timer = scheduler.after(S, lambda: report.append("late"))
     assert session.running
     session.end()
     assert not session.running
@@ -182,7 +182,7 @@ def test_egm_ends():
     session.streaming = True
     session.end()
     assert not session.streaming
-    assert told == [1, 1]
+    assert report == [1, 1]
     session.device = UdpDevice("there")
     assert "there" in session.partner
 

@@ -36,7 +36,7 @@ def test_a_home_that_is_too_large_is_refused(tmp_path, monkeypatch):
     (home / "file").write_bytes(b"1234")
     with pytest.raises(DiagnosticError) as error:
         FileSystem(tmp_path / "disks", home=home)
-    assert [found.code for found in error.value.diagnostics] == ["RG705"]
+    assert [result.code for result in error.value.diagnostics] == ["RG705"]
     assert str(home) in error.value.diagnostics[0].message
 
 
@@ -97,15 +97,15 @@ def test_a_folder_of_the_user_stays(tmp_path):
         ("b:c", "", None),
     ],
 )
-def test_where_a_path_lies(tmp_path, path, file, found):
+def test_where_a_path_lies(tmp_path, path, file, result):
     disks = FileSystem(tmp_path)
     home = tmp_path / "HOME"
     (home / "sub").mkdir()
     (home / "sub" / "a.txt").touch()
     (home / "loop").symlink_to(home / "loop")
-    if found is None:
+    if result is None:
         with pytest.raises(DiskFault) as fault:
             disks.path(path, file)
         assert fault.value.reason is DiskReason.NO_ACCESS
     else:
-        assert disks.path(path, file) == tmp_path / found
+        assert disks.path(path, file) == tmp_path / result

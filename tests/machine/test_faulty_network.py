@@ -246,7 +246,7 @@ def test_a_rule_for_a_connection_that_is_there(rules):
     net = Net(*rules)
     program, client = net.pair()
     net.send(program, b"before")
-    net.afflict(program, NetworkRule("silent", direction="out", after=2))
+    net.inject_fault(program, NetworkRule("silent", direction="out", after=2))
     assert net.send(program, b"abcd") == 4
     net.plain.send(client, b"in")
     net.settle()
@@ -281,12 +281,12 @@ def test_what_waits_in_both_directions_passes_each_at_its_own_time(into, out):
     )
     program, client = net.pair()
     net.wait(S)
-    heard, seen = net.heard(program), net.heard(client, net.plain)
+    received, seen = net.heard(program), net.heard(client, net.plain)
     net.plain.send(client, b"into")
     net.wait(LATENCY)
     net.send(program, b"out")
     net.settle()
-    assert heard == [(pytest.approx(1000 * into + 0.1, abs=0.001), b"into")]
+    assert received == [(pytest.approx(1000 * into + 0.1, abs=0.001), b"into")]
     assert seen == [(pytest.approx(1000 * out + 0.2, abs=0.001), b"out")]
 
 
@@ -369,7 +369,7 @@ def test_bytes_are_cut_by_the_rules_that_hold_for_them(rules, pieces):
     net = Net(*made)
     program, client = net.pair()
     net.wait(10 * S)
-    heard = net.heard(client, net.plain)
+    received = net.heard(client, net.plain)
     assert net.send(program, b"abcd") == 4
     net.settle()
-    assert heard == pieces
+    assert received == pieces

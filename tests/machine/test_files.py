@@ -30,8 +30,8 @@ def disks(tmp_path):
         ("HOME:/" + "x" * 256, "leads out of the controller"),
     ],
 )
-def test_a_path_that_lies_on_no_disk_is_no_access(disks, path, said):
-    with pytest.raises(DiskFault, match=said) as fault:
+def test_a_path_that_lies_on_no_disk_is_no_access(disks, path, message):
+    with pytest.raises(DiskFault, match=message) as fault:
         disks.path(path)
     assert fault.value.reason is DiskReason.NO_ACCESS
 

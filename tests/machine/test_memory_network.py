@@ -65,28 +65,28 @@ def test_a_port_is_taken_once_by_each_protocol_until_it_is_given_back(net):
 
 
 def test_who_listens_is_known(net):
-    told = []
-    net.listening.add(lambda: told.append(dict(net.listeners)))
+    report = []
+    net.listening.add(lambda: report.append(dict(net.listeners)))
     other = net.bind(HOST, 5)
     assert net.listeners == {PORT: (HOST, PORT)}
     net.listen(other)
     net.close(net.listener)
-    assert told == [{PORT: (HOST, PORT), 5: (HOST, 5)}, {5: (HOST, 5)}]
+    assert report == [{PORT: (HOST, PORT), 5: (HOST, 5)}, {5: (HOST, 5)}]
     net.close(net.bind(HOST, 6))  # it has not listened: nothing to tell
-    assert len(told) == 2
+    assert len(report) == 2
     assert reason(net.accept, net.listener) is NetworkReason.CLOSED
 
 
 def test_a_connection_has_two_ends(net):
-    told = []
+    report = []
     client = net.connect(HOST, PORT)
-    client.changed.add(lambda: told.append("client"))
-    net.listener.changed.add(lambda: told.append("listener"))
+    client.changed.add(lambda: report.append("client"))
+    net.listener.changed.add(lambda: report.append("listener"))
     assert (client.connected, net.accept(net.listener)) == (False, None)
     assert net.send(client, b"too early") == 0
     net.scheduler.advance(LATENCY + 1)
     server = net.accept(net.listener)
-    assert told == ["client", "listener"]
+    assert report == ["client", "listener"]
     assert client.connected
     assert server.connected
     assert (server.local, server.peer) == (client.peer, client.local)
@@ -96,11 +96,11 @@ def test_a_connection_has_two_ends(net):
 def test_nobody_listens(net):
     bound = net.bind(HOST, 5)
     for port in (5, 6):
-        told = []
+        report = []
         client = net.connect(HOST, port)
-        client.changed.add(lambda told=told: told.append(1))
+        client.changed.add(lambda report=report: report.append(1))
         net.settle()
-        assert told == [1]
+        assert report == [1]
         assert not client.connected
         assert reason(net.receive, client, 1) is NetworkReason.REFUSED
         assert reason(net.send, client, b"x") is NetworkReason.REFUSED
@@ -126,13 +126,13 @@ def test_a_listener_lets_so_many_wait_and_the_next_one_until_there_is_room(net):
 def test_bytes_arrive_in_order_after_the_latency(net):
     client, server = net.pair()
     began = net.scheduler.now
-    told = []
-    server.changed.add(lambda: told.append(net.scheduler.now - began))
+    report = []
+    server.changed.add(lambda: report.append(net.scheduler.now - began))
     data = bytes(range(200)) * 10
     assert net.send(client, data) == 2000
     assert net.receive(server, 1) is None
     net.settle()
-    assert told == [LATENCY] * 2
+    assert report == [LATENCY] * 2
     assert len(data) > MSS
     assert net.receive(server, 1, peek=True) == data[:1]
     assert net.receive(server, 2001, exact=True) is None
@@ -146,22 +146,22 @@ def test_bytes_arrive_in_order_after_the_latency(net):
 
 def test_a_sender_waits_while_nobody_reads(net):
     client, server = net.pair()
-    told = []
-    client.changed.add(lambda: told.append(1))
+    report = []
+    client.changed.add(lambda: report.append(1))
     assert net.send(client, bytes(BUFFER + 1)) == BUFFER
     net.settle()
     assert net.send(client, bytes(BUFFER + 1)) == BUFFER
     assert net.send(client, b"x") == 0
     net.settle()
-    told.clear()
+    report.clear()
     assert len(net.receive(server, 10, peek=True)) == 10
-    assert told == []
+    assert report == []
     assert len(net.receive(server, 1)) == 1
-    assert told == [1]
+    assert report == [1]
     assert net.send(client, b"xx") == 1
     net.settle()
     assert len(net.receive(server, BUFFER)) == BUFFER
-    assert told == [1, 1]
+    assert report == [1, 1]
     net.settle()
     assert len(net.receive(server, 2 * BUFFER)) == BUFFER
     assert net.receive(server, 1) is None
@@ -170,11 +170,11 @@ def test_a_sender_waits_while_nobody_reads(net):
 def test_what_was_sent_comes_before_the_end(net):
     client, server = net.pair()
     net.send(client, b"bye")
-    told = []
-    client.changed.add(lambda: told.append(1))
+    report = []
+    client.changed.add(lambda: report.append(1))
     net.close(client)
     net.close(client)
-    assert told == [1]
+    assert report == [1]
     assert reason(net.send, client, b"x") is NetworkReason.CLOSED
     assert net.receive(server, 1) is None
     net.settle()
@@ -203,15 +203,15 @@ def test_the_end_waits_for_a_full_buffer(net):
 @pytest.mark.parametrize("why", ["abort", "unread", "reset", "listener", "shut down"])
 def test_a_reset_is_seen_by_the_other_end(net, why):
     client, server = net.pair()
-    told = []
-    client.changed.add(lambda: told.append(1))
+    report = []
+    client.changed.add(lambda: report.append(1))
     net.send(server, bytes(3 * BUFFER))
     if why == "abort":
         net.close(server, abort=True)
     elif why == "unread":
         net.send(client, b"x")
         net.settle()
-        told.clear()
+        report.clear()
         net.close(server)
     elif why == "reset":
         net.reset(server)
@@ -249,15 +249,15 @@ def test_a_silent_connection_says_nothing_to_either_end(net):
 
 def test_datagrams(net):
     one, other = (net.bind(HOST, port, datagram=True) for port in (7, 8))
-    told = []
-    other.changed.add(lambda: told.append(1))
+    report = []
+    other.changed.add(lambda: report.append(1))
     assert net.receive(other, 10) is None
     assert net.send(one, b"hello", (HOST, 8)) == 5
     assert net.send(one, b"nobody", (HOST, 9)) == 6
     assert net.send(one, b"second", (HOST, 8)) == 6
     assert net.receive(other, 10) is None
     net.settle()
-    assert told == [1, 1]
+    assert report == [1, 1]
     assert net.receive(other, 2, peek=True) == b"he"
     assert net.receive(other, 4) == b"hell"
     assert other.sender == (HOST, 7)

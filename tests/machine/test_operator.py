@@ -47,8 +47,8 @@ def test_somebody_is_there_to_answer():
 
 
 def test_a_question_waits_until_it_is_answered_or_withdrawn():
-    operator, told = Operator(Scheduler()), []
-    operator.asked.add(lambda: told.append(len(operator.questions)))
+    operator, report = Operator(Scheduler()), []
+    operator.asked.add(lambda: report.append(len(operator.questions)))
     first, second = asked(operator, "one\ntwo"), asked(operator, task="T_ROB2")
     assert (first.number, second.number, first.proposed, first.choices) == (1, 2, "3", ("OK",))
     assert list(operator.rows) == ["one", "two", "How many parts?"]
@@ -65,7 +65,7 @@ def test_a_question_waits_until_it_is_answered_or_withdrawn():
         operator.answer(3, "5")
     operator.withdraw(first)
     operator.withdraw(first)
-    assert told == [1, 2, 1]
+    assert report == [1, 2, 1]
     with pytest.raises(KeyError):
         operator.answer(1, "5")
 
@@ -142,7 +142,7 @@ def test_a_file_of_answers_that_cannot_be_used(tmp_path, text, said):
     file = tmp_path / "answers.yaml"
     if text is not None:
         file.write_bytes(text.encode("utf-8", "surrogateescape"))
-    (found,) = refusal(read_answers, file).diagnostics
-    assert found.code == "RG420"
-    assert said in found.message
-    assert found.span.path == str(file)
+    (result,) = refusal(read_answers, file).diagnostics
+    assert result.code == "RG420"
+    assert said in result.message
+    assert result.span.path == str(file)

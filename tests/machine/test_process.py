@@ -15,7 +15,7 @@ class Attending(Process):
         super().__init__(scheduler, name)
         self.attended = []
 
-    def attend(self):
+    def process_pending(self):
         self.attended.append(self.scheduler.now)
 
 
@@ -61,11 +61,11 @@ def test_a_kick_is_attended_before_the_next_statement():
     left = []
 
     def body():
-        process.kick()
+        process.wake_at_next_statement()
         left.append(process.b)
-        process.attend_if_kicked()
+        process.process_pending_if_woken()
         left.append(list(process.attended))
-        process.attend_if_kicked()
+        process.process_pending_if_woken()
         process.charge(MS)
         left.append(scheduler.now)
 
@@ -79,7 +79,7 @@ def test_a_kick_from_outside_ends_a_wait():
     scheduler = Scheduler()
     process = Attending(scheduler)
     process.launch(process.block)
-    scheduler.after(3 * MS, process.kick)
+    scheduler.after(3 * MS, process.wake_at_next_statement)
     scheduler.advance()
     assert process.attended == [3 * MS]
 
@@ -104,7 +104,7 @@ def turns(way, attends):
 
 
 def test_who_gives_way_goes_behind_those_that_are_ready():
-    assert turns(Process.give_way, attends=3) == "ababab"
+    assert turns(Process.yield_cpu, attends=3) == "ababab"
     assert turns(Process.switch, attends=0) == "ababab"
 
 
@@ -119,7 +119,7 @@ def test_a_kick_during_a_switch_is_attended_before_the_next_statement():
         process.charge(1)
 
     process.launch(body)
-    other.launch(process.kick)
+    other.launch(process.wake_at_next_statement)
     scheduler.advance()
     assert before == [(-1, [])]
     assert process.attended == [1]
@@ -176,7 +176,7 @@ def test_nothing_of_a_closed_clock_goes_on():
     process = Process(scheduler, "p")
     process.launch(process.block)
     scheduler.after(MS, lambda: seen.append("event"))
-    scheduler.look_after(MS, lambda: seen.append("look"))
+    scheduler.call_later_readonly(MS, lambda: seen.append("look"))
     scheduler.advance(stop=lambda: process.frame is not None)
     scheduler.close_processes([process])
     assert not process.alive
@@ -205,7 +205,7 @@ def test_time_is_not_let_pass_by_what_is_called_meanwhile():
 
 
 def test_another_thread_does_not_let_time_pass():
-    scheduler, said = Scheduler(), []
+    scheduler, message = Scheduler(), []
     process = Process(scheduler, "p")
 
     def body():
@@ -216,15 +216,15 @@ def test_another_thread_does_not_let_time_pass():
         try:
             scheduler.advance()
         except RuntimeError as error:
-            said.append(str(error))
+            message.append(str(error))
 
     process.launch(body)
     assert scheduler.advance(MS) == "time"
     thread = threading.Thread(target=step)
     thread.start()
     thread.join()
-    assert len(said) == 1
-    assert "one thread steps a controller" in said[0]
+    assert len(message) == 1
+    assert "one thread steps a controller" in message[0]
     # Its own goes on from there.
     assert (scheduler.running, scheduler.preempted) == (None, process)
     assert scheduler.advance() == "idle"
@@ -275,7 +275,7 @@ def test_who_loses_its_priority_comes_behind_those_that_lost_theirs_more_often()
         for _ in range(count):
             seen.append(process.name)
             process.charge(1)
-            if scheduler.tosses():
+            if scheduler.switches_here():
                 process.switch()
 
     def alone():

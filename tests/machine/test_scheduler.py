@@ -88,11 +88,11 @@ def test_running_in_pieces_changes_nothing() -> None:
 def test_who_only_looks_changes_nothing() -> None:
     def run(looks: bool) -> tuple[list[tuple[str, int]], list[int], list[int]]:
         scheduler = Scheduler(seed=3, schedule="random", quantum=2 * MS)
-        turns, seen, asked = [], [], []
+        turns, seen, requested = [], [], []
 
         def look() -> None:
             seen.append(scheduler.now)
-            scheduler.look_after(MS // 3, look)
+            scheduler.call_later_readonly(MS // 3, look)
 
         def body(name: str) -> None:
             for _ in range(20):
@@ -101,7 +101,7 @@ def test_who_only_looks_changes_nothing() -> None:
                 turns.append((name, scheduler.now))
 
         def stop() -> bool:
-            asked.append(scheduler.now)
+            requested.append(scheduler.now)
             return False
 
         processes = {name: Process(scheduler, name) for name in "ab"}
@@ -112,10 +112,10 @@ def test_who_only_looks_changes_nothing() -> None:
         scheduler.after(5 * MS, lambda: None)
         assert scheduler.advance(stop=stop) == "idle"
         assert scheduler.advance(until=scheduler.now + MS) == "time"
-        return turns, asked, seen
+        return turns, requested, seen
 
-    turns, asked, seen = run(looks=True)
-    assert (turns, asked, []) == run(looks=False)
+    turns, requested, seen = run(looks=True)
+    assert (turns, requested, []) == run(looks=False)
     assert seen == sorted(seen)
     assert len(seen) > 100
 
@@ -190,7 +190,7 @@ def _who_runs(accesses: list[int]) -> str:
         for _ in range(4):
             seen.append(process.name)
             process.charge(1000)
-            if scheduler.tosses():
+            if scheduler.switches_here():
                 process.switch()
 
     processes = [Process(scheduler, name) for name in "abc"]

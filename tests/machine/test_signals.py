@@ -86,11 +86,11 @@ def test_the_largest_value():
 def test_what_is_awaited(relation, held, fulfilling):
     board = Board(SignalSpec("g", "GI", size=4))
     awaited = SignalCondition(board["g"], relation, 5)
-    found = []
+    result = []
     for value in (4, 5, 6):
         board.put("g", value)
-        found.append(awaited.holds())
-    assert found == held
+        result.append(awaited.holds())
+    assert result == held
     assert awaited.fulfilling() == fulfilling
     assert str(awaited) == f"g {relation} 5; g is 6"
 
@@ -107,25 +107,25 @@ def test_whoever_drives_inputs_is_told_what_is_awaited():
     board = Board(SignalSpec("d", "DI"))
     awaited = SignalCondition(board["d"], "=", 1)
     board.await_value(awaited)
-    told = []
-    board.on_awaited = told.append
+    report = []
+    board.on_awaited = report.append
     board.await_value(awaited)
     board.put("d", 1)
     board.await_value(awaited)
-    assert told == [awaited]
+    assert report == [awaited]
 
 
 def test_a_value_comes_after_its_delay_unless_there_is_a_later_order():
     board = Board(*digital("d"))
-    told = []
-    board["d"].changed.add(lambda: told.append((board.scheduler.now, board["d"].value)))
+    report = []
+    board["d"].changed.add(lambda: report.append((board.scheduler.now, board["d"].value)))
     board.put("d", 1, delay=2)
     with pytest.raises(ValueError, match="does not fit"):
         board.put("d", 2, delay=1)
     board.wait(1.9)
-    assert told == []
+    assert report == []
     board.wait(0.2)
-    assert told == [(2 * S, 1)]
+    assert report == [(2 * S, 1)]
     assert not board["d"].pending
     board.put("d", 0, delay=1)
     board.put("d", 1)
@@ -179,8 +179,8 @@ def test_signals_that_share_bits_change_together():
         SignalSpec("elsewhere", "DO", bits=(5,), device="d2"),
         SignalSpec("analogue", "AO", bits=(5,), **shared),
     )
-    told = []
-    board["one"].changed.add(lambda: told.append(board["one"].value))
+    report = []
+    board["one"].changed.add(lambda: report.append(board["one"].value))
     names = ("group", "one", "other", "input", "elsewhere", "analogue")
     board.put("group", 7)
     assert board.values(*names) == [7, 1, 1, 0, 0, 0]
@@ -188,7 +188,7 @@ def test_signals_that_share_bits_change_together():
     assert board.values(*names) == [5, 0, 1, 0, 0, 0]
     board.put("other", 2)
     assert board.values(*names) == [1, 0, 2, 0, 0, 0]
-    assert told == [1, 0]
+    assert report == [1, 0]
 
 
 @pytest.mark.parametrize(("lowest_first", "value"), [(True, 1), (False, 4)])
@@ -284,13 +284,13 @@ def test_a_system_input_acts_when_it_rises_and_ends_when_it_falls():
     )
     board.put("di", 1)  # nobody is there to be told
     board.put("di", 0)
-    told = []
-    board.on_action = lambda *action: told.append(action)
-    board.on_end = lambda action: told.append(action)
+    report = []
+    board.on_action = lambda *action: report.append(action)
+    board.on_end = lambda action: report.append(action)
     board.put("di", 1)
     board.put("di", 1)
     board.put("di", 0)
-    assert told == [("Start", "CYCLE"), "Start"]
+    assert report == [("Start", "CYCLE"), "Start"]
     assert [(e.code, e.texts) for e in board.log] == [(71_102, ("system input Stop names 'gone'",))]
 
 

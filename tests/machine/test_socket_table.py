@@ -75,16 +75,16 @@ def test_so_many_sockets_are_in_use_at_a_time(limited, full):
 
 def test_others_are_told_of_a_connection_and_its_end(table):
     device, peer = table.connected("T_ROB1")
-    here, there = device.endpoint.local, device.endpoint.peer
-    assert table.connections() == [SocketNews("open", "T_ROB1", here, there)]
+    here, target = device.endpoint.local, device.endpoint.peer
+    assert table.connections() == [SocketNews("open", "T_ROB1", here, target)]
     table.tell("in", device, b"x")
     table.tell("out", device, b"y", ("10.0.0.1", 5))
     table.release(device)
     table.release(device)
     assert table.news == [
-        SocketNews("in", "T_ROB1", here, there, b"x"),
+        SocketNews("in", "T_ROB1", here, target, b"x"),
         SocketNews("out", "T_ROB1", here, ("10.0.0.1", 5), b"y"),
-        SocketNews("close", "T_ROB1", here, there),
+        SocketNews("close", "T_ROB1", here, target),
     ]
     assert table.connections() == []
     table.scheduler.advance()

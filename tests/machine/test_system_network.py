@@ -19,12 +19,12 @@ class Net(SystemNetwork):
         self.scheduler = Scheduler(clock="real")
         super().__init__(self.scheduler, ports="auto")
 
-    def until(self, found):
+    def until(self, result):
         """What `found` gives as soon as it gives something."""
         seen = []
 
         def look():
-            value = found()
+            value = result()
             if value is not None and value is not False:
                 seen.append(value)
             return bool(seen)
@@ -56,17 +56,17 @@ def reason(function, *arguments, **options):
 
 
 def test_a_program_s_port_is_found_where_it_is(net):
-    told = []
-    net.listening.add(lambda: told.append(dict(net.listeners)))
+    report = []
+    net.listening.add(lambda: report.append(dict(net.listeners)))
     listener, client, server = net.pair()
     assert listener.local[0] == HOST
-    assert told == [{PORT: listener.local}]
+    assert report == [{PORT: listener.local}]
     assert client.peer == (NAMED, PORT)
     assert server.peer == client.local
     net.close(server)
-    assert len(told) == 1
+    assert len(report) == 1
     net.close(listener)
-    assert told[1:] == [{}]
+    assert report[1:] == [{}]
     again = net.bind(HOST, PORT)
     assert again.local == listener.local  # a server that comes back is where it was
 
@@ -124,12 +124,12 @@ def test_a_sender_waits_for_room(net):
     sent = 0
     while count := net.send(client, bytes(BUFFER)):
         sent += count
-    told = []
-    client.changed.add(lambda: told.append(1))
+    report = []
+    client.changed.add(lambda: report.append(1))
     read = 0
     while read < sent:
         read += len(net.until(lambda: net.receive(server, BUFFER)))
-    net.until(lambda: bool(told))
+    net.until(lambda: bool(report))
     assert net.send(client, b"x") == 1
 
 

@@ -43,13 +43,13 @@ def test_arms_are_named_as_in_backups(robot, changes, external):
 )
 def test_instances_are_found_by_their_path(path, count):
     parameters = SystemParameters(System("S", ()), load_config("irb120").groups)
-    found = parameters.find(path)
-    assert len(found) == count
+    result = parameters.find(path)
+    assert len(result) == count
     if count:
         first = load_config("irb120").groups[0].joints[0]
-        bounds = found[0]["upper_joint_bound"], found[0]["lower_joint_bound"]
+        bounds = result[0]["upper_joint_bound"], result[0]["lower_joint_bound"]
         assert bounds == (first.upper, first.lower)
-        found[0]["upper_joint_bound"] = 1.5
+        result[0]["upper_joint_bound"] = 1.5
         assert parameters.find("/MOC/ARM/rob1_1")[0]["upper_joint_bound"] == 1.5
 
 

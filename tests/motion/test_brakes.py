@@ -65,17 +65,17 @@ def test_a_path_that_is_cleared_while_it_coasts_is_gone(make_cell, joint):
         group.start("x")
 
     cell.at(0.2, halt)
-    ended = []
+    finished = []
 
     def program(task):
         group.move(task, joint(90, 45, tcp=10))
-        ended.append(group.positions())
+        finished.append(group.positions())
         task.sleep(1.0)
-        ended.append(group.positions())
+        finished.append(group.positions())
         group.move(task, joint(0, 0))
 
     cell.run(program)
-    assert ended[1] != pytest.approx(np.radians([90, 45, 0, 0, 0, 0]), abs=0.1)
+    assert finished[1] != pytest.approx(np.radians([90, 45, 0, 0, 0, 0]), abs=0.1)
     assert group.positions() == pytest.approx([0.0] * 6)
     assert np.abs(np.diff(cell.path, axis=0)).max() < 0.02  # no jump
 

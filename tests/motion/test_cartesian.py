@@ -276,16 +276,16 @@ def test_a_stationary_tool_moves_the_object(robot, zones):
 
 
 def test_out_of_reach_and_out_of_range_are_errors_before_motion(robot, linear):
-    found = []
+    result = []
 
     def program(task):
         for target in ((1.0, 0, 0), (-0.3, 0.05, -0.2)):
             with pytest.raises(MotionFault) as fault:
                 robot.group.move(task, linear(*target))
-            found.append(fault.value.refusal)
+            result.append(fault.value.refusal)
 
     robot.run(program)
-    assert found == [FaultReason.OUT_OF_REACH, FaultReason.OUT_OF_RANGE]
+    assert result == [FaultReason.OUT_OF_REACH, FaultReason.OUT_OF_RANGE]
     assert robot.group.positions() == HOME
 
 

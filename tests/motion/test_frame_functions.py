@@ -52,10 +52,10 @@ def test_orient_zyx_turns_in_the_opposite_order():
 
 def test_euler_zyx_takes_exactly_one_switch():
     rotation = call("OrientZYX", 30, 20, 10)
-    found = [
+    result = [
         call("EulerZYX", *(True if i == k else None for i in range(3)), rotation) for k in range(3)
     ]
-    assert found == pytest.approx([10, 20, 30], abs=1e-4)
+    assert result == pytest.approx([10, 20, 30], abs=1e-4)
     with pytest.raises(RapidError):
         call("EulerZYX", True, True, None, rotation)
 

@@ -208,15 +208,15 @@ def test_stop_clear_start_at_once_leaves_the_robot_where_it_comes_to_rest(make_c
         group.start("move task")
 
     cell.at(0.5, abort)
-    ended = []
+    finished = []
 
     def program(task):
         group.move(task, joint(60, time=1.2))
-        ended.append(task.scheduler.now / S)
+        finished.append(task.scheduler.now / S)
         group.move(task, joint(0, time=2.0))
 
     cell.run(program)
-    assert ended == [0.5]  # the move is gone; the next one starts from where the stop ends
+    assert finished == [0.5]  # the move is gone; the next one starts from where the stop ends
     assert at_rest(cell, 0)
     assert np.degrees(cell.path[:, 0]).max() < 40
     assert cell.shares()[1] <= 1.001
@@ -391,12 +391,12 @@ def test_reset_forgets_path_stops_and_settings(make_cell, joint):
 
 def test_a_stop_point_waits_for_the_settling_time_from_the_first_move_on(make_cell, joint):
     cell = make_cell(settings=MotionSettings(settle=0.2))
-    ended = []
+    finished = []
 
     def program(task):
         for degrees in (10, 20):
             cell.group.move(task, joint(degrees))
-            ended.append((task.scheduler.now - cell.group.motion.end) / S)
+            finished.append((task.scheduler.now - cell.group.motion.end) / S)
 
     cell.run(program)
-    assert ended == pytest.approx([0.2, 0.2], abs=1e-6)
+    assert finished == pytest.approx([0.2, 0.2], abs=1e-6)

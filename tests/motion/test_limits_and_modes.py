@@ -15,15 +15,15 @@ HOME = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
 
 def sampled(program, seconds=30.0, period=0.004):
     """Postures every 4 ms, and what the program wrote."""
-    found = []
+    result = []
     scheduler = program.controller.scheduler
 
     def look():
-        found.append(program.group.positions())
+        result.append(program.group.positions())
         scheduler.after(round(period * S), look)
 
     scheduler.after(0, look)
-    return found, program.run(seconds)
+    return result, program.run(seconds)
 
 
 def poses(program, path):
@@ -101,9 +101,9 @@ def test_values_that_no_controller_takes(rapid, call, error):
 
 def test_a_speed_limit_of_0_is_none(rapid):
     """tetov/compas_rcf [code] gives axes 2 and 3 of its robot a limit of 0."""
-    taken = rapid("SpeedLimAxis ROB_1, 1, 5; SpeedLimAxis ROB_1, 2, 0; SpeedLimAxis ROB_1, 1, 0;")
-    taken.run()
-    assert taken.group.modal.axis_limits == {}
+    in_use = rapid("SpeedLimAxis ROB_1, 1, 5; SpeedLimAxis ROB_1, 2, 0; SpeedLimAxis ROB_1, 1, 0;")
+    in_use.run()
+    assert in_use.group.modal.axis_limits == {}
 
 
 def test_a_soft_servo_goes_the_same_way(rapid):
@@ -127,13 +127,13 @@ def test_the_orientation_of_the_circle_point_is_reached_on_request(rapid):
         )
         path, out = sampled(program)
         assert len(out) == 1
-        found = poses(program, path)
+        result = poses(program, path)
         via = frames.multiply(
             (0.5, 0.0, 0.866025, 0.0), frames.about((0.0, 1.0, 0.0), np.radians(15))
         )
-        top = min(found, key=lambda pose: frames.distance(pose[0], (0.364354, 0.025, 0.619)))
+        top = min(result, key=lambda pose: frames.distance(pose[0], (0.364354, 0.025, 0.619)))
         seen[mode] = np.degrees(frames.angle_between(top[1], frames.normalise(via)))
-        turns = [frames.angle_between(a[1], b[1]) for a, b in pairwise(found)]
+        turns = [frames.angle_between(a[1], b[1]) for a, b in pairwise(result)]
         assert max(turns) < np.radians(3)
     assert seen["\\CirPointOri"] < 1.0
     assert seen["\\PathFrame"] > 5.0

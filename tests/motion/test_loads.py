@@ -104,9 +104,9 @@ def test_a_tool_above_the_payload_is_reported_and_moves(rapid, move):
 def test_what_is_carried_is_tool_and_payload_or_all_that_a_move_says(rapid, masses, body, reported):
     program = rapid(HOME + body + 'TPWrite "moved";', data(**masses))
     assert program.run() == ["moved"]
-    found = [event.texts[0] for event in events(program, 59_902)]
-    assert len(found) == len(reported)
-    for text, mass in zip(found, reported, strict=True):
+    result = [event.texts[0] for event in events(program, 59_902)]
+    assert len(result) == len(reported)
+    for text, mass in zip(result, reported, strict=True):
         assert f" {mass:g} kg is more than" in text
 
 

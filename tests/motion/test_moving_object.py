@@ -30,16 +30,16 @@ def in_object(group, posture):
 
 
 def samples(program, seconds, period=0.004):
-    found = []
+    result = []
     scheduler = program.controller.scheduler
 
     def look():
-        found.append(program.group.positions())
+        result.append(program.group.positions())
         scheduler.after(round(period * S), look)
 
     scheduler.after(0, look)
     out = program.run(seconds)
-    return np.array(found), out
+    return np.array(result), out
 
 
 def test_a_line_on_an_object_that_turns_and_a_robot_that_travels(rapid):

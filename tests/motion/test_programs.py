@@ -28,7 +28,7 @@ def test_an_impossible_configuration_stops_the_program(rapid):
 
 @pytest.mark.parametrize(("check", "said"), [("turn", ["60", "60"]), ("quarter", [])])
 @pytest.mark.parametrize("move", ["MoveJ", "MoveL"])
-def test_how_far_an_axis_may_be_from_its_quarter(rapid, check, said, move):
+def test_how_far_an_axis_may_be_from_its_quarter(rapid, check, message, move):
     """S4 overview 5-33: 45 degrees; public programs with cfx are further off, see the switch.
 
     Axis 4 is at 60 degrees where cf4 says -90 to 0; so is it where the program goes next.
@@ -42,11 +42,11 @@ def test_how_far_an_axis_may_be_from_its_quarter(rapid, check, said, move):
     )
     program.controller.motion.settings = MotionSettings(configuration_check=check)
     out = [str(round(float(v))) for v in program.run()]
-    if move == "MoveL" and not said:
+    if move == "MoveL" and not message:
         assert out == ["60"]  # no way to go: nothing is checked
     else:
-        assert out == said
-    assert any(event.code == 50080 for event in program.controller.log) is not bool(said)
+        assert out == message
+    assert any(event.code == 50080 for event in program.controller.log) is not bool(message)
 
 
 @pytest.mark.parametrize(
@@ -117,9 +117,9 @@ def test_search_finds_the_place_of_the_edge(rapid):
         'TPWrite "" \\Pos:=q.trans; TPWrite "" \\Pos:=CPos();',
         data,
     ).run()
-    found, stood = numbers(out[0])[1], numbers(out[1])[1]
-    assert 47 < found < 54
-    assert found < stood < found + 5
+    result, stood = numbers(out[0])[1], numbers(out[1])[1]
+    assert 47 < result < 54
+    assert result < stood < result + 5
 
 
 def test_path_acc_lim_slows_the_ramps(rapid):
@@ -136,7 +136,7 @@ def test_path_acc_lim_slows_the_ramps(rapid):
 
 
 @pytest.mark.parametrize(("waits", "ended"), [(False, "running"), (True, "standing")])
-def test_whether_stop_move_waits_is_a_switch(rapid, waits, ended):
+def test_whether_stop_move_waits_is_a_switch(rapid, waits, finished):
     # S4 datasys 2-StopMove: it does not; newer manuals are not public
     data = DATA + (
         "VAR intnum i;\nVAR num before;\nTRAP halt\nStopMove;\nj := CJointT();\n"
@@ -150,7 +150,7 @@ def test_whether_stop_move_waits_is_a_switch(rapid, waits, ended):
         data,
     )
     program.controller.motion.settings = MotionSettings(stop_waits=waits)
-    assert program.run() == [ended]
+    assert program.run() == [finished]
 
 
 _TIMED_MOVES = (
@@ -162,7 +162,7 @@ _TIMED_MOVES = (
 
 
 @pytest.mark.parametrize(
-    ("said", "switches", "expected"),
+    ("message", "switches", "expected"),
     [
         ("moving", {}, (1.9, 1.0)),
         ("moving", {"refresh_timed": False}, (1.0, 1.0)),
@@ -174,10 +174,10 @@ _TIMED_MOVES = (
         ("standing", {"refresh_standing": True, "refresh_lasts": True}, (2.0, 2.0)),
     ],
 )
-def test_what_speed_refresh_acts_on_is_for_switches_to_tell(rapid, said, switches, expected):
+def test_what_speed_refresh_acts_on_is_for_switches_to_tell(rapid, message, switches, expected):
     # No source says so.
     refresh = "SpeedRefresh 50;"
-    if said == "moving":
+    if message == "moving":
         refresh = "CONNECT i WITH slower; ITimer \\Single, 0.1, i;"
     program = rapid(
         HOME + refresh + _TIMED_MOVES,

@@ -71,12 +71,12 @@ def test_a_recording_is_read_back_and_drawn(rapid, tmp_path, capsys):
     recording = recorder.recording()
     path = tmp_path / "r.csv"
     recording.write_csv(path)
-    found = read_recording(path)
+    result = read_recording(path)
     assert is_recording(path)
-    assert found.joints == recording.joints
-    assert np.abs(found.commanded - recording.commanded).max() < 1e-9
-    assert np.abs(found.tcp - recording.tcp).max() < 1e-9
-    assert found.motion_pointer == recording.motion_pointer
+    assert result.joints == recording.joints
+    assert np.abs(result.commanded - recording.commanded).max() < 1e-9
+    assert np.abs(result.tcp - recording.tcp).max() < 1e-9
+    assert result.motion_pointer == recording.motion_pointer
     pytest.importorskip("matplotlib")
     assert main(["plot", str(path)]) == 0
     html, png = (Path(name) for name in capsys.readouterr().out.split())

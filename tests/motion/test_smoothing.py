@@ -62,19 +62,19 @@ def test_it_stands_at_every_stop(spans):
 
 @settings(max_examples=100)
 @given(paths(), st.floats(0, 1))
-def test_time_at_is_the_inverse_of_state(spans, share):
+def test_time_at_is_the_inverse_of_state(spans, fraction):
     law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
-    place = share * law.place
+    place = fraction * law.place
     time = smoothing.time_at(law, place, WIDTH)
     assert smoothing.state(law, time, WIDTH)[0] == pytest.approx(place, abs=1e-9)
 
 
 @settings(max_examples=100)
 @given(paths(), st.floats(0, 1))
-def test_what_was_planned_before_is_still_felt(spans, share):
+def test_what_was_planned_before_is_still_felt(spans, fraction):
     """Braking at any moment: place, speed and acceleration go on without a jump."""
     law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
-    now = share * law.duration
+    now = fraction * law.duration
     place, speed = law.state(now)
     left = [s for s in spans if s.end > place] or [spans[-1]]
     halt = brake(left, place, speed).after(law, now, WIDTH)

@@ -41,8 +41,8 @@ def check(law, spans, start, ceiling=1.0):
     for k in range(1, count + 1):
         place, speed = law.state(k * step)
         assert place >= before[0] - 1e-9
-        way = place - before[0]
-        assert abs(way - (speed + before[1]) / 2 * step) <= 60 * step * step + 1e-9
+        path = place - before[0]
+        assert abs(path - (speed + before[1]) / 2 * step) <= 60 * step * step + 1e-9
         hardest = max(s.acceleration for s in spans)
         assert abs(speed - before[1]) <= hardest * step + 1e-6
         span = span_at(spans, place)
@@ -64,14 +64,14 @@ def test_a_plan_keeps_the_limits_and_ends_at_the_end(spans, cap):
 
 @settings(max_examples=150)
 @given(paths(), st.floats(0, 1), st.floats(0.05, 1.0))
-def test_replanning_under_way_is_always_possible_and_keeps_the_end(spans, share, cap):
+def test_replanning_under_way_is_always_possible_and_keeps_the_end(spans, fraction, cap):
     first = plan(spans, 0.0, 0.0)
-    place, speed = first.state(share * first.duration)
+    place, speed = first.state(fraction * first.duration)
     left = [s for s in spans if s.end > place]
     if left:
         again = plan(left, place, speed, 1.0)
         assert again is not None
-        assert again.duration == pytest.approx((1 - share) * first.duration, abs=1e-6)
+        assert again.duration == pytest.approx((1 - fraction) * first.duration, abs=1e-6)
         slower = plan(left, place, speed, cap)
         assert slower.place == spans[-1].end
         assert slower.duration >= again.duration - 1e-6
@@ -79,9 +79,9 @@ def test_replanning_under_way_is_always_possible_and_keeps_the_end(spans, share,
 
 @settings(max_examples=150)
 @given(paths(), st.floats(0, 1))
-def test_braking_ends_on_the_path_and_never_speeds_up(spans, share):
+def test_braking_ends_on_the_path_and_never_speeds_up(spans, fraction):
     law = plan(spans, 0.0, 0.0)
-    place, speed = law.state(share * law.duration)
+    place, speed = law.state(fraction * law.duration)
     left = [s for s in spans if s.end > place] or [spans[-1]]
     halt = brake(left, place, speed)
     assert place - 1e-12 <= halt.place <= spans[-1].end + 1e-9
@@ -94,9 +94,9 @@ def test_braking_ends_on_the_path_and_never_speeds_up(spans, share):
 
 @settings(max_examples=150)
 @given(paths(), st.floats(0, 1))
-def test_time_at_is_the_inverse_of_state(spans, share):
+def test_time_at_is_the_inverse_of_state(spans, fraction):
     law = plan(spans, 0.0, 0.0)
-    place = share * law.place
+    place = fraction * law.place
     assert law.state(law.time_at(place))[0] == pytest.approx(place, abs=1e-9)
 
 

@@ -34,15 +34,15 @@ def cell(tmp_path, left, right, declarations=SHARED):
 
 def spans(controller, seconds=30):
     """When each arm moved: (from, to) in s for every motion between standstills."""
-    found = {"rob_l": [], "rob_r": []}
-    was = dict.fromkeys(found, True)
+    result = {"rob_l": [], "rob_r": []}
+    was = dict.fromkeys(result, True)
 
     def look():
-        for name, row in found.items():
-            standing = controller.motion.group(name).is_standing
-            if standing != was[name]:
-                was[name] = standing
-                if standing:
+        for name, row in result.items():
+            at_rest = controller.motion.group(name).is_standing
+            if at_rest != was[name]:
+                was[name] = at_rest
+                if at_rest:
                     row[-1].append(controller.scheduler.now / S)
                 else:
                     row.append([controller.scheduler.now / S])
@@ -50,7 +50,7 @@ def spans(controller, seconds=30):
 
     controller.scheduler.after(0, look)
     controller.run_for(seconds)
-    return found["rob_l"], found["rob_r"]
+    return result["rob_l"], result["rob_r"]
 
 
 def program(moves, wait=0.0):

@@ -52,10 +52,10 @@ class Derivations:
         if depth > _DEEP * chance.random():
             least = min(self._depth(e, self.least) for e in choices)
             choices = [e for e in choices if self._depth(e, self.least) == least]
-        found = []
+        result = []
         for symbol in chance.choice(choices):
             if isinstance(symbol, NonTerminal):
-                found += self.tokens(chance, symbol.name, depth + 1)
+                result += self.tokens(chance, symbol.name, depth + 1)
             else:
-                found.append(chance.choice(self.words[symbol.name]))
-        return found
+                result.append(chance.choice(self.words[symbol.name]))
+        return result

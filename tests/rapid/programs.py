@@ -56,10 +56,10 @@ class Writer:
 
     def statements(self, depth=0):
         """Tokens of a list of statements."""
-        found = []
+        result = []
         for _ in range(self.chance.randrange(4)):
-            found += self.statement(depth)
-        return found
+            result += self.statement(depth)
+        return result
 
     def statement(self, depth):
         """Tokens of one statement."""
@@ -103,15 +103,15 @@ class Writer:
 
     def module(self):
         """Tokens of a module."""
-        found = ["MODULE", "m", "(", "SYSMODULE", ",", "READONLY", ")"]
+        result = ["MODULE", "m", "(", "SYSMODULE", ",", "READONLY", ")"]
         if self.chance.random() < 0.5:
-            found += ["LOCAL", "RECORD", "r", "num", "x", ";", "r2", "y", ";", "ENDRECORD"]
-            found += ["ALIAS", "num", "n", ";"]
+            result += ["LOCAL", "RECORD", "r", "num", "x", ";", "r2", "y", ";", "ENDRECORD"]
+            result += ["ALIAS", "num", "n", ";"]
         for _ in range(self.chance.randrange(4)):
-            found += self.datum()
+            result += self.datum()
         for _ in range(self.chance.randrange(4)):
-            found += self.routine()
-        return [*found, "ENDMODULE"]
+            result += self.routine()
+        return [*result, "ENDMODULE"]
 
     def text(self):
         """The module with gaps between its tokens."""

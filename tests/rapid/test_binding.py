@@ -30,8 +30,8 @@ def bind(*texts, installed="", configured=()):
     return scopes
 
 
-def module(data="", body="", rest="", name="m"):
-    return f"MODULE {name}\n{data}\nPROC main()\n{body}\nENDPROC\n{rest}\nENDMODULE\n"
+def module(data="", body="", remaining="", name="m"):
+    return f"MODULE {name}\n{data}\nPROC main()\n{body}\nENDPROC\n{remaining}\nENDMODULE\n"
 
 
 def expression(text, data=""):
@@ -228,10 +228,10 @@ def test_constants_of_a_routine_know_those_above():
         ("[1, 2]", "aggregate"),
     ],
 )
-def test_types_of_expressions(text, found):
+def test_types_of_expressions(text, result):
     (scope,) = bind(module(DATA, f"x := {text};"), configured=[("lamp", "signaldo")])
     routine = scope.tree.routines[0]
-    assert type_of(routine.body[0].value, scope.routine(routine)) == found
+    assert type_of(routine.body[0].value, scope.routine(routine)) == result
 
 
 def test_the_datum_that_a_reference_starts_from():
@@ -259,10 +259,10 @@ def matched(call, routine=ROUTINE):
         types = [scope.base(parameters[k].type) for k in alternatives]
         return first_fit(type_of(argument.value, routine), alternatives, types)
 
-    found = match(parameters, node.arguments, fitting)
-    names = [parameters[k].name for k in found.missing]
-    pairs = [(parameters[p.parameter].name if p.parameter >= 0 else None) for p in found.pairs]
-    return pairs, [m for p in found.pairs for m in p.misfits], names
+    result = match(parameters, node.arguments, fitting)
+    names = [parameters[k].name for k in result.missing]
+    pairs = [(parameters[p.parameter].name if p.parameter >= 0 else None) for p in result.pairs]
+    return pairs, [m for p in result.pairs for m in p.misfits], names
 
 
 @pytest.mark.parametrize(
@@ -302,8 +302,8 @@ def test_required_alternatives_go_by_the_type(value, name):
 def test_arguments_in_the_order_of_the_parameters():
     (scope,) = bind(module("", "", f'{ROUTINE}\nPROC caller()\np 1, "b" \\z:=3;\nENDPROC'))
     call = scope.tree.routines[-1].body[0]
-    found = match(scope.find("p").parameters, call.arguments, lambda _, these: these[0])
-    values = [a and a.value.value for a in found.in_order(6)]
+    findings = match(scope.find("p").parameters, call.arguments, lambda _, these: these[0])
+    values = [a and a.value.value for a in findings.in_order(6)]
     assert values == [1, None, "b", None, None, 3]
 
 
@@ -401,8 +401,8 @@ def test_nothing_stands_where_no_name_is(places, at):
 
 def test_a_name_is_found_from_its_first_to_behind_its_last_letter(places):
     line, column = place(7, "both")
-    found = [places[0].at(line, c) for c in (column, column + 3, column + 4)]
-    assert [s.name for s in found] == ["both"] * 3
+    result = [places[0].at(line, c) for c in (column, column + 3, column + 4)]
+    assert [s.name for s in result] == ["both"] * 3
 
 
 def test_all_uses_of_a_name(places):

@@ -9,8 +9,8 @@ from rapidgen.rapid.builtins.signatures import Signature
 from rapidgen.system import ModuleFile, System, TaskSpec
 
 
-def codes(body, data="", rest="", **options):
-    text = f"MODULE Demo\n{data}\nPROC main()\n{body}\nENDPROC\n{rest}\nENDMODULE\n"
+def codes(body, data="", remaining="", **options):
+    text = f"MODULE Demo\n{data}\nPROC main()\n{body}\nENDPROC\n{remaining}\nENDMODULE\n"
     system = System(
         "s", (TaskSpec("T_ROB1", modules=(ModuleFile("Demo", "m.mod", text.encode()),)),)
     )
@@ -59,12 +59,12 @@ def test_alternatives_are_told_by_type():
 
 
 def test_conditional_arguments_of_the_wrong_kind():
-    rest = "PROC p(\\num a)\nq \\s?a;\nq \\s?<VAR>;\nENDPROC\nPROC q(\\switch s)\nENDPROC"
-    assert codes("p;", rest=rest) == ["RG316"]
+    remaining = "PROC p(\\num a)\nq \\s?a;\nq \\s?<VAR>;\nENDPROC\nPROC q(\\switch s)\nENDPROC"
+    assert codes("p;", remaining=remaining) == ["RG316"]
 
 
 def test_parameters_that_are_placeholders_are_not_checked():
-    assert codes("p 1, 2, 3;", rest="PROC p(<PAR>)\nENDPROC") == []
+    assert codes("p 1, 2, 3;", remaining="PROC p(<PAR>)\nENDPROC") == []
 
 
 def test_unknown_traps_and_endless_steps():
@@ -77,12 +77,12 @@ def test_unknown_traps_and_endless_steps():
     ("line", "told"),
     [("IF b != c THEN", 1), ("IF b", 0), ("IF b ! = c", 0), ("IF b !==== c", 0), ("IF b <> c", 0)],
 )
-def test_a_condition_that_ends_before_what_looks_like_an_operator(line, told):
+def test_a_condition_that_ends_before_what_looks_like_an_operator(line, text):
     # What an IF without THEN takes is below it [K §2.10, 4.14].
-    assert codes(f"{line}\nTPErase;", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
-    assert codes(f"{line}\nTHEN TPErase;\nENDIF", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
+    assert codes(f"{line}\nTPErase;", "VAR bool b;\nVAR bool c;") == ["RG332"] * text
+    assert codes(f"{line}\nTHEN TPErase;\nENDIF", "VAR bool b;\nVAR bool c;") == ["RG332"] * text
     loop = line.replace("IF", "WHILE").removesuffix(" THEN")
-    assert codes(f"{loop}\nDO\nENDWHILE", "VAR bool b;\nVAR bool c;") == ["RG332"] * told
+    assert codes(f"{loop}\nDO\nENDWHILE", "VAR bool b;\nVAR bool c;") == ["RG332"] * text
 
 
 def test_arrays_assigned_from_elements_are_not_compared_in_size():
@@ -109,7 +109,7 @@ def test_unknown_types_are_reported_once():
 
 
 def test_array_parameters_have_three_dimensions_at_most():
-    assert codes("", rest="PROC p(num a{*,*,*,*})\nENDPROC") == ["RG318"]
+    assert codes("", remaining="PROC p(num a{*,*,*,*})\nENDPROC") == ["RG318"]
 
 
 @pytest.mark.parametrize(
@@ -139,8 +139,8 @@ def test_what_robotware_7_has_and_lacks(body, lasts):
 
 def test_a_routine_that_a_later_robotware_lacks(monkeypatch):
     gone = Signature("Gone", "PROC", None, (), None, (7, 0))
-    found = signatures.routine
-    monkeypatch.setattr(signatures, "routine", lambda n: gone if n == "gone" else found(n))
+    result = signatures.routine
+    monkeypatch.setattr(signatures, "routine", lambda n: gone if n == "gone" else result(n))
     assert codes("Gone;", dialect=Dialect((7, 0))) == ["RG325"]
     assert codes("Gone;", dialect=Dialect((6, 15))) == []
 
@@ -156,9 +156,11 @@ def test_a_persistent_has_literals_at_any_depth():
 
 
 def test_local_routines_that_nothing_calls():
-    rest = "LOCAL PROC p()\nENDPROC\nLOCAL FUNC num f()\nRETURN 1;\nENDFUNC\nLOCAL TRAP t\nENDTRAP"
-    assert codes("", rest=rest) == ["RG324", "RG324", "RG324"]
-    assert codes('%"m:p"%;', rest=rest) == []  # a name in a string may be any of them
+    remaining = (
+        "LOCAL PROC p()\nENDPROC\nLOCAL FUNC num f()\nRETURN 1;\nENDFUNC\nLOCAL TRAP t\nENDTRAP"
+    )
+    assert codes("", remaining=remaining) == ["RG324", "RG324", "RG324"]
+    assert codes('%"m:p"%;', remaining=remaining) == []  # a name in a string may be any of them
 
 
 @pytest.mark.parametrize("local", [True, False])
@@ -208,8 +210,8 @@ def test_names_and_aggregates_that_do_not_fit(body, data, expected):
 
 def test_a_raw_byte_index_out_of_range_is_loaded_and_fails_when_executed():
     body = "VAR rawbytes r;\nPackRawBytes 1, r, 0 \\IntX:=1;"
-    (found,) = check(f"MODULE m\nPROC main()\n{body}\nENDPROC\nENDMODULE")
-    assert (found.code, found.severity) == ("RG319", Severity.WARNING)
+    (result,) = check(f"MODULE m\nPROC main()\n{body}\nENDPROC\nENDMODULE")
+    assert (result.code, result.severity) == ("RG319", Severity.WARNING)
 
 
 def test_numbers_beyond_num_where_no_dnum_is():

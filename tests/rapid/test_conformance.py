@@ -10,10 +10,10 @@ FILES = all_files()
 
 @pytest.mark.parametrize("file", FILES, ids=lambda f: "/".join(f.name.split("/")[-2:]))
 def test_file_gives_what_it_announces(file):
-    shown = "\n".join(
+    displayed = "\n".join(
         f"{d.span.line if d.span else 0}: {d.code} {d.message}" for d in file.findings()
     )
-    assert file.found() == file.expected, f"{file.program}\n{shown}"
+    assert file.found() == file.expected, f"{file.program}\n{displayed}"
 
 
 def test_every_file_says_its_rule_and_source():

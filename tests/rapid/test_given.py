@@ -85,9 +85,9 @@ def test_what_has_another_type_is_not_meant():
     ],
 )
 def test_what_is_predefined_is_meant_where_its_type_fits(call, meant):
-    (told,) = check(module("a", call, "VAR robtarget p1;\nVAR signaldo do1;"))
-    assert told.help == (f"did you mean '{meant}'?" if meant else ""), told
-    assert told.severity == (Severity.WARNING if meant else Severity.INFO)
+    (text,) = check(module("a", call, "VAR robtarget p1;\nVAR signaldo do1;"))
+    assert text.help == (f"did you mean '{meant}'?" if meant else ""), text
+    assert text.severity == (Severity.WARNING if meant else Severity.INFO)
 
 
 def test_siblings_of_a_slip_are_no_slips():
@@ -122,9 +122,9 @@ def test_objects_that_differ_between_tasks_are_not_judged():
 def test_a_signal_may_have_the_name_of_a_predefined_type(body):
     """[code] A program for RobotStudio has an input SENSOR, which is no record there."""
     assert found(module("a", body, "VAR num n;")) == [("info", "RG302")]
-    whole = system(module("a", body, "VAR num n;"))
-    assert "RG306" in {code for _, code in found(whole)}
-    assert found(whole, gaps=True) == [("info", "RG302")]
+    complete = system(module("a", body, "VAR num n;"))
+    assert "RG306" in {code for _, code in found(complete)}
+    assert found(complete, gaps=True) == [("info", "RG302")]
 
 
 def test_a_module_that_cannot_be_read_may_declare_anything():
@@ -155,8 +155,8 @@ IF TaskIsActive(T_ROB1Id) TPErase;
 SetDO di_ready, 1;"""
     signals = (SignalSpec("di_ready", "DI"), SignalSpec("do_ready", "DO"))
     groups = (MechanicalUnitGroup("rob1", "ROB_1", ("STN1",)),)
-    whole = system(module("a", body), signals=signals, groups=groups)
-    diagnostics = check(whole)
+    complete = system(module("a", body), signals=signals, groups=groups)
+    diagnostics = check(complete)
     assert [(d.code, d.span.line) for d in diagnostics] == [("RG307", 7)]
 
 

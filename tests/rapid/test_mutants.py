@@ -17,17 +17,17 @@ SAMPLE = all_files()[::40]
 
 
 def campaign(files):
-    found = Campaign(files, [*SAMPLE[1:], *files], 10)
-    found.builtins()
-    found.functions()
-    found.broader(BROAD)
-    found.functions()
-    return found
+    result = Campaign(files, [*SAMPLE[1:], *files], 10)
+    result.builtins()
+    result.functions()
+    result.broader(BROAD)
+    result.functions()
+    return result
 
 
 def test_each_file_of_a_sample_is_red_for_a_mutant():
-    found = campaign(SAMPLE[1:])
-    assert len(found.shown) == len(SAMPLE) - 1
+    result = campaign(SAMPLE[1:])
+    assert len(result.shown) == len(SAMPLE) - 1
     assert [file.name for file in SAMPLE if file.found() != file.expected] == []
 
 
@@ -38,8 +38,8 @@ def test_a_file_that_shows_nothing_is_told():
 
 @pytest.mark.parametrize("kind", [of_functions, of_tables, of_builtins])
 def test_a_mutant_is_taken_back(kind):
-    found = kind()
-    chosen = [mutant for k, mutant in enumerate(found) if k % 97 == 0][:8]
+    result = kind()
+    chosen = [mutant for k, mutant in enumerate(result) if k % 97 == 0][:8]
     for mutant in chosen:
         try:
             with mutant.made():
@@ -53,13 +53,13 @@ def busy(*seconds):
     """A file that takes so much CPU time, trial by trial, and finds what it announces."""
     left = list(seconds)
 
-    def found():
+    def result():
         end = time.process_time() + left.pop(0)
         while time.process_time() < end:
             pass
         return "as announced"
 
-    return SimpleNamespace(found=found, expected="as announced")
+    return SimpleNamespace(found=result, expected="as announced")
 
 
 def test_a_file_that_is_held_up_once_does_not_hang(monkeypatch):

@@ -21,8 +21,8 @@ def test_most_pages_have_examples_in_rapid():
 
 @pytest.mark.parametrize(("code", "bad", "good"), PAGES, ids=[p[0] for p in PAGES])
 def test_bad_example_gives_its_code_and_only_that(code, bad, good):
-    found = check(bad, path="bad.mod")
-    assert {d.code for d in found} == {code}, [f"{d.code} {d.message}" for d in found]
+    findings = check(bad, path="bad.mod")
+    assert {d.code for d in findings} == {code}, [f"{d.code} {d.message}" for d in findings]
 
 
 @pytest.mark.parametrize(("code", "bad", "good"), PAGES, ids=[p[0] for p in PAGES])

@@ -54,8 +54,8 @@ def test_tokens_tile_the_text(text):
     if source.text:
         pieces = [t + g for t, g in zip(source.tokens, source.gaps, strict=True)]
         assert source.lead + "".join(pieces) == source.text
-        found = zip(source.starts, source.tokens, strict=True)
-        assert all(source.text.startswith(token, start) for start, token in found)
+        result = zip(source.starts, source.tokens, strict=True)
+        assert all(source.text.startswith(token, start) for start, token in result)
         pairs = zip(source.text, text, strict=True)
         assert all(read == written or not written.isprintable() for read, written in pairs)
 
@@ -63,8 +63,8 @@ def test_tokens_tile_the_text(text):
 def harmless(text):
     module = parse(text, path="x.mod")
     assert all(isinstance(d, Diagnostic) for d in module.diagnostics)
-    found = check(module)
-    assert all(d.span is None or d.span.line >= 1 for d in found)
+    findings = check(module)
+    assert all(d.span is None or d.span.line >= 1 for d in findings)
     sum(1 for _ in walk(module))
 
 

@@ -24,8 +24,8 @@ IF a = 1 THEN
 ENDIF
 Foo 1 2;
 g := 7;"""
-    found = parse(routine(body)).diagnostics
-    assert [(d.span.line, d.code) for d in found] == [
+    result = parse(routine(body)).diagnostics
+    assert [(d.span.line, d.code) for d in result] == [
         (4, "RG201"),  # the ';' missing before b
         (4, "RG201"),
         (5, "RG201"),
@@ -35,17 +35,17 @@ g := 7;"""
 
 
 def test_message_says_what_was_met_expected_and_what_is_open():
-    found = parse(routine("FOR i FROM 1 TO 3 DO\n    a := ;\nENDFOR")).diagnostics
-    assert len(found) == 1
-    assert found[0].message == "met ';', expected an expression"
-    assert "FOR (line 3), PROC (line 2), MODULE (line 1)" in found[0].notes[0]
-    assert found[0].help == "write an expression here, or take out what stands here"
-    assert found[0].related[0].span.line == 3
+    result = parse(routine("FOR i FROM 1 TO 3 DO\n    a := ;\nENDFOR")).diagnostics
+    assert len(result) == 1
+    assert result[0].message == "met ';', expected an expression"
+    assert "FOR (line 3), PROC (line 2), MODULE (line 1)" in result[0].notes[0]
+    assert result[0].help == "write an expression here, or take out what stands here"
+    assert result[0].related[0].span.line == 3
 
 
 def test_nothing_can_be_taken_out_at_the_end_of_a_file():
-    (found,) = parse("MODULE m\n").diagnostics
-    assert found.help == "write ENDMODULE here"
+    (result,) = parse("MODULE m\n").diagnostics
+    assert result.help == "write ENDMODULE here"
 
 
 @pytest.mark.parametrize(
@@ -68,16 +68,16 @@ def test_nothing_can_be_taken_out_at_the_end_of_a_file():
     ],
 )
 def test_habits_of_other_languages_are_told_in_rapid(body, mend):
-    assert any(mend in found.help for found in parse(routine(body)).diagnostics)
+    assert any(mend in result.help for result in parse(routine(body)).diagnostics)
 
 
 @pytest.mark.parametrize(
     "body", ["a := b / ;", "a := 1 + + 2;", "IF a = 1 THEN\nELSE\nIF a = 2 THEN\nENDIF"]
 )
 def test_what_is_no_habit_is_told_as_before(body):
-    found = parse(routine(body)).diagnostics
-    assert found
-    for one in found:
+    result = parse(routine(body)).diagnostics
+    assert result
+    for one in result:
         assert not any(word in one.help for word in ("RAPID", "comment", "one word"))
 
 
@@ -98,8 +98,8 @@ def test_what_is_no_habit_is_told_as_before(body):
     ],
 )
 def test_a_missing_comma_is_told_apart_from_a_missing_semicolon(body, mend):
-    (found,) = parse(routine(body)).diagnostics
-    assert mend in found.help
+    (result,) = parse(routine(body)).diagnostics
+    assert mend in result.help
 
 
 @pytest.mark.parametrize(
@@ -115,10 +115,10 @@ def test_a_missing_comma_is_told_apart_from_a_missing_semicolon(body, mend):
     ],
 )
 def test_an_equals_sign_that_should_assign_is_told(body):
-    (found,) = parse(routine(body)).diagnostics
-    assert (found.span.line, found.code) == (3, "RG201")
-    assert found.message.startswith("met '=', expected ")
-    assert found.help == "write `:=` where a value is given; `=` compares"
+    (result,) = parse(routine(body)).diagnostics
+    assert (result.span.line, result.code) == (3, "RG201")
+    assert result.message.startswith("met '=', expected ")
+    assert result.help == "write `:=` where a value is given; `=` compares"
 
 
 @pytest.mark.parametrize(
@@ -296,8 +296,8 @@ ENDMODULE
     tokens = parse(text).source.tokens
     assert parse(text).diagnostics == []
     for length in range(1, len(tokens)):
-        found = parse(" ".join(tokens[:length])).diagnostics
-        assert len(found) == 1, (" ".join(tokens[:length])[-60:], found)
+        result = parse(" ".join(tokens[:length])).diagnostics
+        assert len(result) == 1, (" ".join(tokens[:length])[-60:], result)
 
 
 def test_depth_limits_are_reached_without_harm():
@@ -309,8 +309,8 @@ def test_depth_limits_are_reached_without_harm():
 
 
 def test_an_encoded_module_is_a_warning():
-    found = parse(ENDLESS["encoded"]).diagnostics
-    assert [(d.code, d.severity) for d in found] == [("RG219", Severity.WARNING)]
+    result = parse(ENDLESS["encoded"]).diagnostics
+    assert [(d.code, d.severity) for d in result] == [("RG219", Severity.WARNING)]
 
 
 @pytest.mark.parametrize(

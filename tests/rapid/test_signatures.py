@@ -23,8 +23,10 @@ def test_names_are_found_in_any_case():
 
 def test_alternatives_and_order_of_parameters():
     send = signatures.routine("SocketSend")
-    shown = [(p.mode, p.type, p.name, p.dimensions, p.optional, p.group) for p in send.parameters]
-    assert shown == [
+    displayed = [
+        (p.mode, p.type, p.name, p.dimensions, p.optional, p.group) for p in send.parameters
+    ]
+    assert displayed == [
         ("VAR", "socketdev", "Socket", 0, False, -1),
         ("", "string", "Str", 0, True, 0),
         ("VAR", "rawbytes", "RawData", 0, True, 0),
@@ -93,14 +95,14 @@ def test_names_behind_marks_are_parameters():
     for signature in signatures.routines().values():
         names = {p.name.lower() for p in signature.parameters}
         versions = ("came", "went")
-        marked = [words for mark, words in signature.marks.items() if mark not in versions]
-        marked += [words[1:] for mark, words in signature.marks.items() if mark in versions]
+        marked = [words for marker, words in signature.marks.items() if marker not in versions]
+        marked += [words[1:] for marker, words in signature.marks.items() if marker in versions]
         assert {name for words in marked for name in words} <= names
 
 
 def test_numbers_that_a_controller_told():
-    told = {"ERR_WHLSEARCH": 1072, "ERR_SIGSUPSEARCH": 1073, "ERR_SOCK_CLOSED": 1095}
-    assert {name: signatures.constant(name).value for name in told} == told
+    text = {"ERR_WHLSEARCH": 1072, "ERR_SIGSUPSEARCH": 1073, "ERR_SOCK_CLOSED": 1095}
+    assert {name: signatures.constant(name).value for name in text} == text
     numbers = [d.value for d in signatures.predefined().values() if d.type == "errnum"]
     assert len(set(numbers)) == len(numbers)
 

@@ -124,20 +124,20 @@ def system(*texts):
 
 def test_names_that_unread_text_could_declare_are_not_called_unknown():
     one = "MODULE a\nPROC main()\nelsewhere;\nENDPROC\nENDMODULE\n"
-    behind = "MODULE b\nENDMODULE\nMODULE c\nPROC elsewhere()\nENDPROC\nENDMODULE\n"
+    after = "MODULE b\nENDMODULE\nMODULE c\nPROC elsewhere()\nENDPROC\nENDMODULE\n"
     other = "MODULE b\nENDMODULE\n"
-    found = [(d.code, d.severity) for d in check(system(one, other))]
-    assert found == [("RG301", Severity.ERROR)]
-    found = [(d.code, d.severity) for d in check(system(one, behind))]
-    assert found == [("RG301", Severity.INFO), ("RG217", Severity.WARNING)]
+    result = [(d.code, d.severity) for d in check(system(one, other))]
+    assert result == [("RG301", Severity.ERROR)]
+    result = [(d.code, d.severity) for d in check(system(one, after))]
+    assert result == [("RG301", Severity.INFO), ("RG217", Severity.WARNING)]
 
 
 @pytest.mark.parametrize("count", [1, 2])
 def test_a_stray_zero_byte_is_told_at_its_place(count):
     text = b"MODULE m\nVAR num" + b"\0" * count + b"a;\nENDMODULE\n"
-    (found,) = parse(text, path="m.mod").diagnostics
-    assert (found.code, found.span.line, found.span.column) == ("RG204", 2, 8)
-    assert "U+0000" in found.message
+    (result,) = parse(text, path="m.mod").diagnostics
+    assert (result.code, result.span.line, result.span.column) == ("RG204", 2, 8)
+    assert "U+0000" in result.message
 
 
 def test_comments_stand_as_deep_as_what_they_belong_to():

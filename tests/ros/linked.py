@@ -42,8 +42,8 @@ class Cell:
         self.robots = [None for _ in config.groups]
         self.heard = [Heard() for _ in config.groups]
         self.links = [
-            RobotLink(partial(self._make, number), Policy(), loop.time, heard)
-            for number, heard in enumerate(self.heard)
+            RobotLink(partial(self._make, number), Policy(), loop.time, received)
+            for number, received in enumerate(self.heard)
         ]
 
     def _make(self, number):
@@ -74,8 +74,8 @@ class Cell:
         for number in numbers:
             names = self.robots[number].group.names
             here = self.robots[number].state.joints
-            asked = goal(here, [value + 0.1 for value in here], seconds=4.0, names=names)
-            following = self.links[number].follow(asked, lambda _: None, ActiveGoal())
+            requested = goal(here, [value + 0.1 for value in here], seconds=4.0, names=names)
+            following = self.links[number].follow(requested, lambda _: None, ActiveGoal())
             goals.append(asyncio.ensure_future(following))
         for number in numbers:
             await self.robots[number].wait_until(lambda state: state.is_moving, 10.0)

@@ -61,10 +61,10 @@ def station(policy=None, name="irb120", **options):
             loop.close()
 
 
-def goal(*rows, seconds=1.0, names=NAMES, **told):
+def goal(*rows, seconds=1.0, names=NAMES, **report):
     """Points `seconds` apart, the first where the robot stands; a number is all six joints."""
     points = [
         Point(n * seconds, [row] * len(names) if np.isscalar(row) else list(row))
         for n, row in enumerate(rows)
     ]
-    return Goal(names, points, **told)
+    return Goal(names, points, **report)

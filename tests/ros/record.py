@@ -48,21 +48,24 @@ _OWN = ("self", "cls")
 
 def declared(function):
     """Parameters of a method's syntax, as one text: `node, *, result_timeout=`."""
-    told = function.args
-    places = [a.arg for a in (*told.posonlyargs, *told.args)][1:]
-    first = len(places) - len(told.defaults)
+    report = function.args
+    places = [a.arg for a in (*report.posonlyargs, *report.args)][1:]
+    first = len(places) - len(report.defaults)
     return _text(
         [(name, n >= first) for n, name in enumerate(places)],
-        [(a.arg, d is not None) for a, d in zip(told.kwonlyargs, told.kw_defaults, strict=True)],
+        [
+            (a.arg, d is not None)
+            for a, d in zip(report.kwonlyargs, report.kw_defaults, strict=True)
+        ],
     )
 
 
 def signature(method):
     """The same of a method of a class that is there; whatever else it takes is left out."""
-    told = [p for p in inspect.signature(method).parameters.values() if p.name not in _OWN]
+    report = [p for p in inspect.signature(method).parameters.values() if p.name not in _OWN]
     return _text(
         *(
-            [(p.name, p.default is not p.empty) for p in told if p.kind is kind]
+            [(p.name, p.default is not p.empty) for p in report if p.kind is kind]
             for kind in (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
         )
     )
@@ -87,8 +90,8 @@ def _methods(path):
 def main(distribution, folder, header):
     calls = {}
     for place in sorted(set(CALLS.values())):
-        found = dict(_methods(Path(folder) / place))
-        calls |= {name: declared(found[name]) for name, at in CALLS.items() if at == place}
+        result = dict(_methods(Path(folder) / place))
+        calls |= {name: declared(result[name]) for name, at in CALLS.items() if at == place}
     text = Path(header).read_text("utf-8")
     profile = re.search(r"rmw_qos_profile_default =\s*\{([^}]*)\}", text)[1]
     words = re.findall(r"RMW_QOS_POLICY_(HISTORY|RELIABILITY|DURABILITY)_(\w+)", profile)

@@ -31,7 +31,7 @@ class Found:
 
 def play(seed):
     """Three goals on one controller, and what is wrong with how they ended."""
-    draw, found = random.Random(seed), Found()
+    draw, result = random.Random(seed), Found()
     policy = Policy(
         Defaults(path=draw.choice([np.inf, np.inf, 0.3])),
         draw.choice(["refuse", "approach"]),
@@ -40,8 +40,8 @@ def play(seed):
     with station(policy, seed=seed) as s:
         for number in range(3):
             _recover(s)
-            _one(s, draw, found, f"seed {seed}, goal {number}")
-    return found
+            _one(s, draw, result, f"seed {seed}, goal {number}")
+    return result
 
 
 def _recover(s):
@@ -57,32 +57,35 @@ def _recover(s):
         s.run(s.robot.connect())
 
 
-def _one(s, draw, found, where):
-    asked, spoiled = _goal(draw, s.joints)
+def _one(s, draw, result, where):
+    requested, spoiled = _goal(draw, s.joints)
     before, recorder = s.joints, next(iter(s.controller.record().values()))
     under = ActiveGoal()
-    outcome = s.run(_with_fault(s, draw, s.follow(asked, under), under))
+    outcome = s.run(_with_fault(s, draw, s.follow(requested, under), under))
     if outcome is None:
-        found.wrong.append(f"{where}: not over after {PATIENCE:g} s")
+        result.wrong.append(f"{where}: not over after {PATIENCE:g} s")
         return
-    found.ends[f"{outcome.status.value} {outcome.code.name}"] += 1
+    result.ends[f"{outcome.status.value} {outcome.code.name}"] += 1
     moved = np.abs(recorder.recording().actual[:, :6] - before).max()
     recorder.stop()
 
     def wrong(what):
-        found.wrong.append(f"{where}: {what} ({outcome})")
+        result.wrong.append(f"{where}: {what} ({outcome})")
 
     if not outcome.text:
         wrong("no reason")
     if outcome.status is FinalStatus.SUCCEEDED:
         last = np.array(
-            [dict(zip(asked.names, asked.points[-1].positions, strict=True))[n] for n in NAMES]
+            [
+                dict(zip(requested.names, requested.points[-1].positions, strict=True))[n]
+                for n in NAMES
+            ]
         )
         if spoiled:
             wrong(f"succeeded, though {spoiled}")
         if not s.stands or np.abs(s.joints - last).max() > 0.01:
             wrong("succeeded, and the robot is not there")
-        if _off(recorder, asked, before) > OFF_PATH:
+        if _off(recorder, requested, before) > OFF_PATH:
             wrong("succeeded on another path")
     elif outcome.code in (Code.INVALID_JOINTS, Code.OLD_HEADER_TIMESTAMP) and moved > 1e-6:
         wrong("refused, and the robot moved")
@@ -94,10 +97,12 @@ def _one(s, draw, found, where):
         wrong("refused, and the robot moved")
 
 
-def _off(recorder, asked, before):
+def _off(recorder, requested, before):
     """How far the robot was from the straight ways between the points, rad."""
-    order = [list(asked.names).index(name) for name in NAMES]
-    corners = np.array([before, *([point.positions[i] for i in order] for point in asked.points)])
+    order = [list(requested.names).index(name) for name in NAMES]
+    corners = np.array(
+        [before, *([point.positions[i] for i in order] for point in requested.points)]
+    )
     places = recorder.recording(0.05).actual[:, :6]
     return max(min(_to(place, a, b) for a, b in pairwise(corners)) for place in places)
 
@@ -120,27 +125,30 @@ def _goal(draw, here):
     points = [Point(n * seconds, list(map(float, row))) for n, row in enumerate(rows)]
     if draw.random() < 0.2:
         points[-1] = replace(points[-1], time=points[-2].time + 0.03)
-    asked, spoiled = Goal(NAMES, points), ""
+    requested, spoiled = Goal(NAMES, points), ""
     kind = draw.randint(0, 11)
     if kind == 0:
         far = replace(points[-1], positions=[9.0] * 6)
-        asked, spoiled = replace(asked, points=[*points[:-1], far]), "it is outside the limits"
+        requested, spoiled = (
+            replace(requested, points=[*points[:-1], far]),
+            "it is outside the limits",
+        )
     elif kind == 1:
-        asked, spoiled = replace(asked, names=(*NAMES[:5], "elbow")), "a name is wrong"
+        requested, spoiled = replace(requested, names=(*NAMES[:5], "elbow")), "a name is wrong"
     elif kind == 2:
-        asked, spoiled = replace(asked, stamp=0.001), "its stamp is past"
+        requested, spoiled = replace(requested, stamp=0.001), "its stamp is past"
     elif kind == 3:
         again = [*points, replace(points[-1])]
-        asked, spoiled = replace(asked, points=again), "its times do not increase"
+        requested, spoiled = replace(requested, points=again), "its times do not increase"
     elif kind == 4:
-        asked = replace(asked, names=NAMES[::-1], points=[
+        requested = replace(requested, names=NAMES[::-1], points=[
             replace(point, positions=point.positions[::-1]) for point in points
         ])  # fmt: skip
     elif kind == 5:
-        asked = replace(asked, path_tolerance=[Tolerance(n, position=0.5) for n in NAMES])
+        requested = replace(requested, path_tolerance=[Tolerance(n, position=0.5) for n in NAMES])
     elif kind == 6:
-        asked = replace(asked, goal_time_tolerance=draw.choice([0.5, 3.0]))
-    return asked, spoiled
+        requested = replace(requested, goal_time_tolerance=draw.choice([0.5, 3.0]))
+    return requested, spoiled
 
 
 async def _with_fault(s, draw, following, under):

@@ -28,14 +28,14 @@ class Message:
         kind = self.FIELDS.get(name)
         if kind is None:
             raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
-        told = f"The '{name}' field must be of type {kind}"
+        report = f"The '{name}' field must be of type {kind}"
         if isinstance(kind, list):
-            assert not isinstance(value, str), told
-            assert all(isinstance(item, kind[0]) for item in value), told
+            assert not isinstance(value, str), report
+            assert all(isinstance(item, kind[0]) for item in value), report
         else:
-            assert isinstance(value, kind), told
+            assert isinstance(value, kind), report
             if kind is int:
-                assert -(2**31) <= value < 2**32, told
+                assert -(2**31) <= value < 2**32, report
         object.__setattr__(self, name, value)
 
 
@@ -404,8 +404,8 @@ class LifecycleNode:
     def create_service(
         self, srv_type, srv_name, callback, *, qos_profile=None, callback_group=None
     ):
-        self.services[srv_name] = lambda **told: callback(
-            srv_type.Request(**told), srv_type.Response()
+        self.services[srv_name] = lambda **report: callback(
+            srv_type.Request(**report), srv_type.Response()
         )
         return srv_name
 
@@ -414,10 +414,10 @@ class LifecycleNode:
 
     def _go(self, before, callback, after):
         assert self.state == before, (self.state, before)
-        found = callback(SimpleNamespace(label=before))
-        if found is TransitionCallbackReturn.SUCCESS:
+        result = callback(SimpleNamespace(label=before))
+        if result is TransitionCallbackReturn.SUCCESS:
             self.state = after
-        return found
+        return result
 
     def trigger_configure(self):
         return self._go("unconfigured", self.on_configure, "inactive")
@@ -443,7 +443,7 @@ class LifecycleNode:
 def modules():
     """The modules by name."""
     here = {name: value for name, value in globals().items() if isinstance(value, type)}
-    found = {}
+    result = {}
     for module, names in {
         "rclpy": "",
         "rclpy.action": "ActionServer CancelResponse GoalResponse",
@@ -468,15 +468,15 @@ def modules():
         made = ModuleType(module)
         for name in names.split():
             setattr(made, name, here[name])
-        found[module] = made
+        result[module] = made
         package = module.split(".")[0]
-        found.setdefault(package, ModuleType(package))
-    found["rclpy.lifecycle"].LifecycleState = SimpleNamespace
-    executors = found["rclpy.executors"] = ModuleType("rclpy.executors")
+        result.setdefault(package, ModuleType(package))
+    result["rclpy.lifecycle"].LifecycleState = SimpleNamespace
+    executors = result["rclpy.executors"] = ModuleType("rclpy.executors")
     executors.MultiThreadedExecutor = executors.ExternalShutdownException = type(
         "E", (Exception,), {}
     )
-    return found
+    return result
 
 
 def install(monkeypatch):

@@ -36,9 +36,9 @@ def test_the_node_depends_on_every_package_that_it_imports():
 
 def test_every_interface_is_generated():
     folder = ROOT / "ros/rapidgen_interfaces"
-    there = {f"{path.parent.name}/{path.name}" for path in folder.glob("*/*.[ms][sr][gv]")}
+    target = {f"{path.parent.name}/{path.name}" for path in folder.glob("*/*.[ms][sr][gv]")}
     listed = set(re.findall(r'"((?:msg|srv)/\w+\.\w+)"', (folder / "CMakeLists.txt").read_text()))
-    assert there == listed
+    assert target == listed
 
 
 @pytest.mark.colcon

@@ -40,8 +40,8 @@ def test_manual_mode_moves_while_the_enabling_device_is_held(mode):
 def test_joints_of_a_coupled_model_are_those_of_its_urdf():
     """Axis 3 of the controller is joint 3 and joint 2: `J23_coupled` of abb_driver."""
     with station(name="irb2400") as s:
-        asked = goal(0.0, [0.0, 0.4, -0.3, 0.0, 0.0, 0.0], seconds=2.0)
-        assert s.outcome(asked).status is FinalStatus.SUCCEEDED
+        requested = goal(0.0, [0.0, 0.4, -0.3, 0.0, 0.0, 0.0], seconds=2.0)
+        assert s.outcome(requested).status is FinalStatus.SUCCEEDED
         assert s.joints[:3] == pytest.approx([0.0, 0.4, 0.1], abs=1e-4)
         assert s.robot.state.joints[2] == pytest.approx(-0.3, abs=1e-4)
         far = s.outcome(goal(s.robot.state.joints, [0.0, 1.0, 0.6, 0.0, 0.0, 0.0], seconds=4.0))
@@ -51,10 +51,10 @@ def test_joints_of_a_coupled_model_are_those_of_its_urdf():
 def test_joints_of_a_track_and_a_positioner():
     with station(name="irb120_track") as s:
         names, here = s.robot.group.names, s.robot.state.joints
-        there = {"track": 0.5, "positioner": 1.0}
-        row = [there.get(name, 0.1) for name in names]
-        asked = goal(here, row, seconds=4.0, names=names)
-        assert s.outcome(asked).status is FinalStatus.SUCCEEDED
+        target = {"track": 0.5, "positioner": 1.0}
+        row = [target.get(name, 0.1) for name in names]
+        requested = goal(here, row, seconds=4.0, names=names)
+        assert s.outcome(requested).status is FinalStatus.SUCCEEDED
         assert s.robot.state.joints == pytest.approx(row, abs=1e-3)
 
 
@@ -80,22 +80,22 @@ def test_names_in_any_order():
 
 
 @pytest.mark.parametrize(
-    ("asked", "mend"),
+    ("requested", "mend"),
     [
         (goal(0.0, 1.0, seconds=0.15), "joint_limits.yaml"),
         (goal(0.1, 0.2), "replace: approach"),
         (goal(0.0, 0.0, 0.0, 0.0, seconds=0.05), "dense: resample"),
     ],
 )
-def test_a_refusal_says_what_to_do_in_words_of_ros(asked, mend):
+def test_a_refusal_says_what_to_do_in_words_of_ros(requested, help):
     with station() as s:
-        text = s.outcome(asked).text
-        assert mend in text
+        text = s.outcome(requested).text
+        assert help in text
         assert "`Trajectory" not in text
 
 
 @pytest.mark.parametrize(
-    ("asked", "code", "text"),
+    ("requested", "code", "text"),
     [
         (goal(0.0, names=NAMES[:5]), Code.INVALID_JOINTS, "missing: joint_6"),
         (goal(0.0, 0.1, names=(*NAMES[:5], "elbow")), Code.INVALID_JOINTS, "unknown: elbow"),
@@ -114,9 +114,9 @@ def test_a_refusal_says_what_to_do_in_words_of_ros(asked, mend):
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_refused_is_aborted_with_a_reason_and_nothing_moves(asked, code, text):
+def test_refused_is_aborted_with_a_reason_and_nothing_moves(requested, code, text):
     with station() as s:
-        outcome = s.outcome(asked)
+        outcome = s.outcome(requested)
         assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, code)
         assert text in outcome.text
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
@@ -140,10 +140,10 @@ def test_a_velocity_at_the_end_is_refused_and_effort_is_said():
 def test_a_stamp_in_the_future_is_waited_for():
     with station() as s:
         start = s.loop.time() + 3.0
-        asked = replace(THERE, stamp=start)
+        requested = replace(THERE, stamp=start)
         began = []
         s.follower._robot.execute = _noting(s, s.robot.execute, began)
-        assert s.outcome(asked).status is FinalStatus.SUCCEEDED
+        assert s.outcome(requested).status is FinalStatus.SUCCEEDED
         assert began == [pytest.approx(start, abs=1e-6)]
 
 
@@ -186,9 +186,9 @@ async def _after(s, seconds, following, act):
 
 def test_cancel_before_the_stamp():
     with station() as s:
-        asked = replace(THERE, stamp=s.loop.time() + 5)
+        requested = replace(THERE, stamp=s.loop.time() + 5)
         under = ActiveGoal()
-        outcome = s.run(_after(s, 1.0, s.follow(asked, under), under.cancel))
+        outcome = s.run(_after(s, 1.0, s.follow(requested, under), under.cancel))
         assert outcome.status is FinalStatus.CANCELED
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
 
@@ -294,7 +294,7 @@ def test_a_controller_that_is_gone_aborts():
 @pytest.mark.parametrize("after", [0.0, 0.03, 0.08])
 def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(after, cancelled):
     """-1 says that nothing has moved: nobody knows that any more, nor behind a lost STOP."""
-    asked, under = goal(*(0.01 * n for n in range(50)), seconds=0.2), ActiveGoal()
+    requested, under = goal(*(0.01 * n for n in range(50)), seconds=0.2), ActiveGoal()
     with station() as s:
 
         def fault():
@@ -302,7 +302,7 @@ def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(a
             if cancelled:
                 under.cancel()
 
-        outcome = s.run(_after(s, after, s.follow(asked, under), fault))
+        outcome = s.run(_after(s, after, s.follow(requested, under), fault))
         assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
         assert ("STOP" if cancelled else "connection") in outcome.text
 
@@ -310,8 +310,8 @@ def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(a
 def test_a_link_that_is_lost_before_the_stamp_aborts_at_once():
     with station() as s:
         began = s.loop.time()
-        asked = replace(THERE, stamp=began + 600.0)
-        outcome = s.run(_after(s, 1.0, s.follow(asked), s.controller.power_loss))
+        requested = replace(THERE, stamp=began + 600.0)
+        outcome = s.run(_after(s, 1.0, s.follow(requested), s.controller.power_loss))
         # Nothing was sent: nothing can have moved.
         assert (outcome.status, outcome.code) == (FinalStatus.ABORTED, Code.INVALID_GOAL)
         assert "connection" in outcome.text
@@ -329,10 +329,10 @@ def test_a_link_that_is_lost_before_the_stamp_aborts_at_once():
 def test_a_first_point_with_a_time_is_gone_to_in_that_time(points):
     """joint_trajectory_controller interpolates from where the robot is to the first point."""
     path = [Tolerance(name, position=0.1) for name in NAMES]
-    asked = Goal(NAMES, points, path_tolerance=path)
+    requested = Goal(NAMES, points, path_tolerance=path)
     with station() as s:
         began = s.loop.time()
-        outcome = s.outcome(asked)
+        outcome = s.outcome(requested)
         assert outcome.status is FinalStatus.SUCCEEDED
         assert "from where the robot stood" in outcome.text
         assert s.joints == pytest.approx(points[-1].positions, abs=1e-4)
@@ -355,7 +355,7 @@ def test_path_tolerance_holds_where_the_first_feedback_comes_late():
         s.run(s.robot.next_feedback())
         hear, execute, held = s.robot.next_feedback, s.robot.execute, []
 
-        async def taken(trajectory):
+        async def in_use(trajectory):
             execution = await execute(trajectory)
             held.append(0.45)
             return execution
@@ -365,9 +365,9 @@ def test_path_tolerance_holds_where_the_first_feedback_comes_late():
                 await asyncio.sleep(held.pop())
             return await hear(timeout)
 
-        s.robot.execute, s.robot.next_feedback = taken, held_up
-        asked = replace(goal(0.0, 0.4, 0.8), path_tolerance=path)
-        outcome = s.outcome(asked)
+        s.robot.execute, s.robot.next_feedback = in_use, held_up
+        requested = replace(goal(0.0, 0.4, 0.8), path_tolerance=path)
+        outcome = s.outcome(requested)
         assert outcome.status is FinalStatus.SUCCEEDED, outcome.text
 
 
@@ -455,10 +455,10 @@ def test_a_sample_is_compared_with_all_that_was_asked_for_within_its_window(
     time, actual, velocity, window, violated
 ):
     allowed = [np.array([value]) for value in (0.01, 0.1, 0.0, 0.0)]
-    asked = ValidatedGoal(POINTS, None, None, *allowed, goal_time=0.5)
+    requested = ValidatedGoal(POINTS, None, None, *allowed, goal_time=0.5)
     none = np.zeros(1)
     fed = GoalFeedback(("a",), time, none, none, np.array([actual]), np.array([velocity]))
-    found = _violation(asked, fed, window)
-    assert (found is None) == (violated is None)
-    if found is not None:
-        assert violated in found.text
+    result = _violation(requested, fed, window)
+    assert (result is None) == (violated is None)
+    if result is not None:
+        assert violated in result.text

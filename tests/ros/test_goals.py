@@ -28,36 +28,36 @@ def test_columns_are_in_the_order_of_the_robot():
         replace(GOAL.points[0], velocities=[30.0, 10.0, 20.0]),
         replace(GOAL.points[1], velocities=[0.0, 0.0, 0.0]),
     ]
-    found = judged(points=moving)
-    assert found.trajectory.names == NAMES
-    assert found.trajectory.times.tolist() == [0.0, 1.5]
-    assert found.trajectory.positions.tolist() == [[1.0, 2.0, 3.0], [1.1, 2.2, 3.3]]
-    assert found.velocities.tolist() == [[10.0, 20.0, 30.0], [0.0] * 3]
+    result = judged(points=moving)
+    assert result.trajectory.names == NAMES
+    assert result.trajectory.times.tolist() == [0.0, 1.5]
+    assert result.trajectory.positions.tolist() == [[1.0, 2.0, 3.0], [1.1, 2.2, 3.3]]
+    assert result.velocities.tolist() == [[10.0, 20.0, 30.0], [0.0] * 3]
     assert judged().velocities is None
     assert (judged().start, judged().notes) == (None, ())
 
 
 @pytest.mark.parametrize(
-    ("asked", "position", "velocity"),
+    ("requested", "position", "velocity"),
     [
         ([], [0.5, 0.5, 0.5], [INF] * 3),
         ([Tolerance("b", 0.1, 0.3)], [0.5, 0.1, 0.5], [INF, 0.3, INF]),
         ([Tolerance("b"), Tolerance("c", -1.0, -1.0)], [0.5, 0.5, INF], [INF] * 3),
     ],
 )
-def test_a_tolerance_is_of_its_joint_0_the_default_and_minus_1_none(asked, position, velocity):
-    path = judged(path_tolerance=asked)
+def test_a_tolerance_is_of_its_joint_0_the_default_and_minus_1_none(requested, position, velocity):
+    path = judged(path_tolerance=requested)
     assert (path.path.tolist(), path.path_velocity.tolist()) == (position, velocity)
     assert path.goal.tolist() == [0.02] * 3
-    end = judged(goal_tolerance=asked)
+    end = judged(goal_tolerance=requested)
     assert end.goal.tolist() == [0.02 if value == 0.5 else value for value in position]
     assert end.goal_velocity.tolist() == velocity
     assert end.path.tolist() == [0.5] * 3
 
 
-@pytest.mark.parametrize(("asked", "found"), [(0.0, 4.0), (-1.0, INF), (0.7, 0.7)])
-def test_the_time_that_a_goal_may_be_late(asked, found):
-    assert judged(goal_time_tolerance=asked).goal_time == found
+@pytest.mark.parametrize(("requested", "found"), [(0.0, 4.0), (-1.0, INF), (0.7, 0.7)])
+def test_the_time_that_a_goal_may_be_late(requested, result):
+    assert judged(goal_time_tolerance=requested).goal_time == result
 
 
 @pytest.mark.parametrize(("stamp", "start"), [(0.0, None), (99.8, 99.8), (120.0, 120.0)])
@@ -138,9 +138,9 @@ def test_a_goal_that_is_none(changes, code, text):
     ],
 )
 def test_what_is_desired_at_a_moment(time, positions, velocities):
-    found = judged()
-    assert np.allclose(found.desired(time), positions)
-    assert np.allclose(found.desired_velocity(time), velocities)
+    result = judged()
+    assert np.allclose(result.desired(time), positions)
+    assert np.allclose(result.desired_velocity(time), velocities)
 
 
 @pytest.mark.parametrize(

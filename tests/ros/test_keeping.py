@@ -20,7 +20,7 @@ def test_a_link_comes_back_and_executes_the_first_goal():
         await asyncio.sleep(0.5)
         told = len(c.heard[0].states)
         c.controller.power_loss()
-        ended = await first
+        finished = await first
         await c.linked(False)
         lost, refused = len(c.heard[0].states), await c.links[0].follow(*_goal(c))
         await asyncio.sleep(0.5)
@@ -30,11 +30,14 @@ def test_a_link_comes_back_and_executes_the_first_goal():
         c.controller.set_motors(True)
         c.controller.start_program()
         await c.robots[0].wait_until(lambda state: state.status.motion_possible == 1, 30.0)
-        return ended, refused, await c.links[0].follow(*_goal(c))
+        return finished, refused, await c.links[0].follow(*_goal(c))
 
     with cell("irb120") as c:
-        ended, refused, done = c.run(tried(c))
-        assert (ended.status, ended.code) == (FinalStatus.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
+        finished, refused, done = c.run(tried(c))
+        assert (finished.status, finished.code) == (
+            FinalStatus.ABORTED,
+            Code.PATH_TOLERANCE_VIOLATED,
+        )
         assert (refused.status, refused.code) == (FinalStatus.ABORTED, Code.INVALID_GOAL)
         assert refused.text.startswith("no link to the robot: ")
         assert done.status is FinalStatus.SUCCEEDED, done.text
@@ -45,8 +48,8 @@ def test_a_link_comes_back_and_executes_the_first_goal():
 
 def _goal(c):
     here = c.robots[0].state.joints
-    asked = goal(here, [value + 0.05 for value in here])
-    return asked, lambda _: None, ActiveGoal()
+    requested = goal(here, [value + 0.05 for value in here])
+    return requested, lambda _: None, ActiveGoal()
 
 
 def test_resume_only_where_it_still_stands():

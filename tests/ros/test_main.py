@@ -19,13 +19,13 @@ def test_the_exit_code_is_that_of_the_node(driver_type, monkeypatch, code):
     monkeypatch.setattr(sys.modules["rclpy"], "__spec__", ModuleSpec("rclpy", None))
     monkeypatch.setattr(sys.modules["rapidgen.ros.node"], "run", run)
     monkeypatch.setattr(sys, "argv", ["driver", "--ros-args"])
-    ended = main()
-    assert (type(ended), ended, given) == (int, code, [["driver", "--ros-args"]])
+    finished = main()
+    assert (type(finished), finished, given) == (int, code, [["driver", "--ros-args"]])
 
 
 def test_without_ros_it_says_what_to_source(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "rclpy", None)
     assert main() == 2
-    said = capsys.readouterr().err
-    assert "RG691" in said
-    assert "setup.bash" in said
+    message = capsys.readouterr().err
+    assert "RG691" in message
+    assert "setup.bash" in message

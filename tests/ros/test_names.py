@@ -46,12 +46,12 @@ def yamls(text):
 @example(HOSTILE)
 def test_a_text_stays_one(texts):
     text, *_ = texts
-    for found in yamls(yaml_flow(texts)):
-        assert found == texts
-    for found in yamls(f"{yaml_text(text)}: {yaml_flow([text, 'x'])}"):
-        assert found == {text: [text, "x"]}
-    for found in yamls(yaml_flow({text: text, "b": True, "c": 1.5})):
-        assert found == {text: text, "b": True, "c": 1.5}
+    for result in yamls(yaml_flow(texts)):
+        assert result == texts
+    for result in yamls(f"{yaml_text(text)}: {yaml_flow([text, 'x'])}"):
+        assert result == {text: [text, "x"]}
+    for result in yamls(yaml_flow({text: text, "b": True, "c": 1.5})):
+        assert result == {text: text, "b": True, "c": 1.5}
 
 
 def code(text):
@@ -98,8 +98,8 @@ def check_joints(files, names):
     if launch := files.get("launch/robot.launch"):
         lists = [ET.fromstring(launch.encode()).findtext("group/rosparam")]
         return [list(yamls(text)) for text in lists] == [[names, names]]
-    for found in yamls(one(files, "joint_limits.yaml")):
-        assert [name for name in found["joint_limits"] if name in names] == names
+    for result in yamls(one(files, "joint_limits.yaml")):
+        assert [name for name in result["joint_limits"] if name in names] == names
     return True
 
 
@@ -108,8 +108,8 @@ def check_joints(files, names):
 @example(HOSTILE[:6], '"""\n1/0\n"""', "a--b")
 @example(HOSTILE[6:12], "\x01&<\\N{DASH}", "a-")
 def test_packages(joints, folder, name):
-    shown = ", ".join(f"{yaml_text(n)}: {{axis: rax_{i}}}" for i, n in enumerate(joints, 1))
-    config = replace(load_config("irb120", overrides=[f"joints={{{shown}}}"]), name=name)
+    displayed = ", ".join(f"{yaml_text(n)}: {{axis: rax_{i}}}" for i, n in enumerate(joints, 1))
+    config = replace(load_config("irb120", overrides=[f"joints={{{displayed}}}"]), name=name)
     assert [joint.name for joint in config.groups[0].joints] == joints
     for kind, files in packages(config, folder).items():
         check(kind, files)
@@ -141,10 +141,10 @@ def test_a_new_configuration(tmp_path, first):
     links = ["base", *links, "finger"]
     (tmp_path / "r.urdf").write_bytes(urdf(joints, links))
     axes = {name: f"rax_{number}" for number, name in enumerate(joints, 1)}
-    said = DescriptionChoices(joints=axes, coupling=0.0)
-    text = from_urdf(tmp_path / "r.urdf", folder=tmp_path, answers=said)
+    message = DescriptionChoices(joints=axes, coupling=0.0)
+    text = from_urdf(tmp_path / "r.urdf", folder=tmp_path, answers=message)
     write_new(tmp_path / "cell.yaml", text)
     assert [j.name for j in load_config(tmp_path / "cell.yaml").groups[0].joints] == joints
-    for found in yamls(text):
-        assert list(found["joints"]) == joints
-        assert found["urdf"]["tip"] == links[6]
+    for result in yamls(text):
+        assert list(result["joints"]) == joints
+        assert result["urdf"]["tip"] == links[6]

@@ -49,13 +49,13 @@ def node(driver_type, sim):
 def up(node):
     def make(**parameters):
         one = node(**parameters)
-        one.topics["robot_status"].wait(lambda told: told.motion_possible.val == 1)
+        one.topics["robot_status"].wait(lambda report: report.motion_possible.val == 1)
         return one
 
     return make
 
 
-def goal(*rows, seconds=1.0, **told):
+def goal(*rows, seconds=1.0, **report):
     points = [
         JointTrajectoryPoint(
             positions=[float(row)] * 6,
@@ -63,10 +63,10 @@ def goal(*rows, seconds=1.0, **told):
         )
         for n, row in enumerate(rows)
     ]
-    asked = FollowJointTrajectory.Goal(**told)
-    asked.trajectory.joint_names = NAMES
-    asked.trajectory.points = points
-    return asked
+    requested = FollowJointTrajectory.Goal(**report)
+    requested.trajectory.joint_names = NAMES
+    requested.trajectory.points = points
+    return requested
 
 
 def ended(handle):
@@ -96,8 +96,8 @@ def test_what_is_told_is_reliable_volatile_and_ten_deep(up):
     node = up()
     assert set(node.topics) == {"joint_states", "/diagnostics", "robot_status"}
     for topic in node.topics.values():
-        told = topic.qos.reliability, topic.qos.durability, topic.qos.depth
-        assert told == ("RELIABLE", "VOLATILE", 10)
+        report = topic.qos.reliability, topic.qos.durability, topic.qos.depth
+        assert report == ("RELIABLE", "VOLATILE", 10)
         assert topic.overriding is not None
 
 
@@ -136,8 +136,8 @@ def test_cancel_is_canceled_and_of_a_second_goal_leaves_the_first(up):
 
 def test_services_and_speed(up):
     node = up()
-    told = node.services["resume"]()
-    assert (told.success, "nothing was paused" in told.message) == (False, True)
+    report = node.services["resume"]()
+    assert (report.success, "nothing was paused" in report.message) == (False, True)
     handle = action(node).send(goal(0.0, 0.5, seconds=LONG))
     assert handle.fed.wait(60)
     assert node.services["pause"]().success
@@ -187,8 +187,8 @@ def test_a_goal_is_judged_by_the_overridden_configuration(up):
 def test_up_before_the_robot_and_says_why_it_waits(driver_type):
     overrides = {"config": "irb120", "address": "127.0.0.1:1,1"}
     node = driver_type(parameter_overrides=overrides)
-    told = node.topics["/diagnostics"].wait(lambda told: told.status[0].level == b"\x03")
-    assert "no link to the robot: cannot connect" in told.status[0].message
+    report = node.topics["/diagnostics"].wait(lambda report: report.status[0].level == b"\x03")
+    assert "no link to the robot: cannot connect" in report.status[0].message
     assert node.topics["joint_states"].sent == []
     assert "no link" in ended(action(node).send(goal(0.0, 0.1)))[2]
     assert not node.services["stop"]().success
@@ -230,10 +230,10 @@ def test_what_ends_a_link_is_said(up):
         ({"config": "irb120", "speed": 20.0}, "nothing moves yet"),
     ],
 )
-def test_a_configuration_that_is_none_is_said(driver_type, parameters, told):
+def test_a_configuration_that_is_none_is_said(driver_type, parameters, report):
     node = driver_type(parameter_overrides=parameters)
     assert node.state == "unconfigured"
-    assert any(told in line for line in node.get_logger().lines)
+    assert any(report in line for line in node.get_logger().lines)
     node.destroy_node()
 
 
@@ -262,9 +262,9 @@ def test_signal_aborts_the_goal_and_ends_the_node(driver_type, sim, monkeypatch,
                 handles[0].over.wait(timeout_sec)
                 return
             node = self.node
-            node.topics["robot_status"].wait(lambda told: told.motion_possible.val == 1)
+            node.topics["robot_status"].wait(lambda report: report.motion_possible.val == 1)
             handles.append(action(node).send(goal(0.0, 0.5, seconds=LONG)))
-            node.topics["joint_states"].wait(lambda told: told.position[0] > 1e-3)
+            node.topics["joint_states"].wait(lambda report: report.position[0] > 1e-3)
             signal.raise_signal(number)
 
     parameters = {"config": "irb120", "address": str(sim.address("rob1", timeout=60))}

@@ -67,33 +67,33 @@ def node(driver_type, cell):
     controller, path = cell
     address = str(controller.address("rob1", timeout=60))
     node = driver_type(parameter_overrides={"config": str(path), "address": address})
-    node.topics["robot_status"].wait(lambda told: told.motion_possible.val == 1)
+    node.topics["robot_status"].wait(lambda report: report.motion_possible.val == 1)
     yield node
     node.destroy_node()
 
 
 def test_signals_are_written_and_read(node, cell):
     controller, _ = cell
-    told = node.services["write_signal"](name="valve", value=1.0)
-    assert (told.success, told.value) == (True, 1.0)
+    report = node.services["write_signal"](name="valve", value=1.0)
+    assert (report.success, report.value) == (True, 1.0)
     assert controller.io["valve"].value == 1
     assert node.services["read_signal"](name="part").value == 0.0
-    for service, asked in (
+    for service, requested in (
         ("write_signal", {"name": "part", "value": 1.0}),
         ("read_signal", {"name": "pump"}),
     ):
-        told = node.services[service](**asked)
-        assert not told.success
-        assert asked["name"] in told.message
+        report = node.services[service](**requested)
+        assert not report.success
+        assert requested["name"] in report.message
 
 
 def test_a_routine_gets_values_of_every_type_and_tells_its_results(node, cell):
     controller, _ = cell
-    there = Pose(position=Point(x=0.4, y=0.1, z=0.5), orientation=Quaternion(y=1.0))
+    target = Pose(position=Point(x=0.4, y=0.1, z=0.5), orientation=Quaternion(y=1.0))
     arguments = [
         Value(type=Value.NUM, number=3.5),
         Value(type=Value.STRING, text="seam 7"),
-        Value(type=Value.ROBTARGET, pose=there),
+        Value(type=Value.ROBTARGET, pose=target),
         Value(type=Value.JOINTTARGET, joints=[0.2, 0.0, 0.0, 0.0, 0.0, 0.0]),
         Value(type=Value.BOOL, boolean=False),
     ]
@@ -127,7 +127,7 @@ def test_without_the_package_the_node_runs_and_says_so(sourced, cell, monkeypatc
 
     address = str(controller.address("rob1", timeout=60))
     node = RobotNode(parameter_overrides={"config": str(path), "address": address})
-    node.topics["robot_status"].wait(lambda told: told.motion_possible.val == 1)
+    node.topics["robot_status"].wait(lambda report: report.motion_possible.val == 1)
     assert set(node.services) == {"stop", "pause", "resume"}
     assert any("rapidgen_interfaces is not in" in line for line in node.get_logger().lines)
     node.destroy_node()

@@ -64,11 +64,11 @@ def test_every_file_is_what_its_name_says(name):
 
 def test_moveit_waits_for_the_controller_and_complains_before_the_driver():
     config = load_config("irb120")
-    told = YAML(typ="safe").load(package("irb120")["config/moveit_controllers.yaml"])
-    execution = told["trajectory_execution"]
+    report = YAML(typ="safe").load(package("irb120")["config/moveit_controllers.yaml"])
+    execution = report["trajectory_execution"]
     assert execution["execution_duration_monitoring"] is False
     assert 0 < execution["allowed_start_tolerance"] < config.trajectory.start_tolerance
-    controllers = told["moveit_simple_controller_manager"]
+    controllers = report["moveit_simple_controller_manager"]
     assert controllers["controller_names"] == ["rob1_controller"]
     assert controllers["rob1_controller"]["joints"] == [f"joint_{n}" for n in range(1, 7)]
 
@@ -119,15 +119,15 @@ def test_a_plan_of_a_motion_group_has_kinematics_and_fits_its_controller(name):
 def _joints(groups, name, urdf):
     """Names of all joints of a planning group, fixed ones included."""
     above = {joint.find("child").attrib["link"]: joint for joint in urdf.iter("joint")}
-    group, found = groups[name], set()
+    group, result = groups[name], set()
     for chain in group.findall("chain"):
         link = chain.attrib["tip_link"]
         while link != chain.attrib["base_link"]:
-            found.add(above[link].attrib["name"])
+            result.add(above[link].attrib["name"])
             link = above[link].find("parent").attrib["link"]
-    found |= {joint.attrib["name"] for joint in group.findall("joint")}
+    result |= {joint.attrib["name"] for joint in group.findall("joint")}
     within = [one.attrib["name"] for one in group.findall("group")]
-    return found.union(*(_joints(groups, one, urdf) for one in within))
+    return result.union(*(_joints(groups, one, urdf) for one in within))
 
 
 @pytest.mark.parametrize("name", ["irb120", "irb2400", "irb5400", "irb14050", "irb14000"])
@@ -201,8 +201,8 @@ def test_two_robots_of_a_cell_are_where_they_were_put(cell):
 
 def test_two_robots_share_a_moveit(cell):
     files = ros2_cell(cell, "cell")
-    told = YAML(typ="safe").load(files["config/moveit_controllers.yaml"])
-    controllers = told["moveit_simple_controller_manager"]
+    report = YAML(typ="safe").load(files["config/moveit_controllers.yaml"])
+    controllers = report["moveit_simple_controller_manager"]
     assert controllers["controller_names"] == ["left/rob1_controller", "right/rob1_controller"]
     assert controllers["right/rob1_controller"]["joints"][2] == "right_joint_3"
     urdf = ET.fromstring(files["config/cell_rapidgen.urdf"])
@@ -237,9 +237,9 @@ def test_two_robots_of_one_name_are_refused(cell):
         (["irb120", "irb2400", "--at", "0,0,0", "--at", "nan,0,1"], "is not X,Y,Z"),
     ],
 )
-def test_places_that_do_not_fit_are_refused(given, told, tmp_path, capsys):
+def test_places_that_do_not_fit_are_refused(given, report, tmp_path, capsys):
     assert main(["ros2", *given, "-o", str(tmp_path / "p")]) == 2
-    assert told in capsys.readouterr().err
+    assert report in capsys.readouterr().err
     assert not (tmp_path / "p").exists()
 
 
@@ -311,8 +311,8 @@ def test_names_of_joints_stay_texts_in_yaml(tmp_path):
     yaml.version = (1, 1)
     files = ros2_package(config, "called.yaml")
     assert list(yaml.load(files["config/joint_limits.yaml"])["joint_limits"]) == names
-    told = yaml.load(files["config/moveit_controllers.yaml"])
-    assert told["moveit_simple_controller_manager"]["rob1_controller"]["joints"] == names
+    report = yaml.load(files["config/moveit_controllers.yaml"])
+    assert report["moveit_simple_controller_manager"]["rob1_controller"]["joints"] == names
     launch = ET.fromstring(ros1_package(config, "called.yaml")["launch/robot.launch"])
     assert yaml.load(launch.findtext("group/rosparam")) == names
 
@@ -333,9 +333,9 @@ def test_node_and_simulator_know_what_was_overridden(robots, tmp_path):
     sets = ["ports.motion=12000", "network.allowed_clients=[10.0.0.1, 10.0.0.2]"]
     words = [word for one in sets for word in ("--set", one)]
     assert main(["ros2", *robots, "-o", str(tmp_path / "p"), *words]) == 0
-    told = commands((tmp_path / "p/launch/driver.launch.py").read_text())
-    simulators = [one for one in told if one[:2] == ["rapidgen", "sim"]]
-    nodes = [one for one in told if "rapidgen.ros" in one]
+    report = commands((tmp_path / "p/launch/driver.launch.py").read_text())
+    simulators = [one for one in report if one[:2] == ["rapidgen", "sim"]]
+    nodes = [one for one in report if "rapidgen.ros" in one]
     assert len(simulators) == len(nodes) == sum("irb" in one for one in robots)
     for one in simulators:
         assert [value for key, value in pairwise(one) if key == "--set"] == sets

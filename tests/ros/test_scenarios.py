@@ -6,6 +6,6 @@ from scenarios import play
 
 @pytest.mark.parametrize("seed", range(12))
 def test_goals_by_lot(seed):
-    found = play(seed)
-    assert found.wrong == []
-    assert sum(found.ends.values()) == 3
+    result = play(seed)
+    assert result.wrong == []
+    assert sum(result.ends.values()) == 3

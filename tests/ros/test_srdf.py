@@ -31,8 +31,8 @@ def test_groups_homes_and_joints_that_follow_others(robot, groups, passive):
     assert srdf.attrib["name"] == urdf.attrib["name"]
     assert [group.attrib["name"] for group in srdf.findall("group")] == groups
     followers = [j.attrib["name"] for j in urdf.iter("joint") if j.find("mimic") is not None]
-    told = [joint.attrib["name"] for joint in srdf.findall("passive_joint")]
-    assert (told, len(told)) == (followers, passive)
+    report = [joint.attrib["name"] for joint in srdf.findall("passive_joint")]
+    assert (report, len(report)) == (followers, passive)
     homes = {home.attrib["group"]: home for home in srdf.findall("group_state")}
     assert list(homes) == [group.name for group in config.groups]
     limits = {joint.attrib["name"]: joint.find("limit") for joint in urdf.iter("joint")}
@@ -78,11 +78,11 @@ def test_the_group_of_all_arms_has_each_of_them():
 
 def test_a_group_with_a_positioner_is_its_arm_and_the_joints_beside_it():
     _, urdf, srdf = drawn("irb120_track")
-    arm, whole = srdf.findall("group")
+    arm, complete = srdf.findall("group")
     (chain,) = arm
     links = {link.attrib["name"] for link in urdf.iter("link")}
     assert (chain.tag, {*chain.attrib.values()} <= links) == ("chain", True)
-    assert [(part.tag, part.attrib["name"]) for part in whole] == [
+    assert [(part.tag, part.attrib["name"]) for part in complete] == [
         ("group", "rob1_arm"),
         ("joint", "positioner"),
     ]

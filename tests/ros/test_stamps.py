@@ -10,8 +10,8 @@ from rapidgen.ros.time_stamps import RosTimeEstimator
 
 def test_spacing_is_the_controllers():
     draw, stamps = random.Random(1), RosTimeEstimator()
-    told = [stamps.stamp(n * 0.02, 1000 + n * 0.02 + draw.expovariate(200)) for n in range(2000)]
-    spacing = np.diff(told[500:]) * 1e-9
+    report = [stamps.stamp(n * 0.02, 1000 + n * 0.02 + draw.expovariate(200)) for n in range(2000)]
+    spacing = np.diff(report[500:]) * 1e-9
     # p99 within 5 % of the period, where messages come up to 30 ms late
     assert np.quantile(np.abs(spacing - 0.02), 0.99) < 0.05 * 0.02
 
@@ -46,9 +46,9 @@ def test_a_clock_that_begins_again():
 def test_a_simulators_clock_goes_at_its_own_speed():
     """Four times as fast as this machine, and on behind a restart."""
     stamps = RosTimeEstimator(is_clock=True)
-    told = [stamps.stamp(n * 0.02, 1000 + n * 0.005) for n in range(200)]
-    assert np.diff(told) * 1e-9 == pytest.approx(0.02)
-    assert told[0] == 1000 * 10**9
+    report = [stamps.stamp(n * 0.02, 1000 + n * 0.005) for n in range(200)]
+    assert np.diff(report) * 1e-9 == pytest.approx(0.02)
+    assert report[0] == 1000 * 10**9
     again = stamps.stamp(0.0, 1100.0)
-    assert 0 < again - told[-1] < 10**6
+    assert 0 < again - report[-1] < 10**6
     assert stamps.stamp(0.02, 1100.005) - again == pytest.approx(0.02e9, rel=1e-3)

@@ -39,5 +39,5 @@ def test_a_call_of_the_stand_in_is_one_of_rclpy(call, distribution):
 
 @pytest.mark.parametrize("distribution", sorted(KNOWN))
 def test_what_is_told_is_reliable_and_volatile_by_default(distribution):
-    told = {key: getattr(standin.QoSProfile, key) for key in KNOWN[distribution]["qos"]}
-    assert told == KNOWN[distribution]["qos"]
+    report = {key: getattr(standin.QoSProfile, key) for key in KNOWN[distribution]["qos"]}
+    assert report == KNOWN[distribution]["qos"]

@@ -29,9 +29,9 @@ def test_states_of_the_controller(fault, level, text, numbers):
     with station() as s:
         fault(s.controller)
         s.controller.run_for(1.0)
-        status, found = told(s)
-        assert found.level is level
-        assert text in found.message
+        status, result = told(s)
+        assert result.level is level
+        assert text in result.message
         assert {name: getattr(status, name) for name in numbers} == numbers
 
 
@@ -81,13 +81,13 @@ ENDED = {
     ],
 )
 def test_what_hinders_the_robot_the_worst_first(trajectory, status, level, text):
-    found = health(state(trajectory, **status), Driver(), "10.0.0.1")
-    assert (found.level, text in found.message) == (level, True)
-    assert found.values["address"] == "10.0.0.1"
-    assert found.values.get("trajectory") == (trajectory.name if trajectory else None)
+    result = health(state(trajectory, **status), Driver(), "10.0.0.1")
+    assert (result.level, text in result.message) == (level, True)
+    assert result.values["address"] == "10.0.0.1"
+    assert result.values.get("trajectory") == (trajectory.name if trajectory else None)
     words = {TriState.TRUE: "yes", TriState.FALSE: "no", TriState.UNKNOWN: "unknown"}
-    assert found.values["drives"] == words[status.get("drives", TriState.TRUE)]
-    assert found.values["emergency stop"] == words[status.get("e_stopped", TriState.FALSE)]
+    assert result.values["drives"] == words[status.get("drives", TriState.TRUE)]
+    assert result.values["emergency stop"] == words[status.get("e_stopped", TriState.FALSE)]
 
 
 def test_a_paused_robot_is_not_ready():
@@ -96,8 +96,8 @@ def test_a_paused_robot_is_not_ready():
         s.controller.run_for(1.0)
         s.run(s.robot.pause())
         s.controller.run_for(1.0)
-        _, found = told(s)
-        assert (found.level, found.message) == (Level.WARN, "paused")
+        _, result = told(s)
+        assert (result.level, result.message) == (Level.WARN, "paused")
         s.run(s.robot.resume())
         s.controller.run_for(8.0)
         assert told(s)[1].message == "ready"
@@ -114,10 +114,10 @@ def test_a_refusal_stays_visible():
 
         s.robot._core.check = unchecked
         assert s.outcome(goal(0.0, 0.1)).status is FinalStatus.ABORTED
-        status, found = told(s)
+        status, result = told(s)
         assert status.in_error == 1
         assert status.error_code == 104
-        assert "last refusal" in found.values
+        assert "last refusal" in result.values
 
 
 def test_without_a_link_nothing_is_known():

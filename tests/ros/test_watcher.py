@@ -32,17 +32,17 @@ class Ros:
             monkeypatch.setitem(sys.modules, module.__name__, module)
 
     def goals(self, **states):
-        told = [
+        report = [
             SimpleNamespace(goal_id=SimpleNamespace(id=name), status=status)
             for name, status in states.items()
         ]
         if "joint_trajectory_action/status" in self.heard:
-            self.heard["joint_trajectory_action/status"](SimpleNamespace(status_list=told))
+            self.heard["joint_trajectory_action/status"](SimpleNamespace(status_list=report))
 
     def status(self, in_error, seconds=0.1):
         self.now += seconds
-        told = SimpleNamespace(in_error=SimpleNamespace(val=in_error), error_code=104)
-        self.heard["robot_status"](told)
+        report = SimpleNamespace(in_error=SimpleNamespace(val=in_error), error_code=104)
+        self.heard["robot_status"](report)
 
 
 @pytest.fixture

@@ -34,11 +34,11 @@ ASKS = """
 )
 def test_the_limits_of_the_axes(robot, arm, bound):
     groups = load_config(robot).groups
-    for told in (True, False):
+    for report in (True, False):
         controller, printed = boot(
-            ASKS.replace("{arm}", arm), robots=groups, dialect=Switches(axis_limits_told=told)
+            ASKS.replace("{arm}", arm), robots=groups, dialect=Switches(axis_limits_told=report)
         )
         controller.start_program()
         controller.run_for(1)
-        assert printed == [bound if told else "not found"]
+        assert printed == [bound if report else "not found"]
         controller.close()

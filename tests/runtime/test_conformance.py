@@ -41,15 +41,15 @@ PROGRAMS = [
 SCRIPT = ("do", "refused", "expect", "state", "at", "value", "log")
 
 
-def marks(text: str, mark: str = r"\w+") -> list[tuple[str, str]]:
+def marks(text: str, marker: str = r"\w+") -> list[tuple[str, str]]:
     """The comments that say something, in order."""
-    found = re.findall(rf"^\s*! ({mark}):(.*)$", text, re.MULTILINE)
-    return [(name, rest.strip()) for name, rest in found]
+    match = re.findall(rf"^\s*! ({marker}):(.*)$", text, re.MULTILINE)
+    return [(name, remaining.strip()) for name, remaining in match]
 
 
-def words(text: str, mark: str) -> list[list[str]]:
+def words(text: str, marker: str) -> list[list[str]]:
     """The words of each comment of a kind."""
-    return [rest.split() for _, rest in marks(text, mark)]
+    return [remaining.split() for _, remaining in marks(text, marker)]
 
 
 def modules(program: Program) -> Iterator[ModuleFile]:
@@ -87,17 +87,17 @@ class Run:
     def __init__(self, program: Program, case: str, accounting: str) -> None:
         text = program.text
         self.lines = text.splitlines()
-        whole = system(program)
-        given = [rest for _, rest in marks(text, "dialect")] + case.split(",")
+        complete = system(program)
+        given = [remaining for _, remaining in marks(text, "dialect")] + case.split(",")
         settings = dict(part.split("=") for part in given if part.startswith("motion."))
         switches = ",".join(part for part in given if not part.startswith("motion."))
         cycles = words(text, "cycle")
         self.controller = VirtualController(
-            whole,
+            complete,
             [
                 g
                 for (name,) in words(text, "robot")
-                for g in groups_for(whole, load_config(name).groups)
+                for g in groups_for(complete, load_config(name).groups)
             ],
             dialect=parse_switches(switches),
             cycle="forever" if cycles else "once",
@@ -127,8 +127,8 @@ class Run:
             )
             del self.printed[limit:]
         else:
-            ended = self.controller.run(max_time=float(until[0][0]) if until else 100)
-            assert ended == "finished" or until, self.controller.where()
+            finished = self.controller.run(max_time=float(until[0][0]) if until else 100)
+            assert finished == "finished" or until, self.controller.where()
 
     def act(self, action: str) -> bool:
         """One action of a `do`; whether it was allowed."""
@@ -159,66 +159,66 @@ class Run:
                 self.controller.perform(action)
         return True
 
-    def seen(self, mark: str, rest: str) -> str:
+    def seen(self, marker: str, remaining: str) -> str:
         """What there is to see of what a comment tells."""
-        first = rest.split()[0]
-        if mark == "state":
+        first = remaining.split()[0]
+        if marker == "state":
             return " ".join(task.state for task in self.controller.tasks.values())
-        if mark == "at":
+        if marker == "at":
             place = self.task.place
             if place is None or self.task.state != "stopped":
                 return self.task.state
             return f"{place.routine} {self.lines[place.span.line - 1].strip()}"
-        if mark == "value":
+        if marker == "value":
             signals = self.controller.signals
             value = signals[first] if first in signals else self.task[first]
             return f"{first} = {value_text(value)}"
         events = [e for e in self.controller.log if e.sequence > self.since]
-        told = [
+        report = [
             " ".join([first, *filter(None, e.texts)][:2]) for e in events if str(e.code) == first
         ]
-        return "; ".join(told) or first
+        return "; ".join(report) or first
 
-    def script(self, told: list[tuple[str, str]]) -> list[tuple[str, str]]:
+    def script(self, report: list[tuple[str, str]]) -> list[tuple[str, str]]:
         """Do what the comments say; what they should have told."""
-        found: list[tuple[str, str]] = []
-        for mark, rest in told:
-            if mark == "do":
+        result: list[tuple[str, str]] = []
+        for marker, remaining in report:
+            if marker == "do":
                 self.since = max((e.sequence for e in self.controller.log), default=0)
-                for action in rest.split(", "):
+                for action in remaining.split(", "):
                     try:
                         allowed = self.act(action)
                     except CannotStep:
                         allowed = False
                     if not allowed:
-                        found.append(("refused", action))
-            elif mark not in ("expect", "refused"):
-                found.append((mark, self.seen(mark, rest)))
-            found += [("expect", line) for line in self.printed]
+                        result.append(("refused", action))
+            elif marker not in ("expect", "refused"):
+                result.append((marker, self.seen(marker, remaining)))
+            result += [("expect", line) for line in self.printed]
             self.printed.clear()
-        return found + [("expect", line) for line in self.printed]
+        return result + [("expect", line) for line in self.printed]
 
     def faults(self) -> list[str]:
         """How the tasks ended that did so with an error."""
-        found = [task.fault for task in self.controller.tasks.values() if task.fault is not None]
+        result = [task.fault for task in self.controller.tasks.values() if task.fault is not None]
         return [
             f"{f.cause.name if f.cause is not None else f.event} "
             f"{f.stack[-1].span.line if f.stack else 0}"
-            for f in found
+            for f in result
         ]
 
 
 def cases(text: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
     """The switches of each case, and what is done and told there."""
-    found: list[tuple[str, list[tuple[str, str]]]] = [("", [])]
-    for mark, rest in marks(text):
-        if mark == "case":
-            found.append((rest, []))
-        elif mark in (*SCRIPT, "fault"):
-            found[-1][1].append((mark, rest))
-    if len(found) > 1:
-        assert not found.pop(0)[1], "what is before the first case belongs to none"
-    return iter(found)
+    result: list[tuple[str, list[tuple[str, str]]]] = [("", [])]
+    for marker, remaining in marks(text):
+        if marker == "case":
+            result.append((remaining, []))
+        elif marker in (*SCRIPT, "fault"):
+            result[-1][1].append((marker, remaining))
+    if len(result) > 1:
+        assert not result.pop(0)[1], "what is before the first case belongs to none"
+    return iter(result)
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda p: p.below(HERE))
@@ -231,9 +231,11 @@ def test_program_does_what_its_source_says(program: Program) -> None:
         for accounting in ("block", "statement"):
             run = Run(program, case, accounting)
             with run.controller:
-                found = run.script([line for line in told if line[0] != "fault"])
-                assert found == [line for line in told if line[0] not in ("do", "fault")], where
-                assert run.faults() == [rest for mark, rest in told if mark == "fault"], where
+                result = run.script([line for line in told if line[0] != "fault"])
+                assert result == [line for line in told if line[0] not in ("do", "fault")], where
+                assert run.faults() == [
+                    remaining for marker, remaining in told if marker == "fault"
+                ], where
                 ends.append(run.controller.scheduler.now)
         assert ends[0] == ends[1], f"{where}: block and statement accounting differ"
 

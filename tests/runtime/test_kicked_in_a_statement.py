@@ -47,7 +47,7 @@ def test_a_stop_that_comes_before_the_wait_begins(monkeypatch, statement, ordere
                 return True
             return False
 
-        monkeypatch.setattr(scheduler, "tosses", tosses)
+        monkeypatch.setattr(scheduler, "switches_here", tosses)
         task.start()
         controller.task("T2").rapid.start()
         controller.run_for(0.1)

@@ -13,9 +13,9 @@ SAMPLE = [FILES[name] for name in ("goto", "for_counts")]
 
 @pytest.fixture(scope="module")
 def campaign() -> Campaign:
-    found = Campaign(SAMPLE, SAMPLE, BROAD)
-    found.search()
-    return found
+    result = Campaign(SAMPLE, SAMPLE, BROAD)
+    result.search()
+    return result
 
 
 def test_each_file_of_a_sample_is_red_for_a_mutant(campaign: Campaign) -> None:

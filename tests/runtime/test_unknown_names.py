@@ -26,11 +26,11 @@ def test_the_event_says_which(body, error):
         assert fault.arguments == (error, "nowhere")
 
 
-def printed(body: str, data: str = "", rest: str = "") -> tuple[list[str], VirtualController]:
+def printed(body: str, data: str = "", remaining: str = "") -> tuple[list[str], VirtualController]:
     """What a program prints whose errors are passed over, and how it ended."""
     text = (
         f"MODULE m\n{data}\nPROC main()\n{body}\nERROR\nTPWrite ValToStr(ERRNO);\nTRYNEXT;\n"
-        f"ENDPROC\n{rest}\nENDMODULE\n"
+        f"ENDPROC\n{remaining}\nENDMODULE\n"
     )
     file = ModuleFile("m", "m.mod", text.encode())
     out: list[str] = []

@@ -59,7 +59,7 @@ def is_closed(sock):
 def receive(scheduler, sock, lines=1):
     data = bytearray()
 
-    def there():
+    def target():
         try:
             while part := sock.recv(65_536):
                 data.extend(part)
@@ -69,7 +69,7 @@ def receive(scheduler, sock, lines=1):
 
     # The scheduler serves its sockets; ours is looked at between its turns.
     for _ in range(5000):
-        if there():
+        if target():
             return [json.loads(line) for line in data.splitlines()]
         scheduler.advance(until=scheduler.now + 1_000_000)
     raise AssertionError(f"only {bytes(data)!r} came")

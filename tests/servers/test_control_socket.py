@@ -118,16 +118,16 @@ DIALOG = """
 
 
 @pytest.mark.parametrize(("trusted", "shown"), [(False, "nobody"), (True, None)])
-def test_a_dialog_waits_only_for_who_may_answer(trusted: bool, shown: str | None) -> None:
+def test_a_dialog_waits_only_for_who_may_answer(trusted: bool, displayed: str | None) -> None:
     controller, _ = boot(DIALOG)
     with controller:
-        told = []
-        end = subscribe(controller, told.append, trusted)
+        notify = []
+        end = subscribe(controller, notify.append, trusted)
         controller.start_program()
         controller.run_for(1.0)
-        asked = [event["text"] for event in told if event["event"] == "question"]
-        wrote = [event["text"] for event in told if event["event"] == "screen"]
-        assert (asked, wrote) == ((["how many"], []) if trusted else ([], [shown]))
+        requested = [event["text"] for event in notify if event["event"] == "question"]
+        wrote = [event["text"] for event in notify if event["event"] == "screen"]
+        assert (requested, wrote) == ((["how many"], []) if trusted else ([], [displayed]))
         end()
 
 

@@ -151,9 +151,9 @@ def test_system_outputs_that_backups_show(text):
 )
 def test_a_fault_in_a_system_output(text):
     """71391 [real 6.03]."""
-    found = load(text).faults
-    assert {fault.code for fault in found} == {"RG722"}
-    assert all("71391" in fault.message for fault in found)
+    result = load(text).faults
+    assert {fault.code for fault in result} == {"RG722"}
+    assert all("71391" in fault.message for fault in result)
 
 
 def test_inputs_have_their_arguments_elsewhere():
@@ -247,9 +247,9 @@ def test_the_firewall_is_set_and_not_added():
     ],
 )
 def test_what_no_event_is_known_for(text):
-    found = load(text).faults
-    assert {fault.code for fault in found} == {"RG723"}
-    assert all("[mem]" in fault.message for fault in found)
+    result = load(text).faults
+    assert {fault.code for fault in result} == {"RG723"}
+    assert all("[mem]" in fault.message for fault in result)
 
 
 def test_every_task_names_its_group_with_multimove():

@@ -98,8 +98,8 @@ def test_a_flag_is_written_bare():
 def test_faults_have_a_place(text, code, line):
     with pytest.raises(DiagnosticError) as caught:
         parse_cfg(text, path="X.cfg")
-    (found,) = caught.value.diagnostics
-    assert (found.code, found.span.line, found.span.path) == (code, line, "X.cfg")
+    (result,) = caught.value.diagnostics
+    assert (result.code, result.span.line, result.span.path) == (code, line, "X.cfg")
 
 
 def test_a_quote_cannot_be_written():

@@ -102,9 +102,9 @@ def read(folder):
     except DiagnosticError as refused:
         notes, modules = [*notes, *refused.diagnostics], []
     assert time.thread_time() - began < LIMIT
-    for found in notes:
-        assert SECRET not in found.message + found.help + found.label
-        assert len(found.message) < 6000
+    for result in notes:
+        assert SECRET not in result.message + result.help + result.label
+        assert len(result.message) < 6000
     assert not any(SECRET.encode() in module for module in modules)
     return notes
 
@@ -112,9 +112,9 @@ def read(folder):
 @pytest.mark.parametrize("name", CFG)
 def test_hostile_cfg(backup, name):
     (backup / "SYSPAR/SYS.cfg").write_bytes(CFG[name])
-    found = read(backup)
+    result = read(backup)
     if name.startswith(("a module", "a large module", "a long name")):
-        assert found
+        assert result
 
 
 @pytest.mark.parametrize("name", LINKS)

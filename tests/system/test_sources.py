@@ -219,9 +219,9 @@ def test_a_wrong_word_names_the_right_one(backup):
     put(backup / "SYSPAR/SYS.cfg", text)
     with pytest.raises(DiagnosticError) as caught:
         read_backup(backup)
-    (found,) = caught.value.diagnostics
-    assert (found.code, found.span.line) == ("RG708", 7)
-    assert "SysHalt" in found.help
+    (result,) = caught.value.diagnostics
+    assert (result.code, result.span.line) == ("RG708", 7)
+    assert "SysHalt" in result.help
 
 
 def test_loose_files(tmp_path):
@@ -241,8 +241,8 @@ def test_a_program_file_that_lists_no_modules(tmp_path, content, mend):
     put(tmp_path / "work.pgf", content)
     with pytest.raises(DiagnosticError) as caught:
         read_files([tmp_path / "work.pgf"])
-    (told,) = caught.value.diagnostics
-    assert (told.code, mend in told.help) == ("RG709", True)
+    (report,) = caught.value.diagnostics
+    assert (report.code, mend in report.help) == ("RG709", True)
 
 
 def test_several_tasks_and_a_program_file(tmp_path):
@@ -448,8 +448,8 @@ def test_a_file_that_may_be_refused(tmp_path):
     assert read_folder(tmp_path, notes=notes, open_words=False).outputs == ()
     assert [(note.code, note.severity) for note in notes] == [("RG722", Severity.WARNING)]
     assert read_folder(tmp_path, without=("SYS_open.cfg",)).outputs == ()
-    taken = read_folder(tmp_path, open_words=True).outputs
-    assert [(o.status, o.signal) for o in taken] == [("EmStop", "doA")]
+    in_use = read_folder(tmp_path, open_words=True).outputs
+    assert [(o.status, o.signal) for o in in_use] == [("EmStop", "doA")]
 
 
 def test_a_damaged_moc_is_a_note(backup):

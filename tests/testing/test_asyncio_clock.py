@@ -52,9 +52,9 @@ async def connect_and_talk(rounds: int) -> float:
 
 def test_round_trips_take_simulated_time_only() -> None:
     with controller() as c:
-        ended = run(c, connect_and_talk(300))
+        finished = run(c, connect_and_talk(300))
         # Two socket calls of 500 us and two ways of 100 us for each round.
-        assert ended == pytest.approx(0.1 + 300 * 0.0012, rel=0.1)
+        assert finished == pytest.approx(0.1 + 300 * 0.0012, rel=0.1)
 
 
 def test_same_seed_same_time() -> None:
@@ -114,11 +114,11 @@ def test_more_than_the_buffers_hold() -> None:
         for _ in range(40):
             writer.write(b"x" * 10_000)
             await writer.drain()
-        ended = loop.time()
+        finished = loop.time()
         writer.transport.abort()
         with contextlib.suppress(ConnectionError):
             await writer.wait_closed()
-        return ended
+        return finished
 
     with controller(text) as c:
         assert run(c, main()) > 5

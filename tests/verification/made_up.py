@@ -16,12 +16,12 @@ PATH = [A, B, C]
 
 def along(*places, steps=20):
     """A track at even speed from place to place, a second each."""
-    found = [(0.0, places[0])]
+    failures = [(0.0, places[0])]
     for number, (one, other) in enumerate(itertools.pairwise(places)):
         for n in range(1, steps + 1):
             place = tuple(a + (b - a) * n / steps for a, b in zip(one, other, strict=True))
-            found.append((number + n / steps, place))
-    return found
+            failures.append((number + n / steps, place))
+    return failures
 
 
 def red(what="", *, by=CheckFailed):

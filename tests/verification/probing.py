@@ -13,18 +13,18 @@ def answers(text, path, run):
 
     `run(path)` gives the lines on the pendant, and whether an error stopped the program.
     """
-    found = []
+    failures = []
     while True:
         path.write_text(text, encoding="ascii")
         lines, stopped = run(path)
-        found += lines
+        failures += lines
         if not stopped:
-            return [line for line in found if not line.startswith("!")]
+            return [line for line in failures if not line.startswith("!")]
         assert lines[-1].startswith("! If the program stops now: ")
-        found.append(lines[-1].rpartition(": ")[2])
+        failures.append(lines[-1].rpartition(": ")[2])
         (asking,) = re.findall(rf'PROC (\w+)\(\)(?:(?!PROC).)*"{lines[-1]}"', text, re.DOTALL)
         # Another main, without what has been asked.
-        head, main, rest = text.partition("    PROC main()\n")
-        done, _, left = rest.partition(f"        {asking};\n")
+        head, main, remaining = text.partition("    PROC main()\n")
+        done, _, left = remaining.partition(f"        {asking};\n")
         done = re.sub(r"^        (?:ask|tell)_\w+;\n", "", done, flags=re.MULTILINE)
         text = head + main + done + left

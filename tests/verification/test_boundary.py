@@ -77,13 +77,13 @@ def test_a_driver_that_a_message_harms_is_found():
     waits = b"WHILE TRUE DO\nWaitTime 1;\nENDWHILE\n"
     broken = b"".join([*lines[: at + 1], waits, *lines[at + 1 :]])
     system = with_module(SYSTEM, module.path, broken)
-    found = failing(prepare(CONFIG, system, STRICT, "idle"), [harmless, harmful, harmless])
-    assert [trial for trial, _ in found] == [harmful]
+    result = failing(prepare(CONFIG, system, STRICT, "idle"), [harmless, harmful, harmless])
+    assert [trial for trial, _ in result] == [harmful]
 
 
 def test_drawn_messages_have_boundary_values_in_half_of_their_fields():
     chance = random.Random(1)
     made = [drawn(CONFIG, chance) for _ in range(400)]
-    words = [w for data in made for w in struct.unpack(f"<{len(data) // 4 - 4}I", data[16:])]
+    values = [w for data in made for w in struct.unpack(f"<{len(data) // 4 - 4}I", data[16:])]
     known = {value & 0xFFFFFFFF for value in INT32} | set(floats(CONFIG))
-    assert 0.4 < sum(word in known for word in words) / len(words) < 0.65
+    assert 0.4 < sum(word in known for word in values) / len(values) < 0.65

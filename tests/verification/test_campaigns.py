@@ -92,16 +92,16 @@ def test_what_a_piece_raises_is_raised_with_where_that_was():
 
 
 def test_a_piece_may_depend_on_the_results_before_it():
-    taken = []
+    accepted = []
 
     def make(number):
-        assert len(taken) >= max(0, number - 3)
+        assert len(accepted) >= max(0, number - 3)
         return CachedResult(number) if number % 4 == 0 else Call(number, double, number)
 
     with LocalPool(None, 2) as workers:
         for result in in_order(workers, 20, make, lambda number: number - 3):
-            taken.append(result)
-    assert taken == [n if n % 4 == 0 else 2 * n for n in range(20)]
+            accepted.append(result)
+    assert accepted == [n if n % 4 == 0 else 2 * n for n in range(20)]
 
 
 def test_workers_end_with_whoever_gives_them_work():
@@ -123,11 +123,11 @@ def test_workers_end_with_whoever_gives_them_work():
 
 def told(report):
     """A report without what was measured."""
-    found = as_json(report)
-    del found["elapsed"]
-    for outcome in found["outcomes"]:
+    result = as_json(report)
+    del result["elapsed"]
+    for outcome in result["outcomes"]:
         del outcome["elapsed"]
-    return found
+    return result
 
 
 def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(tmp_path):
@@ -147,7 +147,7 @@ def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(t
 
 
 def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
-    found = [
+    result = [
         run_suite(
             SIX_AXES,
             seeds=10,
@@ -159,9 +159,9 @@ def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
         )
         for jobs in (1, 3)
     ]
-    assert told(found[0]) == told(found[1])
-    assert found[0].curve[-1][1] > 20
-    assert found[0].programs == 2
+    assert told(result[0]) == told(result[1])
+    assert result[0].curve[-1][1] > 20
+    assert result[0].programs == 2
     assert (tmp_path / "1.jsonl").read_bytes() == (tmp_path / "3.jsonl").read_bytes()
 
 
@@ -171,13 +171,13 @@ def test_a_budget_that_is_over_leaves_the_rest(tmp_path):
 
 
 def test_the_first_failure_ends_it(tmp_path, monkeypatch, capsys):
-    words = ["test", "irb120", "--quick", "--stop-on-failure", "--json"]
+    values = ["test", "irb120", "--quick", "--stop-on-failure", "--json"]
     names = ("ping", "hello", "single-point")
     monkeypatch.setattr("rapidgen.verification.testbench.Bench.healthy", _ill)
-    assert main([*words, *(word for name in names for word in ("--case", name))]) == 1
-    found = json.loads(capsys.readouterr().out)
-    assert [outcome["passed"] for outcome in found["outcomes"]] == [False]
-    assert found["left"] == 2
+    assert main([*values, *(word for name in names for word in ("--case", name))]) == 1
+    result = json.loads(capsys.readouterr().out)
+    assert [outcome["passed"] for outcome in result["outcomes"]] == [False]
+    assert result["left"] == 2
 
 
 def _slower(bench, program):
@@ -185,8 +185,8 @@ def _slower(bench, program):
 
 
 def _elsewhere(bench, program):
-    first, *rest = program
-    return in_rapid(bench, [replace(first, joints=changed(first.joints, 1, 0.3149)), *rest])
+    first, *remaining = program
+    return in_rapid(bench, [replace(first, joints=changed(first.joints, 1, 0.3149)), *remaining])
 
 
 @pytest.mark.parametrize(
@@ -195,8 +195,8 @@ def _elsewhere(bench, program):
 )
 def test_a_program_that_moves_otherwise_is_found_and_replayed(monkeypatch, capsys, otherwise, told):
     monkeypatch.setattr("rapidgen.verification.raw_programs.in_rapid", otherwise)
-    words = ["test", "irb120", "--case", "hello", "--quick", "--seeds", "0", "--programs", "1"]
-    assert main([*words, "--jobs", "1"]) == 1
+    values = ["test", "irb120", "--case", "hello", "--quick", "--seeds", "0", "--programs", "1"]
+    assert main([*values, "--jobs", "1"]) == 1
     printed = capsys.readouterr().out
     assert told in printed
     assert "rapidgen test irb120 --replay program/0 --record story.mcap" in printed
@@ -245,7 +245,7 @@ def test_results_of_something_else_are_not_gone_on_with(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("words", "code"),
+    ("values", "code"),
     [
         (["--budget", "30"], "RG806"),
         (["--budget", "soon"], "RG806"),
@@ -253,8 +253,8 @@ def test_results_of_something_else_are_not_gone_on_with(tmp_path):
         (["--results", "no/such/folder"], "RG803"),
     ],
 )
-def test_limits_that_are_none_are_refused(words, code, capsys):
-    assert main(["test", "irb120", "--quick", "--case", "ping", *words]) == 2
+def test_limits_that_are_none_are_refused(values, code, capsys):
+    assert main(["test", "irb120", "--quick", "--case", "ping", *values]) == 2
     assert code in capsys.readouterr().err
 
 

@@ -22,16 +22,16 @@ from rapidgen.verification.cluster import Cluster, rejection_reason
 SIX_AXES = load_config("irb120")
 
 
-def dask(*words):
+def dask(*values):
     """A command of Dask, and its first line that names an address."""
-    command = [sys.executable, "-m", "dask", *words, "--no-dashboard"]
+    command = [sys.executable, "-m", "dask", *values, "--no-dashboard"]
     process = subprocess.Popen(
         command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
     )
     for line in process.stderr:
-        found = re.search(r"(?:Scheduler|worker) at: +(tcp://\S+)", line)
-        if found:
-            return process, found[1]
+        match = re.search(r"(?:Scheduler|worker) at: +(tcp://\S+)", line)
+        if match:
+            return process, match[1]
     raise AssertionError("it has ended")
 
 
@@ -55,8 +55,8 @@ def hired(scheduler):
 
     def hire(count):
         for _ in range(count):
-            words = ("worker", scheduler, "--nthreads", "1", "--no-nanny")
-            processes.append(dask(*words)[0])
+            values = ("worker", scheduler, "--nthreads", "1", "--no-nanny")
+            processes.append(dask(*values)[0])
         return processes
 
     yield hire
@@ -82,26 +82,26 @@ def ends_its_engine_once(path, number):
 
 def test_the_results_are_those_of_this_machine(scheduler, hired, tmp_path):
     hired(2)
-    said = []
-    here, there = tmp_path / "here.jsonl", tmp_path / "there.jsonl"
-    found = [
+    message = []
+    here, target = tmp_path / "here.jsonl", tmp_path / "there.jsonl"
+    result = [
         run_suite(SIX_AXES, jobs=2, only=FEW, strength=0, results=here),
         run_suite(
             SIX_AXES,
-            hire=lambda driver: Cluster(scheduler, driver, said.append),
+            hire=lambda driver: Cluster(scheduler, driver, message.append),
             only=FEW,
             strength=0,
-            results=there,
+            results=target,
         ),
     ]
-    assert told(found[0]) == told(found[1])
-    assert here.read_bytes() == there.read_bytes()
-    assert said == []
+    assert told(result[0]) == told(result[1])
+    assert here.read_bytes() == target.read_bytes()
+    assert message == []
 
 
 def test_schedules_are_those_of_this_machine(scheduler, hired, tmp_path):
     hired(2)
-    here, there = tmp_path / "here.jsonl", tmp_path / "there.jsonl"
+    here, target = tmp_path / "here.jsonl", tmp_path / "there.jsonl"
     run_suite(SIX_AXES, seeds=4, jobs=1, cases=False, strength=0, results=here)
     run_suite(
         SIX_AXES,
@@ -109,25 +109,25 @@ def test_schedules_are_those_of_this_machine(scheduler, hired, tmp_path):
         strength=0,
         hire=lambda driver: Cluster(scheduler, driver, print),
         cases=False,
-        results=there,
+        results=target,
     )
-    assert there.read_bytes() == here.read_bytes()
+    assert target.read_bytes() == here.read_bytes()
 
 
 @pytest.mark.parametrize("function", [ends_its_worker_once, ends_its_engine_once])
 def test_a_worker_that_is_killed_in_the_middle_loses_nothing(scheduler, hired, tmp_path, function):
     hired(2)
-    said = []
-    with Cluster(scheduler, tmp_path / "was-killed", said.append) as workers:
+    message = []
+    with Cluster(scheduler, tmp_path / "was-killed", message.append) as workers:
         assert list(each(workers, range(12), function)) == list(range(12))
     assert (tmp_path / "was-killed").exists()
-    assert any("was lost: what it was at is done again" in line for line in said)
+    assert any("was lost: what it was at is done again" in line for line in message)
 
 
 def test_a_worker_that_comes_later_works_too(scheduler, hired):
     hired(1)
-    said = []
-    with Cluster(scheduler, None, said.append) as workers:
+    message = []
+    with Cluster(scheduler, None, message.append) as workers:
         before = list(each(workers, range(4), double))
         (first,) = hired(1)[:1]
         first.kill()
@@ -154,8 +154,8 @@ def test_a_cluster_without_workers_is_refused(scheduler, monkeypatch):
 
 def test_nobody_at_the_address_is_refused(monkeypatch, capsys):
     monkeypatch.setattr("rapidgen.verification.cluster.CONNECTS", 0.5)
-    words = ["test", "irb120", "--quick", "--case", "ping", "--cluster", "tcp://127.0.0.1:1"]
-    assert main(words) == 2
+    values = ["test", "irb120", "--quick", "--case", "ping", "--cluster", "tcp://127.0.0.1:1"]
+    assert main(values) == 2
     assert "RG808" in capsys.readouterr().err
 
 

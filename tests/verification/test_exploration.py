@@ -89,15 +89,15 @@ def test_a_schedule_without_a_name_is_refused(text, capsys):
 
 def test_what_is_left_of_a_schedule_is_drawn_as_before():
     ground = ground_of(SMALL, small_driver())
-    whole, part = drawn(named("17~4"), ground), drawn(named("17~4/steps=1/turns/calm"), ground)
-    assert part.steps == whole.steps[1:2]
-    assert (part.order, part.network, part.seed) == ("turns", "good", whole.seed)
+    complete, part = drawn(named("17~4"), ground), drawn(named("17~4/steps=1/turns/calm"), ground)
+    assert part.steps == complete.steps[1:2]
+    assert (part.order, part.network, part.seed) == ("turns", "good", complete.seed)
 
 
 @pytest.mark.parametrize(
     ("seed", "told"), [("0", "while nothing disturbs it: length"), ("7", "length")]
 )
-def test_bytes_that_are_no_message_are_a_finding(seed, told):
+def test_bytes_that_are_no_message_are_a_finding(seed, reply):
     """Also where they come before a history begins: to whoever looks what the driver executes."""
     system = make_system(SIX_AXES, build(SIX_AXES))
     modules = [module for task in system.tasks for module in task.modules]
@@ -108,7 +108,7 @@ def test_bytes_that_are_no_message_are_a_finding(seed, told):
     system = with_module(system, sends.path, broken)
     finding = explore(SIX_AXES, system, seed, only=("stopped",)).finding
     assert finding is not None
-    assert finding.detail.startswith(told)
+    assert finding.detail.startswith(reply)
 
 
 def test_nothing_is_found_without_a_defect():
@@ -133,9 +133,9 @@ def test_a_schedule_is_the_same_when_it_is_traced_and_recorded(seed, tmp_path):
     system = make_system(SIX_AXES, build(SIX_AXES))
     story, path = io.StringIO(), tmp_path / "story.mcap"
     watched = explore(SIX_AXES, system, seed, trace=story, record=partial(record, path=path))
-    told = io.StringIO()
-    assert watched == explore(SIX_AXES, system, seed, trace=told)
-    assert story.getvalue() == told.getvalue()
+    reply = io.StringIO()
+    assert watched == explore(SIX_AXES, system, seed, trace=reply)
+    assert story.getvalue() == reply.getvalue()
     assert watched == explore(SIX_AXES, system, seed)
     assert re.search(r" T_ROB1 +ROS_motion/", story.getvalue())
     with RecordingFile(path) as recording:
@@ -148,20 +148,20 @@ def test_a_copy_of_a_kept_controller_does_what_one_that_boots_does(name):
     driver = DriverUnderTest(SIX_AXES, make_system(SIX_AXES, build(SIX_AXES)))
     alone = explore(SIX_AXES, driver.system, name)
     for other in ("9", name, name):
-        found = schedule(driver, other)
-    assert found == replace(alone, plan="")
+        result = schedule(driver, other)
+    assert result == replace(alone, plan="")
 
 
 def test_what_is_kept_is_for_settings_that_differ_in_chances_and_network_alone():
     system, fresh = small_driver(), BenchPool()
     slow = FaultPlan(network=(NetworkRule("delay", 11000, "in", seconds=0.1),))
-    kept, other = Setting(seed=1), Setting(seed=2, faults=slow)
-    fresh.keep(SMALL, system, kept)
+    saved, other = Setting(seed=1), Setting(seed=2, faults=slow)
+    fresh.keep(SMALL, system, saved)
     with fresh.take(SMALL, system, other) as bench, Bench(SMALL, system, other) as booted:
         assert bench.setting == booted.setting
         assert bench.controller.scheduler.seed == 2
-        first = fresh.take(SMALL, system, kept)
-        second = fresh.take(SMALL, system, replace(kept, switch_at_pers=True))
+        first = fresh.take(SMALL, system, saved)
+        second = fresh.take(SMALL, system, replace(saved, switch_at_pers=True))
         with first, second:
             assert first.controller is not bench.controller
             assert second.controller.options.switching
@@ -224,8 +224,8 @@ def test_a_schedule_is_made_smaller_as_long_as_the_same_demand_does_not_hold():
             None if tried.turns else Counterexample(str(tried), f"at {len(steps)}.5 s it moved", "")
         )
 
-    whole = run(named("7~2"))
-    assert smaller(named("7~2"), 4, whole, run) == Counterexample(
+    complete = run(named("7~2"))
+    assert smaller(named("7~2"), 4, complete, run) == Counterexample(
         "7~2/steps=1,3/calm", "at 2.5 s it moved", ""
     )
 
@@ -234,8 +234,8 @@ def test_a_race_in_its_smallest_schedule_is_still_there():
     driver = DriverUnderTest(SMALL, small_driver("R7a"))
     guide = ScheduleSelector(ground_of(SMALL, driver.system))
     names = (guide.name(number) for number in range(8))
-    found = (explore(SMALL, driver.system, name).finding for name in names)
-    finding = next(one for one in found if one is not None)
+    result = (explore(SMALL, driver.system, name).finding for name in names)
+    finding = next(one for one in result if one is not None)
     least = minimised(driver, finding)
     assert len(named(least.schedule).steps) == 2
     assert named(least.schedule).turns

@@ -160,13 +160,13 @@ def test_verdicts_are_the_same_whatever_the_workers_and_where_it_was_broken_off(
             campaign = Campaign(workers, results, Limits(), None)
             return [replace(verdict, elapsed=0) for verdict in campaign.run(work)]
 
-    whole, two = tmp_path / "one.jsonl", tmp_path / "two.jsonl"
-    found = judge_all(whole, 1)
-    assert {v.by for v in found} > {""}
-    assert [(v.path, v.line) for v in found] == [(m.path, m.line) for m in some]
-    two.write_bytes(b"".join(whole.read_bytes().splitlines(keepends=True)[:4]))
-    assert judge_all(two, 2, resume=True) == found
-    assert two.read_bytes() == whole.read_bytes()
+    complete, two = tmp_path / "one.jsonl", tmp_path / "two.jsonl"
+    result = judge_all(complete, 1)
+    assert {v.by for v in result} > {""}
+    assert [(v.path, v.line) for v in result] == [(m.path, m.line) for m in some]
+    two.write_bytes(b"".join(complete.read_bytes().splitlines(keepends=True)[:4]))
+    assert judge_all(two, 2, resume=True) == result
+    assert two.read_bytes() == complete.read_bytes()
 
 
 def test_a_worker_with_another_checkout_is_refused(given):
@@ -177,8 +177,8 @@ def test_a_worker_with_another_checkout_is_refused(given):
 
 def test_a_mutant_differs_in_one_place_and_is_still_rapid():
     data = file_of("ROS_motion").data
-    found = list(mutants(data, "ROS_motion.mod"))
-    assert len(found) > 60
-    for mutant in found:
+    result = list(mutants(data, "ROS_motion.mod"))
+    assert len(result) > 60
+    for mutant in result:
         assert mutant.text != data
         assert not parse(mutant.text).diagnostics, mutant.change

@@ -19,18 +19,18 @@ ENUMS = (
 
 def some(layout, chance):
     """Values for a layout that every field can hold."""
-    found = []
+    failures = []
     for field in layout.split():
         count = int(field[:-1] or 1)
         if field[-1] == "s":
-            found.append("".join(chance.choice("0123456789abcdef") for _ in range(count)))
+            failures.append("".join(chance.choice("0123456789abcdef") for _ in range(count)))
             continue
         values = [
             chance.randrange(1000) if field[-1] == "i" else chance.randrange(64) / 8
             for _ in range(count)
         ]
-        found.append(values[0] if count == 1 else tuple(values))
-    return found
+        failures.append(values[0] if count == 1 else tuple(values))
+    return failures
 
 
 @pytest.mark.parametrize(

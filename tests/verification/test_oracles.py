@@ -111,16 +111,16 @@ def test_a_stream_that_is_refused_in_between_is_seen(bench):
 def test_confirmations_of_the_control_port_are_told_apart():
     control.done(messages.RawAcknowledged(), "PAUSE")
     control.not_done(messages.RawNotDone(RawReason.IDLE), RawReason.IDLE, "PAUSE")
-    for told in (messages.RawNotDone(RawReason.IDLE), messages.RawFailure(), None):
+    for reply in (messages.RawNotDone(RawReason.IDLE), messages.RawFailure(), None):
         with red("PAUSE"):
-            control.done(told, "PAUSE")
-    for told in (
+            control.done(reply, "PAUSE")
+    for reply in (
         messages.RawNotDone(RawReason.BAD_VALUE),
         messages.RawFailure(),
         messages.RawAcknowledged(),
     ):
         with red("wanted IDLE"):
-            control.not_done(told, RawReason.IDLE, "PAUSE")
+            control.not_done(reply, RawReason.IDLE, "PAUSE")
 
 
 def test_a_stop_that_is_not_confirmed_is_seen(bench):
@@ -150,13 +150,13 @@ def test_what_a_table_shows_counts(bench):
     table.ask()
     nothing = messages.RawRefused(0, -1, 0)
     table.shows(RawTrajectoryState.RECEIVING, 1, nothing)
-    for state, received, told in (
+    for state, received, reply in (
         (RawTrajectoryState.MOVING, 1, nothing),
         (RawTrajectoryState.RECEIVING, 2, nothing),
         (RawTrajectoryState.RECEIVING, 1, messages.RawRefused(4, 0, 1)),
     ):
         with red("PROGRESS says"):
-            table.shows(state, received, told)
+            table.shows(state, received, reply)
     table.number += 1
     with red("PROGRESS says"):
         table.shows(RawTrajectoryState.RECEIVING, 1, nothing)
@@ -215,7 +215,7 @@ def test_steps_in_their_order_and_time_are_good(bench):
 
 
 @pytest.mark.parametrize(
-    "told",
+    "reply",
     [
         TOLD[:2],
         TOLD[1:],
@@ -227,9 +227,9 @@ def test_steps_in_their_order_and_time_are_good(bench):
     ],
     ids=["not done", "late", "order", "back", "counts", "early", "slow"],
 )
-def test_steps_out_of_order_or_time_are_seen(bench, told):
+def test_steps_out_of_order_or_time_are_seen(bench, reply):
     with red("is told|never told|told to be"):
-        motion_task._in_order(bench, 0.0, told, STEPS)
+        motion_task._in_order(bench, 0.0, reply, STEPS)
 
 
 def test_a_trajectory_that_is_not_told_to_be_done_is_seen(bench):
@@ -266,12 +266,12 @@ def test_a_stay_and_a_slow_way_are_read_from_the_record(bench):
     assert boundary_values._stood_at(record, B, -1.0, 2.0)
     assert not boundary_values._stood_at(record, B, -1.0, 2.5)
     assert not boundary_values._stood_at(record, (0.5, 0.5), -1.0, 0.1)
-    way = SimpleNamespace(track=along(A, B))
-    boundary_values._slow_to(way, B, 0.0, 1.0)
+    path = SimpleNamespace(track=along(A, B))
+    boundary_values._slow_to(path, B, 0.0, 1.0)
     with red("faster than"):
-        boundary_values._slow_to(way, B, 0.0, 0.5)
+        boundary_values._slow_to(path, B, 0.0, 0.5)
     with red("was left out"):
-        boundary_values._slow_to(way, C, 0.0, 1.0)
+        boundary_values._slow_to(path, C, 0.0, 1.0)
 
 
 def test_a_motion_that_begins_late_is_seen(bench):
@@ -348,19 +348,19 @@ def test_what_clients_are_told_is_compared(bench):
 def test_what_a_round_tells_has_to_be_true(bench, which, field, value, what):
     link = bench.watcher()
     bench.run(1)
-    told = state_port.rounds(link, bench.now - 0.5)[1:]
-    state_port._is_true(bench, told)
-    for one in told:
+    reply = state_port.rounds(link, bench.now - 0.5)[1:]
+    state_port._is_true(bench, reply)
+    for one in reply:
         for at, frame in enumerate(one.frames):
             if frame.number == which:
                 content = messages.decode(frame)._replace(**{field: value})
                 raw = messages.encode(content)
                 one.frames[at] = frame._replace(data=raw[16:])
     if what is None:
-        state_port._is_true(bench, told)
+        state_port._is_true(bench, reply)
         return
     with red(what):
-        state_port._is_true(bench, told)
+        state_port._is_true(bench, reply)
 
 
 # -- orders, zones --------------------------------------------------------------------------------
@@ -397,14 +397,14 @@ def test_an_order_behind_a_stop_is_seen(given):
 
 
 def test_orders_are_heard(bench):
-    heard = watched_orders(bench)
+    received = watched_orders(bench)
     link = bench.motion()
-    bench.sets_off(link, bench.wave(6), 0.3)
-    assert {o.instruction for o in heard if o.free} == {"MoveAbsJ"}
+    bench.start_motion(link, bench.wave(6), 0.3)
+    assert {o.instruction for o in received if o.free} == {"MoveAbsJ"}
     link.send(STOP)
     bench.run(0.5)
-    assert "StopMove" in {o.instruction for o in heard}
-    assert [o.time for o in heard] == sorted(o.time for o in heard)
+    assert "StopMove" in {o.instruction for o in received}
+    assert [o.time for o in received] == sorted(o.time for o in received)
 
 
 def test_an_instruction_fails_as_often_as_told(bench):
@@ -413,13 +413,13 @@ def test_an_instruction_fails_as_often_as_told(bench):
     at_call(bench, "ROS_motion", "ClearPath", 3, lambda: calls.append(bench.now))
     link = bench.motion()
     for _ in range(2):
-        bench.sets_off(link, bench.wave(6))
+        bench.start_motion(link, bench.wave(6))
         link.send(STOP)
         bench.wait_until_standing()
         bench.run(1)
     assert len(calls) == 1
     end()
-    bench.healthy()
+    bench.assert_healthy()
 
 
 def test_zones_are_compared_in_each_part():

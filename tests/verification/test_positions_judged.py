@@ -83,10 +83,10 @@ def test_what_is_no_prefix_of_the_path_is_seen(seen):
 
 
 def test_a_point_that_is_left_out_is_seen():
-    way = [A, (0.5, 0.5), B]
-    position_checks.on_path(along(*way), way)
+    path = [A, (0.5, 0.5), B]
+    position_checks.on_path(along(*path), path)
     with red("off what was asked"):
-        position_checks.on_path(along(A, B), way)
+        position_checks.on_path(along(A, B), path)
 
 
 def test_what_a_robot_did_is_looked_at_from_a_time_on(bench):
@@ -121,15 +121,15 @@ def test_one_that_was_elsewhere_for_a_moment_is_not(place):
 
 
 def test_a_robot_that_moves_does_not_stay(bench):
-    bench.stays(1, "nobody asked for motion")
+    bench.assert_at_rest(1, "nobody asked for motion")
     points = bench.wave(3)
     back = [(p, 0.4) for p, _ in points[-2::-1]]
     bench.motion().send(bench.download([*points, *back]))
     # It is where it was when the time is over: what counts is what happened meanwhile.
     with red("nobody asked for motion"):
-        bench.stays(5, "nobody asked for motion")
+        bench.assert_at_rest(5, "nobody asked for motion")
     assert position_checks.distance(bench.position, points[0][0]) < position_checks.SETTLED
-    bench.stays(5, "its trajectory is over")
+    bench.assert_at_rest(5, "its trajectory is over")
 
 
 def test_a_robot_that_waits_is_told_from_one_that_moves(bench):
@@ -155,10 +155,10 @@ def test_a_robot_that_waits_is_told_from_one_that_moves(bench):
 
 
 def test_a_trajectory_that_is_not_executed_is_seen(bench):
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
     bench.controller.perform("stop")
     with red("reaches the last point"):
-        bench.moves_through(bench.motion(), bench.wave(3))
+        bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 def test_one_that_takes_too_long_is_seen(bench):
@@ -166,33 +166,33 @@ def test_one_that_takes_too_long_is_seen(bench):
     slower = bench.download([(p, 4 * d) for p, d in points])
     bench.download = lambda _points: slower
     with red("2.00 s of motion took 8"):
-        bench.moves_through(link, points)
+        bench.assert_moves_through(link, points)
 
 
 def test_one_that_is_executed_on_another_way_is_seen(bench):
     link, points = bench.motion(), bench.wave(6)
-    there = points[-1][0]
+    target = points[-1][0]
     elsewhere = bench.download(
-        [points[0], (position_checks.changed(there, 0, -0.2), 1.0), (there, 1.0)]
+        [points[0], (position_checks.changed(target, 0, -0.2), 1.0), (target, 1.0)]
     )
     bench.download = lambda _points: elsewhere
     with red("off what was asked"):
-        bench.moves_through(link, points)
+        bench.assert_moves_through(link, points)
 
 
 def test_one_of_which_the_controller_complains_is_seen(bench):
     complains(bench, 50_024)
     with red("complains of the motion"):
-        bench.moves_through(bench.motion(), bench.wave(6))
+        bench.assert_moves_through(bench.motion(), bench.wave(6))
 
 
 def test_a_corner_is_excused_where_no_task_is_sure_of_its_turn_and_nothing_else(bench):
     bench.setting = assumed(["schedule=random", "costs=4.0", "planning_lead=0.02"])
     complains(bench, 50_024)
-    bench.moves_through(bench.motion(), bench.wave(6))
+    bench.assert_moves_through(bench.motion(), bench.wave(6))
     complains(bench, 50_078)
     with red("complains of the motion"):
-        bench.moves_through(bench.motion(), bench.wave(6))
+        bench.assert_moves_through(bench.motion(), bench.wave(6))
 
 
 def complains(bench, code):
@@ -204,9 +204,9 @@ def complains(bench, code):
 
 
 def test_a_task_that_has_ended_is_not_healthy(bench):
-    bench.healthy()
+    bench.assert_healthy()
     fails(bench, "ROS_motion", "WaitTime", "ERR_OUTOFBND", 9)
     fails(bench, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
     bench.run(1)
     with red("T_ROS_SUP ended with an error"):
-        bench.healthy()
+        bench.assert_healthy()

@@ -40,9 +40,9 @@ def run(path, dialect):
 @pytest.mark.parametrize(("name", "value"), CASES)
 def test_an_answer_is_the_switch(name, value, tmp_path):
     set_so = replace(Switches(), **{name: value})
-    told = answers(TEXT, tmp_path / PROBE.name, partial(run, dialect=set_so))
-    assert len(told) == len(ASKED)
-    assert set(told) == {said(asked, getattr(set_so, asked)) for asked in ASKED}
+    reply = answers(TEXT, tmp_path / PROBE.name, partial(run, dialect=set_so))
+    assert len(reply) == len(ASKED)
+    assert set(reply) == {said(asked, getattr(set_so, asked)) for asked in ASKED}
 
 
 @pytest.mark.parametrize("value", [True, False])

@@ -43,9 +43,9 @@ def run(path, settings, places, consent="Yes"):
 @pytest.mark.parametrize(("name", "value"), CASES)
 def test_an_answer_is_the_switch(name, value, tmp_path):
     settings, places = replace(MotionSettings(), **{name: value}), []
-    told = answers(TEXT, tmp_path / PROBE.name, partial(run, settings=settings, places=places))
-    assert len(told) == len(ASKED)
-    assert set(told) == {said(asks, getattr(settings, asks)) for asks in ASKED}
+    reply = answers(TEXT, tmp_path / PROBE.name, partial(run, settings=settings, places=places))
+    assert len(reply) == len(ASKED)
+    assert set(reply) == {said(asks, getattr(settings, asks)) for asks in ASKED}
     assert max(places) < 0.19
     assert min(places) > -0.01
 

@@ -35,15 +35,15 @@ def answers(texts):
 
 def missing(array, strength=2):
     """Combinations of answers that no row has, from the questions themselves."""
-    asked = {n: [said(n, a).partition("=")[2] for a in own] for n, own in questions().items()}
-    found = {
+    requested = {n: [said(n, a).partition("=")[2] for a in own] for n, own in questions().items()}
+    result = {
         tuple(zip(names, met, strict=True))
-        for names in combinations(asked, strength)
-        for met in product(*(asked[name] for name in names))
+        for names in combinations(requested, strength)
+        for met in product(*(requested[name] for name in names))
     }
     for texts in array:
-        found -= set(combinations(answers(texts).items(), strength))
-    return found
+        result -= set(combinations(answers(texts).items(), strength))
+    return result
 
 
 def test_any_two_answers_meet():
@@ -78,7 +78,7 @@ def test_an_array_covers_and_is_always_the_same(strength):
     factors: Mapping[str, str] = {"a": "xy", "b": "xyz", "c": "xy", "d": "wxyz", "e": "xy"}
     array = covering(factors, strength)
     assert array == covering(factors, strength)
-    met = {found for row in array for found in combinations(row.items(), strength)}
+    met = {result for row in array for result in combinations(row.items(), strength)}
     wanted = {
         tuple(zip(names, values, strict=True))
         for names in combinations(factors, strength)
@@ -106,9 +106,9 @@ def test_every_switch_is_asked_or_left_out_by_name():
 def test_an_assumption_is_made(name):
     """Every answer makes another setting, and the first one the default."""
     texts = [said(name, answer) for answer in questions()[name]]
-    found = [assumed([text]) for text in texts]
-    assert found[0] == Setting()
-    assert all(a != b for a, b in combinations(found, 2))
+    result = [assumed([text]) for text in texts]
+    assert result[0] == Setting()
+    assert all(a != b for a, b in combinations(result, 2))
 
 
 @pytest.mark.parametrize("texts", ["setle=0.2", "settle=0.3", "settle", "seed=x", ","])
@@ -136,8 +136,8 @@ def test_what_explains_one_row_explains_others():
         tried.append(part)
         return {"a", "b"} <= set(part)
 
-    found = minimal_assumptions({"1": "abcd", "2": "fbga", "3": "ba"}, breaks)
-    assert {name: set(part) for name, part in found.items()} == {key: {"a", "b"} for key in "123"}
+    result = minimal_assumptions({"1": "abcd", "2": "fbga", "3": "ba"}, breaks)
+    assert {name: set(part) for name, part in result.items()} == {key: {"a", "b"} for key in "123"}
     before = len(tried)
     minimal_assumptions({"1": "abcd"}, breaks)
     assert len(tried) == 2 * before

@@ -185,8 +185,8 @@ def test_the_exploration_replays_exactly():
 
 def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
     junit, html = tmp_path / "r.xml", tmp_path / "r.html"
-    words = ["test", "irb120", "--quick", "--jobs", "1", "--case", "whole-trajectory"]
-    assert main([*words, "--junit", str(junit), "--html", str(html)]) == 0
+    values = ["test", "irb120", "--quick", "--jobs", "1", "--case", "whole-trajectory"]
+    assert main([*values, "--junit", str(junit), "--html", str(html)]) == 0
     assert "everything held" in capsys.readouterr().out
     suite = ElementTree.parse(junit).getroot()[0]
     assert suite.get("failures") == "0"
@@ -220,9 +220,9 @@ def test_the_cases_are_listed(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert "  hello " in "\n".join(lines)
     assert main(["test", "irb120", "--list", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert [case["case"] for case in told] == [case.name for case in CASES]
-    assert len(lines) == len(told) + len({case["group"] for case in told})
+    reply = json.loads(capsys.readouterr().out)
+    assert [case["case"] for case in reply] == [case.name for case in CASES]
+    assert len(lines) == len(reply) + len({case["group"] for case in reply})
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
@@ -232,11 +232,11 @@ def test_a_run_that_is_broken_off_reports_what_it_saw(jobs, monkeypatch, capsys)
             raise KeyboardInterrupt
 
     monkeypatch.setattr("rapidgen.cli.progress.Bars._step", interrupted)
-    words = ["--case", "hello", "--case", "single-point", "--quick", "--jobs", jobs, "--json"]
-    assert main(["test", "irb120", *words]) == 130
-    told = json.loads(capsys.readouterr().out)
-    assert [outcome["passed"] for outcome in told["outcomes"]] == [True]
-    assert (told["broken_off"], told["passed"]) == (True, False)
+    values = ["--case", "hello", "--case", "single-point", "--quick", "--jobs", jobs, "--json"]
+    assert main(["test", "irb120", *values]) == 130
+    reply = json.loads(capsys.readouterr().out)
+    assert [outcome["passed"] for outcome in reply["outcomes"]] == [True]
+    assert (reply["broken_off"], reply["passed"]) == (True, False)
 
 
 def test_the_table_of_faults_names_cases_that_exist():
@@ -264,8 +264,8 @@ EXAMPLES = sorted((Path(__file__).parents[2] / "robots" / "examples").glob("*.ya
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_example_can_be_proven(path, capsys):
     """One commissions, one has a main of its own, one several groups."""
-    words = ["test", str(path), "--quick", "--case", "ping", "--case", "sent-meanwhile"]
-    assert main([*words, "--jobs", "2"]) == 0, capsys.readouterr().out
+    values = ["test", str(path), "--quick", "--case", "ping", "--case", "sent-meanwhile"]
+    assert main([*values, "--jobs", "2"]) == 0, capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -283,10 +283,10 @@ def test_every_example_can_be_proven(path, capsys):
         ("irb120-rw6", "own-main", ("--set", "commissioning=true")),
     ],
 )
-def test_a_case_holds_on_robots_and_configurations_unlike_others(name, case, words, capsys):
+def test_a_case_holds_on_robots_and_configurations_unlike_others(name, case, values, capsys):
     path = next(str(path) for path in EXAMPLES if path.stem == name)
-    words = ["test", path, "--quick", "--jobs", "1", "--case", case, *words]
-    assert main(words) == 0, capsys.readouterr().out
+    values = ["test", path, "--quick", "--jobs", "1", "--case", case, *values]
+    assert main(values) == 0, capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -302,17 +302,17 @@ def test_a_case_that_has_nothing_to_prove_is_not_said_to_hold(
     override, case, why, tmp_path, capsys
 ):
     report = tmp_path / "r.xml"
-    words = ["test", "irb120", "--set", override, "--quick", "--jobs", "1", "--case"]
-    assert main([*words, case, "--junit", str(report)]) == 2
-    told = capsys.readouterr()
-    assert "RG811" in told.err
-    assert why in told.err
-    assert "held" not in told.out
+    values = ["test", "irb120", "--set", override, "--quick", "--jobs", "1", "--case"]
+    assert main([*values, case, "--junit", str(report)]) == 2
+    reply = capsys.readouterr()
+    assert "RG811" in reply.err
+    assert why in reply.err
+    assert "held" not in reply.out
     assert not report.exists()
-    assert main([*words, case, "--case", "ping", "--junit", str(report)]) == 0
-    told = capsys.readouterr().out
-    assert f"nothing to prove: {why}" in told
-    assert re.findall(r"^ (\w+) +(\d+) +(\d+)", told, re.MULTILINE) == [("compatible", "1", "1")]
+    assert main([*values, case, "--case", "ping", "--junit", str(report)]) == 0
+    reply = capsys.readouterr().out
+    assert f"nothing to prove: {why}" in reply
+    assert re.findall(r"^ (\w+) +(\d+) +(\d+)", reply, re.MULTILINE) == [("compatible", "1", "1")]
     suite = ElementTree.parse(report).getroot()[0]
     assert (suite.get("skipped"), len(suite.findall("testcase/skipped"))) == ("1", 1)
 
@@ -322,6 +322,6 @@ def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch
         raise refusal("RG402", None, "no main", "write one")
 
     monkeypatch.setattr("rapidgen.verification.suite_runner.in_its_cell", at_fault)
-    words = ["test", "irb120", "--set", "main=own", "--quick", "--case", "ping", "--jobs", "2"]
-    assert main(words) == 2
+    values = ["test", "irb120", "--set", "main=own", "--quick", "--case", "ping", "--jobs", "2"]
+    assert main(values) == 2
     assert "RG402" in capsys.readouterr().err

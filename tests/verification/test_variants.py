@@ -134,8 +134,8 @@ def test_what_a_configuration_asks_for(name):
 
 def test_a_signal_that_the_controller_does_not_have_is_refused_the_others_work():
     config, system = configured(*SIGNALS)
-    there = tuple(s for s in system.signals if s.name not in ("valve", "weight"))
-    assert broken(config, replace(system, signals=there), ["signals", "stop-on-path"]) == {}
+    target = tuple(s for s in system.signals if s.name not in ("valve", "weight"))
+    assert broken(config, replace(system, signals=target), ["signals", "stop-on-path"]) == {}
 
 
 @pytest.mark.parametrize("name", CONTROLLERS)

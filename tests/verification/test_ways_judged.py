@@ -63,10 +63,10 @@ def test_what_is_left_out_is_seen():
 
 
 def test_a_way_that_crosses_itself_is_followed_in_its_order():
-    there = np.array([[0.4 - n / 1000, 0.0, 0.0] for n in range(401)])
-    beside = np.array([[0.4, n / 1000, 0.0] for n in range(201)])
-    way = np.concatenate([LINE, beside, beside[::-1], there])
-    assert farthest(np.concatenate([LINE, there]), way) > 0.05
+    target = np.array([[0.4 - n / 1000, 0.0, 0.0] for n in range(401)])
+    adjacent = np.array([[0.4, n / 1000, 0.0] for n in range(201)])
+    path = np.concatenate([LINE, adjacent, adjacent[::-1], target])
+    assert farthest(np.concatenate([LINE, target]), path) > 0.05
 
 
 def test_where_one_did_not_move_everything_is_off():

@@ -18,8 +18,8 @@ PATIENCE = 60.0
 @contextmanager
 def simulator(*arguments, environment=None):
     """`rapidgen sim ... --view` in a process of its own; what `ready` says, and the process."""
-    with served("sim", *arguments, "--ports", "auto", "--view", environment=environment) as found:
-        yield found
+    with served("sim", *arguments, "--ports", "auto", "--view", environment=environment) as result:
+        yield result
 
 
 @contextmanager

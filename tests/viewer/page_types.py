@@ -14,8 +14,8 @@ _HEAD = (
 
 def made() -> str:
     """The text of messages.ts."""
-    whole = TypeAdapter(ToPage | PageRequest | Answer).json_schema(mode="serialization")["$defs"]
-    parts = [_HEAD, *(_interface(name, whole[name]) for name in sorted(whole))]
+    complete = TypeAdapter(ToPage | PageRequest | Answer).json_schema(mode="serialization")["$defs"]
+    parts = [_HEAD, *(_interface(name, complete[name]) for name in sorted(complete))]
     parts += [_union("ToPage", ToPage), _union("Request", Request)]
     return "\n".join(parts)
 

@@ -80,8 +80,8 @@ def test_everything_is_reached_by_the_keyboard(irb120, open_page):
     until(page, STATE)
     page.get_by_role("tab", name="Pendant").focus()
     for tab in TABS:
-        shown = page.get_by_role("tab", name=tab)
-        assert shown.get_attribute("aria-selected") == "true"
+        displayed = page.get_by_role("tab", name=tab)
+        assert displayed.get_attribute("aria-selected") == "true"
         wanted = page.evaluate(
             "() => { const all = [...document.querySelectorAll('button, input, select, canvas')]"
             ".filter(e => e.checkVisibility() && !e.disabled && e.tabIndex >= 0);"
@@ -103,7 +103,7 @@ def test_everything_is_reached_by_the_keyboard(irb120, open_page):
         page.evaluate(
             "document.querySelectorAll('[data-wanted]').forEach(e => { delete e.dataset.wanted })"
         )
-        shown.focus()
+        displayed.focus()
         page.keyboard.press("ArrowRight")
 
 

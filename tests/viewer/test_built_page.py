@@ -69,27 +69,27 @@ def lacking(*paths):
 
 
 def test_an_archive_without_the_page_is_no_release(tmp_path):
-    whole = dict.fromkeys(FILES, b"x")
-    wheel = archive(tmp_path / "a.whl", whole)
-    source = archive(tmp_path / "a.tar.gz", whole)
+    complete = dict.fromkeys(FILES, b"x")
+    wheel = archive(tmp_path / "a.whl", complete)
+    source = archive(tmp_path / "a.tar.gz", complete)
     assert lacking(wheel, source) is None
     for name in FILES:
-        without = {other: data for other, data in whole.items() if other != name}
+        without = {other: data for other, data in complete.items() if other != name}
         assert f"b.whl has no rapidgen/viewer/assets/{name}" in lacking(
             wheel, archive(tmp_path / "b.whl", without)
         )
     for name in ("c.tar.gz", "c.whl"):
-        empty = archive(tmp_path / name, {**whole, "page.js": b""})
+        empty = archive(tmp_path / name, {**complete, "page.js": b""})
         assert f"{name} has no rapidgen/viewer/assets/page.js" in lacking(empty, wheel)
     assert "no file is named" in lacking()
 
 
 def test_a_release_looks_for_the_page_in_all_that_it_has_built():
-    told = (ROOT / ".ci" / "release").read_text(encoding="utf-8").splitlines()
-    (asked,) = (number for number, line in enumerate(told) if "has_page" in line)
-    assert told[asked] == '"$bin/python" .ci/has_page dist/*.whl dist/*.tar.gz'
-    assert "-m build" in told[asked - 1]
-    assert told[1:4].count("set -euo pipefail") == 1
+    text = (ROOT / ".ci" / "release").read_text(encoding="utf-8").splitlines()
+    (requested,) = (number for number, line in enumerate(text) if "has_page" in line)
+    assert text[requested] == '"$bin/python" .ci/has_page dist/*.whl dist/*.tar.gz'
+    assert "-m build" in text[requested - 1]
+    assert text[1:4].count("set -euo pipefail") == 1
 
 
 def test_what_is_looked_for_is_what_is_built():

@@ -85,7 +85,7 @@ def test_refused_jog_is_not_executed_by_a_later_key(irb120, open_page):
         until(
             page,
             "[...document.querySelectorAll('.axis input, .place input')].map((e) => e.value)",
-            lambda shown: (shown[0], shown[1], shown[12]) == values,
+            lambda displayed: (displayed[0], displayed[1], displayed[12]) == values,
         )
     assert page.evaluate(axes) == before
     page.get_by_role("tab", name="Pendant").click()
@@ -178,8 +178,8 @@ def test_a_simulator_that_comes_back_is_found_again(open_page, monkeypatch):
 
 
 def test_a_browser_without_webgl_is_told(irb120, open_page):
-    blind = "HTMLCanvasElement.prototype.getContext = () => null"
-    page = open_page(irb120["view"], before=blind)
+    unmonitored = "HTMLCanvasElement.prototype.getContext = () => null"
+    page = open_page(irb120["view"], before=unmonitored)
     until(page, STATE)
     assert "no WebGL" in text(page, "main")
     until(page, "document.querySelector('header').innerText", lambda t: "Motors on" in t)

@@ -86,16 +86,16 @@ def test_a_running_connection_is_made_ill_and_well_again():
     inner.send(peer, b"before")
     passes(0.1)
     assert network.receive(own, 100) == b"before"
-    network.afflict(own, NetworkRule("delay", seconds=0.5))
+    network.inject_fault(own, NetworkRule("delay", seconds=0.5))
     inner.send(peer, b"late")
     passes(0.1)
-    network.afflict(own, NetworkRule("delay", seconds=0.0))
+    network.inject_fault(own, NetworkRule("delay", seconds=0.0))
     inner.send(peer, b"well")
     passes(0.1)
     assert network.receive(own, 100) is None
     passes(0.6)
     assert network.receive(own, 100) == b"latewell"
-    network.afflict(own, NetworkRule("silent"))
+    network.inject_fault(own, NetworkRule("silent"))
     inner.send(peer, b"lost")
     passes(1.0)
     assert network.receive(own, 100) is None
@@ -141,9 +141,9 @@ def test_a_box_shows_what_was_asked_until_that_is_answered(irb120, open_page):
         page.evaluate("message => told(message)", message)
 
     def answered(error):
-        (asked,) = page.evaluate("held.splice(0)")
-        told(type="reply", id=asked["id"], error=error, text="")
-        return asked["request"]["on"]
+        (requested,) = page.evaluate("held.splice(0)")
+        told(type="reply", id=requested["id"], error=error, text="")
+        return requested["request"]["on"]
 
     box.check()
     told(type="conversation", listening=False, lines=[])

@@ -32,8 +32,8 @@ def look(tmp_path, text):
 
 @pytest.mark.parametrize("name", CONFIGS)
 def test_the_flange_is_where_axes_says(tmp_path, name):
-    (group,), found = look(tmp_path, CONFIGS[name] % URDF)
-    drawing = found.of(group)
+    (group,), result = look(tmp_path, CONFIGS[name] % URDF)
+    drawing = result.of(group)
     tree = ElementTree.fromstring(drawing.urdf)
     assert len(list(tree.iter("visual"))) > 3
     assert drawing.flange == "flange"
@@ -80,14 +80,14 @@ def test_each_arm_draws_its_own_links_in_one_place(tmp_path):
         joints = ", ".join(f"yumi_joint_{i}_{side}: {{axis: {a}}}" for i, a in axes.items())
         text += f"  {side}: {{model: irb14050, joints: {{{joints}}}, "
         text += f"urdf: {{file: {URDF}/irb14000.urdf, tip: tool0_{side}}}}}\n"
-    groups, found = look(tmp_path, text)
+    groups, result = look(tmp_path, text)
     shapes = [
-        len(list(ElementTree.fromstring(found.of(group).urdf).iter("visual"))) for group in groups
+        len(list(ElementTree.fromstring(result.of(group).urdf).iter("visual"))) for group in groups
     ]
-    whole = len(list(ElementTree.parse(URDF / "irb14000.urdf").iter("visual")))
-    assert sum(shapes) == whole
+    complete = len(list(ElementTree.parse(URDF / "irb14000.urdf").iter("visual")))
+    assert sum(shapes) == complete
     assert min(shapes) > 6
-    drawings = [found.of(group) for group in groups]
+    drawings = [result.of(group) for group in groups]
     bases = [robot.base.position for robot in side_by_side(groups, drawings)]
     # The model's arm has a root of its own, in the shoulder of the body.
     feet = [
@@ -111,14 +111,14 @@ def test_what_is_not_to_be_had_is_said(tmp_path, monkeypatch):
     )
     (tmp_path / "big.stl").write_bytes(b"x" * 101)
     (tmp_path / "small.stl").write_bytes(b"x" * 100)
-    (group,), found = look(tmp_path, "model: irb120\nurdf: {file: arm.urdf}\n")
-    named = [m.get("filename") for m in ElementTree.fromstring(found.of(group).urdf).iter("mesh")]
-    assert named[1] == named[2] == next(iter(found.files))
+    (group,), result = look(tmp_path, "model: irb120\nurdf: {file: arm.urdf}\n")
+    named = [m.get("filename") for m in ElementTree.fromstring(result.of(group).urdf).iter("mesh")]
+    assert named[1] == named[2] == next(iter(result.files))
     assert [named[0], *named[3:]] == ["", "", ""]
-    assert found.files[named[1]] == b"x" * 100
-    assert len(found.faults) == 3
-    assert "larger" in found.faults[0]
-    assert str(tmp_path) not in found.of(group).urdf
+    assert result.files[named[1]] == b"x" * 100
+    assert len(result.faults) == 3
+    assert "larger" in result.faults[0]
+    assert str(tmp_path) not in result.of(group).urdf
 
 
 def test_meshes_together_have_a_limit_too_and_xml_of_others_declares_nothing(tmp_path, monkeypatch):
@@ -139,7 +139,11 @@ def test_meshes_together_have_a_limit_too_and_xml_of_others_declares_nothing(tmp
     monkeypatch.setattr("rapidgen.viewer.appearance.MOST", 200)
     assert meshes.beside("four.dae", tmp_path) == ""
     assert meshes.beside("../gone.stl", tmp_path) == meshes.beside("../gone.stl", tmp_path) == ""
-    said = ["two.stl is larger", "four.dae: it has a document type", "'../gone.stl' is not there"]
-    assert len(meshes.faults) == len(said)
-    for fault, wanted in zip(meshes.faults, said, strict=True):
+    message = [
+        "two.stl is larger",
+        "four.dae: it has a document type",
+        "'../gone.stl' is not there",
+    ]
+    assert len(meshes.faults) == len(message)
+    for fault, wanted in zip(meshes.faults, message, strict=True):
         assert fault.startswith(wanted)

@@ -14,8 +14,8 @@ def test_every_shipped_model_has_a_drawing_with_its_joints():
             drawing = described(group)
             tree = ElementTree.fromstring(drawing.urdf)
             joints = {joint.get("name") for joint in tree.iter("joint")}
-            told = {step.joint for step in group.chain if step.joint}
-            assert told <= joints
+            text = {step.joint for step in group.chain if step.joint}
+            assert text <= joints
             assert drawing.flange in {link.get("name") for link in tree.iter("link")}
             assert len(drawing.values([0.0] * len(group.joints))) == len(drawing.movable)
 

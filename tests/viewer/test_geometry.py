@@ -70,12 +70,12 @@ def test_links_are_where_axes_says(stage, name):
         for postures in tried
     ]
     # All at once: each that is asked for alone would be drawn, too.
-    shown = stage.evaluate(
+    displayed = stage.evaluate(
         "states => states.map(state => (rapidgen.stage.show(state),"
         " [...rapidgen.stage.robots.values()].map(robot => robot.poses())))",
         states,
     )
-    for postures, drawn in zip(tried, shown, strict=True):
+    for postures, drawn in zip(tried, displayed, strict=True):
         for group, posture, poses in zip(groups, postures, drawn, strict=True):
             steps = steps_of(group, group.chain)
             urdf = JointMap.of(group).to_urdf(posture)
@@ -101,14 +101,14 @@ def test_the_tcp_is_drawn_where_a_camera_sees_it(stage):
         " rapidgen.stage.look('fit'); rapidgen.stage.bare(true) }",
         [scene, state],
     )
-    shown = picture(stage)
+    displayed = picture(stage)
     stage.evaluate(
         "() => { rapidgen.stage.robots.get('rob1').tcp.visible = false; rapidgen.stage.draw() }"
     )
-    changed = np.argwhere(np.abs(picture(stage) - shown).max(axis=2) > 12)[:, ::-1]
+    changed = np.argwhere(np.abs(picture(stage) - displayed).max(axis=2) > 12)[:, ::-1]
     place, _ = Kinematics.of(group).forward(posture)
     eye = stage.evaluate("rapidgen.stage.eye()")
-    height, width = shown.shape[:2]
+    height, width = displayed.shape[:2]
     expected = seen(np.array(place), eye, width, height)
     ends = np.linalg.norm(changed - expected, axis=1)
     assert ends.min() < 2

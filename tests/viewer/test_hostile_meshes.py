@@ -130,6 +130,6 @@ def test_hostile_description(tmp_path, name):
     with pytest.raises(DiagnosticError) as refused:
         load_config(tmp_path / "r.yaml")
     assert time.thread_time() - began < LIMIT
-    for found in refused.value.diagnostics:
-        assert "root:" not in found.message + found.help
-        assert len(found.message) < 6000
+    for result in refused.value.diagnostics:
+        assert "root:" not in result.message + result.help
+        assert len(result.message) < 6000

@@ -59,12 +59,12 @@ def test_meshes_that_cannot_be_had_are_said_and_solids_stand_in(tmp_path, open_p
     with simulator(config) as (ready, _):
         page = open_page(ready["view"])
         page.locator(".amiss").wait_for()
-        said = until(
+        message = until(
             page,
             "document.querySelector('.amiss').textContent",
             lambda text: text.startswith("Not drawn as described: 5"),
         )
-        assert "<img src=x onerror=alert(1)>&.obj" in said
+        assert "<img src=x onerror=alert(1)>&.obj" in message
         assert page.locator(".amiss img").count() == 0
         parts = until(page, SHAPES, lambda parts: parts["part_2"][0][0] > 12)
         # A solid from the elbow's joint to the next one.
@@ -86,9 +86,9 @@ def test_what_stands_in_the_cell_is_drawn_and_robots_stand_where_it_says(tmp_pat
     with simulator(str(tmp_path / "p.mod"), "--cell", str(cell)) as (ready, _):
         page = open_page(ready["view"])
         until(page, "document.querySelector('.amiss')?.textContent", lambda t: t and ": 2" in t)
-        shown = until(page, "rapidgen.stage.around()", len)
-        assert list(shown) == ["table"]
-        np.testing.assert_allclose(shown["table"], [[0.6, 0, 0.1], [1.0, 0.4, 0.7]], atol=1e-6)
+        displayed = until(page, "rapidgen.stage.around()", len)
+        assert list(displayed) == ["table"]
+        np.testing.assert_allclose(displayed["table"], [[0.6, 0, 0.1], [1.0, 0.4, 0.7]], atol=1e-6)
         poses = page.evaluate("rapidgen.stage.robots.get('rob1').poses()")
         np.testing.assert_allclose(poses["base"][12:15], [0, 0.5, 0.25], atol=1e-9)
         page.close()

@@ -42,29 +42,29 @@ def test_a_robot_that_is_jogged_keeps_its_tool(tmp_path):
         handlers = aspect.handlers()
         (name,) = cabinet.controller.motion.groups
 
-        def shown():
+        def displayed():
             _, positions = aspect.whole()
             return positions.groups[0]
 
         axes = list(cabinet.controller.motion.groups[name].positions())
         axes[0] += 0.1
         handlers[Jog](Jog(group=name, axes=tuple(axes)))
-        assert shown().tool.position == pytest.approx((0, 0, 0.12))
-        assert shown().work_object.position == pytest.approx((0.3, 0, 0.1))
+        assert displayed().tool.position == pytest.approx((0, 0, 0.12))
+        assert displayed().work_object.position == pytest.approx((0.3, 0, 0.1))
         for place in ((0.31, 0.02, 0.15), (0.3, 0.05, 0.16)):
-            tcp = shown().tcp
+            tcp = displayed().tcp
             handlers[JogTo](JogTo(group=name, position=place, orientation=tcp.orientation))
-            assert shown().tcp.position == pytest.approx(place)
-            assert shown().tool.position == pytest.approx((0, 0, 0.12))
+            assert displayed().tcp.position == pytest.approx(place)
+            assert displayed().tool.position == pytest.approx((0, 0, 0.12))
         # What is not asked for stays.
-        here = shown()
+        here = displayed()
         position = (here.tcp.position[0], 0.06, here.tcp.position[2])
         handlers[JogTo](JogTo(group=name, position=(None, 0.06, None), orientation=None))
-        assert shown().tcp.position == pytest.approx(position)
-        assert shown().tcp.orientation == pytest.approx(here.tcp.orientation)
-        here = shown().axes
+        assert displayed().tcp.position == pytest.approx(position)
+        assert displayed().tcp.orientation == pytest.approx(here.tcp.orientation)
+        here = displayed().axes
         handlers[Jog](Jog(group=name, axes=(None, None, None, None, None, 0.3)))
-        assert shown().axes == pytest.approx((*here[:5], 0.3))
+        assert displayed().axes == pytest.approx((*here[:5], 0.3))
 
 
 def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):

@@ -48,8 +48,8 @@ def test_the_robot_moves(irb120, open_page):
     until(page, STATE)
     before = picture(page)
     move(irb120)
-    there = f"{STATE}.groups[0].joints"
-    values = until(page, there, lambda joints: np.allclose(joints, GOAL, atol=1e-6))
+    target = f"{STATE}.groups[0].joints"
+    values = until(page, target, lambda joints: np.allclose(joints, GOAL, atol=1e-6))
     until(page, "rapidgen.stage.drawn.time === rapidgen.state().time")
     moved = np.abs(picture(page) - before).max(axis=2) > 24
     assert moved.sum() > 2000

@@ -120,8 +120,8 @@ def test_a_move_that_the_program_left_between_two_samples_comes_behind_the_one_b
 
     joints = np.zeros((6, 1))
     reached = ("", "p1", "p3", "p4", "p5", "p5")
-    under_way = ("", "", "p1", "p2", "p3", "p5")
-    made = plot(Recording(("a",), np.arange(6) * 0.1, joints, joints, None, reached, under_way))
+    in_progress = ("", "", "p1", "p2", "p3", "p5")
+    made = plot(Recording(("a",), np.arange(6) * 0.1, joints, joints, None, reached, in_progress))
     (moves,) = [chart for chart in made.charts if chart.heading.startswith("moves")]
     program, robot = (curve.values.tolist() for curve in moves.curves)
     assert program == [0, 1, 3, 4, 5, 5]

@@ -15,7 +15,7 @@ class Viewer:
     """One page: what it was told last, by type."""
 
     def __init__(self, cabinet):
-        self.cabinet = cabinet
+        self.runner = cabinet
         self.hub = Broadcaster(Simulation(cabinet), self.take)
         self.told = {}
         self.number = 0
@@ -29,13 +29,13 @@ class Viewer:
     def ask(self, do, **request):
         """The text of the reply, or its error."""
         self.number += 1
-        asked = {"id": self.number, "request": {"do": do, **request}}
-        self.take(self.hub.ask(json.dumps(asked)))
+        requested = {"id": self.number, "request": {"do": do, **request}}
+        self.take(self.hub.ask(json.dumps(requested)))
         reply = self.told["reply"]
         return reply["error"] or reply["text"]
 
     def pass_time(self, seconds):
-        self.cabinet.controller.run_for(seconds)
+        self.runner.controller.run_for(seconds)
         self.hub.look()
 
 
@@ -80,8 +80,10 @@ def test_a_breakpoint_of_which_something_else_is_wanted_stays_the_same_one(viewe
     assert "no number of passes" in viewer.ask("break", number=1, module="work", line=17, hits="?")
     viewer.hub.look()
     assert viewer.told["debugging"]["breakpoints"] == [point]
-    asked = viewer.ask("break", number=1, module="work", line=17, condition="n > 1000", log="far")
-    assert asked == "1"
+    requested = viewer.ask(
+        "break", number=1, module="work", line=17, condition="n > 1000", log="far"
+    )
+    assert requested == "1"
     viewer.pass_time(10)
     (now,) = viewer.told["debugging"]["breakpoints"]
     assert now == {**point, "condition": "n > 1000", "log": "far", "count": 0}
@@ -138,16 +140,16 @@ def test_what_cannot_be_done_is_refused_with_a_reason(viewer, do, request_, erro
 def test_time_goes_at_the_pace_that_is_asked_for_and_is_stepped(viewer):
     for pace in (0.1, 100, 1):
         assert viewer.ask("pace", value=pace) == ""
-        assert viewer.cabinet.controller.scheduler.speed == pace
+        assert viewer.runner.controller.scheduler.speed == pace
         viewer.hub.look()
         assert viewer.told["panel"]["pace"] == pace
     assert viewer.ask("drive", how="pause") == ""
     for seconds in (0.004, 0.024, 0.1, 1):
-        before = viewer.cabinet.controller.now
+        before = viewer.runner.controller.now
         assert viewer.ask("run-for", seconds=seconds) == ""
         viewer.pass_time(5)
         assert viewer.told["debugging"]["halt"]["reason"] == "time"
-        assert viewer.cabinet.controller.now == pytest.approx(before + seconds, abs=1e-9)
+        assert viewer.runner.controller.now == pytest.approx(before + seconds, abs=1e-9)
     assert viewer.ask("drive", how="resume") == ""
     viewer.pass_time(1)
     assert viewer.told["debugging"]["halt"] is None
@@ -157,18 +159,18 @@ def test_every_second_viewer_is_told_all(viewer):
     viewer.pass_time(0.1)
     viewer.ask("break", module="work", line=17)
     viewer.pass_time(60)
-    told = {}
-    told.update({message["type"]: 1 for message in json.loads(viewer.hub.join().data)})
-    assert told.keys() >= {"scene", "loaded", "pointers", "debugging", "held"}
+    text = {}
+    text.update({message["type"]: 1 for message in json.loads(viewer.hub.join().data)})
+    assert text.keys() >= {"scene", "loaded", "pointers", "debugging", "held"}
 
 
 def test_breakpoints_stay_over_a_restart(viewer):
     viewer.ask("break", module="work", line=17)
-    viewer.cabinet.on_boot.append(viewer.hub.renew)
-    viewer.cabinet.ask_restart()
-    viewer.cabinet.run(lambda: viewer.cabinet.restarts > 0)
-    viewer.cabinet.controller.set_motors(True)
-    viewer.cabinet.controller.start_program()
+    viewer.runner.on_boot.append(viewer.hub.renew)
+    viewer.runner.ask_restart()
+    viewer.runner.run(lambda: viewer.runner.restarts > 0)
+    viewer.runner.controller.set_motors(True)
+    viewer.runner.controller.start_program()
     viewer.pass_time(60)
     assert viewer.told["debugging"]["halt"]["place"]["line"] == 17
 
@@ -181,4 +183,4 @@ def test_lines_are_counted_and_no_longer(viewer):
     assert lines[9] >= 2
     assert 7 not in lines
     viewer.ask("cover", on=False)
-    assert not viewer.cabinet.controller.statements.tracers
+    assert not viewer.runner.controller.statements.tracers

@@ -63,14 +63,14 @@ def test_a_recording_looks_as_what_it_records(seen, tmp_path):
 def test_meshes_beyond_the_limit_stay_out_and_that_is_said(seen):
     _, groups, look = seen
     sizes = [*map(len, look.files.values())]
-    kept = looks.carried(look, most=sizes[0] + sizes[2])
+    saved = looks.carried(look, most=sizes[0] + sizes[2])
     names = [*look.files]
-    assert [*kept.files] == [names[0], names[2]]
-    assert "1 of 3 meshes (0.0 MB) are not in the recording" in kept.faults[-1]
-    assert kept.faults[:-1] == look.faults
-    urdf = kept.of(groups[0]).urdf
+    assert [*saved.files] == [names[0], names[2]]
+    assert "1 of 3 meshes (0.0 MB) are not in the recording" in saved.faults[-1]
+    assert saved.faults[:-1] == look.faults
+    urdf = saved.of(groups[0]).urdf
     assert [name in urdf for name in names] == [True, False, True]
-    assert [thing.mesh for thing in kept.things] == names[:1]
+    assert [thing.mesh for thing in saved.things] == names[:1]
     assert [*looks.carried(look, most=sizes[1]).files] == [names[0], names[2]]
     assert looks.carried(look, most=0).things == ()
     assert looks.carried(look) == look
@@ -96,16 +96,16 @@ ENTITY = b'<!DOCTYPE a [<!ENTITY b SYSTEM "file:///etc/passwd">]><COLLADA>&b;</C
 )
 def test_a_mesh_that_is_not_what_it_says_is_not_given_out(seen, name, data):
     _, groups, look = seen
-    found = looks.read(looks.written(look), {**look.files, name: data}, groups)
-    assert found.files == look.files
-    assert found.faults == (*look.faults, "1 meshes are damaged")
+    result = looks.read(looks.written(look), {**look.files, name: data}, groups)
+    assert result.files == look.files
+    assert result.faults == (*look.faults, "1 meshes are damaged")
 
 
 def forged(look, **changes):
     """What was written, with other things in the drawing."""
-    told = json.loads(looks.written(look))
-    told["drawings"]["rob1"] |= changes
-    return json.dumps(told).encode()
+    text = json.loads(looks.written(look))
+    text["drawings"]["rob1"] |= changes
+    return json.dumps(text).encode()
 
 
 @pytest.mark.parametrize(
@@ -121,9 +121,9 @@ def forged(look, **changes):
 )
 def test_a_drawing_that_does_not_fit_its_robot_is_not_drawn(seen, changes, why):
     _, groups, look = seen
-    found = looks.read(forged(look, **changes), look.files, groups)
-    assert why in found.faults[-1]
-    assert found.of(groups[0]) == replace(PLAIN, bases=look.bases).of(groups[0])
+    result = looks.read(forged(look, **changes), look.files, groups)
+    assert why in result.faults[-1]
+    assert result.of(groups[0]) == replace(PLAIN, bases=look.bases).of(groups[0])
 
 
 @pytest.mark.parametrize("data", [b"", b"[]", b"\xff", b'{"drawings": {"rob1": 1}}', b"[" * 9999])

@@ -183,14 +183,14 @@ def test_recording_changes_no_time(tmp_path):
     (tmp_path / "m.mod").write_text(text)
     cell = tmp_path / "cell.yaml"
     cell.write_text("signals:\n  do1: {kind: DO}\n")
-    found = []
+    result = []
     for recording in (False, True):
         with VirtualController.from_files([tmp_path / "m.mod"], cell=cell) as controller:
             end = record(controller, tmp_path / "x.mcap") if recording else lambda: None
-            found.append(changes(controller, 10.0))
+            result.append(changes(controller, 10.0))
             end()
-    assert len(found[0]) > 2
-    assert found[0] == found[1]
+    assert len(result[0]) > 2
+    assert result[0] == result[1]
 
 
 def test_a_recording_that_was_cut_off_is_read_up_to_there(recorded, tmp_path):
@@ -296,11 +296,11 @@ def everything(path):
     """All that can be read from a recording, but whether it was cut off; or a diagnostic's code."""
     try:
         with RecordingFile(path) as file:
-            found = [file.title, file.begin, file.end, file.robots, file.signals, file.look]
-            found += [dict(file.look.files), file.sources(file.end)]
-            found += [file.at(time) for time in (0.0, 0.7, file.end)]
-            found += [list(file.frames(0, 9)), file.log(0, 9), file.signal("do1", 0, 9)]
-            return repr([*found, file.joints("rob1", 0, 9), file.joints("rob1", 0, 9, most=1)])
+            result = [file.title, file.begin, file.end, file.robots, file.signals, file.look]
+            result += [dict(file.look.files), file.sources(file.end)]
+            result += [file.at(time) for time in (0.0, 0.7, file.end)]
+            result += [list(file.frames(0, 9)), file.log(0, 9), file.signal("do1", 0, 9)]
+            return repr([*result, file.joints("rob1", 0, 9), file.joints("rob1", 0, 9, most=1)])
     except DiagnosticError as error:
         return error.diagnostics[0].code
 
@@ -322,8 +322,8 @@ def short(tmp_path, monkeypatch):
 def test_a_changed_byte_changes_nothing_silently(short, tmp_path):
     """The recording is refused, or it is the same."""
     data = short.read_bytes()
-    whole = everything(short)
-    assert "rob1" in whole
+    complete = everything(short)
+    assert "rob1" in complete
     changed = tmp_path / "changed.mcap"
     chance = random.Random(5)
     refused = 0
@@ -331,9 +331,9 @@ def test_a_changed_byte_changes_nothing_silently(short, tmp_path):
         other = bytearray(data)
         other[at] ^= 1 << chance.randrange(8)
         changed.write_bytes(other)
-        found = everything(changed)
-        assert found in ("RG930", whole), f"byte {at} of {len(data)}"
-        refused += found == "RG930"
+        result = everything(changed)
+        assert result in ("RG930", complete), f"byte {at} of {len(data)}"
+        refused += result == "RG930"
     assert refused > len(data) / STEP / 2
 
 
@@ -352,14 +352,14 @@ def test_a_recording_that_was_cut_off_and_damaged_ends_at_the_damage(short, tmp_
     data = data[: int(len(data) * 0.7)]
     cut = tmp_path / "cut.mcap"
     cut.write_bytes(data)
-    whole = until_the_cut(cut)
+    complete = until_the_cut(cut)
     chance = random.Random(6)
     read = set()
     for _ in range(60):
         changed = bytearray(data)
         changed[chance.randrange(8, len(data))] ^= 1 << chance.randrange(8)
         cut.write_bytes(changed)
-        found = until_the_cut(cut)
-        assert found == whole[: len(found)]
-        read.add(len(found))
+        result = until_the_cut(cut)
+        assert result == complete[: len(result)]
+        read.add(len(result))
     assert len(read) > 2

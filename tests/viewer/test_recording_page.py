@@ -89,12 +89,12 @@ def test_curves_share_the_cursor_and_a_click_in_one_goes_there(page):
     seek(page, 5.0)
     before = page.evaluate(f"{SEEN}.cursor")
     seek(page, 15.0)
-    there = page.evaluate(f"{SEEN}.cursor")
-    assert there > before + 50
+    target = page.evaluate(f"{SEEN}.cursor")
+    assert target > before + 50
     # Whoever comes now sees the same.
     page.reload()
     until(page, f"window.rapidgen && {SEEN}.charts", lambda count: count == 1)
-    until(page, f"{SEEN}.cursor", lambda cursor: cursor == pytest.approx(there, abs=1))
+    until(page, f"{SEEN}.cursor", lambda cursor: cursor == pytest.approx(target, abs=1))
     over = page.locator(".curves .u-over")
     width = over.bounding_box()["width"]
     over.click(position={"x": width / 2, "y": 40})
@@ -115,9 +115,9 @@ def test_it_plays_and_refuses_to_command(page):
 
 
 def test_pictures_and_films_are_saved(page, tmp_path):
-    with page.expect_download() as found:
+    with page.expect_download() as result:
         page.get_by_role("button", name="PNG of the robots").click()
-    found.value.save_as(tmp_path / "robots.png")
+    result.value.save_as(tmp_path / "robots.png")
     with Image.open(tmp_path / "robots.png") as picture:
         assert picture.size[0] > 300
         assert len(picture.convert("RGB").getcolors(1 << 20)) > 20
@@ -126,13 +126,13 @@ def test_pictures_and_films_are_saved(page, tmp_path):
     until(page, f"{SEEN}.time", lambda time: time > 0.5)
     # On a busy machine the browser is late with encoding what was drawn.
     until(page, f"{SEEN}.filmed", lambda size: size > 5000)
-    with page.expect_download() as found:
+    with page.expect_download() as result:
         page.get_by_role("button", name="End the film").click()
-    found.value.save_as(tmp_path / "robots.webm")
+    result.value.save_as(tmp_path / "robots.webm")
     data = (tmp_path / "robots.webm").read_bytes()
     assert data.startswith(b"\x1a\x45\xdf\xa3")  # EBML, which WebM is
     assert len(data) > 5000
-    with page.expect_download() as found:
+    with page.expect_download() as result:
         page.get_by_role("button", name="CSV").click()
-    found.value.save_as(tmp_path / "curves.csv")
+    result.value.save_as(tmp_path / "curves.csv")
     assert (tmp_path / "curves.csv").read_text().startswith('"time","joint_1"')

@@ -17,16 +17,16 @@ def test_a_robot_is_watched_and_not_moved(irb120, open_page):
         seen = until(page, STATE)
         assert seen["groups"][0]["tcp"] is not None
         until(page, "document.querySelector('header').innerText", lambda t: "Can move" in t)
-        shown = page.locator("[role=tab]:visible").all_inner_texts()
-        assert shown == ["Axes", "Log"]
+        displayed = page.locator("[role=tab]:visible").all_inner_texts()
+        assert displayed == ["Axes", "Log"]
         assert page.locator("input[type=range]:enabled:visible").count() == 0
         for request in (
             {"do": "jog", "group": "rob1", "axes": [0.1] * 6},
             {"do": "act", "action": "stop"},
             {"do": "override", "value": 0},
         ):
-            asked = "request => rapidgen.link.ask(request).catch(why => why.message)"
-            assert "not commanded from here" in page.evaluate(asked, request)
+            requested = "request => rapidgen.link.ask(request).catch(why => why.message)"
+            assert "not commanded from here" in page.evaluate(requested, request)
         copy = {"do": "copy", "group": "rob1", "form": "jointtarget"}
         text = page.evaluate("request => rapidgen.link.ask(request)", copy)
         assert text.endswith(",[9E9,9E9,9E9,9E9,9E9,9E9]]")

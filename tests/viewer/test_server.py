@@ -103,9 +103,9 @@ def ask(port, method, path, body=None, **headers):
         connection.putheader(name, value)
     connection.endheaders(data)
     response = connection.getresponse()
-    found = response.status, response.headers, response.read()
+    result = response.status, response.headers, response.read()
     connection.close()
-    return found
+    return result
 
 
 def enter(port, token):
@@ -220,15 +220,15 @@ def test_meshes_are_given_out_by_their_names_alone(page, name):
 def test_every_answer_has_the_policy(page):
     port, _, _ = page
     for path, status in (("/", 200), ("/page.js", 200), ("/nothing", 404), ("/link", 403)):
-        found, headers, _ = ask(port, "GET", path)
-        assert found == status
+        result, headers, _ = ask(port, "GET", path)
+        assert result == status
         policy = headers["Content-Security-Policy"]
         assert "script-src 'self'" in policy
         assert "unsafe" not in policy
         assert headers["X-Content-Type-Options"] == "nosniff"
 
 
-def talk(port, token, said, count, **headers):
+def talk(port, token, message, count, **headers):
     """What a connection gets after what was said: `count` replies, or how it was refused."""
     origin = f"http://127.0.0.1:{port}"
 
@@ -238,7 +238,7 @@ def talk(port, token, said, count, **headers):
             async with session.ws_connect(
                 f"{origin}/link", headers={"Origin": origin, **headers}
             ) as socket:
-                for text in said:
+                for text in message:
                     await socket.send_str(text)
                 got = []
                 while sum(m["type"] == "reply" for m in got) < count:
@@ -258,7 +258,7 @@ def test_a_link_needs_the_cookie_and_the_origin(page):
 
 def test_requests_are_answered_by_number_and_nonsense_is_refused(page):
     port, token, watched = page
-    said = [
+    message = [
         '{"id": 1, "request": {"do": "act", "action": "start"}}',
         '{"id": 2, "request": {"do": "act", "action": "explode"}}',
         '{"id": 3, "request": {"do": "mode", "mode": "auto"}}',
@@ -266,14 +266,14 @@ def test_requests_are_answered_by_number_and_nonsense_is_refused(page):
         "[" * 5000,
         "null",
     ]
-    got = talk(port, token, said, len(said))
+    got = talk(port, token, message, len(message))
     assert got[0]["type"] == "scene"
     replies = [m for m in got if m["type"] == "reply"]
     assert replies[0] == {"type": "reply", "id": 1, "error": "", "text": "done"}
     assert replies[2]["id"] == 3
     assert "not commanded" in replies[2]["error"]
     assert all(reply["error"] for reply in replies[1:])
-    assert [asked.action for asked in watched.asked] == ["start"]
+    assert [requested.action for requested in watched.asked] == ["start"]
 
 
 def test_a_viewer_that_floods_does_not_starve_the_others(page):
@@ -285,11 +285,11 @@ def test_a_viewer_that_floods_does_not_starve_the_others(page):
         return json.dumps({"id": number, "request": {"do": "act", "action": action}})
 
     async def replies(socket, count):
-        found = []
-        while len(found) < count:
+        result = []
+        while len(result) < count:
             messages = json.loads((await socket.receive(60)).data)
-            found += [m["id"] for m in messages if m["type"] == "reply"]
-        return found
+            result += [m["id"] for m in messages if m["type"] == "reply"]
+        return result
 
     async def run():
         async with aiohttp.ClientSession(cookie_jar=aiohttp.CookieJar(unsafe=True)) as session:
@@ -314,17 +314,17 @@ def test_a_viewer_that_floods_does_not_starve_the_others(page):
                 await socket.close()
 
     asyncio.run(run())
-    asked = [request.action for request in watched.asked]
-    assert (asked.count("start"), asked.count("stop")) == (crowd, flood)
-    assert asked[: crowd + 50].count("start") == crowd
+    requested = [request.action for request in watched.asked]
+    assert (requested.count("start"), requested.count("stop")) == (crowd, flood)
+    assert requested[: crowd + 50].count("start") == crowd
 
 
 def test_requests_that_are_not_taken_do_not_use_up_the_places(page):
     port, token, watched = page
     watched.restarting = True
     act = {"id": 1, "request": {"do": "act", "action": "start"}}
-    said = [json.dumps(act)] * 40 + ["again"] + [json.dumps({**act, "id": 2})]
-    got = talk(port, token, said, 2)
+    message = [json.dumps(act)] * 40 + ["again"] + [json.dumps({**act, "id": 2})]
+    got = talk(port, token, message, 2)
     assert [m["id"] for m in got if m["type"] == "reply"] == [0, 2]
 
 

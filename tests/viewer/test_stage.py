@@ -44,10 +44,10 @@ def test_targets_of_the_program_and_the_frames_of_its_moves_are_drawn(ready, ope
     assert np.linalg.norm(np.array(aims[0]["pose"]["position"]) - place) == pytest.approx(0.12)
     # The work object's frame is where the move has it.
     until(page, f"{STATE}.groups[0].work_object.position", lambda at: at[0] == pytest.approx(0.3))
-    shown = "rapidgen.stage.robots.get('rob1').object.visible"
-    until(page, shown)
+    displayed = "rapidgen.stage.robots.get('rob1').object.visible"
+    until(page, displayed)
     page.get_by_role("button", name="Frames").click()
-    until(page, shown, lambda visible: not visible)
+    until(page, displayed, lambda visible: not visible)
     page.get_by_role("button", name="Targets").click()
     assert page.locator(".labels").is_hidden()
 
@@ -96,7 +96,7 @@ def test_what_is_dragged_while_another_place_is_on_its_way_is_not_lost(ready, op
     first = until(page, "asked", len)[0]["to"]
     page.evaluate("asked[0].carry()")
     until(page, f"{STATE}.groups[0].tcp.position", lambda at: np.allclose(at, first, atol=1e-6))
-    last = until(page, "asked", lambda asked: len(asked) == 2)[1]["to"]
+    last = until(page, "asked", lambda requested: len(requested) == 2)[1]["to"]
     page.evaluate("asked[1].carry()")
     until(page, f"{STATE}.groups[0].tcp.position", lambda at: np.allclose(at, last, atol=1e-6))
     ways = [np.linalg.norm(np.subtract(at, before)) for at in (first, last)]
@@ -138,10 +138,10 @@ def test_what_is_asked_for_first_stays_when_the_next_one_comes_at_once(ready, op
     page = open_page(ready["view"])
     stopped(page)
     page.get_by_role("tab", name="Axes").click()
-    shown = page.locator(".axes input[type=range]").evaluate_all(
+    displayed = page.locator(".axes input[type=range]").evaluate_all(
         "all => all.map(own => own.ariaLabel)"
     )
-    names = [shown[0], shown[3]]
+    names = [displayed[0], displayed[3]]
     page.evaluate(AT_ONCE, [names, [0.2, 0.1], "input"])
     axes = until(page, f"{STATE}.groups[0].axes", lambda axes: axes[3] == pytest.approx(0.1))
     assert axes[0] == pytest.approx(0.2)

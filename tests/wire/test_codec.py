@@ -127,11 +127,11 @@ def test_any_split_gives_the_same_frames(pairs, data):
     stream = b"".join(piece for piece, _ in pairs)
     cuts = sorted(data.draw(st.lists(st.integers(0, len(stream)), max_size=8)))
     splitter = FrameSplitter()
-    found = []
+    result = []
     for start, end in zip([0, *cuts], [*cuts, len(stream)], strict=True):
         splitter.feed(stream[start:end])
-        found += [decode(frame) for frame in iter(splitter.next, None)]
-    assert found == [content for _, content in pairs]
+        result += [decode(frame) for frame in iter(splitter.next, None)]
+    assert result == [content for _, content in pairs]
     assert splitter.pending == 0
 
 

@@ -76,15 +76,15 @@ def test_what_goes_in_comes_out(run):
     values = steps / spec.FIXED_SCALE
     frames = encode_points(stream, first, values[:, 0], values[:, 1:], flags=flags, batch=batch)
     assert len(frames) == max(1, -(-len(steps) // batch))
-    found = decode_batches(frames, values.shape[1] - 1)
-    assert np.concatenate([b.durations for b in found]).tolist() == values[:, 0].tolist()
-    assert np.concatenate([b.joints for b in found]).tolist() == values[:, 1:].tolist()
+    result = decode_batches(frames, values.shape[1] - 1)
+    assert np.concatenate([b.durations for b in result]).tolist() == values[:, 0].tolist()
+    assert np.concatenate([b.joints for b in result]).tolist() == values[:, 1:].tolist()
     firsts = [(first + n * batch) % spec.INDEX_WRAP for n in range(len(frames))]
-    assert [b.first for b in found] == firsts
-    assert {b.stream for b in found} == {stream}
-    assert found[0].flags & StreamFlag.BEGIN == flags & StreamFlag.BEGIN
-    assert found[-1].flags | flags & StreamFlag.BEGIN == flags
-    for frame, batch_of in zip(frames, found, strict=True):
+    assert [b.first for b in result] == firsts
+    assert {b.stream for b in result} == {stream}
+    assert result[0].flags & StreamFlag.BEGIN == flags & StreamFlag.BEGIN
+    assert result[-1].flags | flags & StreamFlag.BEGIN == flags
+    for frame, batch_of in zip(frames, result, strict=True):
         words = struct.unpack(f"<{(len(frame) - 16) // 4}i", frame[16:])
         assert words[-1] == horner(words[:-1])
         content = decode(_frame(frame))

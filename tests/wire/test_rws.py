@@ -103,13 +103,13 @@ items = st.builds(
 
 
 @given(st.lists(items, max_size=3).map(tuple))
-def test_what_is_written_is_read(found):
-    body = Body(found, title="rw", base="https://h/", here="x")
+def test_what_is_written_is_read(result):
+    body = Body(result, title="rw", base="https://h/", here="x")
     assert [(i.kind, i.title, dict(i.fields)) for i in xhtml.read(xhtml.write(body)).items] == [
-        (i.kind, i.title, {k: v for k, v in i.fields.items()}) for i in found
+        (i.kind, i.title, {k: v for k, v in i.fields.items()}) for i in result
     ]
-    assert json_bodies.read(json_bodies.write_hal(body)).items == found
-    assert json_bodies.read(json_bodies.write_json(body)).items == found
+    assert json_bodies.read(json_bodies.write_hal(body)).items == result
+    assert json_bodies.read(json_bodies.write_json(body)).items == result
 
 
 @given(st.one_of(st.binary(max_size=80), st.sampled_from([XHTML_1, HAL_2]).flatmap(

@@ -52,20 +52,20 @@ def answer(folder: Path, name: str) -> Answer:
         output = build(config, cell)
         system = make_system(config, output, under=of_backup(cell.cfg, cell.system))
     except DiagnosticError as refused:
-        found = "; ".join(f"{d.code} {d.message}" for d in refused.diagnostics[:4])
-        return Answer(name, release, rules, f"refused: {found}", str(alone))
+        result = "; ".join(f"{d.code} {d.message}" for d in refused.diagnostics[:4])
+        return Answer(name, release, rules, f"refused: {result}", str(alone))
     files = [f for f in output.files if f.kind == "cfg"]
-    given = tuple(
+    arguments = tuple(
         CfgFileLoad(parse_cfg(f.data), f.path.endswith("_open.cfg"), f.path == "SIO.cfg")
         for f in files
     )
-    lost = list(changed(cell, given))
+    lost = list(changed(cell, arguments))
     if lost:
         return Answer(name, release, rules, f"changes {', '.join(lost)}", str(alone))
     group = ", ".join(f"{g.task}/{g.mechanical_unit}" for g in config.groups)
     main = "main: own" if not config.call_main else "main: ours"
-    told = f"adds {sum(counts(given))} instances ({group}, {main})"
-    return Answer(name, release, rules, told, f"{alone}, with the driver {errors(system)}")
+    text = f"adds {sum(counts(arguments))} instances ({group}, {main})"
+    return Answer(name, release, rules, text, f"{alone}, with the driver {errors(system)}")
 
 
 def robot(cell: Cell) -> RobotConfig:
@@ -75,20 +75,20 @@ def robot(cell: Cell) -> RobotConfig:
     return load_config(next(filter(None, models), default))
 
 
-def changed(cell: Cell, given: tuple[CfgFileLoad, ...]) -> Iterator[str]:
+def changed(cell: Cell, arguments: tuple[CfgFileLoad, ...]) -> Iterator[str]:
     """Instances that the cell had and has no more; a firewall service may be opened."""
-    after = add(cell.cfg, given).cfg
+    after = add(cell.cfg, arguments).cfg
     for before in cell.cfg.domains:
         for section in before.sections:
-            there = list(after.instances(before.domain, section.name))
+            target = list(after.instances(before.domain, section.name))
             for instance in section.instances:
-                if section.name != "FIREWALL_MANAGEMENT" and instance not in there:
+                if section.name != "FIREWALL_MANAGEMENT" and instance not in target:
                     yield f"{before.domain} {section.name} {instance.text('Name')}"
 
 
-def counts(given: tuple[CfgFileLoad, ...]) -> Iterator[int]:
+def counts(arguments: tuple[CfgFileLoad, ...]) -> Iterator[int]:
     """Instances of each file."""
-    for addition in given:
+    for addition in arguments:
         yield sum(len(section.instances) for section in addition.file.sections)
 
 

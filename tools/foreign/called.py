@@ -13,15 +13,15 @@ from rapidgen.runtime.compiler.symbols import LoadedModule
 def lines_called(controller: VirtualController) -> dict[str, set[int]]:
     """By module file: lines of the routines that are called, connected, or named by a text, from
     each task's entry on."""
-    found: dict[str, set[int]] = {}
+    result: dict[str, set[int]] = {}
     for task in controller.rapid_tasks.values():
         program = task.program
         entry = next(t.entry for t in controller.system.tasks if t.name == task.name)
         for module, routine in _called(program, entry):
             source = module.tree.source
             lines = range(source.line(routine.first), 1 + source.line(routine.last))
-            found.setdefault(module.file.path, set()).update(lines)
-    return found
+            result.setdefault(module.file.path, set()).update(lines)
+    return result
 
 
 def _called(program: Program, entry: str) -> Iterator[tuple[LoadedModule, n.RoutineDeclaration]]:
@@ -29,17 +29,17 @@ def _called(program: Program, entry: str) -> Iterator[tuple[LoadedModule, n.Rout
     for module in program.modules.values():
         for routine in module.tree.routines:
             by_name.setdefault(routine.name.lower(), []).append((module, routine))
-    wanted = [entry.lower()]
+    expected = [entry.lower()]
     known: set[str] = set()
-    while wanted:
-        name = wanted.pop()
+    while expected:
+        name = expected.pop()
         if name in known:
             continue
         known.add(name)
         for module, routine in by_name.get(name, ()):
             yield module, routine
             for node in walk(routine):
-                wanted += _names(node, by_name.keys())
+                expected += _names(node, by_name.keys())
 
 
 def _names(node: n.Node, known: Collection[str]) -> Iterator[str]:

@@ -29,20 +29,20 @@ def answer(folder: Path) -> str:
     try:
         cell = read_cell(folder)
         config = fit(robot(cell), cell)
-        wanted = from_files({file.path: file.data for file in build(config).files})
+        desired = from_files({file.path: file.data for file in build(config).files})
         transport = FolderTransport(folder)
-        plan = make_plan(transport, wanted)
+        plan = make_plan(transport, desired)
         apply(transport, plan)
-        done = make_plan(transport, wanted).is_empty
+        done = make_plan(transport, desired).is_empty
         read_system(folder)
         apply(transport, make_plan(transport, None, verb="uninstall"))
     except DiagnosticError as refused:
         codes = ", ".join(d.code or "?" for d in refused.diagnostics)
         return f"refused ({codes}), {'not touched' if files(folder) == before else 'TOUCHED'}"
     counts = Counter(change.action for change in plan.cfg)
-    words = ", ".join(f"{count} to {action}" for action, count in sorted(counts.items()))
+    text = ", ".join(f"{count} to {action}" for action, count in sorted(counts.items()))
     left = "as before" if files(folder) == before else "NOT AS BEFORE"
-    return f"{words}; then {'nothing' if done else 'SOMETHING'} to do; uninstalled: {left}"
+    return f"{text}; then {'nothing' if done else 'SOMETHING'} to do; uninstalled: {left}"
 
 
 def files(folder: Path) -> dict[Path, bytes]:

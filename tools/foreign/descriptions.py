@@ -137,8 +137,8 @@ def _moved(config: RobotConfig) -> tuple[str, str]:
     try:
         for number in range(len(config.groups)):
             own = bench.of_group(number)
-            own.moves_through(own.motion(), own.wave(3, duration=1.0))
-        bench.healthy()
+            own.assert_moves_through(own.motion(), own.wave(3, duration=1.0))
+        bench.assert_healthy()
     except CheckFailed as fault:
         return "not moved", str(fault)[:200]
     finally:
@@ -163,8 +163,8 @@ def main(arguments: list[str]) -> int:
     rightly = {*NO_ROBOT.values(), *BROKEN.values()}
     arms = [o for o in outcomes if o.end not in rightly]
     good = [o for o in arms if o.end in ("moved", "built")]
-    asked = Counter(word for o in good for word in o.note.split(", ") if o.answers)
-    print(f"answered: {dict(asked)}")
+    requested = Counter(word for o in good for word in o.note.split(", ") if o.answers)
+    print(f"answered: {dict(requested)}")
     print(f"{len(good)} of {len(arms)} with an arm: {100 * len(good) / max(1, len(arms)):.0f} %")
     return 0
 

@@ -49,9 +49,9 @@ def client(path: Path) -> ModuleType:
     return module
 
 
-def near(found: object, wanted: object, by: float) -> bool:
+def near(result: object, expected: object, by: float) -> bool:
     """Whether numbers are equal within a tolerance."""
-    return all(abs(a - b) <= by for a, b in zip(found, wanted, strict=True))  # type: ignore[call-overload]
+    return all(abs(a - b) <= by for a, b in zip(result, expected, strict=True))  # type: ignore[call-overload]
 
 
 def heard(ask: Any) -> list[float]:
@@ -59,9 +59,9 @@ def heard(ask: Any) -> list[float]:
 
     Messages have no end; a client that reads two in one keeps the second inside of the first.
     """
-    while (found := ask()) is None or len(found) != 6:
+    while (result := ask()) is None or len(result) != 6:
         threading.Event().wait(0.01)
-    return found
+    return result
 
 
 def everything(robot: Any, log: Any) -> None:
@@ -69,17 +69,17 @@ def everything(robot: Any, log: Any) -> None:
     robot.setJoints(START)
     while not near(robot.getJoints(), START, 0.01):
         pass
-    here, turned = robot.getCartesian()
+    current, turned = robot.getCartesian()
     robot.setSpeed([500, 100, 500, 100])
-    robot.setCartesian([[here[0], here[1], here[2] + 30], turned])
-    poses = [[[here[0], here[1] + y, here[2]], turned] for y in (10, 20, 30)]
+    robot.setCartesian([[current[0], current[1], current[2] + 30], turned])
+    poses = [[[current[0], current[1] + y, current[2]], turned] for y in (10, 20, 30)]
     assert robot.setBuffer(poses)
     robot.setZone(finep=True)
     robot.executeBuffer()
     assert near(robot.getCartesian()[0], poses[-1][0], 0.1)
     robot.setZone("z1")
     # Its client waits for an answer "15 1 " that no server gives: the circle is never asked for.
-    assert not robot.setCircular([poses[0][0], turned], [here, turned])
+    assert not robot.setCircular([poses[0][0], turned], [current, turned])
     for axis in (12, 14, 16):
         robot.addJointPosBuffer([axis, *START[1:]])
     assert robot.lenJointPosBuffer() == 3
@@ -97,9 +97,9 @@ def everything(robot: Any, log: Any) -> None:
     assert robot.getForceSensors() == [0.0] * 6
     print("robot info", robot.getRobotInfo())
     print("external axes", robot.getExternalAxis())
-    told = [heard(log.getJoints), heard(log.getForceSensors)]
-    assert near(told[0], START, 0.2)
-    assert near(told[1], [0.0] * 6, 0)
+    text = [heard(log.getJoints), heard(log.getForceSensors)]
+    assert near(text[0], START, 0.2)
+    assert near(text[1], [0.0] * 6, 0)
 
 
 def main(folder: Path) -> None:

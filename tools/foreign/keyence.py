@@ -103,11 +103,11 @@ def setup(folder: Path) -> None:
             camera.send(",".join(["CRBT", *map(str, numbers), str(sum(numbers))]))
             reply = camera.receive().split(",")
             assert reply[0] == "CRBT", reply
-            found = [float(word) for word in reply[1:]]
-            assert found[:3] == [operation, request, 0], reply
-            assert sum(found[:-1]) == found[-1], reply
+            result = [float(word) for word in reply[1:]]
+            assert result[:3] == [operation, request, 0], reply
+            assert sum(result[:-1]) == result[-1], reply
             print("   ", operation, *values, "->", *reply[3:-1], "sum", reply[-1])
-            return found[3:-1]
+            return result[3:-1]
 
         assert ask(1, 7, 8) == [7, 8]
         ask(7)
@@ -133,8 +133,8 @@ def setup(folder: Path) -> None:
     print("set-up: every command answered")
 
 
-def _near(found: list[float], wanted: list[float], by: float) -> bool:
-    return all(abs(a - b) <= by for a, b in zip(found, wanted, strict=True))
+def _near(result: list[float], expected: list[float], by: float) -> bool:
+    return all(abs(a - b) <= by for a, b in zip(result, expected, strict=True))
 
 
 LEGS = (3, 2, 2)
@@ -146,11 +146,11 @@ def operation(folder: Path) -> None:
     """Two picks along planned paths, then nothing is found."""
     names = [p for p in sorted((folder / "CV-X_OperationProgram_ABB").glob("*.mod"))]
     modules = [module(folder / "KeyenceRobotVisionSetup.sys"), *map(module, names)]
-    asked: list[str] = []
+    requested: list[str] = []
     with running(*modules) as camera:
         triggers, picks = 0, 2
         while (line := camera.receive()) != "T1" or triggers < 2 * picks:
-            asked.append(line)
+            requested.append(line)
             if line == "T1":
                 triggers += 1
                 camera.send("T1")
@@ -162,14 +162,14 @@ def operation(folder: Path) -> None:
         camera.send("T1")
         camera.send("0")
         assert camera.ended()
-    assert len({line for line in asked if line.startswith("PPR,3,")}) == len(WAY)
-    print(f"operation: {picks} picks, {len(asked)} requests answered, then no path")
+    assert len({line for line in requested if line.startswith("PPR,3,")}) == len(WAY)
+    print(f"operation: {picks} picks, {len(requested)} requests answered, then no path")
 
 
-def _planned(command: int, *given: int) -> str:
+def _planned(command: int, *arguments: int) -> str:
     """The reply to PPR: what is set, and what was planned."""
     if command == 3:
-        leg, point = given[2:4]
+        leg, point = arguments[2:4]
         place = sum(LEGS[:leg]) - leg + point
         return "PPR," + ",".join(f"{angle:+08.3f}" for angle in WAY[place])
     first = {23: 3, 19: 1, 21: -1, 0: 3, 16: 0, 18: 1}

@@ -49,7 +49,7 @@ def example(folder: Path, name: str, robot: str) -> None:
     results = []
     read = client_module.MotionProgramExecClient.read_motion_program_result_log
 
-    def kept(self, number):
+    def saved(self, number):
         results.append(read(self, number))
         return results[-1]
 
@@ -57,7 +57,9 @@ def example(folder: Path, name: str, robot: str) -> None:
         tempfile.TemporaryDirectory() as scratch,
         controller_of(folder, "config_params", robot, scratch) as controller,
         patch.object(client_module, "RWS", lambda *_: Face(controller)),
-        patch.object(client_module.MotionProgramExecClient, "read_motion_program_result_log", kept),
+        patch.object(
+            client_module.MotionProgramExecClient, "read_motion_program_result_log", saved
+        ),
         redirect_stdout(StringIO()),
     ):
         runpy.run_path(str(folder / "examples" / name))

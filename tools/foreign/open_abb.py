@@ -29,21 +29,21 @@ def main(folder: Path) -> None:
         while robot.get_joints() != [10.0, 20.0, -10.0, 0.0, 40.0, 5.0]:
             pass
         robot.set_tool([[0, 0, 100], [1, 0, 0, 0]])
-        here, turned = robot.get_cartesian()
+        current, turned = robot.get_cartesian()
         robot.set_speed([500, 100, 500, 100])
-        robot.set_cartesian([[here[0], here[1], here[2] + 30], turned], fineMotion=True)
+        robot.set_cartesian([[current[0], current[1], current[2] + 30], turned], fineMotion=True)
         up, _ = robot.get_cartesian()
-        assert abs(up[2] - here[2] - 30) < 0.1, (here, up)
-        poses = [[[here[0], here[1] + y, here[2]], turned] for y in (10, 20, 30)]
+        assert abs(up[2] - current[2] - 30) < 0.1, (current, up)
+        poses = [[[current[0], current[1] + y, current[2]], turned] for y in (10, 20, 30)]
         assert robot.buffer_set(poses)
         robot.buffer_offset([0, 0, 5])
         robot.buffer_save(1)
         robot.buffer_load(1)
-        assert robot.buffer_read_value(3)[0][2] - here[2] - 5 < 0.1
+        assert robot.buffer_read_value(3)[0][2] - current[2] - 5 < 0.1
         robot.set_zone(point_motion=True)
         robot.buffer_execute()
         end, _ = robot.get_cartesian()
-        assert abs(end[1] - here[1] - 30) < 0.1, (here, end)
+        assert abs(end[1] - current[1] - 30) < 0.1, (current, end)
         assert robot.check_position(poses[0])
         robot.rotate_z(15)
         robot.check_j6()

@@ -66,8 +66,8 @@ def programs(folder: Path) -> Iterator[Program]:
     for main in mains:
         if main.parent.parent in together:
             continue
-        beside = [p for p in modules if p not in mains and _beside(p, main.parent)]
-        yield Program(str(main.relative_to(folder)), (main, *_needed(main, beside)))
+        adjacent = [p for p in modules if p not in mains and _beside(p, main.parent)]
+        yield Program(str(main.relative_to(folder)), (main, *_needed(main, adjacent)))
 
 
 def _beside(path: Path, folder: Path) -> bool:
@@ -77,23 +77,25 @@ def _beside(path: Path, folder: Path) -> bool:
     return folder in path.parents
 
 
-def _needed(main: Path, beside: list[Path]) -> Iterator[Path]:
+def _needed(main: Path, adjacent: list[Path]) -> Iterator[Path]:
     """Those that declare what main, or another that is needed, names and does not declare; of two
     that declare the same name the first: a folder holds versions and exercises, too."""
-    trees = {path: parse(path.read_bytes(), path=str(path)) for path in (main, *beside)}
+    trees = {path: parse(path.read_bytes(), path=str(path)) for path in (main, *adjacent)}
     names = {
         path: {d.name.lower() for d in tree.declarations if isinstance(d, _NAMED)}
         | {tree.name.lower()}
         for path, tree in trees.items()
     }
     words = {path: {t.lower() for t in tree.source.tokens} for path, tree in trees.items()}
-    known, wanted = set(names[main]), set(words[main])
-    left = list(beside)
+    known, expected = set(names[main]), set(words[main])
+    left = list(adjacent)
     while True:
-        found = next((p for p in left if names[p] & wanted - known and not names[p] & known), None)
-        if found is None:
+        match = next(
+            (p for p in left if names[p] & expected - known and not names[p] & known), None
+        )
+        if match is None:
             return
-        left.remove(found)
-        known |= names[found]
-        wanted |= words[found]
-        yield found
+        left.remove(match)
+        known |= names[match]
+        expected |= words[match]
+        yield match

@@ -48,12 +48,12 @@ def started(backup: Path) -> VirtualController:
             seed=seed,
             autostart=False,
         )
-        asked = threading.Event()
+        requested = threading.Event()
         controller.operator.attach()
-        controller.operator.asked.add(asked.set)
+        controller.operator.asked.add(requested.set)
         controller.start_program()
         controller.start()
-        if asked.wait(3):
+        if requested.wait(3):
             return controller
         controller.close()
     raise AssertionError("no schedule lets the master ask")
@@ -61,14 +61,14 @@ def started(backup: Path) -> VirtualController:
 
 def port(controller: VirtualController, number: int) -> int:
     """The real port of a server, once it listens."""
-    there = threading.Event()
+    target = threading.Event()
 
     def look() -> None:
         if number in controller.network.listeners:
-            there.set()
+            target.set()
 
     controller.call(lambda: (controller.network.listening.add(look), look()))
-    assert there.wait(20), number
+    assert target.wait(20), number
     return controller.network.listeners[number][1]
 
 
@@ -101,12 +101,12 @@ class Robot:
         while struct.unpack("<i", self.message(EXECUTED)[:4])[0] < self._count:
             pass
 
-    def message(self, wanted: int) -> bytes:
+    def message(self, expected: int) -> bytes:
         """The next message of a kind."""
         while True:
             length, kind, *_ = struct.unpack("<2Q3I", self._from.recv(28, socket.MSG_WAITALL))
             data = self._from.recv(length - 12, socket.MSG_WAITALL)
-            if kind == wanted:
+            if kind == expected:
                 return data
 
     def joints(self) -> list[float]:
@@ -126,9 +126,9 @@ class Robot:
         self._from.close()
 
 
-def near(found: list[float], wanted: list[float], by: float) -> bool:
+def near(result: list[float], expected: list[float], by: float) -> bool:
     """Whether numbers are equal within a tolerance."""
-    return all(abs(a - b) <= by for a, b in zip(found, wanted, strict=True))
+    return all(abs(a - b) <= by for a, b in zip(result, expected, strict=True))
 
 
 def moved(backup: Path) -> None:

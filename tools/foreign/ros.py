@@ -64,16 +64,16 @@ class Process:
 
     def line_with(self, text: str, seconds: float = 20.0) -> str:
         """The first line with that text, waited for."""
-        found: list[str] = []
+        result: list[str] = []
 
-        def there() -> bool:
-            found[:] = [line for _, line in self.lines if text in line][:1]
-            return bool(found) or self._ended
+        def target() -> bool:
+            result[:] = [line for _, line in self.lines if text in line][:1]
+            return bool(result) or self._ended
 
         with self._news:
-            self._news.wait_for(there, seconds)
-        assert found, f"never said {text!r}: {[line for _, line in self.lines][-20:]}"
-        return found[0]
+            self._news.wait_for(target, seconds)
+        assert result, f"never said {text!r}: {[line for _, line in self.lines][-20:]}"
+        return result[0]
 
     def said(self, *texts: str, since: float = 0.0) -> list[str]:
         """Lines with one of those texts."""
@@ -245,9 +245,9 @@ def _listens(port: int) -> bool:
         return probe.connect_ex(("127.0.0.1", port)) == 0
 
 
-def until(there: Callable[[], object], seconds: float, else_: str) -> None:
+def until(target: Callable[[], object], seconds: float, else_: str) -> None:
     """Wait until something holds; AssertionError when it does not in time."""
     end = time.monotonic() + seconds
-    while not there():
+    while not target():
         assert time.monotonic() < end, else_
         time.sleep(0.02)

@@ -24,18 +24,18 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("cases", nargs="*")
     parser.add_argument("--goals", type=int, default=300)
     parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
-    asked = parser.parse_args(arguments)
+    requested = parser.parse_args(arguments)
     if find_spec("rclpy") is None:
-        os.execv(asked.python, [asked.python, "-m", "tools.foreign.ros2", *arguments])
-    if asked.here:
+        os.execv(requested.python, [requested.python, "-m", "tools.foreign.ros2", *arguments])
+    if requested.here:
         from tools.foreign.ros2_cases import run_all
 
-        return run_all(asked.cases, asked.goals)
+        return run_all(requested.cases, requested.goals)
     from ament_index_python.packages import get_packages_with_prefixes
 
-    there = [name for name in RMWS if name in get_packages_with_prefixes()]
+    target = [name for name in RMWS if name in get_packages_with_prefixes()]
     failed = 0
-    for name in there:
+    for name in target:
         print(f"# {os.environ.get('ROS_DISTRO', 'ROS 2')}, {name}", flush=True)
         environment = os.environ | {
             "RMW_IMPLEMENTATION": name,
@@ -44,7 +44,7 @@ def main(arguments: list[str]) -> int:
         }
         command = [sys.executable, "-m", "tools.foreign.ros2", *arguments, "--here"]
         failed += bool(subprocess.run(command, env=environment, check=False).returncode)
-    return 1 if failed or not there else 0
+    return 1 if failed or not target else 0
 
 
 if __name__ == "__main__":

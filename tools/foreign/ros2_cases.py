@@ -43,8 +43,8 @@ class Findings:
 
     def next_one(self, cell: Cell) -> None:
         """The next goal has to be executed."""
-        here = cell.sim.positions()[: len(cell.names("rob1"))]
-        self.ends(cell.send(cell.goal([here, [h + 0.05 for h in here]], 1.0)), SUCCEEDED)
+        current = cell.sim.positions()[: len(cell.names("rob1"))]
+        self.ends(cell.send(cell.goal([current, [h + 0.05 for h in current]], 1.0)), SUCCEEDED)
 
     def stands(self, cell: Cell, seconds: float = 1.0) -> None:
         """The robot has to stand so soon."""
@@ -88,10 +88,10 @@ def signatures():
     modules = (rclpy.node, rclpy.lifecycle.node, rclpy.action.server, rclpy.parameter)
     modules += (rclpy.qos_overriding_options,)
     known = json.loads(RECORDED.read_text())
-    for call, told in known.get(os.environ.get("ROS_DISTRO"), {}).get("calls", {}).items():
+    for call, text in known.get(os.environ.get("ROS_DISTRO"), {}).get("calls", {}).items():
         owner, method = call.split(".")
-        (found,) = {getattr(m, owner) for m in modules if hasattr(m, owner)}
-        yield call, told, signature(getattr(found, method))
+        (result,) = {getattr(m, owner) for m in modules if hasattr(m, owner)}
+        yield call, text, signature(getattr(result, method))
 
 
 def _way(count: int, to: float = 0.5) -> list[float]:
@@ -99,38 +99,38 @@ def _way(count: int, to: float = 0.5) -> list[float]:
 
 
 @case()
-def five_points(cell, found):
+def five_points(cell, result):
     sent = cell.send(cell.goal(_way(5)))
-    found.ends(sent, SUCCEEDED)
-    found.must(len(sent.feedback) > 10, f"{len(sent.feedback)} feedbacks")
-    found.must(cell.at([0.5] * 6), "the robot is there")
+    result.ends(sent, SUCCEEDED)
+    result.must(len(sent.feedback) > 10, f"{len(sent.feedback)} feedbacks")
+    result.must(cell.at([0.5] * 6), "the robot is there")
     last = cell.heard["states"][-1][1]
-    found.must(len(last.velocity) == 6 and last.name == cell.names("rob1"), "joint_states whole")
+    result.must(len(last.velocity) == 6 and last.name == cell.names("rob1"), "joint_states whole")
     stamps = [m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for _, m in cell.heard["states"]]
-    found.must(sorted(set(stamps)) == stamps, f"{len(stamps)} stamps, each later")
+    result.must(sorted(set(stamps)) == stamps, f"{len(stamps)} stamps, each later")
     back = cell.goal([0.5, 0.4])
     back.trajectory.joint_names = back.trajectory.joint_names[::-1]
-    found.ends(cell.send(back), SUCCEEDED)
+    result.ends(cell.send(back), SUCCEEDED)
 
 
 @case(options=("--speed", "5"))
-def five_hundred_points(cell, found):
+def five_hundred_points(cell, result):
     sent = cell.send(cell.goal(_way(500, 1.0), 0.1))
-    found.ends(sent, SUCCEEDED, seconds=120)
-    found.must(cell.at([1.0] * 6), f"the robot is there, {len(sent.feedback)} feedbacks")
+    result.ends(sent, SUCCEEDED, seconds=120)
+    result.must(cell.at([1.0] * 6), f"the robot is there, {len(sent.feedback)} feedbacks")
 
 
 @case(options=("--speed", "10"))
-def five_thousand_points(cell, found):
+def five_thousand_points(cell, result):
     rows = [0.5 * (k % 1000) / 1000 if k % 2000 < 1000 else 0.5 - 0.5 * (k % 1000) / 1000
             for k in range(5000)]  # fmt: skip
     sent = cell.send(cell.goal(rows, 0.1))
-    found.ends(sent, SUCCEEDED, seconds=300)
-    found.must(cell.at([rows[-1]] * 6), f"the robot is there, {len(sent.feedback)} feedbacks")
+    result.ends(sent, SUCCEEDED, seconds=300)
+    result.must(cell.at([rows[-1]] * 6), f"the robot is there, {len(sent.feedback)} feedbacks")
 
 
 @case()
-def refused(cell, found):
+def refused(cell, result):
     wrong = cell.goal([0.0, 0.1])
     wrong.trajectory.joint_names = ["a", *wrong.trajectory.joint_names[1:]]
     for goal, code, words in (
@@ -141,128 +141,128 @@ def refused(cell, found):
         (cell.goal([0.4, 0.5]), -1, "does not start where the robot stands"),
         (cell.goal([]), -1, "no points"),
     ):
-        found.ends(cell.send(goal), ABORTED, code, words)
-    found.must(cell.at([0.0] * 6), "nothing moved")
-    found.next_one(cell)
+        result.ends(cell.send(goal), ABORTED, code, words)
+    result.must(cell.at([0.0] * 6), "nothing moved")
+    result.next_one(cell)
 
 
 @case()
-def cancelled(cell, found):
+def cancelled(cell, result):
     sent = cell.moving()
     sent.cancel()
-    found.ends(sent, CANCELED)
-    found.must(cell.sim.standing(), "the robot stands when that is told")
-    found.next_one(cell)
+    result.ends(sent, CANCELED)
+    result.must(cell.sim.standing(), "the robot stands when that is told")
+    result.next_one(cell)
 
 
 @case()
-def second_goal_is_refused(cell, found):
+def second_goal_is_refused(cell, result):
     first = cell.moving(0.3, 3.0)
-    found.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1, "another goal is executed")
-    found.ends(first, SUCCEEDED)
+    result.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1, "another goal is executed")
+    result.ends(first, SUCCEEDED)
 
 
 @case(parameters=("replace:=approach",))
-def second_goal_replaces(cell, found):
+def second_goal_replaces(cell, result):
     first = cell.moving()
     second = cell.send(cell.goal([[0.2, 0, 0, 0, 0, 0], [0.3, 0, 0, 0, 0, 0]], 1.0))
-    found.ends(first, ABORTED, -1, "replaced by a newer goal")
-    found.ends(second, SUCCEEDED)
-    found.must(cell.at([0.3, 0, 0, 0, 0, 0]), "the robot is there")
+    result.ends(first, ABORTED, -1, "replaced by a newer goal")
+    result.ends(second, SUCCEEDED)
+    result.must(cell.at([0.3, 0, 0, 0, 0, 0]), "the robot is there")
 
 
 @case()
-def emergency_stop(cell, found):
+def emergency_stop(cell, result):
     sent = cell.moving()
     cell.sim.ask("e-stop")
-    found.ends(sent, ABORTED, -4, "emergency stop")
-    found.must(cell.sim.standing(), "the robot stands")
+    result.ends(sent, ABORTED, -4, "emergency stop")
+    result.must(cell.sim.standing(), "the robot stands")
     words = [s.message for s in cell.heard["health"][-1][1].status]
-    found.must("an emergency stop is active" in words, f"diagnostics: {words}")
+    result.must("an emergency stop is active" in words, f"diagnostics: {words}")
     for step in ("reset-e-stop", "motors-on", "start"):
         cell.sim.ask(step)
     time.sleep(1)
-    found.must(cell.sim.standing(), "nothing resumes")
-    found.next_one(cell)
+    result.must(cell.sim.standing(), "nothing resumes")
+    result.next_one(cell)
 
 
 @case()
-def program_stopped(cell, found):
+def program_stopped(cell, result):
     sent = cell.moving()
     cell.sim.ask("stop")
-    found.ends(sent, ABORTED, -4, "program was stopped")
-    found.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1)
+    result.ends(sent, ABORTED, -4, "program was stopped")
+    result.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1)
     cell.sim.ask("start")
     time.sleep(1)
-    found.next_one(cell)
+    result.next_one(cell)
 
 
 @case()
-def controller_restarted(cell, found):
+def controller_restarted(cell, result):
     sent = cell.moving()
     cell.sim.restart()
-    found.ends(sent, ABORTED, -4)
+    result.ends(sent, ABORTED, -4)
     begin = time.monotonic()
     cell.ready()
-    found.must(time.monotonic() - begin < 8, f"states {time.monotonic() - begin:.1f} s later")
-    found.next_one(cell)
+    result.must(time.monotonic() - begin < 8, f"states {time.monotonic() - begin:.1f} s later")
+    result.next_one(cell)
 
 
 @case()
-def controller_gone(cell, found):
+def controller_gone(cell, result):
     cell.sim.close()
     until(lambda: "no link" in cell.heard["health"][-1][1].status[0].message, 20, "it never said")
     since = time.monotonic()
-    found.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1, "no link to the robot")
+    result.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1, "no link to the robot")
     time.sleep(1.5)
-    found.must(not cell.state_since(since), "joint_states are not told again")
+    result.must(not cell.state_since(since), "joint_states are not told again")
     cell.sim.restart()
     cell.ready()
-    found.next_one(cell)
+    result.next_one(cell)
 
 
 @case()
-def node_killed(cell, found):
+def node_killed(cell, result):
     for number in (signal.SIGKILL, signal.SIGTERM, signal.SIGINT):
         sent = cell.moving()
         code = cell.node.end(number)
-        found.must(code is not None, f"signal {number}: exit code {code}")
-        found.stands(cell)
+        result.must(code is not None, f"signal {number}: exit code {code}")
+        result.stands(cell)
         if number != signal.SIGKILL:
-            found.must(sent.is_over and sent.end()[0] == ABORTED, "its goal was aborted before")
+            result.must(sent.is_over and sent.end()[0] == ABORTED, "its goal was aborted before")
         cell.start_node()
-        found.next_one(cell)
+        result.next_one(cell)
 
 
 @case()
-def services_and_speed(cell, found):
+def services_and_speed(cell, result):
     sent = cell.moving(0.5, 4.0)
-    told = cell.trigger("pause")
-    found.must(told.success and cell.sim.standing(), f"pause: {told.message}")
-    told = cell.trigger("resume")
-    found.must(told.success, f"resume: {told.message}")
+    text = cell.trigger("pause")
+    result.must(text.success and cell.sim.standing(), f"pause: {text.message}")
+    text = cell.trigger("resume")
+    result.must(text.success, f"resume: {text.message}")
     value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=50.0)
     request = SetParameters.Request(parameters=[Parameter(name="speed", value=value)])
     (answer,) = cell.call(SetParameters, "/rapidgen/set_parameters", request).results
-    found.must(answer.successful, f"speed 50: {answer.reason}")
+    result.must(answer.successful, f"speed 50: {answer.reason}")
     request.parameters[0].value.double_value = 500.0
     (answer,) = cell.call(SetParameters, "/rapidgen/set_parameters", request).results
-    found.must(not answer.successful, f"speed 500: {answer.reason}")
-    found.ends(sent, SUCCEEDED)
-    found.must(sent.took > 5, f"slower: {sent.took:.1f} s of 4")
-    asked = GetParameters.Request(names=["speed"])
-    (value,) = cell.call(GetParameters, "/rapidgen/get_parameters", asked).values
-    found.must(value.double_value == 100.0, f"speed is {value.double_value:g} behind it")
+    result.must(not answer.successful, f"speed 500: {answer.reason}")
+    result.ends(sent, SUCCEEDED)
+    result.must(sent.took > 5, f"slower: {sent.took:.1f} s of 4")
+    requested = GetParameters.Request(names=["speed"])
+    (value,) = cell.call(GetParameters, "/rapidgen/get_parameters", requested).values
+    result.must(value.double_value == 100.0, f"speed is {value.double_value:g} behind it")
     sent = cell.moving(0.0)
-    told = cell.trigger("stop")
-    found.must(told.success, f"stop: {told.message}")
-    found.ends(sent, ABORTED, -4)
-    told = cell.trigger("resume")
-    found.must(not told.success, f"resume: {told.message}")
+    text = cell.trigger("stop")
+    result.must(text.success, f"stop: {text.message}")
+    result.ends(sent, ABORTED, -4)
+    text = cell.trigger("resume")
+    result.must(not text.success, f"resume: {text.message}")
 
 
 @case(parameters=("qos_overrides./joint_states.publisher.depth:=3",))
-def quality_of_service(cell, found):
+def quality_of_service(cell, result):
     for topic in ("/joint_states", "/diagnostics"):
         (one,) = [
             info
@@ -274,141 +274,141 @@ def quality_of_service(cell, found):
             ReliabilityPolicy.RELIABLE,
             DurabilityPolicy.VOLATILE,
         )
-        found.must(good, f"{topic}: {qos.reliability.name}, {qos.durability.name}, {qos.depth}")
-    for call, recorded, here in signatures():
-        found.must(here == recorded, f"{call}({here})")
+        result.must(good, f"{topic}: {qos.reliability.name}, {qos.durability.name}, {qos.depth}")
+    for call, recorded, current in signatures():
+        result.must(current == recorded, f"{call}({current})")
     names = {name for name, _ in cell.client.get_topic_names_and_types()}
-    found.must("/robot_status" in names, f"topics: {sorted(names)}")
+    result.must("/robot_status" in names, f"topics: {sorted(names)}")
 
 
 @case(parameters=("publish_clock:=true",), options=("--speed", "4"))
-def clock_of_a_simulator(cell, found):
+def clock_of_a_simulator(cell, result):
     from rosgraph_msgs.msg import Clock
 
-    heard = []
+    received = []
     cell.client.create_subscription(
-        Clock, "/clock", lambda m: heard.append((time.monotonic(), m.clock)), 50
+        Clock, "/clock", lambda m: received.append((time.monotonic(), m.clock)), 50
     )
-    until(lambda: len(heard) > 20, 20, "no clock")
-    (a, first), (b, last) = heard[0], heard[-1]
+    until(lambda: len(received) > 20, 20, "no clock")
+    (a, first), (b, last) = received[0], received[-1]
     passed = last.sec - first.sec + (last.nanosec - first.nanosec) * 1e-9
-    found.must(3 < passed / (b - a) < 5, f"{passed / (b - a):.2f} s of the controller in a second")
+    result.must(3 < passed / (b - a) < 5, f"{passed / (b - a):.2f} s of the controller in a second")
 
 
 @case()
-def life_cycle(cell, found):
+def life_cycle(cell, result):
     def change(transition: int) -> bool:
         request = ChangeState.Request(transition=Transition(id=transition))
         return cell.call(ChangeState, "/rapidgen/change_state", request).success
 
     sent = cell.moving()
-    found.must(change(Transition.TRANSITION_DEACTIVATE), "deactivated in a motion")
-    found.must(cell.sim.standing(), "the robot stands")
-    found.must(sent.end(20)[0] == ABORTED, "its goal is aborted")
-    found.must(change(Transition.TRANSITION_CLEANUP), "cleaned up")
+    result.must(change(Transition.TRANSITION_DEACTIVATE), "deactivated in a motion")
+    result.must(cell.sim.standing(), "the robot stands")
+    result.must(sent.end(20)[0] == ABORTED, "its goal is aborted")
+    result.must(change(Transition.TRANSITION_CLEANUP), "cleaned up")
     time.sleep(1)
     topics = {
         name for name, _ in cell.client.get_publisher_names_and_types_by_node("rapidgen", "/")
     }
-    found.must("/joint_states" not in topics, "no joint_states any more")
-    found.must(change(Transition.TRANSITION_CONFIGURE), "configured")
-    found.must(change(Transition.TRANSITION_ACTIVATE), "active")
+    result.must("/joint_states" not in topics, "no joint_states any more")
+    result.must(change(Transition.TRANSITION_CONFIGURE), "configured")
+    result.must(change(Transition.TRANSITION_ACTIVATE), "active")
     cell.ready()
-    found.next_one(cell)
+    result.next_one(cell)
 
 
 @case(robot="irb14000")
-def two_groups(cell, found):
+def two_groups(cell, result):
     sent, both = {}, set(cell.names("rob_l") + cell.names("rob_r"))
     until(
-        lambda: both <= {name for _, told in cell.heard["states"] for name in told.name},
+        lambda: both <= {name for _, text in cell.heard["states"] for name in text.name},
         30,
         "no joint_states of both groups",
     )
     for group in ("rob_l", "rob_r"):
-        here = cell.sim.positions(group)
+        current = cell.sim.positions(group)
         names = cell.names(group)
         states = [message for _, message in cell.heard["states"]]
         now = next(
-            dict(zip(told.name, told.position, strict=True))
-            for told in reversed(states)
-            if set(told.name) == set(names)
+            dict(zip(text.name, text.position, strict=True))
+            for text in reversed(states)
+            if set(text.name) == set(names)
         )
         rows = [[now[n] for n in names], [now[n] + 0.1 for n in names]]
-        sent[group] = here, cell.send(cell.goal(rows, 2.0, group), group)
+        sent[group] = current, cell.send(cell.goal(rows, 2.0, group), group)
     for _, one in sent.values():
-        found.ends(one, SUCCEEDED)
+        result.ends(one, SUCCEEDED)
     services = {name for name, _ in cell.client.get_service_names_and_types()}
-    found.must({"/rob_l/stop", "/rob_r/stop"} <= services, "services of each group")
+    result.must({"/rob_l/stop", "/rob_r/stop"} <= services, "services of each group")
 
 
 @case(robot="irb2400")
-def coupled(cell, found):
-    found.ends(cell.send(cell.goal([0.0, [0, 0.4, -0.3, 0, 0, 0]], 2.0)), SUCCEEDED)
-    found.must(cell.at([0, 0.4, 0.1, 0, 0, 0]), f"axes at {cell.sim.positions()[:4]}")
+def coupled(cell, result):
+    result.ends(cell.send(cell.goal([0.0, [0, 0.4, -0.3, 0, 0, 0]], 2.0)), SUCCEEDED)
+    result.must(cell.at([0, 0.4, 0.1, 0, 0, 0]), f"axes at {cell.sim.positions()[:4]}")
     last = cell.heard["states"][-1][1]
-    found.must(abs(last.position[2] + 0.3) < 1e-3, f"joint_states: {last.position[2]:.4f}")
+    result.must(abs(last.position[2] + 0.3) < 1e-3, f"joint_states: {last.position[2]:.4f}")
 
 
 @case(robot="irb120_track")
-def track(cell, found):
+def track(cell, result):
     names = cell.names("rob1")
     row = [0.5 if n == "track" else 1.0 if n == "positioner" else 0.1 for n in names]
     start = cell.heard["states"][-1][1]
     now = dict(zip(start.name, start.position, strict=True))
-    found.ends(cell.send(cell.goal([[now[n] for n in names], row], 4.0)), SUCCEEDED)
+    result.ends(cell.send(cell.goal([[now[n] for n in names], row], 4.0)), SUCCEEDED)
     last = cell.heard["states"][-1][1]
     off = max(abs(a - b) for a, b in zip(last.position, row, strict=True))
-    found.must(off < 1e-3, f"{len(names)} joints, {off:.1e} off")
+    result.must(off < 1e-3, f"{len(names)} joints, {off:.1e} off")
 
 
 @case(options=("--speed", "20"))
-def many_goals(cell, found):
+def many_goals(cell, result):
     count, ends, begin = int(os.environ.get("RAPIDGEN_GOALS", "300")), {}, time.monotonic()
-    here, grown = 0.0, []
+    current, grown = 0.0, []
     for number in range(count):
         if number % max(count // 10, 1) == 0:
             grown.append(cell.memory())
-        there = 0.02 if here == 0.0 else 0.0
+        target = 0.02 if current == 0.0 else 0.0
         kind = number % 4
-        goal = cell.goal([9.0, 9.1] if kind == 3 else [here, there], 0.2)
+        goal = cell.goal([9.0, 9.1] if kind == 3 else [current, target], 0.2)
         status, code, text = cell.send(goal).end(60)
         if status == SUCCEEDED:
-            here = there
+            current = target
         key = f"{ENDINGS[status]} {code}"
         ends[key] = ends.get(key, 0) + 1
         if status != (ABORTED if kind == 3 else SUCCEEDED):
-            found.must(False, f"goal {number}: {key}: {text}")
-            here = cell.sim.positions()[0]
+            result.must(False, f"goal {number}: {key}: {text}")
+            current = cell.sim.positions()[0]
     grown.append(cell.memory())
     took = (time.monotonic() - begin) / count * 1e3
-    found.must(True, f"{ends}, {took:.0f} ms a goal")
+    result.must(True, f"{ends}, {took:.0f} ms a goal")
     told = ", ".join(f"{mb - grown[1]:+.1f}" for mb in grown)
-    found.must(grown[-1] - grown[1] <= 10, f"MB against the end of the first tenth: {told}")
+    result.must(grown[-1] - grown[1] <= 10, f"MB against the end of the first tenth: {told}")
 
 
 def run(name: str, one: Case) -> bool:
     """One case; whether it came out as it should."""
-    found, cell = Findings(), None
+    result, cell = Findings(), None
     try:
         cell = Cell(one.robot, *one.options, parameters=one.parameters)
-        one.run(cell, found)
+        one.run(cell, result)
     except AssertionError as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
-        found.must(False, f"{error} ({place.name}:{place.lineno})")
+        result.must(False, f"{error} ({place.name}:{place.lineno})")
     finally:
         if cell is not None:
             cell.close()
-    good = all(good for good, _ in found.lines)
-    print(f"{name}: {'good' if good else 'NOT GOOD'}\n{found}", flush=True)
+    good = all(good for good, _ in result.lines)
+    print(f"{name}: {'good' if good else 'NOT GOOD'}\n{result}", flush=True)
     if cell is not None and not good:
         print(*[f"    {line[:300]}" for _, line in cell.node.lines[-12:]], sep="\n", flush=True)
     return good
 
 
-def run_all(wanted: list[str], goals: int) -> int:
+def run_all(expected: list[str], goals: int) -> int:
     """The cases, all if none is named; 1 if one has not come out as it should."""
     os.environ["RAPIDGEN_GOALS"] = str(goals)
-    bad = [name for name in wanted or CASES if not run(name, CASES[name])]
+    bad = [name for name in expected or CASES if not run(name, CASES[name])]
     print(f"failed: {', '.join(bad) or 'none'}")
     return int(bool(bad))

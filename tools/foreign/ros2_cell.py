@@ -55,9 +55,9 @@ class Sent:
     def end(self, seconds: float = 60.0):
         """Status, error_code and error_string, waited for."""
         assert self._result is not None, "the goal was rejected"
-        told = self._cell.wait(self._result, seconds)
+        text = self._cell.wait(self._result, seconds)
         self.took = time.monotonic() - self.began
-        return told.status, told.result.error_code, told.result.error_string
+        return text.status, text.result.error_code, text.result.error_string
 
     def cancel(self, seconds: float = 10.0):
         """Ask for its end; the response."""
@@ -99,9 +99,9 @@ class Cell:
 
     def start_node(self, *more: str) -> None:
         """Start the node, wait until it is there and its robot, too."""
-        given = [f"config:={self.robot}", f"address:={HOST}", *self._parameters, *more]
+        arguments = [f"config:={self.robot}", f"address:={HOST}", *self._parameters, *more]
         command = [sys.executable, "-m", "rapidgen.ros", "--ros-args"]
-        for one in given:
+        for one in arguments:
             command += ["-p", one]
         self.node = Process(command)
         self.ready()
@@ -149,21 +149,21 @@ class Cell:
 
     def names(self, group: str) -> list[str]:
         """Joint names in the robot's order."""
-        found = next(one for one in self.config.groups if one.name == group)
-        return [joint.name for joint in found.joints]
+        match = next(one for one in self.config.groups if one.name == group)
+        return [joint.name for joint in match.joints]
 
-    def goal(self, rows, step: float = 0.5, group: str = "", **told):
+    def goal(self, rows, step: float = 0.5, group: str = "", **text):
         """Rows of positions `step` s apart, from 0 s on; a number is all joints."""
         names = self.names(group or self.config.groups[0].name)
-        goal = FollowJointTrajectory.Goal(**told)
+        goal = FollowJointTrajectory.Goal(**text)
         goal.trajectory.joint_names = names
         for number, row in enumerate(rows):
             positions = [float(row)] * len(names) if isinstance(row, (int, float)) else row
-            seconds, rest = divmod(round(number * step * 1e9), 10**9)
+            seconds, remaining = divmod(round(number * step * 1e9), 10**9)
             goal.trajectory.points.append(
                 JointTrajectoryPoint(
                     positions=[float(value) for value in positions],
-                    time_from_start=Duration(sec=seconds, nanosec=rest),
+                    time_from_start=Duration(sec=seconds, nanosec=remaining),
                 )
             )
         return goal
@@ -174,15 +174,15 @@ class Cell:
 
     def moving(self, to: float = 1.0, seconds: float = 8.0) -> Sent:
         """A goal that has the first joint under way for a while."""
-        here = self.sim.positions()[: len(self.names(self.config.groups[0].name))]
-        sent = self.send(self.goal([here, [to, *here[1:]]], seconds))
+        current = self.sim.positions()[: len(self.names(self.config.groups[0].name))]
+        sent = self.send(self.goal([current, [to, *current[1:]]], seconds))
         until(lambda: not self.sim.standing(), 15, "nothing moved")
         return sent
 
     def at(self, row, group: str = "rob1", tolerance: float = 1e-4) -> bool:
         """Whether the axes are there."""
-        here = self.sim.positions(group)
-        return max(abs(a - b) for a, b in zip(here, row, strict=False)) <= tolerance
+        current = self.sim.positions(group)
+        return max(abs(a - b) for a, b in zip(current, row, strict=False)) <= tolerance
 
     def memory(self) -> float:
         """Resident MB of the node."""

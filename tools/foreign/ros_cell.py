@@ -108,10 +108,10 @@ class Cell:
 
     def ramp(self, seconds: float, to: float = 0.8):
         """Joint 1 from where the robot is to somewhere, in steps of 0.5 s."""
-        here = self.sim.positions()
+        current = self.sim.positions()
         steps = max(1, round(seconds / 0.5))
         return self.trajectory(
-            [[here[0] + (to - here[0]) * k / steps, *here[1:]] for k in range(steps + 1)]
+            [[current[0] + (to - current[0]) * k / steps, *current[1:]] for k in range(steps + 1)]
         )
 
     def stop(self, service: str = "stop_motion") -> float:
@@ -147,8 +147,8 @@ class Cell:
 
         assert client.wait_for_server(rospy.Duration(10)), "no action server"
         # A goal is refused until the action has heard a state.
-        heard = len(self.feedback)
-        until(lambda: len(self.feedback) > heard + 5, 10, "no feedback")
+        received = len(self.feedback)
+        until(lambda: len(self.feedback) > received + 5, 10, "no feedback")
         return client
 
     def moving_by_action(self):
@@ -182,8 +182,8 @@ class Cell:
 
     def next_status(self, count: int = 2):
         """The newest robot_status after `count` more have come."""
-        wanted = len(self.status) + count
-        until(lambda: len(self.status) >= wanted, 10, "robot_status has ended")
+        expected = len(self.status) + count
+        until(lambda: len(self.status) >= expected, 10, "robot_status has ended")
         return self.now
 
     def wait_moving(self, seconds: float = 5.0) -> None:
@@ -199,9 +199,9 @@ class Cell:
 
     def at(self, point, tolerance: float = 1e-4) -> bool:
         """Whether the robot is at a point, zeros for what it leaves out."""
-        here = self.sim.positions()
-        wanted = [*point, *[0.0] * (len(here) - len(point))]
-        return max(abs(a - b) for a, b in zip(here, wanted, strict=True)) <= tolerance
+        current = self.sim.positions()
+        expected = [*point, *[0.0] * (len(current) - len(point))]
+        return max(abs(a - b) for a, b in zip(current, expected, strict=True)) <= tolerance
 
     def arrives(self, point, seconds: float) -> bool:
         """Whether it gets to a point in time."""
@@ -212,10 +212,10 @@ class Cell:
 
     def quiet(self, seconds: float = 1.5) -> bool:
         """Whether no axis moves for so long."""
-        here = self.sim.positions()
+        current = self.sim.positions()
         end = time.monotonic() + seconds
         while time.monotonic() < end:
-            if max(abs(a - b) for a, b in zip(here, self.sim.positions(), strict=True)) > 1e-6:
+            if max(abs(a - b) for a, b in zip(current, self.sim.positions(), strict=True)) > 1e-6:
                 return False
             time.sleep(0.05)
         return True

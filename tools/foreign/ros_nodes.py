@@ -30,33 +30,33 @@ ZEROS = "0,0,0,0,0,0"
 
 
 def _try(workspace: Workspace, one: Case, target: str, options: tuple[str, ...]) -> Findings:
-    found = Findings()
+    result = Findings()
     urdf = URDF / f"{one.robot}.urdf"
     try:
         cell = Cell(workspace, target, *options, robot=one.robot, urdf=urdf, coupled=one.coupled)
     except AssertionError as error:
-        found.must(False, str(error))
-        return found
+        result.must(False, str(error))
+        return result
     try:
-        one.run(cell, found)
+        one.run(cell, result)
     except AssertionError as error:
         place = traceback.extract_tb(error.__traceback__)[-1]
-        found.must(False, f"{error} ({place.name})")
+        result.must(False, f"{error} ({place.name})")
         for name, node in cell.nodes.items():
             print(name, *[line for _, line in node.lines[-6:]], sep="\n    ", file=sys.stderr)
     finally:
         cell.close()
-    return found
+    return result
 
 
-def main(folder: Path, wanted: list[str]) -> int:
+def main(folder: Path, expected: list[str]) -> int:
     """Run the cases; 1 if one of the generated driver has failed."""
     rapid = next(folder.glob("src/**/ROS_motionServer.mod"), None)
     workspace = Workspace(folder)
     failed = []
     try:
         for name, one in CASES.items():
-            if wanted and name not in wanted:
+            if expected and name not in expected:
                 continue
             print(f"## {name}: {one.title}", flush=True)
             with tempfile.TemporaryDirectory() as scratch:

@@ -54,9 +54,9 @@ def controller(generation: Generation) -> Iterator[int]:
         groups = load_config("irb120").groups
         with ControllerRunner(
             system, cfg=cfg, robots=groups, clock="real", autostart=False
-        ) as cabinet:
-            cabinet.start()
-            service = serve_rws(cabinet, generation)
+        ) as runner:
+            runner.start()
+            service = serve_rws(runner, generation)
             try:
                 yield service.port
             finally:

@@ -33,12 +33,12 @@ class Line:
         """Send."""
         self._socket.sendall(text if isinstance(text, bytes) else text.encode("latin-1"))
 
-    def hear(self, wanted: str) -> str:
+    def hear(self, expected: str) -> str:
         """What comes, up to a text in it."""
         seen = ""
-        while wanted not in seen:
+        while expected not in seen:
             more = self._socket.recv(4096).decode("latin-1")
-            assert more, f"closed after {seen!r}, without {wanted!r}"
+            assert more, f"closed after {seen!r}, without {expected!r}"
             seen += more
         return seen
 
@@ -62,9 +62,9 @@ class Pair:
 def serving(folder: Path, pair: Pair) -> Iterator[tuple[VirtualController, Line]]:
     """The server in real time, and a client of its first listener."""
     files = [sorted(folder.rglob(pattern))[0] for pattern in pair.files]
-    found = load_target(files, BootOptions(cell="guess", robot=pair.robot))
+    result = load_target(files, BootOptions(cell="guess", robot=pair.robot))
     with VirtualController.boot(
-        found, clock="real", host="127.0.0.1", ports="auto", speed=20, autostart=False
+        result, clock="real", host="127.0.0.1", ports="auto", speed=20, autostart=False
     ) as controller:
         controller.start()
         controller.call(controller.start_program)
@@ -120,8 +120,8 @@ def laser(line: Line, _controller: VirtualController) -> None:
     line.say("CONNECT Robot_access")
     line.hear("Message acknowledged")
     line.say("RPOSC")
-    told = line.hear(",").split(",")
-    assert float(told[0]) > 100, told
+    text = line.hear(",").split(",")
+    assert float(text[0]) > 100, text
 
 
 def chess(line: Line, _controller: VirtualController) -> None:
@@ -155,8 +155,8 @@ def cups(line: Line, _controller: VirtualController) -> None:
         ("anything", "default_anything"),
     ):
         line.say(word)
-        heard = line.hear(answer)
-        if "Ask_next" not in heard:
+        received = line.hear(answer)
+        if "Ask_next" not in received:
             line.hear("Ask_next")
 
 
@@ -189,8 +189,8 @@ def serial(line: Line, controller: VirtualController) -> None:
 def tester(line: Line, _controller: VirtualController) -> None:
     """Main.cs: the name of a procedure, which comes back when it has run."""
     line.say("Path_10")
-    heard = line.hear("Done")
-    assert heard == "OngoingPath_10_RobotDone", heard
+    received = line.hear("Done")
+    assert received == "OngoingPath_10_RobotDone", received
 
 
 def _until(holds: Callable[[], bool]) -> None:

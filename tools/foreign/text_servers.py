@@ -40,10 +40,10 @@ def rapidserver(folder: Path) -> None:
         ):
             link.send(command)
             replies.append(link.until("\n").split())
-    done, there, limit = replies
+    done, target, limit = replies
     assert done[:3] == ["2", "001", "1"], done
-    moving = [float(word) / axis for word, axis in zip(there[4:7], (10, 20, -10), strict=True)]
-    assert 0.8 < min(moving) <= max(moving) <= 1, there  # a fly-by point: it moves still
+    moving = [float(word) / axis for word, axis in zip(target[4:7], (10, 20, -10), strict=True)]
+    assert 0.8 < min(moving) <= max(moving) <= 1, target  # a fly-by point: it moves still
     assert limit[:2] == ["2", "003"], limit
     assert limit[2] != "1", limit
     print("abb-rapidserver: moved, asked, logged; refuses joints by ReadCfgData's limits")
@@ -107,8 +107,8 @@ def matrices(folder: Path) -> None:
                     counts.append(struct.unpack("<16f", link.recv(64, socket.MSG_WAITALL))[0])
                     link.sendall(struct.pack("<16f", *sent))
                 assert counts[1] == counts[0] + 1, counts
-            kept = controller.call(lambda: str(controller.task("T_ROB1")["RobotSide:nTestMatrix"]))
-        assert "0.125" in kept, kept
+            saved = controller.call(lambda: str(controller.task("T_ROB1")["RobotSide:nTestMatrix"]))
+        assert "0.125" in saved, saved
     print("MatrixComm: matrices in both directions, twice")
 
 

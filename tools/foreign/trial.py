@@ -74,11 +74,11 @@ def trial(program: Program, robot: str = "") -> Outcome:
 def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
     """Load, start, run until it ends, or for a while."""
     try:
-        found = load_target(program.files, BootOptions(cell="guess", robot=robot))
-        errors = [d for d in check(found.system, gaps=True) if d.severity is Severity.ERROR]
+        result = load_target(program.files, BootOptions(cell="guess", robot=robot))
+        errors = [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR]
         if errors:
             raise DiagnosticError(errors)
-        controller = VirtualController.boot(found, cycle=cycle, tracing=True, autostart=False)
+        controller = VirtualController.boot(result, cycle=cycle, tracing=True, autostart=False)
     except DiagnosticError as error:
         wrong = [d for d in error.diagnostics if d.severity is Severity.ERROR]
         notes = tuple(
@@ -91,48 +91,48 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
         covered = Coverage(controller)
         controller.operator.attach()
         controller.start_program()
-        ended = run_past_stops(controller, max_time=_TIME, max_statements=_STATEMENTS)
+        finished = run_past_stops(controller, max_time=_TIME, max_statements=_STATEMENTS)
         by_file = covered.lines()
         lines = [hits for file in by_file.values() for hits in file.values()]
         called = lines_called(controller)
         count = sum(1 for f, rows in by_file.items() for line in rows if line in called.get(f, ()))
         faults = [f"{t.name}: {t.fault}" for t in controller.tasks.values() if t.fault is not None]
         waits = controller.where()
-        guessed = found.guessed
+        guessed = result.guessed
         notes = [*faults, *waits]
         if guessed is not None and guessed.unknown:
             notes.append(
                 "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
             )
         # Sockets, and dialogs and stops with texts or places; data and signals are no partner.
-        asked = any(w == "SocketReceive" or " " in w for w, _ in controller.guessed.answered)
-        end = _end(ended, faults, waits, asked=asked)
+        requested = any(w == "SocketReceive" or " " in w for w, _ in controller.guessed.answered)
+        end = _end(finished, faults, waits, requested=requested)
         if controller.guessed.missed:
             notes.append(f"the guessed robot missed {len(set(controller.guessed.missed))} places")
         reached = sum(1 for hits in lines if hits)
         return Outcome(end, reached, len(lines), max(reached, count), tuple(notes))
 
 
-def _end(ended: str, faults: Sequence[str], waits: Sequence[str], *, asked: bool) -> str:
+def _end(finished: str, faults: Sequence[str], waits: Sequence[str], *, requested: bool) -> str:
     if faults and not all(map(_PARTNER.search, faults)):
-        return "stops behind a partner" if asked else "stops"
+        return "stops behind a partner" if requested else "stops"
     if faults:
         return "waits for a partner"
-    if ended == "finished":
+    if finished == "finished":
         return "whole"
     if any(_PARTNER.search(where) for where in waits):
         return "waits for a partner"
-    return "goes round" if ended in ("time", "statements") else "waits for ever"
+    return "goes round" if finished in ("time", "statements") else "waits for ever"
 
 
 def best(program: Program, robots: Sequence[str]) -> tuple[str, Outcome]:
     """The robot with which a program gets furthest, and how far."""
-    found: list[tuple[str, Outcome]] = []
+    result: list[tuple[str, Outcome]] = []
     for robot in robots:
-        found.append((robot or "its own or guessed", trial(program, robot)))
-        if not any(note for note in found[-1][1].notes if _MISFIT.search(note)):
+        result.append((robot or "its own or guessed", trial(program, robot)))
+        if not any(note for note in result[-1][1].notes if _MISFIT.search(note)):
             break
-    return max(found, key=lambda one: (one[1].end in GOOD, one[1].reached))
+    return max(result, key=lambda one: (one[1].end in GOOD, one[1].reached))
 
 
 def main(folder: Path, robots: Sequence[str]) -> None:

@@ -30,12 +30,12 @@ def descendants(root):
                 state, parent = file.read().rpartition(")")[2].split()[:2]
             if state != "Z":
                 children.setdefault(int(parent), []).append(int(name))
-    found, left = [], [root]
+    result, left = [], [root]
     while left:
         below = children.get(left.pop(), [])
-        found += below
+        result += below
         left += below
-    return found
+    return result
 
 
 def send(process, number):

@@ -123,19 +123,19 @@ class Campaign:
             with mutant.made():
                 if not red(file):
                     return False
-                found = [file]
+                result = [file]
                 for other in others:
                     if other is not file and red(other):
-                        found.append(other)
-                        if len(found) > self.limit:
+                        result.append(other)
+                        if len(result) > self.limit:
                             self.broad.add(mutant)
                             return False
         except NoProgram:
             return False  # no program at all
         self.broad.add(mutant)  # nothing new will come of it
-        for one in found:
+        for one in result:
             if one in self.files and one not in self.shown:
-                self.shown[one] = (mutant, len(found))
+                self.shown[one] = (mutant, len(result))
         return True
 
     def builtins(self):
@@ -185,16 +185,16 @@ class Campaign:
 
     def _table(self, mutant, left):
         self.tried += 1
-        found = [file for file in left if red(file)]
-        if not found:
+        result = [file for file in left if red(file)]
+        if not result:
             return
-        count = len(found)
+        count = len(result)
         for other in self.all:
             if other not in left and red(other):
                 count += 1
             if count > self.limit:
                 return
-        for file in found:
+        for file in result:
             self.shown[file] = (mutant, count)
 
 

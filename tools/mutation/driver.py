@@ -115,13 +115,13 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
 
 def _statements(module: Module) -> dict[int, int]:
     """For each token inside a statement, the line in which the innermost one begins."""
-    found: dict[int, int] = {}
+    result: dict[int, int] = {}
     for node in _inside_routines(module):
         # Outer statements come first, so inner ones overwrite.
         if isinstance(node, STATEMENTS):
             line = module.source.line(node.first)
-            found.update(dict.fromkeys(range(node.first, node.last + 1), line))
-    return found
+            result.update(dict.fromkeys(range(node.first, node.last + 1), line))
+    return result
 
 
 def _nothing(module: Module, node: Node) -> str:

@@ -73,8 +73,8 @@ def _changes(node):
     elif isinstance(node, ast.BoolOp):
         yield f"{_short(node)}: and <-> or", ast.BoolOp(_SWAPPED[type(node.op)](), node.values)
         for k, value in enumerate(node.values):
-            rest = node.values[:k] + node.values[k + 1 :]
-            new = rest[0] if len(rest) == 1 else ast.BoolOp(node.op, rest)
+            remaining = node.values[:k] + node.values[k + 1 :]
+            new = remaining[0] if len(remaining) == 1 else ast.BoolOp(node.op, remaining)
             yield f"without {_short(value)}", new
     elif isinstance(node, ast.BinOp) and type(node.op) in _SWAPPED:
         new = ast.BinOp(node.left, _SWAPPED[type(node.op)](), node.right)
@@ -96,8 +96,12 @@ def _changes(node):
         yield from _constants(node.value)
     elif isinstance(node, ast.Tuple | ast.List | ast.Set):
         for k, value in enumerate(node.elts):
-            rest = node.elts[:k] + node.elts[k + 1 :]
-            new = ast.Set(rest) if isinstance(node, ast.Set) else type(node)(rest, ast.Load())
+            remaining = node.elts[:k] + node.elts[k + 1 :]
+            new = (
+                ast.Set(remaining)
+                if isinstance(node, ast.Set)
+                else type(node)(remaining, ast.Load())
+            )
             yield f"without {_short(value)}", new
     elif isinstance(node, ast.Dict):
         for k, key in enumerate(node.keys):
@@ -119,9 +123,9 @@ def _constants(value):
                 yield f"without {word}", ast.Constant(" ".join(words[:k] + words[k + 1 :]))
         elif len(value) > 1 and _REGEX & set(value):
             for sign in _SIGN.finditer(value):
-                rest = value[: sign.start()] + value[sign.end() :]
+                remaining = value[: sign.start()] + value[sign.end() :]
                 around = value[max(0, sign.start() - 12) : sign.end() + 12]
-                yield f"pattern without {sign[0]} in ...{around}...", ast.Constant(rest)
+                yield f"pattern without {sign[0]} in ...{around}...", ast.Constant(remaining)
         elif 0 < len(value) <= _MAX_TEXT:
             yield f"{value!r} -> {value + 'x'!r}", ast.Constant(value + "x")
 
@@ -176,13 +180,13 @@ def _sources(root=ROOT, package=PACKAGE):
 # -- functions -------------------------------------------------------------------------------
 
 
-def of_functions(wanted=None, *, root=ROOT, package=PACKAGE):
+def of_functions(expected=None, *, root=ROOT, package=PACKAGE):
     """Mutants of functions and methods; of the modules in `wanted` (paths) where given.
 
     `root` and `package` are another package's than the front end.
     """
     for module, path, tree in _sources(root, package):
-        if wanted is not None and path not in wanted:
+        if expected is not None and path not in expected:
             continue
         for node in tree.body:
             if isinstance(node, ast.FunctionDef):
@@ -213,8 +217,8 @@ def _swapped_code(module, path, owner, function, change):
             _set(holder, key, old)
         live = _live(module, owner, function)
         before = live.__code__
-        kept = code.co_freevars == before.co_freevars
-        if not kept or (code.co_flags ^ before.co_flags) & _KIND:
+        saved = code.co_freevars == before.co_freevars
+        if not saved or (code.co_flags ^ before.co_flags) & _KIND:
             raise NoProgram
         live.__code__ = code
         _forget(module)
@@ -241,10 +245,10 @@ def _compiled(path, owner, function):
 
 def _live(module, owner, function):
     """The function object behind decorators."""
-    found = vars(sys.modules[module])
+    result = vars(sys.modules[module])
     if owner is not None:
-        found = vars(found[owner.name])
-    live = found[function.name]
+        result = vars(result[owner.name])
+    live = result[function.name]
     live = getattr(live, "fget", live)
     return getattr(live, "__wrapped__", live)
 
@@ -315,10 +319,12 @@ def _imported_anew(name, path, tree, change):
             raise NoProgram from error
         finally:
             _set(holder, key, old)
-        kept = {k: v for k, v in sys.modules.items() if k == PACKAGE or k.startswith(PACKAGE + ".")}
+        saved = {
+            k: v for k, v in sys.modules.items() if k == PACKAGE or k.startswith(PACKAGE + ".")
+        }
         finder = _Changed(name, path, code)
         sys.meta_path.insert(0, finder)
-        for k in kept:
+        for k in saved:
             del sys.modules[k]
         try:
             _import()
@@ -327,8 +333,8 @@ def _imported_anew(name, path, tree, change):
             sys.meta_path.remove(finder)
             for k in [k for k in sys.modules if k == PACKAGE or k.startswith(PACKAGE + ".")]:
                 del sys.modules[k]
-            sys.modules.update(kept)
-            rapidgen.rapid = kept[PACKAGE]
+            sys.modules.update(saved)
+            rapidgen.rapid = saved[PACKAGE]
 
     return made
 
@@ -349,11 +355,11 @@ def of_builtins():
     for path in sorted((ROOT / "builtins").glob("*.rapid")):
         text = path.read_text("utf-8")
         for pattern in (_HEADER, _RECORD, _SINGLE):
-            for found in pattern.finditer(text):
-                for word in _WORD.finditer(text, found.start(), found.end()):
-                    yield from _of_word(path, text, found[1].lower(), word)
-        for found in _CLASS.finditer(text):
-            for word in _WORD.finditer(text, found.start(1), found.end()):
+            for result in pattern.finditer(text):
+                for word in _WORD.finditer(text, result.start(), result.end()):
+                    yield from _of_word(path, text, result[1].lower(), word)
+        for result in _CLASS.finditer(text):
+            for word in _WORD.finditer(text, result.start(1), result.end()):
                 yield from _of_word(path, text, word[0].lower(), word)
 
 

@@ -166,27 +166,27 @@ def _own_text() -> str:
     return hashlib.sha256(b"\0".join(texts)).hexdigest()
 
 
-def _same_text(given: Grounds) -> None:
+def _same_text(arguments: Grounds) -> None:
     """Refuse to work for a checkout of another state. Raises RuntimeError."""
-    if given.text != _own_text():
+    if arguments.text != _own_text():
         raise RuntimeError("this worker's checkout is not that of whoever asks")
 
 
-def _as_it_is(given: Grounds, name: str):
-    _same_text(given)
-    if not given.kept:
-        setting = replace(given.setting, coverage=True)
-        given.kept.append(Starter(given.config, given.system, setting))
+def _as_it_is(arguments: Grounds, name: str):
+    _same_text(arguments)
+    if not arguments.kept:
+        setting = replace(arguments.setting, coverage=True)
+        arguments.kept.append(Starter(arguments.config, arguments.system, setting))
     # Plots and the log are of no use here.
-    return replace(given.kept[0].attempt(_CASES[name]), series=(), log=())
+    return replace(arguments.kept[0].attempt(_CASES[name]), series=(), log=())
 
 
-def judged(given: Grounds, question: Question) -> Noticed:
+def judged(arguments: Grounds, question: Question) -> Noticed:
     """A piece of work: the verdict on one mutant."""
-    _same_text(given)
-    if not given.kept:
-        given.kept.append(Judge(given))
-    return given.kept[0].judge(question)
+    _same_text(arguments)
+    if not arguments.kept:
+        arguments.kept.append(Judge(arguments))
+    return arguments.kept[0].judge(question)
 
 
 def verdicts(
@@ -220,11 +220,11 @@ def verdicts(
 class Judge:
     """Judges mutants of one system in copies of a booted controller."""
 
-    def __init__(self, given: Grounds) -> None:
-        self._usual, self._costs, self._lines = given.usual, given.costs, given.lines
-        self._worth = _worth(given.lines)
-        self._names, self._row = given.cases, given.row
-        self._bench = Bench(given.config, given.system, given.setting)
+    def __init__(self, arguments: Grounds) -> None:
+        self._usual, self._costs, self._lines = arguments.usual, arguments.costs, arguments.lines
+        self._worth = _worth(arguments.lines)
+        self._names, self._row = arguments.cases, arguments.row
+        self._bench = Bench(arguments.config, arguments.system, arguments.setting)
         self._bench.compile()
 
     def concerned(self, mutant: Mutant, learned: Learned) -> list[SuiteCase]:
@@ -279,7 +279,7 @@ class Judge:
         signal.setitimer(signal.ITIMER_PROF, max(least, times * self._usual[case.name]))
         try:
             case.prove(self._bench)
-            self._bench.healthy()
+            self._bench.assert_healthy()
         except NotApplicable:
             return ""
         except (*FAILURES, DiagnosticError):
@@ -292,12 +292,12 @@ class Judge:
 def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, float]]:
     """What each case is likely to notice in each file: a line counts by how few cases get there."""
     common = Counter(place for places in reached.values() for place in places)
-    found: dict[str, dict[str, float]] = {}
+    result: dict[str, dict[str, float]] = {}
     for name, places in reached.items():
-        own = found[name] = {}
+        own = result[name] = {}
         for path, line in places:
             own[path] = own.get(path, 0.0) + 1 / common[path, line]
-    return found
+    return result
 
 
 def _spent() -> float:

@@ -191,13 +191,13 @@ class Campaign:
         if outcome(file, mutant) != RED:
             return False
         self._done.add(mutant)
-        found = [file]
+        result = [file]
         for other in others:
             if other is not file and outcome(other, mutant) == RED:
-                found.append(other)
-                if len(found) > self.limit:
+                result.append(other)
+                if len(result) > self.limit:
                     return False
-        for one in found:
+        for one in result:
             if one in self.files:
-                self.shown.setdefault(one, (mutant, len(found)))
+                self.shown.setdefault(one, (mutant, len(result)))
         return True

@@ -99,32 +99,32 @@ class _CheckInput:
         """An error at the first of these points; `message` goes on with them, then `figures`."""
         first, others = points[0] + self.origin, len(points) - 1
         named = f"point {first} and {others} more" if others else f"point {first}"
-        told = f"{message} {named}: {figures}" if figures else f"{message} {named}"
-        return _finding(code, told, help, *notes, at=(self.ordered, int(points[0])))
+        report = f"{message} {named}: {figures}" if figures else f"{message} {named}"
+        return _finding(code, report, help, *notes, at=(self.ordered, int(points[0])))
 
 
-def require_trajectory(given: object) -> None:
+def require_trajectory(value: object) -> None:
     """Raise InvalidTrajectory for anything else, with the way from that to a trajectory."""
-    if isinstance(given, Trajectory):
+    if isinstance(value, Trajectory):
         return
-    match given:
+    match value:
         case str() | PathLike():
-            mend = "a file is read by `Trajectory.from_csv(path)` or `from_json(path)`"
+            help = "a file is read by `Trajectory.from_csv(path)` or `from_json(path)`"
         case Mapping():
-            mend = "a ROS message as a dict is read by `Trajectory.from_ros(message)`"
+            help = "a ROS message as a dict is read by `Trajectory.from_ros(message)`"
         case Program():
-            mend = "`robot.run(program)` executes a program"
+            help = "`robot.run(program)` executes a program"
         case _:
-            mend = "`Trajectory.from_points(points, seconds=1)` makes one of points"
+            help = "`Trajectory.from_points(points, seconds=1)` makes one of points"
     raise InvalidTrajectory.because(
-        "RG611", f"this takes a Trajectory, and was given {type(given).__name__}", mend, exit_code=2
+        "RG611", f"this takes a Trajectory, and was given {type(value).__name__}", help, exit_code=2
     )
 
 
-def require_mode(given: object) -> None:
+def require_mode(value: object) -> None:
     """Raise ValueError for what is no way: nobody shall take another one than was meant."""
-    if given is not None and given not in get_args(Way):
-        raise ValueError(f"a way is 'download', 'stream' or None, not {given!r}")
+    if value is not None and value not in get_args(Way):
+        raise ValueError(f"a way is 'download', 'stream' or None, not {value!r}")
 
 
 def check_trajectory(
@@ -148,16 +148,16 @@ def check_trajectory(
     with np.errstate(invalid="ignore", over="ignore"):
         wire = group.to_wire(ordered.positions)
         durations = np.concatenate([[first], np.diff(times)])
-        asked = _CheckInput(ordered, group, wire, durations, start)
-        found = _content(asked)
+        requested = _CheckInput(ordered, group, wire, durations, start)
+        result = _content(requested)
         if len(wire) > 1 or not (times[0] > 0 or goes_to_single):
-            found += _start(asked)
+            result += _start(requested)
     if len(wire) == 1:
         wire = np.repeat(wire, 2, axis=0)
         # A rapidgen driver goes by the second frame's duration, abb_driver takes both.
         durations = np.array([first, first if goes_to_single else group.policy.min_segment])
-    _raise_errors(found)
-    return CheckedTrajectory(ordered, wire, durations, tuple(found))
+    _raise_errors(result)
+    return CheckedTrajectory(ordered, wire, durations, tuple(result))
 
 
 def check_points(
@@ -174,13 +174,13 @@ def check_points(
     since = times[0] - first if before is None else before.time
     with np.errstate(invalid="ignore", over="ignore"):
         wire = group.to_wire(ordered.positions)
-        asked = _CheckInput(ordered, group, wire, np.diff(times, prepend=since), start, before)
-        found = _content(asked)
+        requested = _CheckInput(ordered, group, wire, np.diff(times, prepend=since), start, before)
+        result = _content(requested)
         if before is None:
-            found += _start(asked)
-        found += _fits(asked)
-    _raise_errors(found)
-    return _points(asked, since, tuple(found))
+            result += _start(requested)
+        result += _fits(requested)
+    _raise_errors(result)
+    return _points(requested, since, tuple(result))
 
 
 def to_stream(
@@ -195,17 +195,19 @@ def to_stream(
         _raise_errors(list(_capacity(ordered, capacity)))
         return checked
     since = ordered.times[0] - durations[0]
-    asked = _CheckInput(ordered, group, checked.wire, durations, None)
-    return _points(asked, since, checked.warnings)
+    requested = _CheckInput(ordered, group, checked.wire, durations, None)
+    return _points(requested, since, checked.warnings)
 
 
-def _points(asked: _CheckInput, since: float, warnings: tuple[Diagnostic, ...]) -> CheckedPoints:
-    ordered, group, durations = asked.ordered, asked.group, asked.durations
+def _points(
+    requested: _CheckInput, since: float, warnings: tuple[Diagnostic, ...]
+) -> CheckedPoints:
+    ordered, group, durations = requested.ordered, requested.group, requested.durations
     # Times are put on the grid, not durations: nothing adds up over a long stream.
     steps = np.diff(np.rint(ordered.times * FIXED_SCALE), prepend=np.rint(since * FIXED_SCALE))
     least = np.rint(np.minimum(durations, group.policy.min_segment) * FIXED_SCALE)
-    wire = quantised(asked.wire, group)
-    last = LastPoint(len(ordered) + asked.origin, float(ordered.times[-1]), wire[-1])
+    wire = quantised(requested.wire, group)
+    last = LastPoint(len(ordered) + requested.origin, float(ordered.times[-1]), wire[-1])
     return CheckedPoints(ordered, wire, np.maximum(steps, least) / FIXED_SCALE, last, warnings)
 
 
@@ -220,29 +222,31 @@ def quantised(wire: Array, group: Group) -> Array:
 
 def check_names(trajectory: Trajectory, group: Group) -> None:
     """Raises InvalidTrajectory when the columns are not the robot's joints."""
-    found = _names(trajectory, group)
-    if found:
-        raise InvalidTrajectory(found, exit_code=1)
+    result = _names(trajectory, group)
+    if result:
+        raise InvalidTrajectory(result, exit_code=1)
 
 
-def _fitting(trajectory: Trajectory, group: Group, found: list[Diagnostic]) -> Trajectory:
+def _fitting(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -> Trajectory:
     """The trajectory with the robot's columns: without them nothing else can be asked."""
-    found = found + _names(trajectory, group)
+    findings = findings + _names(trajectory, group)
     if not len(trajectory):
-        found.append(_finding("RG619", "the trajectory has no points", "give at least one point"))
-    if found:
-        raise InvalidTrajectory(found, exit_code=1)
+        findings.append(
+            _finding("RG619", "the trajectory has no points", "give at least one point")
+        )
+    if findings:
+        raise InvalidTrajectory(findings, exit_code=1)
     return trajectory.reordered(group.names)
 
 
-def _content(asked: _CheckInput) -> list[Diagnostic]:
+def _content(requested: _CheckInput) -> list[Diagnostic]:
     """What is the same of a whole trajectory and of a piece."""
-    return [f for look in (_finite, _times, _limits, _speeds, _short) for f in look(asked)]
+    return [f for look in (_finite, _times, _limits, _speeds, _short) for f in look(requested)]
 
 
-def _raise_errors(found: list[Diagnostic]) -> None:
-    if any(d.severity is Severity.ERROR for d in found):
-        raise InvalidTrajectory(found, exit_code=1)
+def _raise_errors(findings: list[Diagnostic]) -> None:
+    if any(d.severity is Severity.ERROR for d in findings):
+        raise InvalidTrajectory(findings, exit_code=1)
 
 
 def _finding(
@@ -284,7 +288,7 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
                 f"the robot's joints are: {', '.join(own)}",
             )
         ]
-    found = [
+    result = [
         _finding(
             "RG611",
             f"the robot has no joint '{name}'",
@@ -295,25 +299,27 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
     ]
     missing = [name for name in own if name not in names]
     if missing:
-        mend = f"a column for each of the robot's joints: {', '.join(own)}"
-        found.append(_finding("RG611", f"joints are missing: {', '.join(missing)}", mend))
-    return found
+        help = f"a column for each of the robot's joints: {', '.join(own)}"
+        result.append(_finding("RG611", f"joints are missing: {', '.join(missing)}", help))
+    return result
 
 
-def _finite(asked: _CheckInput) -> Iterator[Diagnostic]:
-    bad = ~np.isfinite(asked.ordered.positions)
+def _finite(requested: _CheckInput) -> Iterator[Diagnostic]:
+    bad = ~np.isfinite(requested.ordered.positions)
     for column in np.flatnonzero(bad.any(axis=0)).tolist():
         points = np.flatnonzero(bad[:, column])
-        value = asked.ordered.positions[points[0], column]
-        message = f"{asked.group.names[column]} is {value} at"
-        yield asked.finding("RG613", message, points, "", _NUMBERS)
+        value = requested.ordered.positions[points[0], column]
+        message = f"{requested.group.names[column]} is {value} at"
+        yield requested.finding("RG613", message, points, "", _NUMBERS)
 
 
-def _times(asked: _CheckInput) -> Iterator[Diagnostic]:
-    times, before = asked.ordered.times, asked.before
+def _times(requested: _CheckInput) -> Iterator[Diagnostic]:
+    times, before = requested.ordered.times, requested.before
     unknown = np.flatnonzero(~np.isfinite(times))
     if len(unknown):
-        yield asked.finding("RG613", f"the time is {times[unknown[0]]} at", unknown, "", _NUMBERS)
+        yield requested.finding(
+            "RG613", f"the time is {times[unknown[0]]} at", unknown, "", _NUMBERS
+        )
         return
     if before is None and times[0] < 0:
         yield _finding("RG612", f"the first time is {times[0]:g} s", "times count from the start")
@@ -324,47 +330,48 @@ def _times(asked: _CheckInput) -> Iterator[Diagnostic]:
         first = int(late[0])
         earlier = times[first - 1] if first or before is None else before.time
         figures = f"{times[first]:g} s after {earlier:g} s"
-        mend = "each point needs a later time than the one before"
-        yield asked.finding("RG612", "the time does not increase at", late, figures, mend)
+        help = "each point needs a later time than the one before"
+        yield requested.finding("RG612", "the time does not increase at", late, figures, help)
 
 
-def _limits(asked: _CheckInput) -> Iterator[Diagnostic]:
-    ordered = asked.ordered
-    whole = np.isfinite(ordered.positions).all(axis=1) & np.isfinite(ordered.times)
-    for column, joint in enumerate(asked.group.joints):
-        values = asked.wire[:, column]
+def _limits(requested: _CheckInput) -> Iterator[Diagnostic]:
+    ordered = requested.ordered
+    complete = np.isfinite(ordered.positions).all(axis=1) & np.isfinite(ordered.times)
+    for column, joint in enumerate(requested.group.joints):
+        values = requested.wire[:, column]
         inside = (joint.lower - ROUNDING <= values) & (values <= joint.upper + ROUNDING)
-        points = np.flatnonzero(~inside & whole)
+        points = np.flatnonzero(~inside & complete)
         if not len(points):
             continue
         unit = "rad" if joint.kind == "revolute" else "m"
-        coupled = joint.axis == "rax_3" and bool(asked.group.map.coupling)
+        coupled = joint.axis == "rax_3" and bool(requested.group.map.coupling)
         notes = ("axis 3 is coupled: its limits are those of joint 3 and 2 together",)
         worst = int(points[np.argmax(np.abs(values[points] - (joint.lower + joint.upper) / 2))])
-        yield asked.finding(
+        yield requested.finding(
             "RG614",
             f"{joint.name} is outside its limits at",
             points,
-            f"{joint.axis} would be at {values[worst]:.4f} {unit} (point {worst + asked.origin}), "
+            f"{joint.axis} would be at {values[worst]:.4f} {unit} "
+            f"(point {worst + requested.origin}), "
             f"and has {joint.lower:.4f} to {joint.upper:.4f} {unit}",
             "keep the points inside the limits",
             *(notes if coupled else ()),
         )
 
 
-def _speeds(asked: _CheckInput) -> Iterator[Diagnostic]:
+def _speeds(requested: _CheckInput) -> Iterator[Diagnostic]:
     """Segment speeds; the approach to a first point with a time of its own counts as one."""
-    wire, start, before = asked.wire, asked.start, asked.before
+    wire, start, before = requested.wire, requested.start, requested.before
     if before is not None:
         came_from = before.wire[None]
     else:
         came_from = wire[:1] if start is None else np.array([start[: wire.shape[1]]])
     steps = np.abs(np.diff(np.concatenate([came_from, wire]), axis=0))
-    seconds = asked.durations[:, None]
+    seconds = requested.durations[:, None]
     rates = np.divide(steps, seconds, out=np.zeros_like(steps), where=seconds > 0)
-    if before is None and asked.ordered.times[0] <= 0:
+    if before is None and requested.ordered.times[0] <= 0:
         rates[0] = 0.0
-    for column, joint in enumerate(asked.group.joints):
+    for column, joint in enumerate(requested.group.joints):
         # A step from or to what is no number is no speed, and no scale mends it.
         fast = rates[:, column] > joint.speed * _SPEED_ROUNDING
         points = np.flatnonzero(fast & np.isfinite(steps[:, column]))
@@ -372,7 +379,7 @@ def _speeds(asked: _CheckInput) -> Iterator[Diagnostic]:
             continue
         worst = float(rates[points, column].max())
         unit = "rad/s" if joint.kind == "revolute" else "m/s"
-        yield asked.finding(
+        yield requested.finding(
             "RG615",
             f"{joint.name} is too fast on the way to",
             points,
@@ -382,8 +389,8 @@ def _speeds(asked: _CheckInput) -> Iterator[Diagnostic]:
         )
 
 
-def _start(asked: _CheckInput) -> Iterator[Diagnostic]:
-    group, wire, start = asked.group, asked.wire, asked.start
+def _start(requested: _CheckInput) -> Iterator[Diagnostic]:
+    group, wire, start = requested.group, requested.wire, requested.start
     if start is None:
         return
     away = np.abs(wire[0] - np.array(start[: wire.shape[1]]))
@@ -409,30 +416,32 @@ def _start(asked: _CheckInput) -> Iterator[Diagnostic]:
         "go there first: `trajectory.starting_at(robot.state, seconds)`, or "
         "`rapidgen move --approach SECONDS`",
         *rows,
-        at=(asked.ordered, 0),
+        at=(requested.ordered, 0),
     )
 
 
-def _short(asked: _CheckInput) -> list[Diagnostic]:
-    least, durations = asked.group.policy.min_segment, asked.durations
+def _short(requested: _CheckInput) -> list[Diagnostic]:
+    least, durations = requested.group.policy.min_segment, requested.durations
     points = np.flatnonzero((durations < least - _TIME_ROUNDING) & (durations > 0))
     if not len(points):
         return []
-    found = asked.finding(
+    result = requested.finding(
         "RG618",
         "shorter than the path planner follows: the segment to",
         points,
         f"{durations[points].min():.4f} s, at least {least:g} s",
         f"`Trajectory.resampled({least:g})`, or `rapidgen move --resample {least:g}`",
     )
-    return [found if asked.group.has_limits else replace(found, severity=Severity.WARNING)]
+    return [result if requested.group.has_limits else replace(result, severity=Severity.WARNING)]
 
 
-def _fits(asked: _CheckInput) -> list[Diagnostic]:
-    values = np.concatenate([asked.wire, asked.durations[:, None]], axis=1)
+def _fits(requested: _CheckInput) -> list[Diagnostic]:
+    values = np.concatenate([requested.wire, requested.durations[:, None]], axis=1)
     points = np.flatnonzero((np.abs(values) > FIXED_LIMIT).any(axis=1))
     if not len(points):
         return []
     figures = f"{np.abs(values[points]).max():.2f}, at most {FIXED_LIMIT:.2f} s, rad or m"
-    mend = "`Trajectory.resampled(10)` divides a long segment"
-    return [asked.finding("RG623", "a value is too large for a stream at", points, figures, mend)]
+    help = "`Trajectory.resampled(10)` divides a long segment"
+    return [
+        requested.finding("RG623", "a value is too large for a stream at", points, figures, help)
+    ]

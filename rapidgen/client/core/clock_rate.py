@@ -33,7 +33,7 @@ class ClockRateEstimator:
         self._later = (0.0, 0)
         self._measured: float | None = None
 
-    def took(self, now: float, number: int) -> None:
+    def add_sample(self, now: float, number: int) -> None:
         """The state `number` was read at `now` s; several of one read have the same moment."""
         # What was held up before it is read at once: the later of the two counts without it.
         if self._first is None or self._first[0] == now:

@@ -103,8 +103,8 @@ class Download(CommandedMotion):
                 self.accepted(None)
             case messages.Refused():
                 place = place_of(self._group, reply.point, reply.joint)
-                told = reply.reason, place, reply.point, reply.joint
-                self.failed(refused(self._state_port, *told))
+                report = reply.reason, place, reply.point, reply.joint
+                self.failed(refused(self._state_port, *report))
             case messages.Failure():
                 self.failed(refused(self._state_port, None))
             case _:
@@ -148,13 +148,13 @@ class Download(CommandedMotion):
             self._succeed()
         elif elapsed > self.planned_seconds + _GRACE and now - self._stood_since > _GRACE:
             what = "stands elsewhere" if self._seen_moving else "never moved"
-            found = fault(
+            result = fault(
                 "RG633",
                 f"the robot {what}: {self._deviation(state):.4f} (rad, m) from the last point",
                 "look at the controller's event log: a speed override, a program that does not "
                 "run, or a refusal that this driver cannot tell",
             )
-            self._end(MotionFailed, found, status.error)
+            self._end(MotionFailed, result, status.error)
 
     def _trouble(self) -> str:
         status = self._state_port.status
@@ -177,11 +177,11 @@ class Download(CommandedMotion):
     def progress(self) -> Progress:
         """How far it is, now."""
         total = self.total
-        told = self._told() if self.phase is not Phase.SENDING else None
-        state = trajectory_state(told.state) if told is not None else None
-        if told is not None and state is not None:
-            share = min(1.0, told.reached / self.frames)
-            return Progress(state, total, told.received, told.planned, told.reached, share)
+        report = self._told() if self.phase is not Phase.SENDING else None
+        state = trajectory_state(report.state) if report is not None else None
+        if report is not None and state is not None:
+            share = min(1.0, report.reached / self.frames)
+            return Progress(state, total, report.received, report.planned, report.reached, share)
         if self.result is not None:
             return Progress(TrajectoryState.DONE, total, fraction=1.0)
         if self.phase is Phase.SENDING:

@@ -41,10 +41,10 @@ class Frames:
         self, pose: Pose, near: Posture, configuration: AxisConfiguration | None = None
     ) -> list[Posture]:
         """All postures within the ranges, closest to `near` first; those of a configuration."""
-        found = self.kinematics.solutions(self._flange(pose), near)
+        result = self.kinematics.solutions(self._flange(pose), near)
         if configuration is None:
-            return found
-        return [p for p in found if self.kinematics.matches(p, configuration)]
+            return result
+        return [p for p in result if self.kinematics.matches(p, configuration)]
 
     def why_not(self, pose: Pose, near: Posture) -> str:
         """Why no posture reaches a pose, in a sentence."""

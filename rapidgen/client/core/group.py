@@ -165,7 +165,7 @@ class Group:
         """URDF joint velocities of the ten axis velocities of a message."""
         return self.map.rates_to_urdf(values[: len(self.joints)])
 
-    def narrowed(self, hello: HelloReply) -> "Group":
+    def with_controller_limits(self, hello: HelloReply) -> "Group":
         """The same with the limits that the controller has, where those are narrower."""
         joints = tuple(
             replace(

@@ -31,7 +31,7 @@ class HeartbeatSchedule:
         self._pending = None
 
     @property
-    def is_awaited(self) -> bool:
+    def is_armed(self) -> bool:
         """Whether the controller counts on the next one."""
         return self._in_force
 

@@ -199,9 +199,9 @@ class CommandedMotion(ABC):
             self._without_progress()
             return
         self._stands_since = None
-        told = self._told()
-        if told is not None:
-            self._by_progress(told)
+        report = self._told()
+        if report is not None:
+            self._by_progress(report)
 
     def _look_for_answer(self) -> None:
         """An answer that does not come while the robot already moves is lost."""
@@ -284,30 +284,30 @@ class CommandedMotion(ABC):
         before = self._before.trajectory if self._before else 0
         return progress if progress.trajectory != before else None
 
-    def _by_progress(self, told: messages.ProgressReport) -> None:
-        match told.state:
+    def _by_progress(self, report: messages.ProgressReport) -> None:
+        match report.state:
             case TrajectoryState.DONE:
                 if self._state_port.status.in_motion is not TriState.TRUE:
                     self._succeed()
             case TrajectoryState.STOPPED:
                 if not self.stopping:
                     text = "stopped by another request or by the operator"
-                    self._end(MotionStopped, fault("RG631", text), reason_of(told.reason))
+                    self._end(MotionStopped, fault("RG631", text), reason_of(report.reason))
                 elif self._state_port.status.in_motion is not TriState.TRUE:
                     self.stopped()
             case TrajectoryState.FAILED | TrajectoryState.REFUSED:
-                point = self._index(told.point)
-                place = place_of(self._group, point, told.joint, self.noun)
-                reason = reason_of(told.reason)
-                found = fault(
+                point = self._index(report.point)
+                place = place_of(self._group, point, report.joint, self.noun)
+                reason = reason_of(report.reason)
+                result = fault(
                     "RG630",
-                    f"the controller ended the motion{place}: {reason_text(told.reason)}",
+                    f"the controller ended the motion{place}: {reason_text(report.reason)}",
                     fix_of(
                         reason,
                         "look at the robot; what was executed is a prefix of what was asked",
                     ),
                 )
-                self._end(MotionFailed, found, reason, point=point, joint=told.joint)
+                self._end(MotionFailed, result, reason, point=point, joint=report.joint)
 
     def _index(self, point: int) -> int:
         """Which point of this motion a number of the wire means; -1 none."""
@@ -315,8 +315,8 @@ class CommandedMotion(ABC):
 
     def _reached(self) -> int | None:
         """Points known to be reached, None when the driver does not say."""
-        told = self._told()
-        return told.reached if told is not None else None
+        report = self._told()
+        return report.reached if report is not None else None
 
     def _deviation(self, state: State) -> float:
         goal = self._group.from_wire(self.goal)
@@ -394,7 +394,7 @@ def refused(
 
 def place_of(group: Group, point: int, joint: int, noun: str = "point") -> str:
     """` at point 3, joint_2`, as far as it is known; `point` from 0, `joint` from 1."""
-    found = f" at {noun} {point}" if point >= 0 else ""
+    result = f" at {noun} {point}" if point >= 0 else ""
     if 1 <= joint <= len(group.names):
-        found += f"{',' if found else ' at'} {group.names[joint - 1]}"
-    return found
+        result += f"{',' if result else ' at'} {group.names[joint - 1]}"
+    return result

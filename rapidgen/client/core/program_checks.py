@@ -44,16 +44,16 @@ _LARGEST = LARGEST_ARC - radians(0.5)
 """rad: the driver, which refuses more than 240 degrees, has the points in whole micrometres."""
 
 
-def require_program(given: object) -> None:
+def require_program(value: object) -> None:
     """Raise InvalidProgram for anything else."""
-    if not isinstance(given, Program):
-        mend = (
+    if not isinstance(value, Program):
+        help = (
             "`robot.execute(trajectory)` executes a trajectory"
-            if isinstance(given, Trajectory)
+            if isinstance(value, Trajectory)
             else "`Program().move_joints(joints).move_linear(pose)` is one"
         )
         raise InvalidProgram.because(
-            "RG670", f"this takes a Program, and was given {type(given).__name__}", mend
+            "RG670", f"this takes a Program, and was given {type(value).__name__}", help
         )
 
 
@@ -86,7 +86,7 @@ def check_program(
             f"{len(program)} instructions, the driver's ring holds {most}",
             "`way='stream'`: the rest is sent while the robot moves",
         )
-    words: list[list[int]] = []
+    values: list[list[int]] = []
     seconds: list[float] = []
     last: ProgramStep | None = None
     for walk.index, step in enumerate(program.steps):
@@ -104,13 +104,13 @@ def check_program(
             _stopped(walk, last, step, before != walk.chosen)
         if not _failed(walk):
             chosen = walk.chosen if walk.chosen != before else None
-            words.append(_words(step, last, operands, chosen, marks, walk.arguments))
-            if not words[1:]:
-                words[0] = [*instructions.fixed(begin), *words[0]]
+            values.append(_words(step, last, operands, chosen, marks, walk.arguments))
+            if not values[1:]:
+                values[0] = [*instructions.fixed(begin), *values[0]]
         last = step
     if _failed(walk):
         raise InvalidProgram(walk.found)
-    return CheckedProgram(program, words, seconds, walk.here, tuple(walk.found))
+    return CheckedProgram(program, values, seconds, walk.here, tuple(walk.found))
 
 
 def _failed(walk: ProgramTraversal) -> bool:
@@ -139,7 +139,7 @@ def _words(
 def _frames(walk: ProgramTraversal, step: ProgramStep) -> tuple[int, int]:
     """Numbers of tool and work object."""
     geometry = walk.group.geometry
-    found: list[int] = []
+    result: list[int] = []
     for what, name, known in (
         ("tool", step.tool, geometry.tools if geometry else ()),
         ("work object", step.work_object, geometry.work_objects if geometry else ()),
@@ -147,9 +147,9 @@ def _frames(walk: ProgramTraversal, step: ProgramStep) -> tuple[int, int]:
         names = [each for each, _ in known]
         if not isinstance(name, str):
             # By an instruction before this one; where that was wrong it is told already.
-            if walk.own[len(found)] is None:
+            if walk.own[len(result)] is None:
                 return walk.chosen
-            found.append(len(names))
+            result.append(len(names))
             continue
         if name and name not in names:
             walk.say(
@@ -158,8 +158,8 @@ def _frames(walk: ProgramTraversal, step: ProgramStep) -> tuple[int, int]:
                 suggest(name, names) or f"it has: {', '.join(names) or 'none'}",
             )
             return walk.chosen
-        found.append(names.index(name) if name else 0)
-    return found[0], found[1]
+        result.append(names.index(name) if name else 0)
+    return result[0], result[1]
 
 
 def _stopped(walk: ProgramTraversal, last: ProgramStep, step: ProgramStep, changed: bool) -> None:
@@ -202,19 +202,19 @@ def _joint_move(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     pose, near, robot = _target(walk, step)
     if pose is None or robot is None:
         return (), 0.0
-    found = robot.postures(pose, near, step.configuration)
-    if not found:
+    result = robot.postures(pose, near, step.configuration)
+    if not result:
         _unreached(walk, robot, pose, near, step)
         return (), 0.0
-    return operands(pose, found[0]), _go(walk, found[0], step)
+    return operands(pose, result[0]), _go(walk, result[0], step)
 
 
 def _line(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     pose, near, robot = _target(walk, step)
     if pose is None or robot is None:
         return (), 0.0
-    way = Line(robot.pose(walk.here), pose)
-    seconds = _along(walk, step, robot, way, near)
+    mode = Line(robot.pose(walk.here), pose)
+    seconds = _along(walk, step, robot, mode, near)
     return operands(pose, walk.here), seconds
 
 
@@ -223,18 +223,18 @@ def _circle(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     via = unit(walk, step.via)
     if pose is None or via is None or robot is None:
         return (), 0.0
-    way = arc_through(robot.pose(walk.here), via, pose)
-    if way is None or way.sweep > _LARGEST:
+    mode = arc_through(robot.pose(walk.here), via, pose)
+    if mode is None or mode.sweep > _LARGEST:
         walk.say(
             "RG672",
             "the three points make no circle"
-            if way is None
+            if mode is None
             else "the circle is longer than 239.5 degrees: 240 at most, and points are rounded",
             "points 0.1 mm apart and more, the others 1 degree as seen from the first; two circles "
             "for a long one",
         )
         return (), 0.0
-    seconds = _along(walk, step, robot, way, near)
+    seconds = _along(walk, step, robot, mode, near)
     return (*via[0], *via[1], *operands(pose, walk.here)), seconds
 
 
@@ -306,24 +306,24 @@ def _go(walk: ProgramTraversal, target: Posture, step: ProgramStep) -> float:
 
 
 def _along(
-    walk: ProgramTraversal, step: ProgramStep, robot: Frames, way: _Way, outer: Posture
+    walk: ProgramTraversal, step: ProgramStep, robot: Frames, mode: _Way, outer: Posture
 ) -> float:
     """Follow a way of the TCP on the branch where the robot is; seconds that it takes, at least."""
     speed = step.speed
-    seconds = max(way.length / speed.tcp, way.angle / speed.orientation, 1e-4)
-    count = max(2, ceil(way.length / _STEP), ceil(way.angle / _TURN))
+    seconds = max(mode.length / speed.tcp, mode.angle / speed.orientation, 1e-4)
+    count = max(2, ceil(mode.length / _STEP), ceil(mode.angle / _TURN))
     begin, nodes = walk.here, [walk.here]
     for number in range(1, count + 1):
-        share = number / count
+        fraction = number / count
         near = tuple(
-            a + (b - a) * share if joint.axis.startswith("eax") else here
-            for joint, a, b, here in zip(walk.group.joints, begin, outer, nodes[-1], strict=True)
+            a + (b - a) * fraction if joint.axis.startswith("eax") else current
+            for joint, a, b, current in zip(walk.group.joints, begin, outer, nodes[-1], strict=True)
         )
-        posture = robot.follow((way.position(share), way.orientation(share)), near)
+        posture = robot.follow((mode.position(fraction), mode.orientation(fraction)), near)
         beyond = outside(walk.group.joints, posture) if posture is not None else []
         if posture is None or beyond:
-            end = way.position(1.0), way.orientation(1.0)
-            _left(walk, step, robot, end, outer, share, beyond)
+            end = mode.position(1.0), mode.orientation(1.0)
+            _left(walk, step, robot, end, outer, fraction, beyond)
             return seconds
         jumps = [
             (abs(b - a), joint)
@@ -334,7 +334,7 @@ def _along(
         if most > _JUMP:
             walk.say(
                 "RG672",
-                f"the way passes a singularity after {share:.0%}: {joint.name} would turn "
+                f"the way passes a singularity after {fraction:.0%}: {joint.name} would turn "
                 f"{most:.2f} rad at once",
                 "" if walk.singular else "another way, joints, or `allow(singularities=True)`",
                 severity=Severity.WARNING if walk.singular else Severity.ERROR,
@@ -362,7 +362,7 @@ def _left(
     robot: Frames,
     pose: Pose,
     outer: Posture,
-    share: float,
+    fraction: float,
     beyond: Sequence[LimitFault],
 ) -> None:
     """Say that a way leaves the robot's reach: where it does, or that its end is not reached."""
@@ -372,7 +372,7 @@ def _left(
     why = f": {beyond[0]}" if beyond else ""
     walk.say(
         "RG672",
-        f"the way leaves the robot's reach after {share:.0%}{why}",
+        f"the way leaves the robot's reach after {fraction:.0%}{why}",
         "its end is reached: another way, or `move_to` with all axes",
     )
 

@@ -33,25 +33,25 @@ class ProgramTraversal:
         """Of the routine that is called, as they go onto the wire."""
 
     def say(
-        self, code: str, message: str, mend: str = "", *, severity: Severity = Severity.ERROR
+        self, code: str, message: str, help: str = "", *, severity: Severity = Severity.ERROR
     ) -> None:
         """A finding about the instruction at hand."""
         place = f"instruction {self.index}: "
-        self.found.append(error(code, None, place + message, mend, severity=severity))
+        self.found.append(error(code, None, place + message, help, severity=severity))
 
     @property
     def frames(self) -> Frames | None:
         """The robot's geometry with tool and work object; told where it is missing."""
         geometry = self.geometry
-        found = geometry.frames(*self.chosen) if geometry is not None else None
-        if found is None:
+        result = geometry.frames(*self.chosen) if geometry is not None else None
+        if result is None:
             self.say(
                 "RG671",
                 "the joints of this pose are not known",
                 "connect with a configuration that has the robot's chain, its tool and its work "
                 "object",
             )
-        return found
+        return result
 
 
 def operands(pose: Pose, posture: Posture) -> tuple[float, ...]:

@@ -100,16 +100,16 @@ def own_frame(walk: ProgramTraversal, step: ProgramStep) -> Checked:
         return (), 0.0
     try:
         if isinstance(own, UserTool):
-            words, pose = own_tool(own)
+            values, pose = own_tool(own)
             walk.own = pose, walk.own[1]
         else:
-            words, pose = own_work_object(cast("UserWorkObject", own))
+            values, pose = own_work_object(cast("UserWorkObject", own))
             walk.own = walk.own[0], pose
     except (ValueError, TypeError, InvalidProgram) as wrong:
         walk.say("RG670", str(wrong))
         return (), 0.0
     walk.geometry = geometry.owning(*walk.own)
-    return words, 0.0
+    return values, 0.0
 
 
 def set_signal(walk: ProgramTraversal, step: ProgramStep) -> Checked:
@@ -126,13 +126,13 @@ def call(walk: ProgramTraversal, step: ProgramStep) -> Checked:
         )
         return (), 0.0
     number = names.index(step.routine)
-    wanted = walk.group.routines[number].parameters
-    if len(wanted) != len(step.arguments):
-        given = f"{len(step.arguments)} of {len(wanted)} parameters"
+    expected = walk.group.routines[number].parameters
+    if len(expected) != len(step.arguments):
+        given = f"{len(step.arguments)} of {len(expected)} parameters"
         walk.say("RG670", f"routine '{step.routine}' is called with {given}")
     walk.arguments = [
         _of_routine(walk, step, parameter, value)
-        for parameter, value in zip(wanted, step.arguments, strict=False)
+        for parameter, value in zip(expected, step.arguments, strict=False)
     ]
     return (number, _seconds(walk, step)), 0.0
 
@@ -177,11 +177,11 @@ def _reached(
     robot = walk.frames
     if pose is None or robot is None:
         return 0.0
-    found = robot.postures(pose, walk.here)
-    if not found:
+    result = robot.postures(pose, walk.here)
+    if not result:
         walk.say("RG671", f"{parameter.name} is not reached; {robot.why_not(pose, walk.here)}")
         return 0.0
-    return operands(pose, found[0])
+    return operands(pose, result[0])
 
 
 def fits(kind: str, value: float | bool | str) -> bool:

@@ -183,12 +183,12 @@ class Core:
             else:
                 self._replies(port, data)
         except FramingError as error:
-            found = fault(
+            result = fault(
                 "RG604",
                 f"the {port.name.lower()} port does not speak simple_message: {error}",
                 "is this the right host and port?",
             )
-            self._lost(port, ProtocolError(found, **self.evidence()))
+            self._lost(port, ProtocolError(result, **self.evidence()))
             return False
         self.poll()
         return True
@@ -228,19 +228,19 @@ class Core:
                 )
             )
 
-    def _stood(self, told: messages.Stopped) -> None:
+    def _stood(self, report: messages.Stopped) -> None:
         """The controller says where the robot stands after a halt."""
         if self.motion is not None and self._group is not None:
-            self.motion.stood = self._group.from_wire(told.joints)
+            self.motion.stood = self._group.from_wire(report.joints)
 
     def lost(self, port: Port, why: str) -> None:
         """A connection broke."""
-        found = fault(
+        result = fault(
             "RG602",
             f"the connection to the {port.name.lower()} port was lost: {why}",
             "look at the robot, then connect again",
         )
-        self._lost(port, ConnectionLost(found, **self.evidence()))
+        self._lost(port, ConnectionLost(result, **self.evidence()))
 
     def _lost(self, port: Port, error: RobotError) -> None:
         if port is Port.STATE:
@@ -302,7 +302,7 @@ class Core:
     def is_busy(self) -> bool:
         """Whether `due` must be asked now and then, though nothing comes in."""
         run = self.motion
-        return (run is not None and not run.is_over) or self.heartbeat.is_awaited
+        return (run is not None and not run.is_over) or self.heartbeat.is_armed
 
     def due(self, port: Port) -> bytes | None:
         """The next frame for this connection, None: nothing. It is taken for sent."""
@@ -362,14 +362,14 @@ class Core:
         self._outbox.append((pending, frame))
         return pending
 
-    def blind_stops(self) -> list[Port]:
+    def unmonitored_stops(self) -> list[Port]:
         """Connections on which a STOP must go out now: nobody sees any more what moves.
 
         Told once for each motion; the requests are taken for made.
         """
         run = self.motion
-        blind = ConnectionLost | RobotTimeout | ProtocolError
-        if run is None or run is self._stopped_blindly or not isinstance(run.error, blind):
+        unmonitored = ConnectionLost | RobotTimeout | ProtocolError
+        if run is None or run is self._stopped_blindly or not isinstance(run.error, unmonitored):
             return []
         if run.is_settled:
             return []
@@ -411,8 +411,8 @@ class Core:
         if self.motion is not None and not self.motion.is_over:
             return False
         progress = self.state_port.progress
-        under_way = progress is not None and progress.state in _UNDER_WAY
-        return under_way or self.state_port.status.in_motion is TriState.TRUE
+        in_progress = progress is not None and progress.state in _UNDER_WAY
+        return in_progress or self.state_port.status.in_motion is TriState.TRUE
 
     def without_control(self, why: str, *, again: bool = False) -> None:
         """There is no control connection, though the driver has the port; `again`: it is worth
@@ -423,10 +423,10 @@ class Core:
 
     def hello(self, *, subscribe: bool = True) -> bytes:
         """The request that asks who is there."""
-        wanted = int(self.subscribe) if subscribe else 0
+        expected = int(self.subscribe) if subscribe else 0
         major, minor, patch = (int(part) for part in __version__.split(".")[:3])
-        asked = messages.HelloRequest(PROTOCOL_VERSION, (major, minor, patch), wanted)
-        return encode(asked, Comm.REQUEST)
+        requested = messages.HelloRequest(PROTOCOL_VERSION, (major, minor, patch), expected)
+        return encode(requested, Comm.REQUEST)
 
     @property
     def capacity(self) -> int:
@@ -461,7 +461,7 @@ class Core:
             )
 
     def check(
-        self, trajectory: Trajectory, way: Way | None = None
+        self, trajectory: Trajectory, mode: Way | None = None
     ) -> CheckedTrajectory | CheckedPoints:
         """Check a trajectory, once: what goes by `download`, or the points of a stream.
 
@@ -470,24 +470,26 @@ class Core:
         yet), NotSupported (no driver that streams).
         """
         require_trajectory(trajectory)
-        require_mode(way)
-        if way == "stream":
+        require_mode(mode)
+        if mode == "stream":
             self.require_streaming()
             return check_points(trajectory, self.known_group, before=None, start=self.start)
         hello = self.state_port.driver.hello
         fits = hello is None or len(trajectory) <= hello.ring
-        if way == "download" or fits or not self.can_stream:
+        if mode == "download" or fits or not self.can_stream:
             return self.check_whole(trajectory)
-        whole = self.check_whole(trajectory, len(trajectory))
-        return to_stream(whole, self.known_group, self.capacity)
+        complete = self.check_whole(trajectory, len(trajectory))
+        return to_stream(complete, self.known_group, self.capacity)
 
-    def check_program(self, program: Program, way: Way | None = None) -> tuple[CheckedProgram, Way]:
+    def check_program(
+        self, program: Program, mode: Way | None = None
+    ) -> tuple[CheckedProgram, Way]:
         """Check a program, and the way that it goes by: whole, where the driver's ring holds it.
 
         Raises InvalidProgram, NotReady (no state yet), NotSupported.
         """
         require_program(program)
-        require_mode(way)
+        require_mode(mode)
         hello = self.state_port.driver.hello
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(
@@ -495,7 +497,7 @@ class Core:
                 "the driver takes no programs",
                 "build and deploy one whose configuration has not `profile: basic`",
             )
-        chosen = way or ("download" if len(program) <= hello.ring else "stream")
+        chosen = mode or ("download" if len(program) <= hello.ring else "stream")
         most = hello.ring if chosen == "download" else INDEX_WRAP - 1
         return check_program(program, self.known_group, start=self.start, most=most), chosen
 
@@ -534,7 +536,7 @@ class Core:
             raise _unknown()
         return self._group
 
-    def hindrances(self) -> list[str]:
+    def blockers(self) -> list[str]:
         """Why the robot cannot move now, by its own word."""
         status = self.state_port.status
         has_ended = status.motion_possible is TriState.FALSE and status.error is Reason.TASK_ENDED
@@ -560,7 +562,7 @@ class Core:
             raise NotReady.because(
                 "RG622", "a trajectory is under way", "wait for its result, or stop()"
             )
-        hindrances = self.hindrances()
+        hindrances = self.blockers()
         if hindrances:
             text = "; ".join(hindrances)
             raise NotReady.because(
@@ -594,10 +596,10 @@ class Core:
         stream.queue.put(pack_points(checked.durations, checked.wire))
         stream.goes_on(checked.durations.tolist(), checked.last.wire.tolist())
 
-    def begin_program(self, checked: CheckedProgram, way: Way) -> PointStream:
+    def begin_program(self, checked: CheckedProgram, mode: Way) -> PointStream:
         """A program, from now on the motion under way."""
-        motion = self._begin(InstructionQueue(checked.instructions, whole=way == "download"))
-        motion.way, motion.noun, motion.warnings = way, "instruction", checked.notes
+        motion = self._begin(InstructionQueue(checked.instructions, complete=mode == "download"))
+        motion.way, motion.noun, motion.warnings = mode, "instruction", checked.notes
         motion.goes_on(checked.seconds, checked.goal)
         motion.end()
         return motion

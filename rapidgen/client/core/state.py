@@ -34,15 +34,15 @@ class Status:
     """1 to 10; 0 when the error is of no joint."""
 
     def __str__(self) -> str:
-        said = [self.mode.name if self.mode is not Mode.UNKNOWN else "mode unknown"]
+        message = [self.mode.name if self.mode is not Mode.UNKNOWN else "mode unknown"]
         if self.drives is not TriState.UNKNOWN:
-            said.append("motors on" if self.drives is TriState.TRUE else "motors off")
+            message.append("motors on" if self.drives is TriState.TRUE else "motors off")
         if self.e_stopped is TriState.TRUE:
-            said.append("EMERGENCY STOP")
+            message.append("EMERGENCY STOP")
         if self.in_error is TriState.TRUE:
-            said.append("in error")
-        said.append("moving" if self.in_motion is TriState.TRUE else "standing")
-        return ", ".join(said)
+            message.append("in error")
+        message.append("moving" if self.in_motion is TriState.TRUE else "standing")
+        return ", ".join(message)
 
 
 @dataclass(frozen=True, slots=True)

@@ -146,7 +146,7 @@ class StatePort:
             case messages.JointPosition():
                 sample = Sample(now, content.joints)
                 self.samples += 1
-                self._pace.took(now, self.samples)
+                self._pace.add_sample(now, self.samples)
                 self._recent.append(sample)
                 if self._arrivals and self._arrivals[-1][0].time == now:
                     self._arrivals.pop()
@@ -193,14 +193,14 @@ class StatePort:
     @property
     def feedback(self) -> Feedback | None:
         """The newest one, None before the first."""
-        told, group = self._feedback, self._group
-        if told is None or group is None:
+        report, group = self._feedback, self._group
+        if report is None or group is None:
             return None
         return Feedback(
             names=group.names,
-            joints=group.from_wire(told.positions),
-            velocity=group.rates_from_wire(told.velocities),
-            time=self._stamp(told),
+            joints=group.from_wire(report.positions),
+            velocity=group.rates_from_wire(report.velocities),
+            time=self._stamp(report),
             received=self._fed_at,
             number=self.feedbacks,
         )
@@ -285,9 +285,9 @@ class StatePort:
         """The last messages and states, for an exception."""
         return {"messages": self.messages, "states": self.states}
 
-    def late(self, message: str, mend: str = "") -> RobotTimeout:
+    def late(self, message: str, help: str = "") -> RobotTimeout:
         """What did not come in time, with the last messages and states."""
-        return RobotTimeout.because("RG603", message, mend, **self.evidence())
+        return RobotTimeout.because("RG603", message, help, **self.evidence())
 
     def note(self, text: str, level: int = logging.DEBUG) -> None:
         """Keep a line beside the messages, and log it. What is raised, too, is no warning."""

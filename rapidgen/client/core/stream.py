@@ -68,9 +68,9 @@ class PointQueue:
         self._queue: deque[Words] = deque()
         self._no_points = pack_points(np.zeros(0), np.zeros((0, joints)))
 
-    def put(self, words: Words) -> None:
+    def put(self, values: Words) -> None:
         """Behind those that wait."""
-        self._queue.append(words)
+        self._queue.append(values)
 
     def size(self, most: int) -> int:
         """See SendQueue."""
@@ -98,16 +98,16 @@ class InstructionQueue:
     number = PROGRAM.number
     batch = 16
 
-    def __init__(self, instructions: Sequence[Sequence[int]], *, whole: bool) -> None:
-        self.flags = StreamFlag.WHOLE if whole else StreamFlag(0)
+    def __init__(self, instructions: Sequence[Sequence[int]], *, complete: bool) -> None:
+        self.flags = StreamFlag.WHOLE if complete else StreamFlag(0)
         self._queue = deque(instructions)
 
     def size(self, most: int) -> int:
         """See SendQueue."""
-        words = count = 0
+        values = count = 0
         for one in islice(self._queue, most):
-            words += len(one)
-            if words > WORDS:
+            values += len(one)
+            if values > WORDS:
                 break
             count += 1
         return count
@@ -305,14 +305,14 @@ class PointStream(CommandedMotion):
         place = place_of(self._group, point, joint, self.noun)
         self.failed(refused(self._state_port, reason or None, place, point, joint))
 
-    def _by_progress(self, told: messages.ProgressReport) -> None:
+    def _by_progress(self, report: messages.ProgressReport) -> None:
         if self._state_port.progresses != self._looked_at:
             self._looked_at = self._state_port.progresses
-            self._counts(told.planned, told.reached)
+            self._counts(report.planned, report.reached)
             # A point that was given to the planner has made room for another one.
             self._has_room(self._planned + self._ring)
-            self._now(told.state)
-        super()._by_progress(told)
+            self._now(report.state)
+        super()._by_progress(report)
 
     def _has_room(self, until: int) -> None:
         if until > self._room_until:
@@ -356,8 +356,8 @@ class PointStream(CommandedMotion):
         elif self.error is not None:
             state = TrajectoryState.FAILED
         reached = self._reached_points
-        share = reached / self.total if self.total else 0.0
-        return Progress(state, self.total, self._accepted, self._planned, reached, share)
+        fraction = reached / self.total if self.total else 0.0
+        return Progress(state, self.total, self._accepted, self._planned, reached, fraction)
 
 
 def unwrapped(count: int, near: int) -> int:

@@ -39,7 +39,7 @@ def _open(core: Core) -> Flow[None]:
     core.fault = None
     limits = core.timeouts
     yield Open(Port.STATE, limits.connect)
-    asked = core.clock()
+    requested = core.clock()
     if not core.plain:
         yield Send(Port.STATE, core.hello(), limits.send)
     state_port = core.state_port
@@ -52,7 +52,7 @@ def _open(core: Core) -> Flow[None]:
             "is the state server's task running?",
         )
     if not core.plain:
-        left = max(0.0, asked + limits.hello - core.clock())
+        left = max(0.0, requested + limits.hello - core.clock())
         yield Wait(lambda: state_port.hello is not None or not core.state_open, left)
         # Where states come late the answer does, too: a driver tells it between two of them.
         yield Wait(
@@ -64,8 +64,8 @@ def _open(core: Core) -> Flow[None]:
             limits.state,
         )
     _meet(core, state_port.hello)
-    told = state_port.driver.hello
-    who = f"rapidgen {state_port.driver.version}, build {told.build_id}" if told else "plain"
+    report = state_port.driver.hello
+    who = f"rapidgen {state_port.driver.version}, build {report.build_id}" if report else "plain"
     state_port.note(f"connected: {who}, {state_port.status}", logging.INFO)
     if core.watch:
         return
@@ -104,11 +104,11 @@ def _meet_control(core: Core) -> Flow[None]:
         pending = control.request(HELLO.number)
         yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
         yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.reply)
-        known, told = core.state_port.hello, pending.reply
+        known, report = core.state_port.hello, pending.reply
         assert isinstance(known, messages.HelloReply)
-        if isinstance(told, messages.HelloReply) and told.same_driver(known):
+        if isinstance(report, messages.HelloReply) and report.same_driver(known):
             return
-        if told is None:
+        if report is None:
             trouble = SILENT
         if control.is_open:
             yield Close(Port.CONTROL)
@@ -137,16 +137,16 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
             )
         if core.configured is not None:
             core.configured.require(hello)
-            core.use(core.configured.narrowed(hello))
+            core.use(core.configured.with_controller_limits(hello))
         else:
             core.use(Group.told(hello))
     elif core.group is None:
         core.use(Group.unknown([f"joint_{i + 1}" for i in range(6)]))
 
 
-def hello_fault(told: messages.HelloReply) -> str:
+def hello_fault(report: messages.HelloReply) -> str:
     """What no driver of this project can have, in words; the client counts on these numbers."""
-    streams = Feature.STREAMING in Feature(told.features)
+    streams = Feature.STREAMING in Feature(report.features)
     least = {
         "joint_count": 1,
         "capacity": 2,
@@ -161,15 +161,15 @@ def hello_fault(told: messages.HelloReply) -> str:
         "preload": 0.0,
     }
     for name, bound in least.items():
-        value = getattr(told, name)
+        value = getattr(report, name)
         if not bound <= value < math.inf:
             return f"{name} {value:g}, which is at least {bound:g}"
-    if told.joint_count > MAX_JOINTS:
-        return f"{told.joint_count} joints, {MAX_JOINTS} are the most"
+    if report.joint_count > MAX_JOINTS:
+        return f"{report.joint_count} joints, {MAX_JOINTS} are the most"
     for i, (lower, upper, speed) in enumerate(
-        zip(told.lower, told.upper, told.speed, strict=True), 1
+        zip(report.lower, report.upper, report.speed, strict=True), 1
     ):
-        if i <= told.joint_count and not (lower <= upper and speed > 0):
+        if i <= report.joint_count and not (lower <= upper and speed > 0):
             return f"of joint {i} limits {lower:g} to {upper:g} and a speed of {speed:g}"
     return ""
 

@@ -49,9 +49,9 @@ def write_signal(core: Core, signal: str | int, value: float) -> Flow[float]:
 
 def _signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
     index = _index(core, which, writes=value is not None)
-    asked = messages.SignalRequest(index, int(value is not None), value or 0.0)
+    requested = messages.SignalRequest(index, int(value is not None), value or 0.0)
     what = "read" if value is None else "write"
-    reply = yield from ask(core, asked, f"{what} signal {which}")
+    reply = yield from ask(core, requested, f"{what} signal {which}")
     if not isinstance(reply, messages.SignalReply) or reply.signal != index:
         raise RequestRefused.because(
             "RG625", f"signal {which} was answered with {reply}", **core.evidence()

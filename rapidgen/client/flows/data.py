@@ -45,8 +45,8 @@ def _reach(core: Core, name: str, value: Datum | None, *, writes: bool) -> Flow[
         raise ValueError(f"{name} is a {datum.type}: it cannot be {value!r}")
     number = 0.0 if value is None or isinstance(value, str) else float(value)
     text = value if isinstance(value, str) else ""
-    asked = messages.DataRequest(index, int(writes), number, text)
-    reply = yield from ask(core, asked, f"{'write' if writes else 'read'} {name}")
+    requested = messages.DataRequest(index, int(writes), number, text)
+    reply = yield from ask(core, requested, f"{'write' if writes else 'read'} {name}")
     if not isinstance(reply, messages.DataReply) or reply.datum != index:
         raise RequestRefused.because(
             "RG625", f"{name} was answered with {reply}", **core.evidence()

@@ -50,14 +50,14 @@ class DownloadInProgress:
     def accepted(self) -> Flow[None]:
         """Wait for the controller's word on the whole trajectory."""
         core, motion = self._core, self.motion
-        patience = core.timeouts.reply + PER_POINT * motion.frames
-        yield Wait(lambda: motion.is_taken or motion.is_over, patience)
+        timeout = core.timeouts.reply + PER_POINT * motion.frames
+        yield Wait(lambda: motion.is_taken or motion.is_over, timeout)
         if motion.is_taken:
             return
         if motion.error is not None:
             raise motion.error
         raise core.state_port.late(
-            f"the controller did not answer within {patience:.1f} s whether it took the trajectory",
+            f"the controller did not answer within {timeout:.1f} s whether it took the trajectory",
             "a STOP was sent; look at the robot",
         )
 

@@ -16,7 +16,7 @@ from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState
 def ready(core: Core) -> Flow[None]:
     """Connected, and no reason why the robot could not move, or none that passes soon."""
     yield from alive(core, to_move=True)
-    yield Wait(lambda: not core.hindrances() or not core.state_open, core.timeouts.ready)
+    yield Wait(lambda: not core.blockers() or not core.state_open, core.timeouts.ready)
 
 
 def armed(core: Core) -> Flow[None]:
@@ -61,17 +61,17 @@ def until(
     def holds() -> bool:
         return motion.is_over or condition()
 
-    def stirs(mark: tuple[object, ...]) -> bool:
-        return holds() or motion.mark != mark
+    def stirs(marker: tuple[object, ...]) -> bool:
+        return holds() or motion.mark != marker
 
     try:
         if timeout is not None:
             yield Wait(holds, timeout)
             return holds()
         while True:
-            mark = motion.mark
+            marker = motion.mark
             # The mark may be the same again before this goes on: what the wait has seen counts.
-            stirred = yield Wait(partial(stirs, mark), stall_timeout(core, motion))
+            stirred = yield Wait(partial(stirs, marker), stall_timeout(core, motion))
             if holds():
                 return True
             if not stirred and motion.progress.state is not TrajectoryState.PAUSED:

@@ -46,11 +46,11 @@ _ANY = 1e6
 """s that a routine without a time-out may take."""
 
 
-def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
+def run(core: Core, program: Program, mode: Way | None) -> Flow[Job]:
     """A program whole or by stream; None: whole, where the driver's ring holds it."""
     yield from ready(core)
     core.ready()
-    checked, chosen = core.check_program(program, way)
+    checked, chosen = core.check_program(program, mode)
     yield from armed(core)
     job = Job(core)
     job.program = program
@@ -205,12 +205,12 @@ def _why_it_stopped(core: Core, routine: str, before: int, failed: MotionFailed)
     """Raise RoutineFailed with the event of the error that has stopped the program of the robot,
     where the driver tells one; `before` events had come when the motion began."""
 
-    def told() -> Event | None:
+    def report() -> Event | None:
         events = core.state_port.events
         return next((e for e in events if e.number > before and e.type is EventType.ERROR), None)
 
-    yield Wait(lambda: told() is not None, _TOLD)
-    event = told()
+    yield Wait(lambda: report() is not None, _TOLD)
+    event = report()
     if event is not None:
         raise RoutineFailed(
             fault(
@@ -231,23 +231,23 @@ def _results(core: Core, own: UserRoutine, told: messages.ResultReply) -> Flow[t
     left = [(n, p.type) for n, p in enumerate(own.parameters, 1) if p.inout]
     if own.returns:
         left.append((len(own.parameters) + 1, own.returns))
-    found: list[Left] = []
+    result: list[Left] = []
     for number, kind in left:
         if kind.endswith("target"):
             place = sum(p.type == kind for p in own.parameters[:number])
-            found.append((yield from _target(core, kind == "jointtarget", place)))
+            result.append((yield from _target(core, kind == "jointtarget", place)))
         elif kind == "string":
-            found.append((yield from _told(core, number)).text)
+            result.append((yield from _told(core, number)).text)
         else:
             value = told.values[number - 1]
-            found.append(value == 1 if kind == "bool" else value)
-    return tuple(found)
+            result.append(value == 1 if kind == "bool" else value)
+    return tuple(result)
 
 
 def _target(core: Core, joints: bool, number: int) -> Flow[Left]:
     """What a routine left in a jointtarget or robtarget, the `number`th of its type."""
-    asked = messages.TargetRequest(int(joints), number)
-    reply = yield from _ask(core, asked, messages.TARGET.number)
+    requested = messages.TargetRequest(int(joints), number)
+    reply = yield from _ask(core, requested, messages.TARGET.number)
     if not isinstance(reply, messages.TargetReply):
         raise core.state_port.late("the controller did not tell what a routine left in a target")
     group = core.known_group
@@ -272,10 +272,10 @@ def _told(core: Core, parameter: int = 0) -> Flow[messages.ResultReply]:
     return reply
 
 
-def _ask(core: Core, asked: Content, number: int) -> Flow[Content | None]:
+def _ask(core: Core, requested: Content, number: int) -> Flow[Content | None]:
     """The reply to a request on the motion port; None: none came in time."""
     port = core.ports[Port.MOTION]
     pending = port.request(number)
-    yield Send(Port.MOTION, encode(asked, Comm.REQUEST), core.timeouts.send)
+    yield Send(Port.MOTION, encode(requested, Comm.REQUEST), core.timeouts.send)
     yield Wait(lambda: pending.reply is not None or not port.is_open, core.timeouts.reply)
     return pending.reply

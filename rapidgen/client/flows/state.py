@@ -20,17 +20,17 @@ def _until(
 ) -> Flow[State]:
     yield from alive(core)
     state_port = core.state_port
-    found: list[State] = []
+    result: list[State] = []
 
     def holds() -> bool:
         state = state_port.state
         if state is not None and state_port.is_complete and condition(state):
-            found.append(state)
-        return bool(found) or not core.state_open
+            result.append(state)
+        return bool(result) or not core.state_open
 
     yield Wait(holds, timeout)
-    if found:
-        return found[0]
+    if result:
+        return result[0]
     if not core.state_open:
         raise core.disconnected()
     raise core.state_port.late(f"{what} did not come within {timeout:g} s")
@@ -56,9 +56,9 @@ def next_event(
     seen = state_port.event_count if after is None else after.number
     patience = float("inf") if timeout is None else timeout
     yield Wait(lambda: state_port.event_count > seen or not core.state_open, patience)
-    found = [event for event in state_port.events if event.number > seen]
-    if found:
-        return found[0]
+    result = [event for event in state_port.events if event.number > seen]
+    if result:
+        return result[0]
     if not core.state_open:
         raise core.disconnected()
     raise core.state_port.late(f"no event came within {timeout:g} s")

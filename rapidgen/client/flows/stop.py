@@ -76,43 +76,43 @@ def _confirmed(core: Core) -> Flow[None]:
     # there. Where something there is unanswered only that answer tells that it is over: it may be
     # read after the STOP of the control port.
     motion, ports, limit = core.motion, core.ports, core.timeouts.stop
-    behind = bool(ports[Port.MOTION].pending) or (motion is not None and motion.needs_stop)
+    after = bool(ports[Port.MOTION].pending) or (motion is not None and motion.needs_stop)
     # The quicker way first, in the same step.
     first = (Port.CONTROL, Port.MOTION)
-    asked = yield from _send_stop(core, [port for port in first if ports[port].is_open])
-    if Port.MOTION not in asked and (behind or not asked):
+    requested = yield from _send_stop(core, [port for port in first if ports[port].is_open])
+    if Port.MOTION not in requested and (after or not requested):
         try:
-            asked |= yield from _connect_and_send(core, Port.MOTION)
+            requested |= yield from _connect_and_send(core, Port.MOTION)
         except StopFailed as failed:
-            if asked or ports[Port.CONTROL].is_open:
+            if requested or ports[Port.CONTROL].is_open:
                 raise
             # The control port is the last way, also where HELLO has not told of it.
             try:
-                asked |= yield from _connect_and_send(core, Port.CONTROL)
+                requested |= yield from _connect_and_send(core, Port.CONTROL)
             except StopFailed as error:
                 core.state_port.note(str(error))
                 raise failed from None
-    elif Port.CONTROL not in asked and core.may_reach_control:
+    elif Port.CONTROL not in requested and core.may_reach_control:
         try:
-            asked |= yield from _connect_and_send(core, Port.CONTROL)
+            requested |= yield from _connect_and_send(core, Port.CONTROL)
         except StopFailed as error:
             core.state_port.note(str(error))
-    heard, read = asked.get(Port.CONTROL), asked.get(Port.MOTION)
-    if heard is not None:
+    received, read = requested.get(Port.CONTROL), requested.get(Port.MOTION)
+    if received is not None:
         control = ports[Port.CONTROL]
-        yield Wait(lambda: heard.reply is not None or not control.is_open, limit / 2)
-        if heard.reply is None:
+        yield Wait(lambda: received.reply is not None or not control.is_open, limit / 2)
+        if received.reply is None:
             core.state_port.note("the control port did not answer STOP")
             if read is None:
                 read = (yield from _connect_and_send(core, Port.MOTION))[Port.MOTION]
-    needed = read is not None and (behind or heard is None or heard.reply is None)
+    needed = read is not None and (after or received is None or received.reply is None)
     if read is not None and needed:
         left, talk = limit + PER_POINT * _unread(motion), ports[Port.MOTION]
         yield Wait(lambda: read.reply is not None or not talk.is_open, left)
-    told = [one.reply for one in (heard, read) if one is not None and one.reply is not None]
-    last = read if needed else heard
+    report = [one.reply for one in (received, read) if one is not None and one.reply is not None]
+    last = read if needed else received
     assert last is not None
-    if any(not isinstance(reply, messages.Acknowledged) for reply in told):
+    if any(not isinstance(reply, messages.Acknowledged) for reply in report):
         raise _not_stopped(core, "the controller could not stop")
     if last.reply is None:
         raise _not_stopped(core, "the controller did not answer STOP")

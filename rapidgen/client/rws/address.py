@@ -37,24 +37,24 @@ def parse_address(text: str) -> RwsAddress:
     """An address from what a user writes. Raises DiagnosticError RG657."""
     if not isinstance(text, str):
         raise _bad(repr(text))
-    whole = text if "://" in text else f"rws://{text}"
+    complete = text if "://" in text else f"rws://{text}"
     try:
-        parts = urlsplit(whole.replace(" ", "%20"))
+        parts = urlsplit(complete.replace(" ", "%20"))
         host, port = parts.hostname or "", parts.port
     except ValueError as error:
         raise _bad("rws://...") from error
     if parts.password is not None:
         raise _bad(f"{parts.scheme}://...@{host}", "a password in an address ends in histories")
-    rest = parts.path.strip("/") or parts.query or parts.fragment
-    if parts.scheme not in ("rws", "rwss") or rest or not _HOST.fullmatch(host) or port == 0:
+    remaining = parts.path.strip("/") or parts.query or parts.fragment
+    if parts.scheme not in ("rws", "rwss") or remaining or not _HOST.fullmatch(host) or port == 0:
         raise _bad(text if "@" not in text else f"{parts.scheme}://...")
     if _FILE.fullmatch(host):
         raise _bad(host, "a configuration tells of a robot, not where its controller is")
     return RwsAddress(host, port or 0, parts.scheme == "rwss", unquote(parts.username or ""))
 
 
-def _bad(shown: str, why: str = "") -> DiagnosticError:
+def _bad(displayed: str, why: str = "") -> DiagnosticError:
     because = f": {why}" if why else ""
-    mend = "rws://[USER@]HOST[:PORT], or rwss:// where TLS is a must"
-    message = f"'{shown}' is no address of Robot Web Services{because}"
-    return DiagnosticError(fault("RG657", message, mend))
+    help = "rws://[USER@]HOST[:PORT], or rwss:// where TLS is a must"
+    message = f"'{displayed}' is no address of Robot Web Services{because}"
+    return DiagnosticError(fault("RG657", message, help))

@@ -99,9 +99,9 @@ class RwsCore:
 
     def route(self, operation: RwsOperation) -> Route:
         """How this controller spells an operation. Raises NotSupported (RG659)."""
-        found = operation.route(self.generation)
-        if found is None:
+        result = operation.route(self.generation)
+        if result is None:
             raise NotSupported.because(
                 "RG659", f"RobotWare {self.robotware or '?'} has nothing like it: {operation.two}"
             )
-        return found
+        return result

@@ -63,11 +63,11 @@ class RwsError(RobotError):
         words = f"{symbol}: {refused.message}" if refused is not None else f"HTTP status {status}"
         if symbol == "E_UAS_REJECT" and grants:
             words += f" (it takes {' and '.join(grants)})"
-        mend = _MENDS.get(symbol) or (_REJECTED if symbol == "E_REJECT" else "")
+        help = _MENDS.get(symbol) or (_REJECTED if symbol == "E_REJECT" else "")
         if symbol in _NAMELESS:
             path = what.partition(" ")[2]
-            mend = next((mend for begin, mend in _WHERE.items() if path.startswith(begin)), "")
-        super().__init__(fault("RG650", f"{what} was refused ({status}): {words}", mend))
+            help = next((help for begin, help in _WHERE.items() if path.startswith(begin)), "")
+        super().__init__(fault("RG650", f"{what} was refused ({status}): {words}", help))
         self.status = status
         self.symbol = symbol
 

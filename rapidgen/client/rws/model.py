@@ -135,8 +135,8 @@ class LogEvent:
     arguments: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        told = f" ({', '.join(a for a in self.arguments if a)})" if any(self.arguments) else ""
-        return f"{self.time} {self.type:7} {self.code} {self.title}{told}"
+        text = f" ({', '.join(a for a in self.arguments if a)})" if any(self.arguments) else ""
+        return f"{self.time} {self.type:7} {self.code} {self.title}{text}"
 
 
 @dataclass(frozen=True, slots=True)

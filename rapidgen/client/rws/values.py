@@ -63,8 +63,8 @@ def _tokens(literal: str) -> "Iterator[tuple[str, RapidValue]]":
         place = match.end()
         if match["number"] is not None:
             number = float(match["number"])
-            whole = number.is_integer() and abs(number) < 1e15
-            yield "", int(number) if whole else number
+            complete = number.is_integer() and abs(number) < 1e15
+            yield "", int(number) if complete else number
         elif match["word"] is not None:
             yield "", match["word"].upper() == "TRUE"
         elif match["text"] is not None:
@@ -75,18 +75,18 @@ def _tokens(literal: str) -> "Iterator[tuple[str, RapidValue]]":
 
 def _value(tokens: "list[tuple[str, RapidValue]]", depth: int) -> RapidValue:
     """The next value of tokens, which are last first."""
-    mark, value = _next(tokens)
-    if mark == "":
+    marker, value = _next(tokens)
+    if marker == "":
         return value
     parts: list[RapidValue] = []
-    while mark == "[" or (mark == "," and parts):
+    while marker == "[" or (marker == "," and parts):
         if depth > _DEEPEST:
             break
         parts.append(_value(tokens, depth + 1))
-        mark, value = _next(tokens)
-        if mark == "]":
+        marker, value = _next(tokens)
+        if marker == "]":
             return tuple(parts)
-        if mark != ",":
+        if marker != ",":
             break
     raise ValueError("no literal")
 

@@ -66,20 +66,20 @@ def lines_of(graph: Graph, joints: Sequence[UrdfJoint]) -> list[Line]:
     """The axes of joints of one chain in space, all joints at 0."""
     place: Vector = (0.0, 0.0, 0.0)
     turned = IDENTITY
-    found = {}
+    result = {}
     for joint in graph.path_to(joints[-1].child):
         place = add(place, apply(turned, joint.xyz))
         turned = times(turned, from_rpy(joint.rpy))
-        found[joint.name] = Line("", place, apply(turned, joint.axis), joint.kind == "prismatic")
-    return [found[joint.name] for joint in joints]
+        result[joint.name] = Line("", place, apply(turned, joint.axis), joint.kind == "prismatic")
+    return [result[joint.name] for joint in joints]
 
 
-def read_cell(graph: Graph, names: tuple[str, ...], said: Mapping[str, str]) -> Cell:
+def read_cell(graph: Graph, names: tuple[str, ...], message: Mapping[str, str]) -> Cell:
     """The arms of a checked description, and the positioners beside them.
 
     `said` are the axes of joints that a person named, "" of one that is to be ignored.
     """
-    moving = [j for j in graph.robot.joints if j.is_actuated and said.get(j.name) != ""]
+    moving = [j for j in graph.robot.joints if j.is_actuated and message.get(j.name) != ""]
     if len(moving) > MOST_MOVING:
         raise refusal(
             "RG043",
@@ -88,22 +88,22 @@ def read_cell(graph: Graph, names: tuple[str, ...], said: Mapping[str, str]) -> 
             "give the description of the robot alone",
         )
     arms: list[Arm] = []
-    rest: list[tuple[UrdfJoint, ...]] = []
+    remaining: list[tuple[UrdfJoint, ...]] = []
     for chain in graph.chains(moving):
-        arm = _arm(graph, chain, names, said)
+        arm = _arm(graph, chain, names, message)
         if arm is None:
-            rest.append(chain)
+            remaining.append(chain)
         elif arm.joints not in [other.joints for other in arms]:
             arms.append(arm)
     of_arms = {j.name for arm in arms for j in arm.joints}
     positioners = []
-    for chain in rest:
+    for chain in remaining:
         own = tuple(j for j in chain if j.kind not in ("floating", "planar"))
         above = {j.name for j in graph.ancestors(own[0])} if own else set()
         if own and not above & of_arms and not {j.name for j in own} & of_arms:
             positioners.append(own)
-    whole = tuple(replace(arm, behind=_behind(graph, arm, moving)) for arm in arms)
-    return Cell(graph, whole, tuple(positioners), names)
+    complete = tuple(replace(arm, behind=_behind(graph, arm, moving)) for arm in arms)
+    return Cell(graph, complete, tuple(positioners), names)
 
 
 def _behind(graph: Graph, arm: Arm, moving: Sequence[UrdfJoint]) -> tuple[UrdfJoint, ...]:
@@ -115,23 +115,23 @@ def _behind(graph: Graph, arm: Arm, moving: Sequence[UrdfJoint]) -> tuple[UrdfJo
 
 
 def _arm(
-    graph: Graph, chain: Sequence[UrdfJoint], names: tuple[str, ...], said: Mapping[str, str]
+    graph: Graph, chain: Sequence[UrdfJoint], names: tuple[str, ...], message: Mapping[str, str]
 ) -> Arm | None:
-    sound = [j for j in chain if j.kind not in ("floating", "planar") and not j.is_aimless]
+    sound = [j for j in chain if j.kind not in ("floating", "planar") and not j.has_zero_axis]
     for count in (7, 6, 4, 3):
         for begin in range(len(sound) - count + 1):
             window = tuple(sound[begin : begin + count])
-            found = align(lines_of(graph, window), *names)
-            if found:
-                return Arm(window, found.axes, found, tuple(sound[:begin]))
-    inner = [j for j in sound if not said.get(j.name, "").startswith("eax")]
+            result = align(lines_of(graph, window), *names)
+            if result:
+                return Arm(window, result.axes, result, tuple(sound[:begin]))
+    inner = [j for j in sound if not message.get(j.name, "").startswith("eax")]
     # A joint that cannot move is no axis where the others are an arm.
-    able = _by_order([j for j in inner if not j.is_stuck])
+    able = _by_order([j for j in inner if not j.has_empty_range])
     arm = able if able and all(able.axes) else _by_order(inner)
     if arm is None:
         return None
-    behind = sound.index(arm.joints[-1])
-    under = (j for j in sound[:behind] if j not in arm.joints and not j.is_stuck)
+    after = sound.index(arm.joints[-1])
+    under = (j for j in sound[:after] if j not in arm.joints and not j.has_empty_range)
     return replace(arm, under=tuple(under))
 
 
@@ -159,7 +159,7 @@ def _by_order(chain: Sequence[UrdfJoint]) -> Arm | None:
 def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
     """Why a description holds no robot that a driver could be made for (RG059)."""
     graph = cell.graph
-    said = " ".join(cell.names)
+    message = " ".join(cell.names)
     maker = _other_maker(cell)
     if maker:
         yield error(
@@ -168,7 +168,7 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
             f"'{maker}' is no robot of ABB",
             "the driver is RAPID for ABB controllers; other makers' controllers do not run it",
         )
-    elif _DELTA.search(said) or _is_parallel(graph):
+    elif _DELTA.search(message) or _is_parallel(graph):
         yield error(
             "RG059",
             place,

@@ -99,10 +99,10 @@ def expand(request: Request) -> Description:
             )
     else:
         made = _expand_xacro(request, text)
-    found = unexpanded(made.text, str(request.path) if not made.expanded else "(expanded)")
-    if found:
+    result = unexpanded(made.text, str(request.path) if not made.expanded else "(expanded)")
+    if result:
         if made.expanded:
-            found = [
+            result = [
                 error(
                     "RG033",
                     request.place,
@@ -110,9 +110,9 @@ def expand(request: Request) -> Description:
                     d.help,
                     label=d.label,
                 )
-                for d in found
+                for d in result
             ]
-        raise DiagnosticError(found)
+        raise DiagnosticError(result)
     return made
 
 
@@ -178,8 +178,8 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
 
     original_parse = xacro.parse
 
-    def parse(given: object, filename: str | None = None) -> minidom.Document:
-        if given is None and filename is not None:
+    def parse(value: object, filename: str | None = None) -> minidom.Document:
+        if value is None and filename is not None:
             path = Path(filename)
             content = read(path)
             texts.append(content)
@@ -187,7 +187,7 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
             document = minidom.parseString(content)
             reading.pop()
             return document
-        parsed: minidom.Document = original_parse(given, filename)
+        parsed: minidom.Document = original_parse(value, filename)
         return parsed
 
     xacro.parse = parse
@@ -275,9 +275,9 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
     text = " ".join(str(inner).split())[:_LONGEST_REASON] or type(inner).__name__
     hint = "mend it there, or expand the file where all that it needs is, and give the URDF"
     if type(inner).__name__ == "ArgException":
-        wanted, text = text, f"the argument '{text}' has no value"
-        lines = f"urdf:\n  args: {{{wanted}: VALUE}}"
-        hint = f"--arg {wanted}=VALUE for `new`, in a configuration\n{lines}"
+        expected, text = text, f"the argument '{text}' has no value"
+        lines = f"urdf:\n  args: {{{expected}: VALUE}}"
+        hint = f"--arg {expected}=VALUE for `new`, in a configuration\n{lines}"
     return error("RG061", place, f"xacro cannot expand {name}: {text}", hint)
 
 
@@ -295,12 +295,14 @@ def _unknown_arguments(request: Request, known: set[str]) -> list[Diagnostic]:
 
 
 def _macro_only(request: Request, defined: tuple[Macro, ...]) -> Diagnostic:
-    shown = ", ".join(macro.shown for macro in defined[:6]) + (", ..." if len(defined) > 6 else "")
+    displayed = ", ".join(macro.shown for macro in defined[:6]) + (
+        ", ..." if len(defined) > 6 else ""
+    )
     robots = [m.name for m in defined if m.joints >= _ROBOT_JOINTS]
     return error(
         "RG031",
         request.place,
-        f"{request.path.name} only defines macros: {shown}",
+        f"{request.path.name} only defines macros: {displayed}",
         "give the top-level file"
         + (f", or add\n  urdf:\n    macro: {robots[0]}" if len(robots) == 1 else ""),
         label="expands to an empty robot",

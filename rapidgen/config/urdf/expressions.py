@@ -209,9 +209,9 @@ def _product(function: Function) -> Function:
 
     def limited(*arguments: Data, **named: Data) -> Data:
         numbers = [*arguments, *named.values()]
-        for given in arguments:
-            if isinstance(given, list | tuple | set | frozenset):
-                numbers.extend(given)
+        for value in arguments:
+            if isinstance(value, list | tuple | set | frozenset):
+                numbers.extend(value)
         _limit_bits(sum(n.bit_length() for n in numbers if isinstance(n, int)))
         return function(*arguments, **named)
 
@@ -517,24 +517,24 @@ class _Method:
         self.function = function
 
 
-def _of_text(text: str, name: str, *given: Data) -> Data:
+def _of_text(text: str, name: str, *value: Data) -> Data:
     """Call a method of a text whose result is not too long."""
-    if name == "replace" and isinstance(given[0], str) and isinstance(given[1], str):
-        if len(text) + text.count(given[0]) * len(given[1]) > MAX_TEXT:
+    if name == "replace" and isinstance(value[0], str) and isinstance(value[1], str):
+        if len(text) + text.count(value[0]) * len(value[1]) > MAX_TEXT:
             raise ExpressionError("a text of the expression is too long")
     elif name == "join":
-        items = given[0] if given else ()
+        items = value[0] if value else ()
         if not isinstance(items, list | tuple):
             raise ExpressionError("'join' takes a list")
         if len(text) * len(items) > MAX_TEXT:
             raise ExpressionError("a text of the expression is too long")
     method: Function = getattr(text, name)
-    return method(*given)
+    return method(*value)
 
 
-def _of_dictionary(of: dict[Data, Data], name: str, *given: Data) -> Data:
+def _of_dictionary(of: dict[Data, Data], name: str, *value: Data) -> Data:
     if name == "get":
-        return of[given[0]] if given[0] in of else given[1] if len(given) > 1 else None
+        return of[value[0]] if value[0] in of else value[1] if len(value) > 1 else None
     if name == "keys":
         return list(of)
     return [of[key] if name == "values" else (key, of[key]) for key in of]

@@ -33,23 +33,23 @@ class Graph:
 
     def chains(self, among: Iterable[UrdfJoint]) -> tuple[tuple[UrdfJoint, ...], ...]:
         """The joints of `among` as paths from the root, one for each that ends a path."""
-        wanted = {joint.name: joint for joint in among}
-        inner = {a.name for joint in wanted.values() for a in self.ancestors(joint)}
-        ends = [joint for joint in wanted.values() if joint.name not in inner]
+        expected = {joint.name: joint for joint in among}
+        inner = {a.name for joint in expected.values() for a in self.ancestors(joint)}
+        ends = [joint for joint in expected.values() if joint.name not in inner]
         return tuple(
-            tuple(j for j in (*self.ancestors(end), end) if j.name in wanted) for end in ends
+            tuple(j for j in (*self.ancestors(end), end) if j.name in expected) for end in ends
         )
 
     def tip_link(self, joint: UrdfJoint) -> str:
         """The flange behind a joint: `tool0` or `flange` over joints that stand, else its link."""
-        found, queue = [joint.child], [joint.child]
+        result, queue = [joint.child], [joint.child]
         while queue:
             for fixed in self.below(queue.pop()):
-                if (fixed.kind == "fixed" or fixed.is_stuck) and fixed.child not in found:
-                    found.append(fixed.child)
+                if (fixed.kind == "fixed" or fixed.has_empty_range) and fixed.child not in result:
+                    result.append(fixed.child)
                     queue.append(fixed.child)
         for ending in ("tool0", "flange"):
-            hits = [link for link in found if ending in link]
+            hits = [link for link in result if ending in link]
             if hits:
                 return hits[0]
         return joint.child
@@ -57,13 +57,13 @@ class Graph:
 
 def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagnostic]]:
     """The graph and its faults (RG042, RG051, RG053); errors among them mean it is no tree."""
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     links, names = set(robot.links), {joint.name for joint in robot.joints}
     above: dict[str, UrdfJoint] = {}
     for joint in robot.joints:
         for role, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in links:
-                found.append(
+                findings.append(
                     error(
                         "RG051",
                         joint.span,
@@ -74,7 +74,7 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
                 )
         if joint.child in above:
             first = above[joint.child].name
-            found.append(
+            findings.append(
                 error(
                     "RG051",
                     joint.span,
@@ -85,7 +85,7 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
             )
         above.setdefault(joint.child, joint)
         if joint.mimic and joint.mimic not in names:
-            found.append(
+            findings.append(
                 error(
                     "RG042",
                     joint.span,
@@ -94,10 +94,10 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
                     or "name a joint of the description in its <mimic>",
                 )
             )
-    found += _loops(robot, above)
+    findings += _loops(robot, above)
     roots = [link for link in robot.links if link not in above]
-    if len(roots) > 1 and not found:
-        found.append(
+    if len(roots) > 1 and not findings:
+        findings.append(
             error(
                 "RG051",
                 place,
@@ -106,7 +106,7 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
                 severity=Severity.WARNING,
             )
         )
-    return Graph(robot, above), found
+    return Graph(robot, above), findings
 
 
 def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> Iterator[Diagnostic]:

@@ -22,7 +22,7 @@ Found = list[Diagnostic]
 
 def complete(
     draft: GroupDraft,
-    given: schema.UrdfKeys,
+    value: schema.UrdfKeys,
     folder: Path,
     package_paths: Sequence[Path],
     elsewhere: frozenset[str],
@@ -33,54 +33,54 @@ def complete(
     `folder` is where relative paths of the configuration start; `elsewhere` are the joints
     that other groups drive.
     """
-    return complete_from(draft, given, request(given, folder, package_paths, place), elsewhere)
+    return complete_from(draft, value, request(value, folder, package_paths, place), elsewhere)
 
 
 def complete_from(
-    draft: GroupDraft, given: schema.UrdfKeys, wanted: Request, elsewhere: frozenset[str]
+    draft: GroupDraft, value: schema.UrdfKeys, expected: Request, elsewhere: frozenset[str]
 ) -> tuple[Found, list[tuple[str, bytes]]]:
     """`complete` for a request that is made already."""
-    place = wanted.place
+    place = expected.place
     try:
-        description = expand(wanted)
+        description = expand(expected)
         robot = read_robot(description, place)
     except DiagnosticError as fault:
         return list(fault.diagnostics), []
-    graph, found = build_graph(robot, place)
-    found = [*description.found, *found]
-    if any(d.severity is Severity.ERROR for d in found):
-        return found, description.inputs
-    candidates, faults = _candidates(graph, given, elsewhere, place)
+    graph, result = build_graph(robot, place)
+    result = [*description.found, *result]
+    if any(d.severity is Severity.ERROR for d in result):
+        return result, description.inputs
+    candidates, faults = _candidates(graph, value, elsewhere, place)
     if len(candidates) > MOST_MOVING:
         many = f"{len(candidates)} joints move by themselves"
         faults.append(error("RG043", place, many, "name the arm's end with urdf.tip"))
-    found += faults
+    result += faults
     if not faults:
-        found += _map(draft, graph, candidates, elsewhere, place)
-        found += crosscheck.check_coupling(draft, robot, description.path.name, place)
-    if not any(d.severity is Severity.ERROR for d in found):
-        found += _fill(draft, graph, place)
-        draft.ignored = tuple(j.name for j in _ignored(_path(graph, draft, given.tip or ""), draft))
+        result += _map(draft, graph, candidates, elsewhere, place)
+        result += crosscheck.check_coupling(draft, robot, description.path.name, place)
+    if not any(d.severity is Severity.ERROR for d in result):
+        result += _fill(draft, graph, place)
+        draft.ignored = tuple(j.name for j in _ignored(_path(graph, draft, value.tip or ""), draft))
         draft.names = (robot.name, description.path.name)
-        draft.urdf_chain = chain(graph, draft, given.tip or "")
+        draft.urdf_chain = chain(graph, draft, value.tip or "")
         if not draft.chain or any(j.sign < 0 or j.offset for j in draft.joints):
             # A chain is in the sense of the URDF, so that of a model is not the one with signs.
             draft.chain = draft.urdf_chain
-    return found, description.inputs
+    return result, description.inputs
 
 
 def request(
-    given: schema.UrdfKeys, folder: Path, package_paths: Sequence[Path], place: Span | None
+    value: schema.UrdfKeys, folder: Path, package_paths: Sequence[Path], place: Span | None
 ) -> Request:
     """What to read, with paths relative to the configuration's folder."""
-    path = folder / given.file
-    explicit = {name: (folder / where).resolve() for name, where in given.packages.items()}
+    path = folder / value.file
+    explicit = {name: (folder / where).resolve() for name, where in value.packages.items()}
     return Request(
         path,
         Packages(explicit, [Path(p) for p in package_paths], path.resolve().parent),
-        _texts(given.args),
-        given.macro or "",
-        _texts(given.macro_args),
+        _texts(value.args),
+        value.macro or "",
+        _texts(value.macro_args),
         place,
     )
 
@@ -93,35 +93,35 @@ def _texts(values: Mapping[str, object]) -> dict[str, str]:
 
 
 def _candidates(
-    graph: Graph, given: schema.UrdfKeys, elsewhere: frozenset[str], place: Span | None
+    graph: Graph, value: schema.UrdfKeys, elsewhere: frozenset[str], place: Span | None
 ) -> tuple[list[UrdfJoint], Found]:
     """Joints that move by themselves and concern this group."""
     robot = graph.robot
     names = [joint.name for joint in robot.joints]
-    found: Found = []
-    for name in given.ignore_joints:
+    findings: Found = []
+    for name in value.ignore_joints:
         if name not in names:
             meant = suggest(name, names)
-            found.append(error("RG043", place, f"ignore_joints: no joint '{name}'", meant))
+            findings.append(error("RG043", place, f"ignore_joints: no joint '{name}'", meant))
     joints = [
         j
         for j in robot.joints
-        if j.is_actuated and j.name not in given.ignore_joints and j.name not in elsewhere
+        if j.is_actuated and j.name not in value.ignore_joints and j.name not in elsewhere
     ]
-    if given.tip:
-        end = robot.joint(given.tip)
-        link = end.child if end else given.tip
+    if value.tip:
+        end = robot.joint(value.tip)
+        link = end.child if end else value.tip
         if link not in robot.links:
-            meant = suggest(given.tip, [*robot.links, *names])
+            meant = suggest(value.tip, [*robot.links, *names])
             return [], [
-                *found,
-                error("RG052", place, f"no link or joint '{given.tip}'", meant),
+                *findings,
+                error("RG052", place, f"no link or joint '{value.tip}'", meant),
             ]
         path = {j.name for j in graph.path_to(link)}
         joints = [j for j in joints if j.name in path]
     for joint in joints:
         if joint.kind in ("floating", "planar"):
-            found.append(
+            findings.append(
                 error(
                     "RG053",
                     joint.span or place,
@@ -129,9 +129,9 @@ def _candidates(
                     f"name it under urdf.ignore_joints, or make it fixed: [{joint.name}]",
                 )
             )
-        elif joint.is_aimless:
-            found.append(check_axis(joint, place))
-    return joints, found
+        elif joint.has_zero_axis:
+            findings.append(check_axis(joint, place))
+    return joints, findings
 
 
 def _map(
@@ -145,27 +145,27 @@ def _map(
     robot = graph.robot
     named = [joint for joint in draft.joints if robot.joint(joint.name)]
     if not named:
-        mapping, found = infer(graph, candidates, place)
+        mapping, result = infer(graph, candidates, place)
         if mapping and draft.joints:
-            found += _rename(draft, mapping, place)
+            result += _rename(draft, mapping, place)
         elif mapping:
             draft.joints = [JointDraft(name, axis) for name, axis in mapping.items()]
-        return found
-    found = []
+        return result
+    result = []
     for joint in draft.joints:
-        found += _named(joint, graph, place)
-    if found:
-        return found
+        result += _named(joint, graph, place)
+    if result:
+        return result
     if any(not joint.axis for joint in draft.joints):
-        mapping, found = infer(graph, candidates, place)
-        if any(d.severity is Severity.ERROR for d in found):
-            return found
+        mapping, result = infer(graph, candidates, place)
+        if any(d.severity is Severity.ERROR for d in result):
+            return result
         _complete(draft, mapping)
     mapped = {joint.name for joint in draft.joints}
-    left = [j for j in candidates if j.name not in mapped and not j.is_stuck]
+    left = [j for j in candidates if j.name not in mapped and not j.has_empty_range]
     if left:
-        return [*found, unmapped(graph, left, place)]
-    return [*found, *_order(draft, graph, place)]
+        return [*result, unmapped(graph, left, place)]
+    return [*result, *_order(draft, graph, place)]
 
 
 def _complete(draft: GroupDraft, mapping: dict[str, str]) -> None:
@@ -181,11 +181,11 @@ def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> I
     """Give the model's joints the URDF's names, axis by axis."""
     by_axis = {axis: name for name, axis in mapping.items()}
     if set(by_axis) != {joint.axis for joint in draft.joints}:
-        shown = ", ".join(joint.axis for joint in draft.joints)
+        displayed = ", ".join(joint.axis for joint in draft.joints)
         yield error(
             "RG034",
             place,
-            f"the model has the axes {shown}; the URDF has {', '.join(mapping)}",
+            f"the model has the axes {displayed}; the URDF has {', '.join(mapping)}",
             "map them under `joints:`",
         )
         return
@@ -233,13 +233,13 @@ def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
     """Robot axes stand in one chain, in order; external axes may be anywhere."""
     by_axis = {joint.axis: graph.robot.joint(joint.name) for joint in draft.joints}
     robot_axes = [by_axis[axis] for axis in ROBOT_AXES if by_axis.get(axis)]
-    found: Found = []
+    findings: Found = []
     for before, after in pairwise(robot_axes):
         assert before is not None
         assert after is not None
         if before.name not in {j.name for j in graph.ancestors(after)}:
             axis = next(j.axis for j in draft.joints if j.name == after.name)
-            found.append(
+            findings.append(
                 error(
                     "RG046",
                     after.span or place,
@@ -249,11 +249,11 @@ def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
                 )
             )
     first = robot_axes[0] if robot_axes else None
-    if first and not found:
+    if first and not findings:
         below = {j.name for j in graph.ancestors(first)}
         moving = [j.name for j in draft.joints if j.name in below]
         if moving:
-            found.append(
+            findings.append(
                 error(
                     "RG046",
                     place,
@@ -263,19 +263,19 @@ def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
                     severity=Severity.INFO,
                 )
             )
-    return found
+    return findings
 
 
 def _fill(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
-    found: Found = []
+    result: Found = []
     phrases: list[str] = []
     for joint in draft.joints:
         known = graph.robot.joint(joint.name)
         assert known is not None
         phrase = crosscheck.check_joint(joint, known, draft)
         phrases += [phrase] if phrase else []
-        found += limits.fill(joint, known, place)
-    return [*found, *crosscheck.differences(phrases, place)]
+        result += limits.fill(joint, known, place)
+    return [*result, *crosscheck.differences(phrases, place)]
 
 
 def _path(graph: Graph, draft: GroupDraft, tip: str) -> tuple[UrdfJoint, ...]:
@@ -296,7 +296,7 @@ def _ignored(path: Sequence[UrdfJoint], draft: GroupDraft) -> tuple[UrdfJoint, .
     return tuple(
         joint
         for joint in arm
-        if joint.is_actuated and joint.name not in axes and not joint.is_stuck
+        if joint.is_actuated and joint.name not in axes and not joint.has_empty_range
     )
 
 
@@ -308,11 +308,11 @@ def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[ChainLink]:
     """
     mapped = {joint.name for joint in draft.joints}
     path = _path(graph, draft, tip)
-    kept = dict(zip((j.name for j in _ignored(path, draft)), draft.keep, strict=False))
+    saved = dict(zip((j.name for j in _ignored(path, draft)), draft.keep, strict=False))
     made = []
     for joint in path:
-        if kept.get(joint.name):
-            made.append(ChainLink("", *joint.moved(kept[joint.name])))
+        if saved.get(joint.name):
+            made.append(ChainLink("", *joint.moved(saved[joint.name])))
         elif joint.name in mapped:
             made.append(ChainLink(joint.name, joint.xyz, joint.rpy, joint.axis))
         elif joint.mimic in mapped and joint.kind != "prismatic":

@@ -25,7 +25,7 @@ _ROUNDING = 0.15
 def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagnostic]:
     """Complete `draft` from the URDF where the configuration says nothing; findings."""
     span = joint.span or place
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     linear = joint.kind == "prismatic"
     unit = "mm" if linear else "deg"
     if draft.unit not in ("", unit):
@@ -34,13 +34,13 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
     draft.unit = unit
     needs_range = draft.lower is None or draft.upper is None
     if joint.kind == "continuous" and needs_range:
-        found.append(_continuous(draft, joint, span))
+        findings.append(_continuous(draft, joint, span))
     elif needs_range:
-        found += _range(draft, joint, span)
+        findings += _range(draft, joint, span)
     if draft.speed is None:
-        found += _speed(draft, joint, span)
-    if linear and needs_range and not found:
-        found.append(
+        findings += _speed(draft, joint, span)
+    if linear and needs_range and not findings:
+        findings.append(
             error(
                 "RG041",
                 span,
@@ -51,7 +51,7 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
         )
     if needs_range:
         draft.source = draft.source or "URDF"
-    return found
+    return findings
 
 
 def _open(draft: JointDraft, joint: UrdfJoint, *, of_range: bool = True) -> str:
@@ -61,8 +61,8 @@ def _open(draft: JointDraft, joint: UrdfJoint, *, of_range: bool = True) -> str:
         figures |= {"lower": OPEN, "upper": OPEN}
     if draft.speed is None and not (joint.velocity or 0.0) > 0.0:
         figures["speed"] = OPEN
-    shown = ", ".join(f"{key}: {value}" for key, value in figures.items())
-    return f"joints:\n  {yaml_text(joint.name)}: {{{shown}}}"
+    displayed = ", ".join(f"{key}: {value}" for key, value in figures.items())
+    return f"joints:\n  {yaml_text(joint.name)}: {{{displayed}}}"
 
 
 def _continuous(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Diagnostic:
@@ -95,12 +95,12 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
     linear = joint.kind == "prismatic"
     widest = max(abs(lower or 0.0), abs(upper or 0.0))
     if lower is None or upper is None:
-        mend = f"add, from the robot's data sheet\n{_open(draft, joint)}"
-        yield error("RG038", span, f"joint '{name}' has no limits", mend)
+        help = f"add, from the robot's data sheet\n{_open(draft, joint)}"
+        yield error("RG038", span, f"joint '{name}' has no limits", help)
     elif lower > upper:
         message = f"joint '{name}': lower {lower:g} is above upper {upper:g}"
-        mend = f"swap the two in the description, or add the range\n{_open(draft, joint)}"
-        yield error("RG053", span, message, mend)
+        help = f"swap the two in the description, or add the range\n{_open(draft, joint)}"
+        yield error("RG053", span, message, help)
     elif lower == upper:
         yield error(
             "RG039",
@@ -122,8 +122,8 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
         yield error("RG041", span, message, "a URDF has metres")
     elif linear and upper - lower < SHORT:
         message = f"joint '{name}': a stroke of {upper - lower:g} m is no axis"
-        mend = f"name it under urdf.ignore_joints, or add its range\n{_open(draft, joint)}"
-        yield error("RG041", span, message, mend)
+        help = f"name it under urdf.ignore_joints, or add its range\n{_open(draft, joint)}"
+        yield error("RG041", span, message, help)
     else:
         if linear and upper - lower > LOOKS_LIKE_MM:
             message = f"joint '{name}': a stroke of {upper - lower:g} m; are these mm?"
@@ -162,22 +162,22 @@ def _rounded(draft: JointDraft, span: Span | None) -> Iterator[Diagnostic]:
 def _speed(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[Diagnostic]:
     name, velocity = joint.name, joint.velocity
     linear = joint.kind == "prismatic"
-    mend = f"add joints.{name}.speed, from the robot's data sheet"
+    help = f"add joints.{name}.speed, from the robot's data sheet"
     if velocity is None or velocity <= 0:
-        mend = f"add, from the robot's data sheet\n{_open(draft, joint, of_range=False)}"
+        help = f"add, from the robot's data sheet\n{_open(draft, joint, of_range=False)}"
     if velocity is None:
-        yield error("RG038", span, f"joint '{name}' has no velocity", mend)
+        yield error("RG038", span, f"joint '{name}' has no velocity", help)
         return
     if velocity <= 0:
         message = f"joint '{name}' has the velocity {velocity:g}"
-        yield error("RG039", span, message, mend, label="a placeholder")
+        yield error("RG039", span, message, help, label="a placeholder")
         return
     draft.speed = velocity * 1000 if linear else math.degrees(velocity)
     if velocity >= PLACEHOLDER_SPEED:
         draft.unsure = (*draft.unsure, "speed")
         unit = "m/s" if linear else "rad/s"
         message = f"joint '{name}': {velocity:g} {unit} looks like a placeholder"
-        yield error("RG039", span, message, mend, severity=Severity.WARNING)
+        yield error("RG039", span, message, help, severity=Severity.WARNING)
     elif not linear and velocity > FAST_TURN:
         draft.unsure = (*draft.unsure, "speed")
         message = f"joint '{name}': {velocity:g} rad/s looks like degrees per second"

@@ -46,10 +46,10 @@ def infer(
     mapping = {joint.name: axis for joint, axis in zip(chains[0], ROBOT_AXES, strict=True)}
     parts = number_of(chains[0][0].name)
     assert parts is not None
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     if parts[0].lower() not in _USUAL or parts[2]:
         table = ", ".join(f"{name} = {axis}" for name, axis in mapping.items())
-        found.append(
+        findings.append(
             error(
                 "RG036",
                 place,
@@ -58,7 +58,7 @@ def infer(
                 severity=Severity.WARNING,
             )
         )
-    return mapping, found
+    return mapping, findings
 
 
 def paste(graph: Graph, joints: Sequence[UrdfJoint], *, ignore: Sequence[str] = ()) -> str:
@@ -99,11 +99,11 @@ def _shape(
     arms = [a for a in read_cell(graph, (), {}).arms if own >= {j.name for j in a.joints}]
     if len(arms) > 1:
         tips = [graph.tip_link(arm.joints[-1]) for arm in arms]
-        shown = ", ".join(tips[:6]) + (", ..." if len(tips) > 6 else "")
+        displayed = ", ".join(tips[:6]) + (", ..." if len(tips) > 6 else "")
         return error(
             "RG052",
             place,
-            f"{len(arms)} robots are in one description (tips: {shown})",
+            f"{len(arms)} robots are in one description (tips: {displayed})",
             f"add\n  urdf:\n    tip: {tips[0]}\none group for each robot, each with its own task",
             label="which of them is this group?",
         )
@@ -200,8 +200,8 @@ def unmapped(graph: Graph, left: Sequence[UrdfJoint], place: Span | None) -> Dia
 def _is_gripper(graph: Graph, joint: UrdfJoint) -> bool:
     if joint.kind != "prismatic" or joint.lower is None or joint.upper is None:
         return False
-    behind = sum(j.is_actuated and j.kind != "prismatic" for j in graph.ancestors(joint))
-    return behind >= 4 and 0 < joint.upper - joint.lower < _GRIPPER_STROKE
+    after = sum(j.is_actuated and j.kind != "prismatic" for j in graph.ancestors(joint))
+    return after >= 4 and 0 < joint.upper - joint.lower < _GRIPPER_STROKE
 
 
 def _outside(graph: Graph, joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
@@ -255,11 +255,11 @@ def _numbers(graph: Graph, chain: Sequence[UrdfJoint], place: Span | None) -> Di
             f"chain and says {numbers[index]}",
             paste(graph, chain),
         )
-    shown = ", ".join(joint.name for joint in chain)
+    displayed = ", ".join(joint.name for joint in chain)
     return error(
         "RG035",
         place,
-        f"the numbers in the joint names are not 1 to 6: {shown}",
+        f"the numbers in the joint names are not 1 to 6: {displayed}",
         paste(graph, chain),
         label="the number in a name need not be the axis",
     )

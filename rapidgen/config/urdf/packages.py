@@ -95,8 +95,8 @@ class Packages:
         for folder in (self.start, *self.start.parents):
             if (folder / "package.xml").is_file():
                 # The file is inside a package: that one and its neighbours.
-                found = self._scan(folder.parent).get(name, [])
-                yield f"beside {folder}", found
+                match = self._scan(folder.parent).get(name, [])
+                yield f"beside {folder}", match
                 if (folder.parent.parent / "package.xml").is_file():
                     continue
                 return

@@ -62,12 +62,12 @@ class UrdfJoint:
         return self.kind != "fixed" and not self.mimic
 
     @property
-    def is_aimless(self) -> bool:
+    def has_zero_axis(self) -> bool:
         """An axis of length 0: nothing can turn about it, or slide along it."""
         return self.axis == (0.0, 0.0, 0.0)
 
     @property
-    def is_stuck(self) -> bool:
+    def has_empty_range(self) -> bool:
         """Moves by itself, in a range of nothing: a joint kept for its place, or no range yet."""
         return self.is_actuated and self.lower is not None and self.lower == self.upper
 
@@ -314,17 +314,17 @@ def _joint_structure(element: "Element", name: str, span_of: "PlaceOf") -> Itera
         inner = element.find(part)
         for attribute in attributes if inner is not None else ():
             text = inner.get(attribute)
-            wanted = 1 if part in _NUMBERS else 3
-            if text is not None and not _is_numbers(text, wanted):
+            expected = 1 if part in _NUMBERS else 3
+            if text is not None and not _is_numbers(text, expected):
                 yield error(
                     "RG053",
                     span_of(inner),
                     f"joint '{name}': {part} {attribute}=\"{text}\" is not "
-                    + ("a finite number" if wanted == 1 else "three finite numbers"),
+                    + ("a finite number" if expected == 1 else "three finite numbers"),
                     "write a decimal point, not a comma"
                     if "," in text
                     else "write a number"
-                    if wanted == 1
+                    if expected == 1
                     else "write three numbers with blanks between them",
                 )
 

@@ -112,15 +112,15 @@ def is_xacro(path: Path, text: str) -> bool:
 
 def macros(text: str) -> tuple[Macro, ...]:
     """Macros that a xacro text defines, in order."""
-    found = []
+    result = []
     plain = _without_comments(text)
     for hit in _MACRO.finditer(plain):
         end = plain.find("</xacro:macro", hit.end())
         joints = plain.count("<joint", hit.end(), end if end >= 0 else len(plain))
-        given = {m[1]: m[2] if m[2] is not None else m[3] for m in _ATTRIBUTE.finditer(hit[1])}
-        if "name" in given:
-            found.append(Macro(given["name"], _parameters(given.get("params", "")), joints))
-    return tuple(found)
+        value = {m[1]: m[2] if m[2] is not None else m[3] for m in _ATTRIBUTE.finditer(hit[1])}
+        if "name" in value:
+            result.append(Macro(value["name"], _parameters(value.get("params", "")), joints))
+    return tuple(result)
 
 
 def _parameters(text: str) -> tuple[tuple[str, bool], ...]:
@@ -152,25 +152,25 @@ def _without_comments(text: str) -> str:
     return "".join([*parts, text[at:]])
 
 
-def unexpanded(text: str, shown: str) -> list[Diagnostic]:
+def unexpanded(text: str, displayed: str) -> list[Diagnostic]:
     """What expansion should have replaced (pitfall 3 of the field: RG033)."""
-    found = []
+    findings = []
     for hit in re.finditer(
         r"\$\{[^$}]*\}|\$\([^$)]*\)|<(xacro:)?(macro|include|property|if|unless)[\s>/]",
         _without_comments(text),
     ):
         line = text.count("\n", 0, hit.start()) + 1
         column = hit.start() - text.rfind("\n", 0, hit.start())
-        found.append(
+        findings.append(
             error(
                 "RG033",
-                Span(shown, line, column),
+                Span(displayed, line, column),
                 f"'{hit[0].strip()}' is left over after expansion",
                 "xacro only replaces tags with the prefix `xacro:`; declare xmlns:xacro on "
                 "<robot> and write <xacro:macro>, <xacro:include>",
                 label="not replaced",
             )
         )
-        if len(found) == 5:
+        if len(findings) == 5:
             break
-    return found
+    return findings

@@ -27,16 +27,18 @@ def trees(path: Path, overrides: Overrides = ()) -> dict[str, Tree]:
     same share one."""
     assembly = assemble(path, overrides)
     made: dict[str, Tree] = {}
-    found: dict[str, Tree] = {}
+    result: dict[str, Tree] = {}
     for name, keys in validate(assembly.root).configuration.groups.items():
         if keys.urdf is None:
             continue
-        wanted = request(keys.urdf, assembly.path.parent, (), None)
-        asked = repr((wanted.path, wanted.arguments, wanted.macro, wanted.macro_arguments))
-        if asked not in made:
-            description = expand(wanted)
+        expected = request(keys.urdf, assembly.path.parent, (), None)
+        requested = repr(
+            (expected.path, expected.arguments, expected.macro, expected.macro_arguments)
+        )
+        if requested not in made:
+            description = expand(expected)
             graph, _ = build_graph(read_robot(description, None), None)
-            drawn = visuals(description, wanted.packages, assembly.path.parent)
-            made[asked] = Tree(graph, drawn)
-        found[name] = made[asked]
-    return found
+            drawn = visuals(description, expected.packages, assembly.path.parent)
+            made[requested] = Tree(graph, drawn)
+        result[name] = made[requested]
+    return result

@@ -66,14 +66,14 @@ def visuals(
     def files(name: str) -> Path:
         return mesh_file(name, description.path, packages, folder)
 
-    found: dict[str, tuple[Visual, ...]] = {}
+    result: dict[str, tuple[Visual, ...]] = {}
     left = MOST
     for link in root.iterchildren("link"):
         own = tuple(_visuals(link, named, files))[:left]
         left -= len(own)
         if own:
-            found[link.get("name", "")] = own
-    return found
+            result[link.get("name", "")] = own
+    return result
 
 
 def _visuals(
@@ -112,19 +112,19 @@ def mesh_file(name: str, description: Path, packages: Packages, folder: Path) ->
     home = package_of(description.parent) or description.resolve().parent
     inner = description.resolve().is_relative_to(folder.resolve())
     roots = [home, folder] if inner else [home]
-    scheme, colon, rest = name.partition("://")
+    scheme, colon, remaining = name.partition("://")
     if not colon:
         return _within(roots, description.parent / name, name)
     if scheme == "file":
-        return _within([*roots, *packages.used.values()], Path(unquote(rest)), name)
+        return _within([*roots, *packages.used.values()], Path(unquote(remaining)), name)
     if scheme != "package":
         raise NoMesh(f"'{name}': meshes are package://, file:// or beside the description")
-    package, _, inside = rest.partition("/")
+    package, _, inside = remaining.partition("/")
     try:
-        found = packages.find(package)
+        result = packages.find(package)
     except PackageNotFound as fault:
         raise NoMesh(str(fault)) from fault
-    return _within([found], found / inside, name)
+    return _within([result], result / inside, name)
 
 
 def mesh_beside(name: str, folder: Path) -> Path:

@@ -49,10 +49,10 @@ def due(hits: str, count: int) -> bool:
     """Whether a pass counts. ValueError: `hits` is no such text."""
     if not hits:
         return True
-    found = _HITS.fullmatch(hits)
-    if found is None or int(found[2]) == 0:
+    match = _HITS.fullmatch(hits)
+    if match is None or int(match[2]) == 0:
         raise ValueError(f'{hits!r} is no number of passes: "3", ">=3" or "%3"')
-    kind, number = found[1], int(found[2])
+    kind, number = match[1], int(match[2])
     if kind == ">=":
         return count >= number
     return count % number == 0 if kind == "%" else count == number
@@ -69,10 +69,10 @@ def place(placed: PlacedBreakpoint, modules: Iterable[LoadedModule]) -> None:
     placed.line, placed.points = 0, set()
     for module in modules:
         if module.name.lower() == placed.asked.module.lower():
-            found = _statement_at(module, placed.asked.line)
-            if found is not None:
-                placed.line = module.tree.source.line(found)
-                placed.points.add((id(module.tree), found))
+            result = _statement_at(module, placed.asked.line)
+            if result is not None:
+                placed.line = module.tree.source.line(result)
+                placed.points.add((id(module.tree), result))
     placed.doubt = "" if placed.line else "no statement begins there"
 
 

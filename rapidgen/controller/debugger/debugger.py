@@ -94,29 +94,29 @@ class Debugger:
         self._timer: Timer | None = None
         controller.statements.errors.append(self._error)
         controller.statements.failures.append(self._failure)
-        for asked in breakpoints:
-            self.add(asked)
+        for expression in breakpoints:
+            self.add(expression)
 
     # -- breakpoints -----------------------------------------------------------------------------
 
-    def add(self, asked: Breakpoint) -> PlacedBreakpoint:
+    def add(self, expression: Breakpoint) -> PlacedBreakpoint:
         """Set a breakpoint; where it lies, and what is in doubt. ValueError: `hits` is no text."""
-        places.due(asked.hits, 0)
+        places.due(expression.hits, 0)
         self._numbers += 1
-        placed = self.placed[self._numbers] = PlacedBreakpoint(self._numbers, asked)
+        placed = self.placed[self._numbers] = PlacedBreakpoint(self._numbers, expression)
         self._place()
         self._listen()
         self.changed.notify()
         return placed
 
-    def change(self, number: int, asked: Breakpoint) -> PlacedBreakpoint:
+    def change(self, number: int, expression: Breakpoint) -> PlacedBreakpoint:
         """Ask for something else of a breakpoint; its passes are counted anew.
 
         KeyError: there is none of that number. ValueError: `hits` is no text; it stays as it was.
         """
-        places.due(asked.hits, 0)
+        places.due(expression.hits, 0)
         placed = self.placed[number]
-        placed.asked, placed.count = asked, 0
+        placed.asked, placed.count = expression, 0
         self._place()
         self.changed.notify()
         return placed
@@ -248,8 +248,8 @@ class Debugger:
         if id(module.tree) not in self._trees:
             self._place()
         for placed in self._armed.get((id(module.tree), node.first), ()):
-            asked = placed.asked
-            if asked.task and asked.task.lower() != name.lower():
+            expression = placed.asked
+            if expression.task and expression.task.lower() != name.lower():
                 continue
             halt = self._reached(name, placed, innermost(self._tasks[name], sys._getframe(1)))
             if halt is not None:
@@ -264,15 +264,15 @@ class Debugger:
         self, name: str, placed: PlacedBreakpoint, frame: StackFrame
     ) -> PauseReason | None:
         """What a breakpoint brings whose statement is about to be executed."""
-        asked, task = placed.asked, self._tasks[name]
+        expression, task = placed.asked, self._tasks[name]
         try:
-            if asked.condition and self._value(task, frame, asked.condition) is not True:
+            if expression.condition and self._value(task, frame, expression.condition) is not True:
                 return None
             placed.count += 1
-            if not places.due(asked.hits, placed.count):
+            if not places.due(expression.hits, placed.count):
                 return None
-            if asked.log:
-                self._tell(task, frame, asked.log)
+            if expression.log:
+                self._tell(task, frame, expression.log)
                 return None
         except NotPaused as reason:
             return PauseReason("breakpoint", name, frame.place, str(reason), placed.number)
@@ -285,10 +285,10 @@ class Debugger:
 
     def _compiled(self, task: Task, frame: StackFrame, text: str) -> WatchedExpression:
         key = (task.name, frame.routine, text)
-        found = self._watched.get(key)
-        if found is None:
-            found = self._watched[key] = values.compiled(task.program, frame, text)
-        return found
+        match = self._watched.get(key)
+        if match is None:
+            match = self._watched[key] = values.compiled(task.program, frame, text)
+        return match
 
     def _tell(self, task: Task, frame: StackFrame, log: str) -> None:
         texts, expressions = places.pieces(log)
@@ -330,7 +330,7 @@ class Debugger:
         self.changed.notify()
         task = self._tasks[halt.task]
         self._scheduler.pause(task)
-        task.attend()
+        task.process_pending()
 
     # -- stacks and values -----------------------------------------------------------------------
 

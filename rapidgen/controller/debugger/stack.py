@@ -69,12 +69,12 @@ def innermost(task: Task, frame: FrameType | None) -> StackFrame:
 def depth_here(task: Task, frame: FrameType | None) -> int:
     """Routines inside each other above a Python frame; a handler counts as its routine."""
     codes = task.program.codes
-    found = 0
+    result = 0
     for at in outwards(frame):
         compiled = codes.get(at.f_code.co_filename)
         if compiled is not None and compiled.role(at.f_code) is CodeRole.ROUTINE:
-            found += 1
-    return found
+            result += 1
+    return result
 
 
 def _live(task: Task, frame: FrameType | None) -> Iterable[StackFrame]:

@@ -89,8 +89,8 @@ def assign(program: Program, frame: StackFrame, target: str, value: str) -> Disp
 
 def _set_local(program: Program, frame: StackFrame, name: str, value: Value) -> None:
     code = program.codes[frame.python.f_code.co_filename] if frame.python is not None else None
-    whole = type(frame.values[name]) is int and type(value) is not int
-    if whole and code is not None and not code.traced:
+    complete = type(frame.values[name]) is int and type(value) is not int
+    if complete and code is not None and not code.traced:
         raise NotPaused("the code that is being executed counts on a whole number there")
     frame.values[name] = value
     if frame.python is not None:

@@ -67,8 +67,8 @@ class MessageFraming:
         body = bytearray(self.length)
         for part, value in zip(self.parts, values, strict=True):
             try:
-                whole = value if part.format[1] == "f" else int(value)
-                struct.pack_into(part.format, body, part.place, whole)
+                complete = value if part.format[1] == "f" else int(value)
+                struct.pack_into(part.format, body, part.place, complete)
             except struct.error:
                 continue
         return (struct.pack(self.prefix.format, self.length) if self.prefix else b"") + body
@@ -98,9 +98,9 @@ def framed(
                 case "socketreceive":
                     options = {(a.name or "").lower(): a.value for a in node.arguments}
                     count = options.get("readnoofbytes")
-                    taken = options.get("rawdata")
-                    if taken is not None:
-                        received.add(last(taken))
+                    in_use = options.get("rawdata")
+                    if in_use is not None:
+                        received.add(last(in_use))
                         lengths.add(last(count) if count is not None else "")
         sizes += _sizes(node, scope)
     copied = {to: by for of, to, by in copies if of in received and to not in received}

@@ -109,7 +109,7 @@ def guess(
     system: System,
     units: Iterable[str] = (),
     table: tuple[float, float, float] = (0.0, 0.0, 0.0),
-    stands: Mapping[str, str] = MappingProxyType({}),
+    frames: Mapping[str, str] = MappingProxyType({}),
 ) -> InferredCell:
     """The cell that the programs of `system` seem to stand in.
 
@@ -181,11 +181,13 @@ def guess(
         for spec, scopes in zip(system.tasks, tasks, strict=True)
     }
     rows = dict.fromkeys(row for spec in system.tasks for row in polled(looks[spec.name], given))
-    kept = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
+    persisted = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
     sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}
     data = tuple(
-        _declaration(one, stands, initial | sizes.keys(), kept, dict.fromkeys(divisors, 1) | sizes)
+        _declaration(
+            one, frames, initial | sizes.keys(), persisted, dict.fromkeys(divisors, 1) | sizes
+        )
         for one in named
         if _is_plain(one.type)
     )
@@ -203,8 +205,8 @@ def guess(
         (spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True)
     )
     named += [UndeclaredName(row.name, kind, span) for row, (kind, span) in blank.items()]
-    listens = expected_messages((scope for scopes in tasks for scope in scopes), stands)
-    routines = "".join(s.stub(stands.get(s.type, "")) for s in stubs.values())
+    listens = expected_messages((scope for scopes in tasks for scope in scopes), frames)
+    routines = "".join(s.stub(frames.get(s.type, "")) for s in stubs.values())
     return InferredCell(
         cell,
         tuple(named),
@@ -233,18 +235,18 @@ def _is_plain(kind: str) -> bool:
 
 def _declaration(
     one: UndeclaredName,
-    stands: Mapping[str, str],
+    frames: Mapping[str, str],
     initial: Collection[str],
-    kept: Collection[str],
+    persisted: Collection[str],
     sizes: Mapping[str, int],
 ) -> tuple[str, str, str]:
     """What an initial value is made of is a constant, where its value is known; what only a
     persistent may be is one."""
-    value = str(sizes.get(one.name.casefold()) or _value(one, stands))
+    value = str(sizes.get(one.name.casefold()) or _value(one, frames))
     if one.name.casefold() in initial:
         value = value or _NOTHING.get(one.type, "")
         return f"{'CONST' if value else 'VAR'} {one.type}", one.name, value
-    return f"{'PERS' if one.name.casefold() in kept else 'VAR'} {one.type}", one.name, value
+    return f"{'PERS' if one.name.casefold() in persisted else 'VAR'} {one.type}", one.name, value
 
 
 def _persistent(module: ModuleScope) -> Iterator[str]:
@@ -281,12 +283,12 @@ def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:
     for declared in (*tree.data, *(d for routine in tree.routines for d in routine.data)):
         for place, size in enumerate(declared.dimensions):
             if isinstance(size, n.Name):
-                whole = declared.initial if place == 0 else None
-                known = len(whole.members) if isinstance(whole, n.Aggregate) else _ELEMENTS
+                complete = declared.initial if place == 0 else None
+                known = len(complete.members) if isinstance(complete, n.Aggregate) else _ELEMENTS
                 yield size.name.casefold(), known
 
 
-def _value(one: UndeclaredName, stands: Mapping[str, str]) -> str:
+def _value(one: UndeclaredName, frames: Mapping[str, str]) -> str:
     numbered = _NUMBERED.fullmatch(one.name)
     figure = float(numbered[1]) if numbered is not None else 0.0
     match one.type:
@@ -296,7 +298,7 @@ def _value(one: UndeclaredName, stands: Mapping[str, str]) -> str:
             return f"[FALSE,{figure:g},{figure:g},{figure:g},1,{figure:g},1]"
         case "zonedata":
             return "[TRUE,0,0,0,0,0,0]"
-    return stands.get(one.type, "")
+    return frames.get(one.type, "")
 
 
 def _assigned(module: ModuleScope) -> set[str]:
@@ -334,16 +336,16 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
                     continue
                 # A signal stands for its value where a number is wanted.
                 if kind in ("", "num", "dnum"):
-                    found = _read_as(name.name, node) or kind
-                    yield name, found, 1 if found else 0
+                    result = _read_as(name.name, node) or kind
+                    yield name, result, 1 if result else 0
                 else:
                     yield name, kind, 2
         elif routine is None:
             for argument in node.arguments:
                 if isinstance(argument.value, n.Name):
                     # What is only given to routines in no file may as well be a number.
-                    found = _read_as(argument.value.name, node)
-                    yield argument.value, found or "num", 1 if found else 0
+                    result = _read_as(argument.value.name, node)
+                    yield argument.value, result or "num", 1 if result else 0
         return
     for one, kind in read(node, scope):
         if isinstance(one, n.Name):
@@ -351,8 +353,8 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
             plain = kind or (
                 "num" if isinstance(node, n.Binary) and node.operator in _ORDER else ""
             )
-            found = _read_as(one.name, node) or plain.replace(NUMBER, "num")
-            yield one, found, 1 if found else 0
+            result = _read_as(one.name, node) or plain.replace(NUMBER, "num")
+            yield one, result, 1 if result else 0
 
 
 def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_Use]:

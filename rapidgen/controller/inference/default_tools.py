@@ -29,7 +29,7 @@ def find_defaulted_persistents(
     tasks: Iterable[tuple[str, Iterable[ModuleScope]]],
 ) -> dict[DefaultedPersistent, tuple[str, Span]]:
     """All in the modules of tasks, each with its type and where it is declared."""
-    found: dict[DefaultedPersistent, tuple[str, Span]] = {}
+    result: dict[DefaultedPersistent, tuple[str, Span]] = {}
     filled: set[str] = set()
     for task, modules in tasks:
         for module in modules:
@@ -38,8 +38,8 @@ def find_defaulted_persistents(
                 kind = one.type.lower()
                 if one.kind == "PERS" and kind in _STANDS and not (one.initial or one.dimensions):
                     row = DefaultedPersistent(task, module.tree.name, one.name, _STANDS[kind])
-                    found[row] = kind, module.tree.source.span(one.name_token, one.name_token)
-    return {row: at for row, at in found.items() if row.name.casefold() not in filled}
+                    result[row] = kind, module.tree.source.span(one.name_token, one.name_token)
+    return {row: at for row, at in result.items() if row.name.casefold() not in filled}
 
 
 def _filled(module: ModuleScope) -> Iterator[str]:

@@ -23,10 +23,10 @@ _NUMBERS: Final = (*(str(n) for n in range(1, 11)), "0", "100")
 class DialogResponder:
     """Answers the dialogs of one controller; `said` grows by (dialog and text, answer)."""
 
-    def __init__(self, operator: Operator, scheduler: Scheduler, said: list[Said]) -> None:
+    def __init__(self, operator: Operator, scheduler: Scheduler, message: list[Said]) -> None:
         self._operator = operator
         self._scheduler = scheduler
-        self._said = said
+        self._said = message
         self._seen: set[int] = set()
         self._turns: Counter[tuple[object, ...]] = Counter()
         operator.attach()
@@ -50,8 +50,8 @@ class DialogResponder:
                 self._operator.answer(question.number, answer)
             except ValueError:
                 continue
-            asked = question.text.replace("\n", " ").strip()
-            self._said.append((f"{question.dialog} '{asked}'", answer))
+            requested = question.text.replace("\n", " ").strip()
+            self._said.append((f"{question.dialog} '{requested}'", answer))
             return
 
 

@@ -78,7 +78,7 @@ class MissingRoutine:
 def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[MissingRoutine, ...]:
     """What the modules of a task call and none of them declares, each once, where a stub can be
     made. `types` are those of names that nobody declares, by lower-case name."""
-    found: dict[str, MissingRoutine] = {}
+    result: dict[str, MissingRoutine] = {}
     for module in modules:
         if not module.tree.name:
             continue
@@ -89,10 +89,10 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Mi
             name = _unknown(node, scope)
             if not name:
                 continue
-            before = found.get(name.casefold())
+            before = result.get(name.casefold())
             at = module.tree.source.span(node.first, node.first)
             if isinstance(node, n.Connect):
-                found.setdefault(name.casefold(), MissingRoutine(name, "", (), at, is_trap=True))
+                result.setdefault(name.casefold(), MissingRoutine(name, "", (), at, is_trap=True))
                 continue
             assert isinstance(node, _Call)
             parameters = _parameters(node.arguments, scope, types)
@@ -100,14 +100,14 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Mi
                 continue
             if before is not None and not before.is_trap:
                 merged = _with_options(before.parameters, parameters)
-                found[name.casefold()] = replace(before, parameters=merged)
+                result[name.casefold()] = replace(before, parameters=merged)
                 continue
             given = kinds.get(id(node), "").replace(NUMBER, "num")
             is_function = isinstance(node, n.FunctionCall)
             if not is_function or type_class(given) is not None:
                 kind = given if is_function else ""
-                found[name.casefold()] = MissingRoutine(name, kind, parameters, at)
-    return tuple(found.values())
+                result[name.casefold()] = MissingRoutine(name, kind, parameters, at)
+    return tuple(result.values())
 
 
 def _with_options(
@@ -154,22 +154,22 @@ def _parameters(
     arguments: Sequence[n.Argument], scope: Scope, types: Mapping[str, str]
 ) -> tuple[_Parameter, ...] | None:
     """Parameters that take these arguments; None: a type is not known."""
-    found = []
+    result = []
     for argument in arguments:
         name = argument.name or ""
         if argument.kind == "switch":
-            found.append(_Parameter(name, "\\switch"))
+            result.append(_Parameter(name, "\\switch"))
             continue
         value = argument.value
         kind = None if value is None else type_of(value, scope) or declared_type(value, scope)
         if not kind and isinstance(value, n.Name):
             kind = types.get(value.name.casefold(), "")
         kind = (kind or "").replace(NUMBER, "num")
-        kept = type_class(element(kind))
-        if kept is None:
+        persisted = type_class(element(kind))
+        if persisted is None:
             return None
-        mode = "" if kept == "value" else "VAR "
+        mode = "" if persisted == "value" else "VAR "
         dimensions = "{" + ",".join("*" * degree(kind)) + "}" if degree(kind) else ""
         optional = "" if argument.kind == "required" else "\\"
-        found.append(_Parameter(name, f"{optional}{mode}{element(kind)}{dimensions}"))
-    return tuple(found)
+        result.append(_Parameter(name, f"{optional}{mode}{element(kind)}{dimensions}"))
+    return tuple(result)

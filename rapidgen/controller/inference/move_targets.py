@@ -50,9 +50,9 @@ def move_targets(module: ModuleScope, *, roughly: bool = False) -> Iterator[Move
             symbol = called(scope.find(node.name)) if isinstance(node, n.ProcedureCall) else None
             if isinstance(node, n.ProcedureCall) and isinstance(symbol, RoutineSymbol):
                 line = module.tree.source.line(node.first)
-                found = _meant(node, symbol, scope, line, roughly)
-                if found is not None:
-                    yield found
+                result = _meant(node, symbol, scope, line, roughly)
+                if result is not None:
+                    yield result
 
 
 def _meant(
@@ -112,22 +112,22 @@ def _declared(
     """The initial value of a datum, or what stands there; of `Offs` with constants the place.
     Empty: it cannot be told."""
     if isinstance(node, n.FunctionCall) and node.name.lower() in ("offs", "reltool"):
-        first, *rest = (argument.value for argument in node.arguments)
+        first, *remaining = (argument.value for argument in node.arguments)
         base = _declared(first, scope, kind, roughly)
-        offsets = [constant(v, scope) for v in rest if v is not None]
-        told = node.name.lower() == "offs" and all(isinstance(v, int | float) for v in offsets)
-        if not base or not told:
+        offsets = [constant(v, scope) for v in remaining if v is not None]
+        report = node.name.lower() == "offs" and all(isinstance(v, int | float) for v in offsets)
+        if not base or not report:
             return base if roughly else ()
         places = zip(_numbers(base[0]), _numbers(tuple(v or 0 for v in offsets)), strict=True)
         return (tuple(a + b for a, b in places), *base[1:])
     symbol = scope.find(node.name) if isinstance(node, n.Name) else None
-    found: Value = ()
+    result: Value = ()
     try:
         if isinstance(symbol, DataSymbol) and symbol.initial is not None:
             inside = symbol.module if symbol.routine is None and symbol.module else scope
-            found = evaluate(symbol.initial, inside, kind)
+            result = evaluate(symbol.initial, inside, kind)
         elif isinstance(node, n.Aggregate):
-            found = evaluate(node, scope, kind)
+            result = evaluate(node, scope, kind)
     except NotConstant:
         return ()
-    return found if isinstance(found, tuple) else ()
+    return result if isinstance(result, tuple) else ()

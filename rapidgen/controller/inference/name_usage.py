@@ -62,7 +62,7 @@ def passed(
     for pair in match(parameters, arguments, lambda _, alternatives: alternatives[0]).pairs:
         value = pair.argument.value
         if value is not None and pair.parameter >= 0:
-            wanted = parameters[pair.parameter]
-            kind = (routine.module or scope.module).base(wanted.type) or ""
-            is_any = kind == "anytype" or wanted.dimensions
-            yield value, "" if is_any else kind, wanted.mode
+            expected = parameters[pair.parameter]
+            kind = (routine.module or scope.module).base(expected.type) or ""
+            is_any = kind == "anytype" or expected.dimensions
+            yield value, "" if is_any else kind, expected.mode

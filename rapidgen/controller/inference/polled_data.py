@@ -82,8 +82,8 @@ def flags(
         for name, value in _written(scope, made):
             written.setdefault(name, set()).add(value)
     for look in looks:
-        wanted = [one for term in look.terms for one in _wanted(term, made)]
-        known = {one.name.casefold(): one for one in (_given(s, written) for s in wanted) if one}
+        expected = [one for term in look.terms for one in _wanted(term, made)]
+        known = {one.name.casefold(): one for one in (_given(s, written) for s in expected) if one}
         if known:
             yield PolledData(task, look.module, look.first, look.last, tuple(known.values()))
 
@@ -114,9 +114,9 @@ def _wanted(term: Term, made: Mapping[str, str]) -> Iterator[Adjusted]:
         ):
             value = constant(other, scope)
             if isinstance(one, n.Name) and isinstance(value, bool | int | float | str):
-                wanted = _making(relation if holds else NEGATED[relation], value)
-                if wanted is not None:
-                    yield from _set(one, scope, wanted, made)
+                expected = _making(relation if holds else NEGATED[relation], value)
+                if expected is not None:
+                    yield from _set(one, scope, expected, made)
 
 
 def _making(operator: str, value: Plain) -> Plain | None:
@@ -177,11 +177,11 @@ class DataSetter:
     """Sets the data that tasks look for, one after the other."""
 
     def __init__(
-        self, controller: HasPolledData, rows: tuple[PolledData, ...], said: "list[Said]"
+        self, controller: HasPolledData, rows: tuple[PolledData, ...], message: "list[Said]"
     ) -> None:
         self._controller = controller
         self._rows = rows
-        self._said = said
+        self._said = message
         self._looks = 0
         self._turn = 0
         self._held: dict[tuple[str, str], tuple[Plain, int]] = {}

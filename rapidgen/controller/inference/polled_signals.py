@@ -50,10 +50,10 @@ class PolledSignals:
 def polled(looks: Iterable[WaitCondition], given: Collection[str]) -> Iterator[PolledSignals]:
     """All that are of `given` signals, by lower-case name."""
     for look in looks:
-        found = (one for term in look.terms for one in _compared(term))
-        wanted = tuple(dict.fromkeys(one for one in found if one[0] in given))
-        if wanted:
-            yield PolledSignals(look.module, look.first, look.last, wanted)
+        result = (one for term in look.terms for one in _compared(term))
+        expected = tuple(dict.fromkeys(one for one in result if one[0] in given))
+        if expected:
+            yield PolledSignals(look.module, look.first, look.last, expected)
 
 
 def _compared(term: Term) -> Iterator[Wanted]:
@@ -99,11 +99,11 @@ class InputSetter:
     """Presses the inputs that tasks look for, one after the other."""
 
     def __init__(
-        self, controller: Polling, rows: tuple[PolledSignals, ...], said: "list[Said]"
+        self, controller: Polling, rows: tuple[PolledSignals, ...], message: "list[Said]"
     ) -> None:
         self._controller = controller
         self._rows = rows
-        self._said = said
+        self._said = message
         self._turn = 0
         self._pressed: list[tuple[str, float]] = []
         self._next()
@@ -120,8 +120,8 @@ class InputSetter:
         for _ in rows:
             row = rows[self._turn % len(rows)]
             self._turn += 1
-            for name, relation, wanted in row.wanted:
-                awaited = SignalCondition(io[name], relation, wanted)
+            for name, relation, expected in row.wanted:
+                awaited = SignalCondition(io[name], relation, expected)
                 value = awaited.fulfilling()
                 if value is not None and not awaited.holds():
                     self._pressed.append((awaited.signal.name, awaited.signal.value))

@@ -27,12 +27,12 @@ def run_past_stops(
     for starts in range(_MOST + 1):
         answers = len(guessed.answered)
         left = until - controller.now
-        ended = controller.run(max_time=left, max_statements=max_statements)
+        finished = controller.run(max_time=left, max_statements=max_statements)
         if starts == _MOST:
             break
-        stands = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
-        if ended == "finished" and guessed.is_guess and stands and controller.now < until:
-            for top in (task.stack()[-1] for task in stands if task.stack()):
+        frames = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
+        if finished == "finished" and guessed.is_guess and frames and controller.now < until:
+            for top in (task.stack()[-1] for task in frames if task.stack()):
                 place = f"{Path(top.span.path).name}:{top.span.line}"
                 guessed.answered.append((f"Stop at {place}", "start"))
             if not controller.start_program():
@@ -48,4 +48,4 @@ def run_past_stops(
         controller.pp_to_main()
         if not controller.start_program():
             break
-    return ended
+    return finished

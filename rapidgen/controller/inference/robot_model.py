@@ -54,8 +54,8 @@ class RobotCandidate:
 def infer_robot_model(system: System, default: str) -> RobotCandidate | None:
     """The first model that reaches most of what the programs of `system` aim at: `default`, the
     shipped ones, known variants. None: they aim at nothing that can be told."""
-    found = list(dict.fromkeys(aims(system)))
-    tried = found[:: 1 + len(found) // _MOST]
+    result = list(dict.fromkeys(aims(system)))
+    tried = result[:: 1 + len(result) // _MOST]
     if not tried:
         return None
     # Programs written by other tools give 0 to axes that a robot does not have.
@@ -93,13 +93,13 @@ def _reaches(
     group: GroupConfig, kinematics: Kinematics, aim: FlangeTarget, near: tuple[float, ...]
 ) -> bool:
     if aim.flange is not None:
-        found = kinematics.solutions(aim.flange, near, aim.configuration)
-        return kinematics.fitting(found, aim.configuration, "turn") is not None
+        result = kinematics.solutions(aim.flange, near, aim.configuration)
+        return kinematics.fitting(result, aim.configuration, "turn") is not None
     # Of the axes beside the arm nothing is asked: they stay.
-    wanted = JointMap.of(group).from_rapid(aim.axes, (ABSENT,) * 6, near)
+    expected = JointMap.of(group).from_rapid(aim.axes, (ABSENT,) * 6, near)
     return all(
         joint.lower - 1e-6 <= value <= joint.upper + 1e-6
-        for joint, value in zip(group.joints, wanted, strict=True)
+        for joint, value in zip(group.joints, expected, strict=True)
         if joint.axis.startswith("rax")
     )
 
@@ -114,10 +114,10 @@ def aims(system: System) -> Iterator[FlangeTarget]:
             yield from map(_aim, move_targets(scope, roughly=True))
 
 
-def _aim(found: MoveTarget) -> FlangeTarget:
-    if found.place is None:
-        return FlangeTarget(None, axes=found.axes)
-    flange = frames.compose(found.place, frames.invert(found.tool))
-    eax_a = found.external[0]
-    near = abs(eax_a) < _UNUSED and frames.distance(found.place[0], _ORIGIN) < _ARM
-    return FlangeTarget(flange, found.configuration, eax_a if near else None)
+def _aim(result: MoveTarget) -> FlangeTarget:
+    if result.place is None:
+        return FlangeTarget(None, axes=result.axes)
+    flange = frames.compose(result.place, frames.invert(result.tool))
+    eax_a = result.external[0]
+    near = abs(eax_a) < _UNUSED and frames.distance(result.place[0], _ORIGIN) < _ARM
+    return FlangeTarget(flange, result.configuration, eax_a if near else None)

@@ -79,22 +79,28 @@ class ExpectedMessages:
         tail = "".join(self.separators)
         counted, with_more = [], []
         for code, count in self.sized:
-            for mark in marks[:_WAYS]:
-                end = "".join(one for one in self.separators if one != mark)
-                for behind in dict.fromkeys(self._behind(count)):
-                    counted.append(mark.join((str(code), *behind)) + mark + end)
+            for marker in marks[:_WAYS]:
+                end = "".join(one for one in self.separators if one != marker)
+                for after in dict.fromkeys(self._behind(count)):
+                    counted.append(marker.join((str(code), *after)) + marker + end)
         sized = {code for code, _ in self.sized}
         others = [str(number) for number in self.numbers if number not in sized]
         others += [str(max(self.numbers) + 1)] if self.numbers else []
         for first in (*others, *self.beginnings):
-            with_more += [mark.join((first, *_NUMBERS)) + mark + tail for mark in marks[:_WAYS]]
-        cut = [t for layout in self.layouts for mark in marks[:_WAYS] for t in texts(layout, mark)]
-        whole = (*map(str, self.numbers), *self.words)
-        with_more += sorted(whole, key=lambda word: _LAST.search(word) is not None)
-        said = [text.encode("latin-1", "replace") for text in (*cut, *self.values, *with_more)]
-        said += [number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0]
+            with_more += [
+                marker.join((first, *_NUMBERS)) + marker + tail for marker in marks[:_WAYS]
+            ]
+        cut = [
+            t for layout in self.layouts for marker in marks[:_WAYS] for t in texts(layout, marker)
+        ]
+        complete = (*map(str, self.numbers), *self.words)
+        with_more += sorted(complete, key=lambda word: _LAST.search(word) is not None)
+        message = [text.encode("latin-1", "replace") for text in (*cut, *self.values, *with_more)]
+        message += [
+            number.to_bytes(4, "little") + bytes(8) for number in self.numbers if number >= 0
+        ]
         return [text.encode("latin-1", "replace") for text in counted] + (
-            said[:_MOST] or [b"1"]
+            message[:_MOST] or [b"1"]
         ) * 2
 
     def _behind(self, count: int) -> Iterator[tuple[str, ...]]:
@@ -102,17 +108,17 @@ class ExpectedMessages:
         others nobody knows what they are."""
         kind = {3: "pos", 4: "orient", 6: "jointtarget", 7: "robtarget"}.get(count, "")
         known = _NUMBER.findall({**_VALUES, **self.stands}.get(kind, ""))
-        told = tuple(f"{float(number):g}" for number in known)
+        report = tuple(f"{float(number):g}" for number in known)
         for numbers in (_NUMBERS, _OTHERS):
-            yield (*told, *numbers, *"0" * count)[:count]
+            yield (*report, *numbers, *"0" * count)[:count]
 
 
 def expected_messages(
-    modules: Iterable[ModuleScope], stands: Mapping[str, str]
+    modules: Iterable[ModuleScope], frames: Mapping[str, str]
 ) -> ExpectedMessages:
     """What the modules of all tasks listen for; `stands` are values of targets."""
-    known = {**_VALUES, **stands}
-    nodes = [found for module in modules for found in scoped(module)]
+    known = {**_VALUES, **frames}
+    nodes = [result for module in modules for result in scoped(module)]
     received = {name for node, _ in nodes for name in _received(node)}
     received |= {
         last(node.target)
@@ -126,25 +132,25 @@ def expected_messages(
     for node, scope in nodes:
         for whom, one in _compared(node, scope):
             if isinstance(one, str) and one:
-                whole = isinstance(whom, n.Name) and whom.name.casefold() in received
-                mark = len(one) == 1 and not one.isalnum()
-                (words if whole else marks if mark else parts)[one] = None
+                complete = isinstance(whom, n.Name) and whom.name.casefold() in received
+                marker = len(one) == 1 and not one.isalnum()
+                (words if complete else marks if marker else parts)[one] = None
             elif isinstance(one, int) and not isinstance(one, bool):
                 numbers[one] = None
                 tested.setdefault(last(whom), []).append(one)
         sized.update(dict.fromkeys(_sized(node, scope)))
         if isinstance(node, n.FunctionCall):
             given = [a.value for a in node.arguments if a.value is not None]
-            found = constant(given[-1], scope) if given else None
-            if node.name.lower() in _SEARCHING and isinstance(found, str):
-                marks.update(dict.fromkeys(found))
+            result = constant(given[-1], scope) if given else None
+            if node.name.lower() in _SEARCHING and isinstance(result, str):
+                marks.update(dict.fromkeys(result))
             elif node.name.lower() == "strtoval" and len(given) > 1:
                 kind = declared_type(given[1], scope) or ""
                 if kind in known:
                     values[known[kind]] = None
     heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
     binary = framed(nodes, tested)
-    return ExpectedMessages(*heard_of, tuple(sized), stands, binary, tuple(layouts(nodes)))
+    return ExpectedMessages(*heard_of, tuple(sized), frames, binary, tuple(layouts(nodes)))
 
 
 def _received(node: n.Node) -> Iterator[str]:
@@ -209,10 +215,12 @@ class HasSockets(Protocol):
 class SocketPeer:
     """Connects where a program listens, listens where one connects, and speaks where one waits."""
 
-    def __init__(self, controller: HasSockets, what: ExpectedMessages, said: "list[Said]") -> None:
+    def __init__(
+        self, controller: HasSockets, what: ExpectedMessages, message: "list[Said]"
+    ) -> None:
         self._network = controller.network
         self._scheduler = controller.scheduler
-        self._said = said
+        self._said = message
         self._left = what.messages()
         self._is_cut = what.framed.prefix is None
         self._ends: dict[Endpoint, None] = {}
@@ -262,5 +270,7 @@ class SocketPeer:
             message = message.ljust(count, b"0" if message[-1:].isdigit() else b"\0")[:count]
         self._network.receive(mine, 1 << 16)
         self._network.send(mine, message)
-        shown = message.decode("latin-1")
-        self._said.append(("SocketReceive", shown if shown.isprintable() else message.hex(" ")))
+        displayed = message.decode("latin-1")
+        self._said.append(
+            ("SocketReceive", displayed if displayed.isprintable() else message.hex(" "))
+        )

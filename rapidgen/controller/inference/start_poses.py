@@ -56,11 +56,11 @@ def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[f
             f"{where} has {len(values)} values, {group.task} has {len(joints)} axes",
             f"one for each of {names}, deg or mm",
         )
-    found = {}
+    result = {}
     for joint, value in zip(joints, values, strict=True):
         turning = joint.kind == "revolute"
-        found[joint.axis] = math.radians(value) if turning else value / 1000
-        if not joint.lower - 1e-9 <= found[joint.axis] <= joint.upper + 1e-9:
+        result[joint.axis] = math.radians(value) if turning else value / 1000
+        if not joint.lower - 1e-9 <= result[joint.axis] <= joint.upper + 1e-9:
             low, high = (
                 f"{math.degrees(b) if turning else b * 1000:g}" for b in (joint.lower, joint.upper)
             )
@@ -70,7 +70,7 @@ def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[f
                 f"{where}: {joint.axis} at {value:g} is outside of {low} to {high}",
                 f"the limits are those of {group.model or group.name}",
             )
-    return tuple(found[joint.axis] for joint in group.joints)
+    return tuple(result[joint.axis] for joint in group.joints)
 
 
 def shown(group: GroupConfig, posture: Sequence[float]) -> str:

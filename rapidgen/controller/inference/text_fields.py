@@ -29,7 +29,7 @@ class TextField:
     length: int = 0
 
 
-def texts(layout: Sequence[TextField], mark: str) -> Iterator[str]:
+def texts(layout: Sequence[TextField], marker: str) -> Iterator[str]:
     """With the first value of each field, then with the others of one field after the other."""
     first = [field.values[0] for field in layout]
     rows = [first]
@@ -39,17 +39,19 @@ def texts(layout: Sequence[TextField], mark: str) -> Iterator[str]:
         text = ""
         for field, value in zip(layout, row, strict=True):
             if field.place >= 0:
-                text = text[: field.place].ljust(field.place, mark)
+                text = text[: field.place].ljust(field.place, marker)
             elif text:
-                text += "" if text.endswith(mark) else mark
-            whole = value.rjust(field.length, "0") if value.isdigit() else value.ljust(field.length)
-            text += whole[: field.length or None]
-        yield text + mark
+                text += "" if text.endswith(marker) else marker
+            complete = (
+                value.rjust(field.length, "0") if value.isdigit() else value.ljust(field.length)
+            )
+            text += complete[: field.length or None]
+        yield text + marker
 
 
 def layouts(nodes: Iterable[tuple[n.Node, Scope]]) -> Iterator[tuple[TextField, ...]]:
     """What each routine cuts out, where that is more than one field."""
-    found: dict[int, dict[str, tuple[int, int, bool]]] = {}
+    result: dict[int, dict[str, tuple[int, int, bool]]] = {}
     compared: dict[str, dict[str, None]] = {}
     bounds: dict[str, list[float]] = {}
     became: dict[str, str] = {}
@@ -58,18 +60,18 @@ def layouts(nodes: Iterable[tuple[n.Node, Scope]]) -> Iterator[tuple[TextField, 
             if is_bound and not isinstance(value, str):
                 bounds.setdefault(whom, []).append(value)
             else:
-                shown = value if isinstance(value, str) else f"{value:g}"
-                compared.setdefault(whom, {})[shown] = None
+                displayed = value if isinstance(value, str) else f"{value:g}"
+                compared.setdefault(whom, {})[displayed] = None
         target, source = _kept(node)
         cut = None if source is None else next(filter(_is_cut, walk(source)), None)
         if isinstance(cut, n.FunctionCall) and target is not None:
             is_text = declared_type(target, scope) == "string"
             if isinstance(scope, RoutineScope):
-                row = found.setdefault(id(scope.node), {})
+                row = result.setdefault(id(scope.node), {})
                 row.setdefault(last(target), (*_where(cut, scope), is_text))
         elif isinstance(source, n.Name) and target is not None:
             became[source.name.casefold()] = last(target)
-    for fields in found.values():
+    for fields in result.values():
         if len(fields) > 1:
             yield tuple(
                 TextField(_values(name, became, compared, bounds, is_text=is_text), place, length)

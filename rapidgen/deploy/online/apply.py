@@ -104,15 +104,15 @@ def _await_earlier_run(run: OnlineRun) -> None:
 
     Nothing has been stopped or written yet. `_await` refuses what is still held then.
     """
-    left, told = max(run.options.wait, _SESSION_ENDS), False
+    left, text = max(run.options.wait, _SESSION_ENDS), False
     while (who := _holder(run)) is not None and who.application == APPLICATION and left > 0:
-        if not told:
+        if not text:
             run.work.say(
                 f"waiting for mastership of {who.domain}, which {who} has: another run of "
                 "rapidgen. If that was killed, the controller ends its session after five idle "
                 "minutes; nothing has been changed yet"
             )
-            told = True
+            text = True
         check_not_interrupted(run.work)
         run.options.pause(_LOOK)
         left -= _LOOK
@@ -129,20 +129,20 @@ def _holder(run: OnlineRun) -> MastershipHolder | None:
 
 def _await(run: OnlineRun) -> None:
     """Wait for what only people do. Raises DiagnosticError RG542 when the time is over."""
-    left, told, refusal = run.options.wait, "", ""
+    left, text, refusal = run.options.wait, "", ""
     granted = False
     while (missing := _missing(run, granted=granted)) is not None:
-        what, mend = missing
+        what, help = missing
         if not (granted or refusal) and run.services.panel().mode in _MANUAL:
             granted, refusal = _ask_pendant(run)
             continue
         if left <= 0:
             raise refused(
-                "RG542", f"{what}{refusal}", f"{mend}, then run this again (--wait S waits)"
+                "RG542", f"{what}{refusal}", f"{help}, then run this again (--wait S waits)"
             )
-        if what != told:
-            run.work.say(f"waiting for a person: {what}; {mend}")
-            told = what
+        if what != text:
+            run.work.say(f"waiting for a person: {what}; {help}")
+            text = what
         check_not_interrupted(run.work)
         run.options.pause(_LOOK)
         left -= _LOOK

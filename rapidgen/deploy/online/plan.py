@@ -116,21 +116,21 @@ class OnlinePlan:
         """Grants that the user has not, and that this takes."""
         if not self.grants or any("FULL_ACCESS" in grant for grant in self.grants):
             return ()
-        wanted = [ops.READ_FILE, ops.WRITE_FILE, ops.BACKUP]
+        desired = [ops.READ_FILE, ops.WRITE_FILE, ops.BACKUP]
         if self.touches_cfg:
-            wanted += [ops.CFG_DELETE, ops.CFG_SET, ops.CFG_LOAD]
+            desired += [ops.CFG_DELETE, ops.CFG_SET, ops.CFG_LOAD]
         if self.touches_memory:
-            wanted += [ops.LOAD_MODULE, ops.POINTER_TO_ROUTINE, ops.SAVE_MODULE]
-            wanted += [ops.STOP] if self.started else []
+            desired += [ops.LOAD_MODULE, ops.POINTER_TO_ROUTINE, ops.SAVE_MODULE]
+            desired += [ops.STOP] if self.started else []
         if self.restart and restart:
-            wanted += [ops.RESTART, *([ops.POINTER_TO_ROUTINE] if self.mains else [])]
-        found = (g for one in wanted for g in missing(one, generation, self.grants))
-        return tuple(dict.fromkeys(found))
+            desired += [ops.RESTART, *([ops.POINTER_TO_ROUTINE] if self.mains else [])]
+        result = (g for one in desired for g in missing(one, generation, self.grants))
+        return tuple(dict.fromkeys(result))
 
     @property
     def fingerprint(self) -> Members:
         """What the plan is true for: not whether a program runs just now."""
-        told: Members = {
+        text: Members = {
             "id": self.id,
             "delete": [r.name for r in (*self.delete, *self.again)],
             "change": [[c.section, c.title, dict(c.new)] for c in self.change],
@@ -138,19 +138,19 @@ class OnlinePlan:
             "restart": self.restart,
         }
         for name in ("clash", "unload", "replace", "restore"):
-            told[name] = [m.shown for m in getattr(self, name)]
-        return told
+            text[name] = [m.shown for m in getattr(self, name)]
+        return text
 
 
 def make_live_plan(
     view: ControllerSnapshot,
     cfg: Sequence[CfgChange],
-    wanted: DriverSet | None,
+    desired: DriverSet | None,
     old: Mapping[str, tuple[str, ...]],
-    ours: frozenset[str],
+    own_files: frozenset[str],
     before: Mapping[str, Json],
     symbols: Mapping[str, tuple[str, ...]],
-    clash: tuple[MemoryModule, ...],
+    conflict: tuple[MemoryModule, ...],
     restore: tuple[MemoryModule, ...],
 ) -> OnlinePlan:
     """`old` are the modules of earlier sets with their tasks, `ours` and `before` as in a plan."""
@@ -162,25 +162,25 @@ def make_live_plan(
             delete.append(rows[name])
         elif (
             one.action == "change"
-            and name in ours
+            and name in own_files
             and before.get(name) is None
             and not is_delivered(rows[name].section, rows[name].instance)
         ):
             again.append(rows[name])
         elif one.action in ("change", "restore"):
             new = before[name] if one.action == "restore" else None
-            instance = instance_from(new) if new is not None else _wanted(wanted, name)
+            instance = instance_from(new) if new is not None else _wanted(desired, name)
             change.append(_change(rows[name], instance))
-    load = _loads(cfg, wanted, frozenset(row.name for row in again))
-    replace, unload = _memory(view, wanted, old)
-    needed = {task.casefold() for f in wanted.files for task in f.tasks} if wanted else set()
+    load = _loads(cfg, desired, frozenset(row.name for row in again))
+    replace, unload = _memory(view, desired, old)
+    needed = {task.casefold() for f in desired.files for task in f.tasks} if desired else set()
     running = {f"sys cab_tasks {t.name.casefold()}" for t in view.tasks}
-    stale = bool(running & ours - rows.keys())
+    stale = bool(running & own_files - rows.keys())
     background = [t for t in view.tasks if t.kind != "normal" and t.execution == "started"]
-    if wanted is not None:
+    if desired is not None:
         # A NORMAL task is given its modules as it stands, where nothing runs beside it.
-        hot = set() if background else _loaded_whole(wanted, replace)
-        stale = stale or any(view.builds.get(t) != wanted.build_id for t in needed - hot)
+        hot = set() if background else _loaded_whole(desired, replace)
+        stale = stale or any(view.builds.get(t) != desired.build_id for t in needed - hot)
     known = needed | {t.casefold() for names in old.values() for t in names}
     # Nobody starts them but a restart, also where all modules are those that are wanted.
     silent = tuple(
@@ -197,7 +197,7 @@ def make_live_plan(
         tuple(change),
         tuple(needful),
         tuple(t for t in load if is_unconfirmed(t)),
-        clash,
+        conflict,
         unload,
         replace,
         restore,
@@ -207,7 +207,7 @@ def make_live_plan(
         tuple(t.name for t in background if t.name.casefold() in known),
         silent,
         tuple(t.name for t in view.tasks if t.kind == "normal" and t.name.casefold() not in known),
-        _mains(view, wanted),
+        _mains(view, desired),
         view.running,
         view.mode,
         view.orphans,
@@ -218,39 +218,39 @@ def make_live_plan(
 def find_clashes(
     services: "Controller",
     view: ControllerSnapshot,
-    wanted: DriverSet | None,
+    desired: DriverSet | None,
     old: Mapping[str, tuple[str, ...]],
 ) -> tuple[MemoryModule, ...]:
     """Modules in the driver's tasks with a name of ours that we did not load, or another `main`.
 
     Raises RobotError.
     """
-    found = []
+    result = []
     for task, names in view.modules.items():
-        mine, main = set(), False
-        for file in wanted.files if wanted else ():
+        own, main = set(), False
+        for file in desired.files if desired else ():
             if task in (t.casefold() for t in file.tasks):
-                mine.add(_module_name(file.data).casefold())
+                own.add(_module_name(file.data).casefold())
                 main = main or MAIN.search(file.data) is not None
         earlier = {m.casefold() for m, t in old.items() if task in map(str.casefold, t)}
         for name in names:
             low = name.casefold()
             if low in earlier:
                 continue
-            if low in mine:
-                found.append(MemoryModule(task.upper(), name, why="has a name of ours"))
+            if low in own:
+                result.append(MemoryModule(task.upper(), name, why="has a name of ours"))
             elif main and has_main(services, task, name):
-                found.append(MemoryModule(task.upper(), name, why="has a main, too"))
+                result.append(MemoryModule(task.upper(), name, why="has a main, too"))
     real = {t.name.casefold(): t.name for t in view.tasks}
-    return tuple(MemoryModule(real[m.task.casefold()], m.module, why=m.why) for m in found)
+    return tuple(MemoryModule(real[m.task.casefold()], m.module, why=m.why) for m in result)
 
 
 def _by_task(modules: Sequence[MemoryModule]) -> list[tuple[str, str, bool]]:
     """Modules of one task and one reason as one text, their reason, whether they are several."""
-    found: dict[tuple[str, str], list[str]] = {}
+    result: dict[tuple[str, str], list[str]] = {}
     for module in modules:
-        found.setdefault((module.task, module.why), []).append(module.module)
-    return [(f"{t}/{', '.join(names)}", w, len(names) > 1) for (t, w), names in found.items()]
+        result.setdefault((module.task, module.why), []).append(module.module)
+    return [(f"{t}/{', '.join(names)}", w, len(names) > 1) for (t, w), names in result.items()]
 
 
 def live_steps(
@@ -269,16 +269,16 @@ def live_steps(
     for text in (*live.load, *(live.optional if live.touches_cfg else ())):
         count = sum(len(s.instances) for s in text.sections)
         steps.append(ManualStep(by, f"load {count} instances of {text.domain} by add"))
-    for shown, why, several in _by_task(live.clash):
+    for displayed, why, several in _by_task(live.clash):
         which = "each of which" if several else "which"
-        steps.append(ManualStep(by, f"save and unload {shown}, {which} {why} (--overwrite)"))
-    steps += [ManualStep(by, f"unload {shown}") for shown, *_ in _by_task(live.unload)]
+        steps.append(ManualStep(by, f"save and unload {displayed}, {which} {why} (--overwrite)"))
+    steps += [ManualStep(by, f"unload {displayed}") for displayed, *_ in _by_task(live.unload)]
     if live.replace:
         names = ", ".join(m.shown for m in live.replace)
         steps.append(ManualStep(by, f"load anew: {names}"))
-    for shown, _, several in _by_task(live.restore):
+    for displayed, _, several in _by_task(live.restore):
         saved = "they were" if several else "it was"
-        steps.append(ManualStep(by, f"load {shown} again, as {saved} saved"))
+        steps.append(ManualStep(by, f"load {displayed} again, as {saved} saved"))
     if live.is_empty:
         return tuple(steps)
     if live.mode != "AUTO":
@@ -292,9 +292,9 @@ def live_steps(
         steps.append(ManualStep("you", what, stops_motion=True))
     if live.restart:
         others = sorted(set(live.started) - set(live.owned))
-        beside = f"; it stops {', '.join(others)}, too" if others else ""
-        beside += f"; it starts {', '.join(live.silent)}, which stand" if live.silent else ""
-        what = f"a warm start: --restart does it, or menu > Restart{beside}"
+        adjacent = f"; it stops {', '.join(others)}, too" if others else ""
+        adjacent += f"; it starts {', '.join(live.silent)}, which stand" if live.silent else ""
+        what = f"a warm start: --restart does it, or menu > Restart{adjacent}"
         steps.append(ManualStep("you", what, stops_motion=True))
     if verb != "uninstall":
         what = f"motors on and start, at the robot or by `rapidgen start {host}`"
@@ -308,8 +308,8 @@ def _words(attributes: Mapping[str, str]) -> str:
     return ", ".join(f"{k} {v or '(empty)'}" for k, v in attributes.items())
 
 
-def _wanted(wanted: DriverSet | None, name: str) -> Instance:
-    for text in wanted.cfg if wanted else ():
+def _wanted(desired: DriverSet | None, name: str) -> Instance:
+    for text in desired.cfg if desired else ():
         for section in text.sections:
             for instance in section.instances:
                 if Row(text.domain, section.name, "", instance).name == name:
@@ -346,11 +346,11 @@ def _dependents_first(rows: list[Row]) -> tuple[Row, ...]:
 
 
 def _loads(
-    cfg: Sequence[CfgChange], wanted: DriverSet | None, gone: frozenset[str]
+    cfg: Sequence[CfgChange], desired: DriverSet | None, gone: frozenset[str]
 ) -> list[CfgText]:
     new = {f"{c.domain} {c.key}".casefold() for c in cfg if c.action == "add"} | gone
-    found = []
-    for text in sorted(wanted.cfg if wanted else (), key=lambda t: (is_unconfirmed(t), t.path)):
+    result = []
+    for text in sorted(desired.cfg if desired else (), key=lambda t: (is_unconfirmed(t), t.path)):
         sections = [
             Section(
                 s.name,
@@ -358,14 +358,14 @@ def _loads(
             )
             for s in text.sections
         ]
-        kept = tuple(s for s in sections if s.instances)
-        if kept:
-            found.append(CfgText(text.domain, text.version, kept, text.path))
-    return found
+        retained = tuple(s for s in sections if s.instances)
+        if retained:
+            result.append(CfgText(text.domain, text.version, retained, text.path))
+    return result
 
 
 def _memory(
-    view: ControllerSnapshot, wanted: DriverSet | None, old: Mapping[str, tuple[str, ...]]
+    view: ControllerSnapshot, desired: DriverSet | None, old: Mapping[str, tuple[str, ...]]
 ) -> tuple[tuple[MemoryModule, ...], tuple[MemoryModule, ...]]:
     """Modules of NORMAL tasks that are loaded anew, and those that go."""
     replace, unload = [], []
@@ -374,45 +374,45 @@ def _memory(
             continue
         real = next(t.name for t in view.tasks if t.name.casefold() == task)
         lying = {n.casefold() for n in names}
-        mine = set()
-        for file in wanted.files if wanted else ():
+        own = set()
+        for file in desired.files if desired else ():
             if file.kind != "module" or real not in file.tasks:
                 continue
             module = _module_name(file.data)
-            mine.add(module.casefold())
-            stale = wanted is not None and view.builds.get(task) != wanted.build_id
+            own.add(module.casefold())
+            stale = desired is not None and view.builds.get(task) != desired.build_id
             if stale and module.casefold() in lying:
                 replace.append(MemoryModule(real, module, file.path))
         for module, tasks in old.items():
             low = module.casefold()
-            if real in tasks and low in lying and low not in mine:
+            if real in tasks and low in lying and low not in own:
                 unload.append(MemoryModule(real, module))
     return tuple(replace), tuple(unload)
 
 
-def _loaded_whole(wanted: DriverSet, replace: Sequence[MemoryModule]) -> set[str]:
+def _loaded_whole(desired: DriverSet, replace: Sequence[MemoryModule]) -> set[str]:
     """Tasks, in lower case, each of whose modules is loaded anew."""
     coming = {m.shown.casefold() for m in replace}
     missing = {
         task.casefold()
-        for file in wanted.files
+        for file in desired.files
         for task in file.tasks
         if file.kind == "module" and f"{task}/{_module_name(file.data)}".casefold() not in coming
     }
     return {m.task.casefold() for m in replace} - missing
 
 
-def _mains(view: ControllerSnapshot, wanted: DriverSet | None) -> tuple[tuple[str, str], ...]:
-    found: dict[str, str] = {}
-    for file in wanted.files if wanted else ():
+def _mains(view: ControllerSnapshot, desired: DriverSet | None) -> tuple[tuple[str, str], ...]:
+    result: dict[str, str] = {}
+    for file in desired.files if desired else ():
         if file.kind == "module" and MAIN.search(file.data):
-            found |= {task: _module_name(file.data) for task in file.tasks if view.normal(task)}
-    return tuple(found.items())
+            result |= {task: _module_name(file.data) for task in file.tasks if view.normal(task)}
+    return tuple(result.items())
 
 
 def _module_name(data: bytes) -> str:
-    found = MODULE.search(data)
-    return found[1].decode("latin-1") if found else ""
+    match = MODULE.search(data)
+    return match[1].decode("latin-1") if match else ""
 
 
 def has_main(services: "Controller", task: str, module: str) -> bool:

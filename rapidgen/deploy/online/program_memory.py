@@ -24,14 +24,14 @@ _SCRATCH = "rapidgen_saved"
 
 def saved(transport: Transport, home: str, view: ControllerSnapshot) -> tuple[MemoryModule, ...]:
     """Modules that an earlier deployment saved, of tasks that are there. Raises TransportFault."""
-    folder, found = f"{home}{STATE}/{UNLOADED}", []
+    folder, result = f"{home}{STATE}/{UNLOADED}", []
     for task in _names(transport, folder):
         if any(t.name == task for t in view.tasks):
-            found += [
+            result += [
                 MemoryModule(task, PurePosixPath(name).stem, f"{folder}/{task}/{name}")
                 for name in _names(transport, f"{folder}/{task}")
             ]
-    return tuple(found)
+    return tuple(result)
 
 
 def save(services: "Controller", work: FileOperations, module: MemoryModule) -> None:

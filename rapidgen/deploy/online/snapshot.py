@@ -76,15 +76,15 @@ class ControllerSnapshot:
     @property
     def texts(self) -> tuple[CfgText, ...]:
         """The cfg as files, one a domain."""
-        found = []
+        result = []
         for domain in dict.fromkeys(row.domain for row in self.rows):
             rows = [row for row in self.rows if row.domain == domain]
             sections = tuple(
                 Section(name, tuple(r.instance for r in rows if r.section == name))
                 for name in dict.fromkeys(r.section for r in rows)
             )
-            found.append(CfgText(domain, None, sections, f"{domain} of {self.shown}"))
-        return tuple(found)
+            result.append(CfgText(domain, None, sections, f"{domain} of {self.shown}"))
+        return tuple(result)
 
     def normal(self, task: str) -> bool:
         """Whether a task keeps its modules over a restart."""
@@ -102,7 +102,7 @@ def look(
     who, panel = services.identity(), services.panel()
     there = services.tasks()
     known = {t.name.casefold(): t.name for t in there}
-    mine = [known[t.casefold()] for t in dict.fromkeys(tasks) if t.casefold() in known]
+    own = [known[t.casefold()] for t in dict.fromkeys(tasks) if t.casefold() in known]
     normal = {t.name for t in there if t.kind == "normal"}
     kind = "virtual, " if who.is_virtual else ""
     return ControllerSnapshot(
@@ -114,20 +114,20 @@ def look(
         services.execution().running,
         there,
         tuple(_rows(services, references)),
-        {t.casefold(): tuple(m.name for m in services.modules(t)) for t in mine},
+        {t.casefold(): tuple(m.name for m in services.modules(t)) for t in own},
         {
             # A cut may leave old and new modules in what a restart keeps. Others are read from
             # files, but for the one whose file was not there just then: the one that is switched
             # last, which is loaded first.
-            t.casefold(): build_in(services, t, _some(symbols.get(t, ()), whole=t in normal))
-            for t in mine
+            t.casefold(): build_in(services, t, _some(symbols.get(t, ()), complete=t in normal))
+            for t in own
         },
         services.grants(),
     )
 
 
-def _some(symbols: Sequence[str], *, whole: bool) -> Sequence[str]:
-    return symbols if whole or len(symbols) < 3 else (symbols[0], symbols[-1])
+def _some(symbols: Sequence[str], *, complete: bool) -> Sequence[str]:
+    return symbols if complete or len(symbols) < 3 else (symbols[0], symbols[-1])
 
 
 def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:
@@ -135,7 +135,7 @@ def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:
 
     Raises RobotError.
     """
-    found: set[str] = set()
+    result: set[str] = set()
     for symbol in symbols:
         try:
             value = services.symbol(f"{task}/{symbol}")
@@ -143,58 +143,58 @@ def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:
             if error.status >= 500:
                 raise
             value = ""
-        found.add(value if isinstance(value, str) else "")
-    return found.pop() if len(found) == 1 else ""
+        result.add(value if isinstance(value, str) else "")
+    return result.pop() if len(result) == 1 else ""
 
 
-def build_symbols(wanted: DriverSet) -> dict[str, tuple[str, ...]]:
+def build_symbols(desired: DriverSet) -> dict[str, tuple[str, ...]]:
     """Where BUILD_ID is in each task: `MODULE/NAME` for each module that has it."""
-    declared = rf'^\s*(?:LOCAL\s+)?CONST\s+string\s+(\w+)\s*:=\s*"{re.escape(wanted.build_id)}"'
+    declared = rf'^\s*(?:LOCAL\s+)?CONST\s+string\s+(\w+)\s*:=\s*"{re.escape(desired.build_id)}"'
     pattern = re.compile(declared.encode(), re.M | re.I)
-    found: dict[str, tuple[str, ...]] = {}
-    for file in wanted.files:
+    result: dict[str, tuple[str, ...]] = {}
+    for file in desired.files:
         module, name = MODULE.search(file.data), pattern.search(file.data)
         if file.kind == "module" and module and name:
             symbol = f"{module[1].decode()}/{name[1].decode()}"
             for task in file.tasks:
-                found[task] = (*found.get(task, ()), symbol)
-    return found
+                result[task] = (*result.get(task, ()), symbol)
+    return result
 
 
 def _rows(services: "Controller", references: Keyed) -> Iterator[Row]:
-    wanted = [(domain, section) for domain, section, _ in references]
-    for domain, section in dict.fromkeys([*SECTIONS, *wanted]):
+    desired = [(domain, section) for domain, section, _ in references]
+    for domain, section in dict.fromkeys([*SECTIONS, *desired]):
         known = [i for key, i in references.items() if key[:2] == (domain, section)]
         try:
-            found = services.cfg_instances(domain, section)
+            result = services.cfg_instances(domain, section)
         except RwsError as error:
             if error.symbol not in _NONE and error.status != 404:
                 raise
             continue
-        for one in found:
+        for one in result:
             yield Row(domain, section, one.name, _instance(section, one, known))
 
 
-def _instance(section: str, told: CfgInstance, known: Sequence[Instance]) -> Instance:
+def _instance(section: str, text: CfgInstance, known: Sequence[Instance]) -> Instance:
     for reference in known:
-        seen = _through(told, reference)
+        seen = _through(text, reference)
         if shown_key(section, seen).casefold() == shown_key(section, reference).casefold():
             return seen
     # Nobody asked for it: what is empty or false says nothing.
-    given = [(k, v) for k, v in told.attributes.items() if v and v.lower() != "false"]
+    given = [(k, v) for k, v in text.attributes.items() if v and v.lower() != "false"]
     return Instance(tuple(_attribute(k, v, flag=v.lower() == "true") for k, v in given))
 
 
-def _through(told: CfgInstance, reference: Instance) -> Instance:
+def _through(text: CfgInstance, reference: Instance) -> Instance:
     """The attributes that a reference has."""
-    values = {name.casefold(): value for name, value in told.attributes.items()}
-    found = []
+    values = {name.casefold(): value for name, value in text.attributes.items()}
+    result = []
     for attribute in reference.attributes:
         value = values.get(attribute.name.casefold())
         flag = not attribute.values
         if value is not None and not (flag and value.lower() != "true"):
-            found.append(_attribute(attribute.name, value, flag=flag))
-    return Instance(tuple(found))
+            result.append(_attribute(attribute.name, value, flag=flag))
+    return Instance(tuple(result))
 
 
 def _attribute(name: str, value: str, *, flag: bool) -> Attribute:

@@ -45,10 +45,10 @@ def verify(
 
     Raises DiagnosticError RG540, RG544; RobotError.
     """
-    found = services.identity()
+    result = services.identity()
     faults = []
-    if found.id != live.id:
-        faults.append(f"another controller answers: {found.name} ({found.id})")
+    if result.id != live.id:
+        faults.append(f"another controller answers: {result.name} ({result.id})")
     if services.panel().state == "sysfail":
         faults.append("it is in system failure")
     there = {task.name.casefold(): task.name for task in services.tasks()}
@@ -59,7 +59,7 @@ def verify(
     if not faults:
         faults += _ports(plan, proof)
     if not faults:
-        say(f"read back: {found.name} has it" if plan.wanted else f"read back: {found.name}")
+        say(f"read back: {result.name} has it" if plan.wanted else f"read back: {result.name}")
         return
     raise DiagnosticError(
         [
@@ -121,11 +121,11 @@ def _ports(plan: Plan, proof: PostRestartCheck) -> list[str]:
         if port is None:
             continue
         where = f"{name} state {proof.host}:{whole(port)}"
-        told = _told(proof, whole(port), end)
-        if told is None:
+        text = _told(proof, whole(port), end)
+        if text is None:
             faults.append(f"nobody serves {where}: is a firewall between, or `sim --ports auto`?")
-        elif told != plan.wanted.build_id:
-            faults.append(f"{where} serves {told or 'something else'}")
+        elif text != plan.wanted.build_id:
+            faults.append(f"{where} serves {text or 'something else'}")
     return faults
 
 

@@ -41,15 +41,15 @@ class FolderTransport:
 
     def entries(self, folder: str) -> tuple[Entry, ...]:
         with _faults(folder):
-            found = []
+            result = []
             with os.scandir(self._real(folder)) as entries:
                 for entry in entries:
                     is_folder = entry.is_dir()
                     size = None if is_folder else entry.stat(follow_symlinks=False).st_size
-                    found.append(Entry(entry.name, size, is_folder))
-                    if len(found) > LISTING_LIMIT:
+                    result.append(Entry(entry.name, size, is_folder))
+                    if len(result) > LISTING_LIMIT:
                         raise TransportFault("garbled", f"too many files in {folder or 'HOME'}")
-        return tuple(sorted(found, key=lambda e: e.name))
+        return tuple(sorted(result, key=lambda e: e.name))
 
     def read(self, path: str) -> bytes:
         with _faults(path):

@@ -157,7 +157,7 @@ class FtpTransport:
         return [line for line in lines if line.strip()]
 
     def _fetch(self, command: str, limit: int) -> bytes:
-        found = bytearray()
+        result = bytearray()
         with self._deadline() as left:
             with self._ftp.transfercmd(command) as connection:
                 while True:
@@ -165,11 +165,11 @@ class FtpTransport:
                     block = connection.recv(65536)
                     if not block:
                         break
-                    found += block
-                    if len(found) > limit:
+                    result += block
+                    if len(result) > limit:
                         raise ftplib.error_proto(f"more than {limit} bytes")
             self._ftp.voidresp()
-        return bytes(found)
+        return bytes(result)
 
     @contextmanager
     def _deadline(self) -> Iterator[Callable[[], float]]:
@@ -223,8 +223,8 @@ class FtpTransport:
         if login:
             return "login" if code.startswith("5") else "lost"
         # Servers repeat the path, and a path may hold any word.
-        words = answer.replace(path, "").lower() if path else answer.lower()
-        if code in ("452", "552") or any(word in words for word in _SPACE_WORDS):
+        text = answer.replace(path, "").lower() if path else answer.lower()
+        if code in ("452", "552") or any(word in text for word in _SPACE_WORDS):
             return "full"
         if code in ("500", "501", "502", "503", "504", "202"):
             return "unsupported"

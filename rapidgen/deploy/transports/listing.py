@@ -28,17 +28,17 @@ _VXWORKS = re.compile(
 
 def parse_list(lines: Iterable[str]) -> tuple[Entry, ...] | None:
     """Entries of a LIST answer; None when it has lines and not one is of a known form."""
-    found: list[Entry] = []
+    result: list[Entry] = []
     understood = True
     for line in lines:
         entry = _entry(line.rstrip("\r\n"))
         if entry is not None:
-            found.append(entry)
+            result.append(entry)
         elif line.strip() and not re.fullmatch(r"\s*(?:total\s.*|[-\s]+|size\s+date.*)", line):
             understood = False
-    if not found and not understood:
+    if not result and not understood:
         return None
-    return _kept(found)
+    return _kept(result)
 
 
 def parse_names(lines: Iterable[str]) -> tuple[Entry, ...]:
@@ -48,17 +48,17 @@ def parse_names(lines: Iterable[str]) -> tuple[Entry, ...]:
 
 def parse_facts(lines: Iterable[str]) -> tuple[Entry, ...]:
     """Entries of an MLSD answer (RFC 3659)."""
-    found = []
+    result = []
     for line in lines:
         facts_text, space, name = line.rstrip("\r\n").partition(" ")
         facts = dict(fact.split("=", 1) for fact in facts_text.casefold().split(";") if "=" in fact)
         if space and facts.get("type") not in ("cdir", "pdir"):
             size = facts.get("size", "")
             kind = facts.get("type")
-            found.append(
+            result.append(
                 Entry(name, _number(size), None if kind is None else kind.startswith("dir"))
             )
-    return _kept(found)
+    return _kept(result)
 
 
 def _entry(line: str) -> Entry | None:
@@ -84,9 +84,9 @@ def _number(text: str) -> int | None:
 
 def _kept(entries: Iterable[Entry]) -> tuple[Entry, ...]:
     """Without '.', '..', repeated names and names that are no names."""
-    kept: dict[str, Entry] = {}
+    retained: dict[str, Entry] = {}
     for entry in entries:
         plain = entry.name.isprintable() and not re.search(r"[/\\]", entry.name)
         if plain and entry.name not in ("", ".", ".."):
-            kept.setdefault(entry.name, entry)
-    return tuple(sorted(kept.values(), key=lambda e: e.name))
+            retained.setdefault(entry.name, entry)
+    return tuple(sorted(retained.values(), key=lambda e: e.name))

@@ -37,18 +37,18 @@ class RwsTransport:
         unseen=(),
     )
 
-    def __init__(self, services: Controller, shown: str, folder: str = "HOME") -> None:
+    def __init__(self, services: Controller, displayed: str, folder: str = "HOME") -> None:
         self.services: Controller = services
-        self.shown = shown
+        self.shown = displayed
         self._folder = folder
         self._made: set[str] = {""}
 
     def entries(self, folder: str) -> tuple[Entry, ...]:
         with _faults(folder or "HOME"):
-            found = self.services.list_files(self._path(folder))
-        if len(found) > LISTING_LIMIT:
+            result = self.services.list_files(self._path(folder))
+        if len(result) > LISTING_LIMIT:
             raise TransportFault("garbled", f"too many files in {folder or 'HOME'}")
-        named = [Entry(f.name, None if f.is_folder else f.size, f.is_folder) for f in found]
+        named = [Entry(f.name, None if f.is_folder else f.size, f.is_folder) for f in result]
         return tuple(sorted(named, key=lambda e: e.name))
 
     def read(self, path: str) -> bytes:
@@ -143,9 +143,9 @@ def _faults(path: str) -> Iterator[None]:
     except RobotError as error:
         first = error.diagnostics[0]
         code = "RG501" if type(error) is ConnectionFailed else ""
-        words = first.message if path in first.message else f"{path}: {first.message}"
+        text = first.message if path in first.message else f"{path}: {first.message}"
         mend = first.help if isinstance(error, LoginFailed) or code else ""
-        raise TransportFault(_kind(error), words, code=code, help=mend) from error
+        raise TransportFault(_kind(error), text, code=code, help=mend) from error
 
 
 def _kind(error: RobotError) -> Kind:

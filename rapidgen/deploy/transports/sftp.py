@@ -151,7 +151,7 @@ class SftpTransport:
 
     def entries(self, folder: str) -> tuple[Entry, ...]:
         with self._faults(folder or "HOME"):
-            found = []
+            result = []
             self._sftp.names = 0
             for item in self._sftp.listdir_attr(f"{self._home}/{folder}".rstrip("/") or "/"):
                 name = item.filename
@@ -159,19 +159,19 @@ class SftpTransport:
                     continue
                 mode = item.st_mode
                 is_folder = None if mode is None else stat.S_ISDIR(mode)
-                found.append(Entry(name, None if is_folder else item.st_size, is_folder))
-                if len(found) > LISTING_LIMIT:
+                result.append(Entry(name, None if is_folder else item.st_size, is_folder))
+                if len(result) > LISTING_LIMIT:
                     raise TransportFault("garbled", f"too many files in {folder or 'HOME'}")
-        return tuple(sorted(found, key=lambda e: e.name))
+        return tuple(sorted(result, key=lambda e: e.name))
 
     def read(self, path: str) -> bytes:
-        found = bytearray()
+        result = bytearray()
         with self._faults(path), self._sftp.open(self._full(path), "rb") as file:
             while block := file.read(32768):
-                found += block
-                if len(found) > FILE_LIMIT:
+                result += block
+                if len(result) > FILE_LIMIT:
                     raise TransportFault("garbled", f"{path} is larger than 8 MB")
-        return bytes(found)
+        return bytes(result)
 
     def write(self, path: str, data: bytes) -> None:
         with self._faults(path), self._sftp.open(self._full(path), "wb") as file:
@@ -245,8 +245,8 @@ class SftpTransport:
 class _Unknown(paramiko.MissingHostKeyPolicy):
     """An unknown key is refused, with its fingerprint and the way to take it."""
 
-    def __init__(self, shown: str) -> None:
-        self._shown = shown
+    def __init__(self, displayed: str) -> None:
+        self._shown = displayed
 
     def missing_host_key(
         self, client: paramiko.SSHClient, hostname: str, key: paramiko.PKey

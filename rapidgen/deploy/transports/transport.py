@@ -106,9 +106,9 @@ class Transport(Protocol):
         """End the connection; never raises."""
 
 
-def refused(code: str, message: str, mend: str = "") -> DiagnosticError:
+def refused(code: str, message: str, help: str = "") -> DiagnosticError:
     """What a controller's state forbids, to be raised: no place in a text, exit code 1."""
-    return refusal(code, None, message, mend, exit_code=1)
+    return refusal(code, None, message, help, exit_code=1)
 
 
 def safe(path: str) -> str:

@@ -96,10 +96,10 @@ class _Lane:
         self.waiting -= len(piece)
         return time, piece
 
-    def give_back(self, time: int, rest: bytes) -> None:
+    def give_back(self, time: int, remaining: bytes) -> None:
         """What could not pass of the first piece."""
-        self.pieces.appendleft((time, rest))
-        self.waiting += len(rest)
+        self.pieces.appendleft((time, remaining))
+        self.waiting += len(remaining)
 
 
 class _Line:
@@ -215,7 +215,7 @@ class FaultyNetwork(Network):
         """Another plan, for connections that are still to come."""
         self._rules = rules
 
-    def afflict(self, endpoint: Endpoint, rule: NetworkRule) -> None:
+    def inject_fault(self, endpoint: Endpoint, rule: NetworkRule) -> None:
         """From now on one rule is about a connection, instead of those of the plan; what waits
         passes before."""
         line = self._lines.get(endpoint)

@@ -230,12 +230,12 @@ class SystemNetwork(Network):
         return self._host, self._actual.get((datagram, port), port)
 
     def _fill(self, own: SystemEndpoint, count: int) -> None:
-        wanted = min(count, BUFFER)
-        while len(own.buffer) < wanted and own.connected and not (own.ended or own.closed):
+        expected = min(count, BUFFER)
+        while len(own.buffer) < expected and own.connected and not (own.ended or own.closed):
             if own.fault is not None:
                 return
             try:
-                data = own.socket.recv(wanted - len(own.buffer))
+                data = own.socket.recv(expected - len(own.buffer))
             except BlockingIOError:
                 return
             except OSError as error:

@@ -86,11 +86,11 @@ class Matching(Generic[A]):
 
     def in_order(self, count: int) -> list[A | None]:
         """Argument of each of `count` parameters, None where there is none; the last one wins."""
-        found: list[A | None] = [None] * count
+        result: list[A | None] = [None] * count
         for pair in self.pairs:
             if pair.parameter >= 0:
-                found[pair.parameter] = pair.argument
-        return found
+                result[pair.parameter] = pair.argument
+        return result
 
 
 _NO_MISFIT: Final[tuple[ArgumentFault, ...]] = ()
@@ -105,12 +105,12 @@ def match(
     means; see `first_fit`.
     """
     at = 0
-    taken: dict[int, A] = {}
+    in_use: dict[int, A] = {}
     given: set[int] = set()
     pairs: list[Pairing[A]] = []
     for argument in arguments:
         if argument.name is None and argument.kind == "required":
-            k = _next_required(parameters, at, taken)
+            k = _next_required(parameters, at, in_use)
             if k < 0:
                 pairs.append(Pairing(argument, -1, (ArgumentFault.SURPLUS,)))
                 continue
@@ -128,8 +128,8 @@ def match(
             pair.misfits = (ArgumentFault.TWICE if k in given else ArgumentFault.ORDER,)
         group = parameters[k].group
         if group >= 0:
-            rival = taken.get(group)
-            taken[group] = argument
+            rival = in_use.get(group)
+            in_use[group] = argument
             if rival is not None and "conditional" not in (rival.kind, argument.kind):
                 pair.misfits += (ArgumentFault.EXCLUSIVE,)
                 pair.rival = rival
@@ -138,19 +138,19 @@ def match(
     missing = [
         k
         for k, p in enumerate(parameters)
-        if not p.optional and k not in given and p.group not in taken
+        if not p.optional and k not in given and p.group not in in_use
     ]
     return Matching(pairs, missing)
 
 
-def first_fit(found: str | None, alternatives: Sequence[int], types: Sequence[str | None]) -> int:
+def first_fit(result: str | None, alternatives: Sequence[int], types: Sequence[str | None]) -> int:
     """Of alternatives the first that has the type `found` exactly; else the first.
 
     `types` are those of the alternatives. A literal number means the first.
     """
-    if found is not None and found != NUMBER:
-        for k, wanted in zip(alternatives, types, strict=True):
-            if wanted == found:
+    if result is not None and result != NUMBER:
+        for k, expected in zip(alternatives, types, strict=True):
+            if expected == result:
                 return k
     return alternatives[0]
 
@@ -175,10 +175,10 @@ def may_pass(datum: DataSymbol, mode: Mode) -> bool:
     return held in ("either", mode) or (mode == "INOUT" and held != "read-only")
 
 
-def _next_required(parameters: Sequence[Formal], at: int, taken: dict[int, A]) -> int:
+def _next_required(parameters: Sequence[Formal], at: int, in_use: dict[int, A]) -> int:
     for k in range(at, len(parameters)):
         parameter = parameters[k]
-        if not parameter.optional and not (parameter.group >= 0 and parameter.group in taken):
+        if not parameter.optional and not (parameter.group >= 0 and parameter.group in in_use):
             return k
     return -1
 

@@ -67,9 +67,9 @@ def constant(node: Expression, scope: Scope, want: str | None = "num") -> Value 
 
 def evaluate(node: Expression, scope: Scope, want: str) -> Value:
     """Value of an expression as the type `want` (see types.py). NotConstant: it has none."""
-    value, found = _value(node, want, scope, 0)
-    if found is not None and found != want:
-        raise NotConstant(f"the value is {found}, not {want}", node)
+    value, result = _value(node, want, scope, 0)
+    if result is not None and result != want:
+        raise NotConstant(f"the value is {result}, not {want}", node)
     return _rounded(value, node) if want == "num" else value
 
 
@@ -89,10 +89,10 @@ def value_of(symbol: DataSymbol, scope: Scope) -> Value | None:
     values[symbol] = None  # so that constants that name each other come to an end
     if symbol.initial is not None:
         inside: Scope = symbol.module if symbol.routine is None else scope
-        wanted = inside.module.type_of(symbol)
+        expected = inside.module.type_of(symbol)
         try:
-            if wanted is not None:
-                values[symbol] = evaluate(symbol.initial, inside, wanted)
+            if expected is not None:
+                values[symbol] = evaluate(symbol.initial, inside, expected)
         except NotConstant:
             pass
     return values[symbol]
@@ -126,21 +126,21 @@ def _value(node: Expression, want: str | None, scope: Scope, depth: int) -> _Typ
         case Aggregate():
             return _aggregate(node, want, scope, depth)
         case Member():
-            value, whole = _value(node.base, None, scope, depth + 1)
-            components = list((scope.module.components(whole or "") or {}).items())
+            value, complete = _value(node.base, None, scope, depth + 1)
+            components = list((scope.module.components(complete or "") or {}).items())
             for (name, kind), part in zip(components, _members(value), strict=False):
                 if name == node.component.lower():
                     return part, kind
             raise NotConstant(f"there is no component {node.component}", node)
         case Index():
-            value, whole = _value(node.base, None, scope, depth + 1)
+            value, complete = _value(node.base, None, scope, depth + 1)
             for index in node.indices:
                 at = evaluate(index, scope, "num")
                 parts = _members(value)
                 if not isinstance(at, int) or not 1 <= at <= len(parts):
                     raise NotConstant("the index lies outside the array", index)
                 value = parts[at - 1]
-            return value, element(whole) if whole else None
+            return value, element(complete) if complete else None
     raise NotConstant("this is no constant expression", node)
 
 
@@ -178,9 +178,9 @@ def _aggregate(node: Aggregate, want: str | None, scope: Scope, depth: int) -> _
 
 
 def _member(node: Expression, want: str | None, scope: Scope, depth: int) -> Value:
-    value, found = _value(node, want, scope, depth + 1)
-    if want is not None and found is not None and found != want:
-        raise NotConstant(f"the value is {found}, not {want}", node)
+    value, result = _value(node, want, scope, depth + 1)
+    if want is not None and result is not None and result != want:
+        raise NotConstant(f"the value is {result}, not {want}", node)
     return _rounded(value, node) if want == "num" else value
 
 
@@ -194,7 +194,7 @@ def _rounded(value: Value, node: Expression) -> Value:
 
 
 def _unary(node: Unary, want: str | None, scope: Scope, depth: int) -> _Typed:
-    value, found = _value(node.operand, want, scope, depth + 1)
+    value, result = _value(node.operand, want, scope, depth + 1)
     if node.operator == "NOT":
         if not isinstance(value, bool):
             raise NotConstant("NOT takes bool", node)
@@ -202,10 +202,10 @@ def _unary(node: Unary, want: str | None, scope: Scope, depth: int) -> _Typed:
     if isinstance(value, bool | str):
         raise NotConstant(f"{node.operator} takes num, dnum or pos", node)
     if node.operator == "+":
-        return value, found
+        return value, result
     if isinstance(value, tuple):
-        return tuple(-part for part in _position(value, node)), found
-    return -value, found
+        return tuple(-part for part in _position(value, node)), result
+    return -value, result
 
 
 def _binary(node: Binary, want: str | None, scope: Scope, depth: int) -> _Typed:
@@ -215,8 +215,8 @@ def _binary(node: Binary, want: str | None, scope: Scope, depth: int) -> _Typed:
         left, first = _value(node.left, second, scope, depth + 1)
     else:
         left, first = _value(node.left, numeric, scope, depth + 1)
-        wanted = first if isinstance(node.right, Aggregate) else numeric
-        right, second = _value(node.right, wanted, scope, depth + 1)
+        expected = first if isinstance(node.right, Aggregate) else numeric
+        right, second = _value(node.right, expected, scope, depth + 1)
     if "dnum" in (first, second) and numeric != "dnum":  # a literal is what its partner is
         left, first = _value(node.left, "dnum", scope, depth + 1)
         right, second = _value(node.right, "dnum", scope, depth + 1)
@@ -227,28 +227,28 @@ def _binary(node: Binary, want: str | None, scope: Scope, depth: int) -> _Typed:
 
 
 def _combined(node: Binary, left: Value, right: Value, kind: str | None) -> _Typed:
-    word = node.operator
-    if word in _COMPARE:
-        return _COMPARE[word](left, right), "bool"
+    keyword = node.operator
+    if keyword in _COMPARE:
+        return _COMPARE[keyword](left, right), "bool"
     if isinstance(left, bool) and isinstance(right, bool):
-        if word in ("AND", "OR", "XOR"):
-            both = left and right if word == "AND" else left or right
-            return (left is not right if word == "XOR" else both), "bool"
-    elif isinstance(left, str) and isinstance(right, str) and word == "+":
+        if keyword in ("AND", "OR", "XOR"):
+            both = left and right if keyword == "AND" else left or right
+            return (left is not right if keyword == "XOR" else both), "bool"
+    elif isinstance(left, str) and isinstance(right, str) and keyword == "+":
         return left + right, kind
-    elif isinstance(left, tuple) and isinstance(right, tuple) and word in ("+", "-"):
-        sign = 1 if word == "+" else -1
+    elif isinstance(left, tuple) and isinstance(right, tuple) and keyword in ("+", "-"):
+        sign = 1 if keyword == "+" else -1
         pairs = zip(_position(left, node), _position(right, node), strict=True)
         return tuple(single(a + sign * b) for a, b in pairs), kind
     elif not isinstance(left, bool | str | tuple) and not isinstance(right, bool | str | tuple):
-        value = _number(word, left, right)
+        value = _number(keyword, left, right)
         if isfinite(value):
             return value, kind
-    raise NotConstant(f"{word} does not take these", node)
+    raise NotConstant(f"{keyword} does not take these", node)
 
 
-def _number(word: str, left: float, right: float) -> float:
-    match word:
+def _number(keyword: str, left: float, right: float) -> float:
+    match keyword:
         case "+":
             return left + right
         case "-":
@@ -265,7 +265,7 @@ def _number(word: str, left: float, right: float) -> float:
                 raise ValueError("ERR_NEGARG")
             remainder = abs(_whole(left)) % _whole(right)
             return remainder if left >= 0 else -remainder
-    raise TypeError(f"{word} does not take numbers")
+    raise TypeError(f"{keyword} does not take numbers")
 
 
 def _whole(value: float) -> int:

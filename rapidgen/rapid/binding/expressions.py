@@ -49,12 +49,12 @@ def declared_type(node: Expression, scope: Scope) -> str | None:
         symbol = scope.find(node.name)
         return scope.module.type_of(symbol) if isinstance(symbol, DataSymbol) else None
     if isinstance(node, Index):
-        whole = declared_type(node.base, scope)
-        fits = whole is not None and degree(whole) == len(node.indices)
-        return element(whole) if whole and fits else None
+        complete = declared_type(node.base, scope)
+        fits = complete is not None and degree(complete) == len(node.indices)
+        return element(complete) if complete and fits else None
     if isinstance(node, Member):
-        whole = declared_type(node.base, scope)
-        components = scope.module.components(whole) if whole else None
+        complete = declared_type(node.base, scope)
+        components = scope.module.components(complete) if complete else None
         return components.get(node.component.lower()) if components else None
     return None
 
@@ -69,11 +69,11 @@ def type_of(node: Expression, scope: Scope) -> str | None:
         case BoolLiteral():
             return "bool"
         case Name() | Index() | Member():
-            found = declared_type(node, scope)
-            kind = scope.module.type_class(found) if found else None
+            result = declared_type(node, scope)
+            kind = scope.module.type_class(result) if result else None
             if kind == "nonvalue":
                 return None
-            return array("num", degree(found)) if found and kind == "semivalue" else found
+            return array("num", degree(result)) if result and kind == "semivalue" else result
         case FunctionCall():
             symbol = called(scope.find(node.name))
             if isinstance(symbol, RoutineSymbol) and symbol.kind == "FUNC":

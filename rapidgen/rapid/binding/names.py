@@ -89,14 +89,14 @@ class TaskScope:
         module = ModuleScope(tree, self, installed)
         self.modules[tree.name.lower()] = module
         self._scopes.append(module)
-        found = self.installed if installed else self.globals
+        result = self.installed if installed else self.globals
         own = ModuleSymbol(tree.name, "MODULE", module, node=tree)
         for key, symbol in [(tree.name.lower(), own), *module.own.items()]:
             if symbol.local or not key:
                 continue
-            first = found.get(key)
+            first = result.get(key)
             if first is None:
-                found[key] = symbol
+                result[key] = symbol
             elif first.module is not module or "MODULE" in (first.kind, symbol.kind):
                 # Of a module that is there twice, the module's name says it all.
                 again = first.module and first.module.tree.name.lower() == tree.name.lower()
@@ -118,8 +118,8 @@ class TaskScope:
 
     def _forget(self) -> None:
         """What has been found of names, types and values may be different now."""
-        for found in (self.types, self.values, self.records):
-            found.clear()
+        for result in (self.types, self.values, self.records):
+            result.clear()
         for scope in self._scopes:
             for known in (scope.known, scope.bases, scope.classes):
                 known.clear()
@@ -133,7 +133,7 @@ class TaskScope:
             or builtin(key)
         )
 
-    def dispute(self, clash: Clash) -> None:
+    def conflicting_objects(self, clash: Clash) -> None:
         """Two tasks' objects of one name: where they differ, the type is not known."""
         first, second = clash
         if first.kind != second.kind or _shape(first) != _shape(second):
@@ -141,12 +141,12 @@ class TaskScope:
 
     def parameters(self, routine: RoutineSymbol) -> tuple[DataSymbol, ...]:
         """Parameters of a routine as symbols, in order; empty where they are not known."""
-        found = self._parameters.get(routine)
-        if found is None:
-            found = self._parameters[routine] = tuple(
+        match = self._parameters.get(routine)
+        if match is None:
+            match = self._parameters[routine] = tuple(
                 parameter_symbol(p, routine.module, routine.node) for p in routine.parameters or ()
             )
-        return found
+        return match
 
 
 def _shape(symbol: Symbol) -> tuple[str | None, int]:
@@ -210,23 +210,23 @@ class ModuleScope:
         if name in self.known:
             return self.known[name]
         key = name.lower()
-        found = self.own.get(key) or self.task.find(key, program=not self.installed)
-        self.known[name] = found
-        return found
+        match = self.own.get(key) or self.task.find(key, program=not self.installed)
+        self.known[name] = match
+        return match
 
     def routine(self, node: RoutineDeclaration) -> "RoutineScope":
         """The scope of a routine of this module, with everything that it declares."""
-        found = self._routines.get(node)
-        if found is None:
-            found = self._routines[node] = RoutineScope(self, node)
+        match = self._routines.get(node)
+        if match is None:
+            match = self._routines[node] = RoutineScope(self, node)
             symbol = self.own.get(node.name.lower())
             if not isinstance(symbol, RoutineSymbol) or symbol.node is not node:
                 symbol = RoutineSymbol(node.name, node.kind, self, False, node, node.type)
             for parameter in self.task.parameters(symbol):
-                found.declare(parameter)
+                match.declare(parameter)
             for declaration in node.data:
-                found.declare(datum_symbol(declaration, self, node))
-        return found
+                match.declare(datum_symbol(declaration, self, node))
+        return match
 
     # -- types ---------------------------------------------------------------------------
 
@@ -250,36 +250,36 @@ class ModuleScope:
         if name in self.bases:
             return self.bases[name]
         symbol = self.type_symbol(name)
-        found = symbol.name.lower() if symbol is not None else None
-        self.bases[name] = found
-        return found
+        result = symbol.name.lower() if symbol is not None else None
+        self.bases[name] = result
+        return result
 
     def type_of(self, symbol: Symbol) -> str | None:
         """Type of a datum, parameter or function, with its dimensions."""
         types = self.task.types
         if symbol in types:
             return types[symbol]
-        found = None
+        result = None
         if isinstance(symbol, DataSymbol | RoutineSymbol) and symbol.type is not None:
             scope = symbol.module or self
             base = "anytype" if symbol.type == "anytype" else scope.base(symbol.type)
             if base is not None:
                 degree = symbol.degree if isinstance(symbol, DataSymbol) else 0
-                found = array(base, degree)
-        types[symbol] = found
-        return found
+                result = array(base, degree)
+        types[symbol] = result
+        return result
 
     def components(self, type_name: str) -> Mapping[str, str | None] | None:
         """Lower-case component to its type, of a record; None for what is no record."""
         symbol = self.find(type_name)
         if not isinstance(symbol, TypeSymbol) or symbol.components is None:
             return None
-        found = self.task.records.get(symbol)
-        if found is None:
+        match = self.task.records.get(symbol)
+        if match is None:
             scope = symbol.module or self
-            found = {name.lower(): scope.base(of) for of, name in symbol.components}
-            self.task.records[symbol] = found
-        return found
+            match = {name.lower(): scope.base(of) for of, name in symbol.components}
+            self.task.records[symbol] = match
+        return match
 
     def knows_in_part(self, type_name: str) -> bool:
         """Whether a predefined record has components whose names are not public."""
@@ -300,15 +300,15 @@ class ModuleScope:
             return self.classes[type_name]
         self.classes[type_name] = None
         symbol = self.find(element(type_name))
-        found: TypeClass | None = None
+        result: TypeClass | None = None
         if isinstance(symbol, TypeSymbol) and symbol.kind == "RECORD":
             inside = symbol.module or self
             classes = {inside.type_class(of) for of, _ in symbol.components or ()}
-            found = "nonvalue" if classes & {"nonvalue", "semivalue"} else "value"
+            result = "nonvalue" if classes & {"nonvalue", "semivalue"} else "value"
         elif symbol is not None:
-            found = signatures.type_class(symbol.name)
-        self.classes[type_name] = found
-        return found
+            result = signatures.type_class(symbol.name)
+        self.classes[type_name] = result
+        return result
 
 
 @dataclass(slots=True, eq=False)

@@ -102,9 +102,9 @@ class Signature:
     everywhere: bool = True
     """Whether every controller has it, whatever its release and its options."""
 
-    def argument_version(self, mark: Literal["came", "went"], name: str) -> Version | None:
+    def argument_version(self, marker: Literal["came", "went"], name: str) -> Version | None:
         """With which RobotWare an argument came or went, None: it has always been there."""
-        words = self.marks.get(mark, ())
+        words = self.marks.get(marker, ())
         return _version(words) if name.lower() in words[1:] else None
 
     @property
@@ -147,20 +147,20 @@ def _read(name: str) -> str:
 @cache
 def _themes() -> tuple[str, ...]:
     """The files with routines; one of a family has its types and data, too."""
-    found = _FOLDER.iterdir()
-    names = sorted(file.name for file in found if file.name.endswith(".rapid"))
+    result = _FOLDER.iterdir()
+    names = sorted(file.name for file in result if file.name.endswith(".rapid"))
     return tuple(n for name in names if (n := name.removesuffix(".rapid")) not in _WITHOUT_ROUTINES)
 
 
 @cache
 def _headers() -> dict[str, tuple[str, str | None, str, str | None, bool]]:
     """Lower-case name to (name, type, parameters as text, marks, whether it is of an option)."""
-    found: dict[str, tuple[str, str | None, str, str | None, bool]] = {}
+    result: dict[str, tuple[str, str | None, str, str | None, bool]] = {}
     for file in _themes():
         of_option = file in _OF_OPTIONS
         for _, type_name, name, parameters, marks in _HEADER.findall(_read(file)):
-            found[name.lower()] = (name, type_name or None, parameters, marks or None, of_option)
-    return found
+            result[name.lower()] = (name, type_name or None, parameters, marks or None, of_option)
+    return result
 
 
 @cache
@@ -173,7 +173,7 @@ def routine(name: str) -> Signature | None:
     tokens = lexer.tokenize(text, f"<{proper}>", "utf-8", radix=False)
     parameters, _ = ModuleParser(tokens, builtin=True).data.parameters(1)
     known = _marks(marks or "")
-    since, until = (_version(known.pop(word, ())) for word in ("since", "until"))
+    since, until = (_version(known.pop(keyword, ())) for keyword in ("since", "until"))
     kind: Literal["PROC", "FUNC"] = "FUNC" if type_name else "PROC"
     everywhere = not of_option and since is None
     return Signature(proper, kind, type_name, tuple(parameters), since, until, known, everywhere)
@@ -181,15 +181,15 @@ def routine(name: str) -> Signature | None:
 
 def _marks(text: str) -> dict[str, tuple[str, ...]]:
     """Each mark with what follows it up to the next one."""
-    found: dict[str, tuple[str, ...]] = {}
+    result: dict[str, tuple[str, ...]] = {}
     last = ""
-    for word in text.split():
-        if word in _MARKS:
-            last = word
-            found[word] = ()
+    for keyword in text.split():
+        if keyword in _MARKS:
+            last = keyword
+            result[keyword] = ()
         else:
-            found[last] += (word.lower(),)
-    return found
+            result[last] += (keyword.lower(),)
+    return result
 
 
 def _version(words: tuple[str, ...]) -> Version | None:
@@ -200,17 +200,17 @@ def _version(words: tuple[str, ...]) -> Version | None:
 
 
 @cache
-def marked(mark: str) -> frozenset[str]:
+def marked(marker: str) -> frozenset[str]:
     """Lower-case names of the built-in routines with a mark behind their header."""
     headers = _headers().items()
-    return frozenset(name for name, header in headers if mark in _marks(header[3] or ""))
+    return frozenset(name for name, header in headers if marker in _marks(header[3] or ""))
 
 
 @cache
 def routines() -> Mapping[str, Signature]:
     """All built-in routines by lower-case name."""
-    found = {name: routine(name) for name in _headers()}
-    return MappingProxyType({name: s for name, s in found.items() if s is not None})
+    result = {name: routine(name) for name in _headers()}
+    return MappingProxyType({name: s for name, s in result.items() if s is not None})
 
 
 def routine_names() -> tuple[str, ...]:
@@ -221,8 +221,8 @@ def routine_names() -> tuple[str, ...]:
 @cache
 def option_names(kind: Literal["procedures", "functions", "types", "values"]) -> frozenset[str]:
     """Lower-case names that options and add-ins have; nothing more is known of them."""
-    found = _NAMES.findall(_read("names"))
-    return frozenset(name.lower() for of, names in found if of == kind for name in names.split())
+    result = _NAMES.findall(_read("names"))
+    return frozenset(name.lower() for of, names in result if of == kind for name in names.split())
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,16 +236,16 @@ class _Types:
 @cache
 def _declared() -> str:
     """What the files of families declare beside their routines."""
-    return "\n".join(found for name in _themes() for found in _DECLARATION.findall(_read(name)))
+    return "\n".join(result for name in _themes() for result in _DECLARATION.findall(_read(name)))
 
 
 def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | DataDeclaration]:
     tokens = lexer.tokenize(
         f"MODULE builtins\n{text}\nENDMODULE", "<builtins>", "utf-8", radix=False
     )
-    _, _, found, _ = ModuleParser(tokens, builtin=True).module()
+    _, _, result, _ = ModuleParser(tokens, builtin=True).module()
     return [
-        d for d in found if isinstance(d, RecordDeclaration | AliasDeclaration | DataDeclaration)
+        d for d in result if isinstance(d, RecordDeclaration | AliasDeclaration | DataDeclaration)
     ]
 
 
@@ -309,7 +309,7 @@ def records() -> Mapping[str, PredefinedRecord]:
 @cache
 def predefined() -> Mapping[str, Predefined]:
     """All predefined constants, persistents and variables by lower-case name."""
-    found: dict[str, Predefined] = {}
+    result: dict[str, Predefined] = {}
     text = _read("constants") + _read("data") + _declared()
     read_only, writable = (
         {name for names in listed.findall(text) for name in names.split()}
@@ -319,8 +319,8 @@ def predefined() -> Mapping[str, Predefined]:
         if isinstance(d, DataDeclaration):
             value = None if d.initial is None else _value(d.initial)
             readonly = d.name not in writable if d.kind == "CONST" else d.name in read_only
-            found[d.name.lower()] = Predefined(d.name, d.kind, d.type, value, readonly)
-    return MappingProxyType(found)
+            result[d.name.lower()] = Predefined(d.name, d.kind, d.type, value, readonly)
+    return MappingProxyType(result)
 
 
 def constant(name: str) -> Predefined | None:

@@ -76,7 +76,7 @@ def _check_modules(modules: Sequence[Module], given: CheckContext) -> list[Diagn
     task = TaskScope()
     scopes = [task.add(module) for module in modules]
     for clash in task.clashes:
-        task.dispute(clash)
+        task.conflicting_objects(clash)
     return _sorted(d for scope in scopes for d in _check_module(scope, given))
 
 
@@ -123,7 +123,7 @@ def _check_system(
 ) -> list[Diagnostic]:
     configured = installed_objects(_installed(system))
     parsed: dict[tuple[str, int], Module] = {}
-    found: list[Diagnostic] = []
+    findings: list[Diagnostic] = []
     for spec in system.tasks:
         task = TaskScope(configured)
         scopes = []
@@ -141,9 +141,9 @@ def _check_system(
             payload=payloads.get(spec.name.lower()),
         )
         for scope in scopes:
-            found += _check_module(scope, given, task.clashes, spec.entry)
-        found += _entry(spec, task, given)
-    return _sorted(dict.fromkeys(found))  # a module may be in several tasks
+            findings += _check_module(scope, given, task.clashes, spec.entry)
+        findings += _entry(spec, task, given)
+    return _sorted(dict.fromkeys(findings))  # a module may be in several tasks
 
 
 def _entry(spec: TaskSpec, task: TaskScope, given: CheckContext) -> list[Diagnostic]:
@@ -207,11 +207,11 @@ def _loads(modules: Iterable[Module]) -> bool:
     )
 
 
-def _sorted(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+def _sorted(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
     def key(d: Diagnostic) -> tuple[str, int, int]:
         return (d.span.path, d.span.line, d.span.column) if d.span else ("", 0, 0)
 
-    return sorted(found, key=key)
+    return sorted(findings, key=key)
 
 
 __all__ = ["Payload", "check"]

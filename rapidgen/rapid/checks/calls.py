@@ -100,11 +100,11 @@ class CallChecker:
             return
         self._version(symbol, node)
         arguments = _up_to_placeholder(node.arguments)
-        found = match(parameters, arguments, lambda a, these: self._fitting(parameters, a, these))
-        missing = found.missing if len(arguments) == len(node.arguments) else ()
-        hidden = self._may_be_hidden(symbol, node, found.pairs)
+        result = match(parameters, arguments, lambda a, these: self._fitting(parameters, a, these))
+        missing = result.missing if len(arguments) == len(node.arguments) else ()
+        hidden = self._may_be_hidden(symbol, node, result.pairs)
         surplus = False
-        for pair in found.pairs:
+        for pair in result.pairs:
             again = surplus and ArgumentFault.SURPLUS in pair.misfits
             surplus = surplus or ArgumentFault.SURPLUS in pair.misfits
             if pair.misfits and not again:  # one argument too many says it all
@@ -133,7 +133,7 @@ class CallChecker:
         Public programs hide built-ins by procedures without parameters (Reset), and those that not
         every controller has by procedures with more of them (GetJointData) [code].
         """
-        if symbol.signature is None or self.findings.given.knows_all:
+        if symbol.signature is None or self.findings.given.is_complete:
             return False
         if isinstance(node, ProcedureCall) and not node.arguments:
             return True
@@ -163,12 +163,12 @@ class CallChecker:
         else:
             return
         major, minor = dialect.robotware
-        shown = f"{major}" if minor >= ANY_MINOR else f"{major}.{minor:02d}"
+        displayed = f"{major}" if minor >= ANY_MINOR else f"{major}.{minor:02d}"
         self.report(
             "RG325",
             message,
             node,
-            help=f"this is checked for RobotWare {shown}"
+            help=f"this is checked for RobotWare {displayed}"
             if dialect.told
             else "say for which RobotWare this is: --robotware",
             severity=Severity.ERROR if dialect.told else Severity.INFO,
@@ -178,15 +178,15 @@ class CallChecker:
         self, parameters: Sequence[Parameter], argument: Argument, these: Sequence[int]
     ) -> int:
         """Of required alternatives, the one that the argument fits."""
-        here, value = self.findings.here, argument.value
-        found: str | None = None
+        current, value = self.findings.here, argument.value
+        result: str | None = None
         if isinstance(value, Name | Index | Member):
-            found = declared_type(value, here)
+            result = declared_type(value, current)
         elif value is not None:
-            found = type_of(value, here)
-        base = here.module.base
-        wanted = [array(base(parameters[k].type) or "", parameters[k].dimensions) for k in these]
-        return first_fit(found, these, wanted)
+            result = type_of(value, current)
+        base = current.module.base
+        expected = [array(base(parameters[k].type) or "", parameters[k].dimensions) for k in these]
+        return first_fit(result, these, expected)
 
     # -- matching ------------------------------------------------------------------------
 
@@ -239,13 +239,15 @@ class CallChecker:
         optional = argument.kind != "required"
         names = [p.name for p in parameters if p.optional == optional]
         likely = closest(argument.name or "", names)
-        shown = ", ".join(("\\" if optional else "") + n for n in names)
+        displayed = ", ".join(("\\" if optional else "") + n for n in names)
         what = "optional argument" if optional else "parameter"
         self.report(
             "RG312",
             f"{symbol.name} has no {what} '{argument.name}'",
             argument,
-            help=f"did you mean '{likely}'?" if likely else (f"it has {shown}" if shown else ""),
+            help=f"did you mean '{likely}'?"
+            if likely
+            else (f"it has {displayed}" if displayed else ""),
             related=self.declared(symbol),
         )
 
@@ -278,10 +280,10 @@ class CallChecker:
             return
         scope = symbol.module or self.findings.module
         base = "anytype" if parameter.type.lower() == "anytype" else scope.base(parameter.type)
-        wanted = None if base is None else array(base, parameter.dimensions)
+        expected = None if base is None else array(base, parameter.dimensions)
         place = f"the argument {parameter.name}"
         if parameter.mode == "":
-            self.types.expect(value, wanted, place)
+            self.types.expect(value, expected, place)
             self._raw_index(symbol, parameter, argument)
             return
         if not isinstance(value, Name | Index | Member):
@@ -293,9 +295,9 @@ class CallChecker:
                 notes=("arguments by mode [K §5.1]",),
             )
             return
-        found = self.types.datum(value, wanted)
-        if base != "anytype" and None not in (found, wanted) and found != wanted:
-            self.types.mismatch(value, wanted or "", found or "", place)
+        result = self.types.datum(value, expected)
+        if base != "anytype" and None not in (result, expected) and result != expected:
+            self.types.mismatch(value, expected or "", result or "", place)
         else:
             self._mode(parameter, argument, value)
 
@@ -329,15 +331,15 @@ class CallChecker:
                 related=self.declared(own) if own else (),
             )
             return
-        wanted = parameter.type.lower()
-        if (own.type.lower() == "switch") != (wanted == "switch"):
+        expected = parameter.type.lower()
+        if (own.type.lower() == "switch") != (expected == "switch"):
             self.report("RG316", f"'{value.name}' is {own.type}, not {parameter.type}", argument)
-        elif wanted not in ("switch", "anytype"):
+        elif expected not in ("switch", "anytype"):
             base = self.findings.module.base(parameter.type)
-            found = self.findings.module.type_of(own)
-            if base and found and found != array(base, parameter.dimensions):
+            result = self.findings.module.type_of(own)
+            if base and result and result != array(base, parameter.dimensions):
                 self.types.mismatch(
-                    value, array(base, parameter.dimensions), found, f"'{value.name}'"
+                    value, array(base, parameter.dimensions), result, f"'{value.name}'"
                 )
 
     def _raw_index(self, symbol: RoutineSymbol, parameter: Parameter, argument: Argument) -> None:
@@ -370,7 +372,7 @@ def _listed(parameters: Sequence[Parameter]) -> str:
     """Parameters in short, for help."""
     out = []
     for parameter in parameters[:12]:
-        mark = "\\" if parameter.optional else ""
-        out.append(f"{mark}{parameter.name}")
+        marker = "\\" if parameter.optional else ""
+        out.append(f"{marker}{parameter.name}")
     more = ", ..." if len(parameters) > 12 else ""
     return (", ".join(out) + more) if out else "no arguments"

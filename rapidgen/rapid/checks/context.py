@@ -34,22 +34,22 @@ class CheckContext:
     """Of the robot that the task moves; None: not known."""
 
     @property
-    def knows_all(self) -> bool:
+    def is_complete(self) -> bool:
         """Whether nothing else can declare a name: then an unknown one is an error."""
         return self.system and not self.gaps
 
 
-def closest(word: str, known: Iterable[str]) -> str:
+def closest(keyword: str, known: Iterable[str]) -> str:
     """The known name that `word` looks like a slip of the keyboard for, or an empty text.
 
     One slip, or two in a long name: a letter too many, too few, wrong, or two swapped. Names
     that differ in their digits only (p10, p20) are siblings, not slips.
     """
-    folded = word.lower()
+    folded = keyword.lower()
     allowed = 1 if len(folded) < _LONG else 2
     letters = set(folded)
     bare = _without_digits(folded)
-    best, found = allowed + 1, ""
+    best, result = allowed + 1, ""
     for name in known:
         other = name.lower()
         if (
@@ -60,10 +60,10 @@ def closest(word: str, known: Iterable[str]) -> str:
             continue
         slips = _slips(folded, other, best)
         if slips < best:
-            best, found = slips, name
+            best, result = slips, name
     # p1 and v1 are no slips of each other either.
     shortest = _SHORT if bare == folded else _SHORT + 2
-    return found if len(folded) >= shortest else ""
+    return result if len(folded) >= shortest else ""
 
 
 def _slips(one: str, other: str, limit: int) -> int:

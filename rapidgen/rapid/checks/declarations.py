@@ -61,7 +61,7 @@ class _ModuleChecker:
             elif isinstance(declaration, AliasDeclaration):
                 self._alias(declaration)
         self._unused_local()
-        self.findings.tell_elsewhere()
+        self.findings.note_other_scopes()
 
     def _type(self, name: str, at: int) -> str | None:
         """Base of a declared type; reports a name that is no type."""
@@ -149,8 +149,8 @@ class _ModuleChecker:
             self._literal(initial)
         else:
             self._constant_expression(initial)
-        wanted = array(base, len(node.dimensions)) if base else None
-        self.types.expect(initial, wanted, "the initial value")
+        expected = array(base, len(node.dimensions)) if base else None
+        self.types.expect(initial, expected, "the initial value")
         self.types.members_of(initial, [self.types.constant(size) for size in node.dimensions])
 
     def _persistent(self, node: DataDeclaration, *, routine: bool) -> None:
@@ -237,16 +237,16 @@ class _ModuleChecker:
     # -- routines ------------------------------------------------------------------------
 
     def _routine(self, node: RoutineDeclaration) -> None:
-        here = RoutineScope(self.scope, node)
-        self.findings.here = here
+        current = RoutineScope(self.scope, node)
+        self.findings.here = current
         flow = FlowChecker(self.findings, self.types, node)
         if node.kind == "FUNC" and node.type is not None:
             self._result(node)
         for parameter in node.parameters:
-            self._parameter(parameter, here)
+            self._parameter(parameter, current)
         for datum in node.data:
             self._data(datum, routine=True)
-            self._declare(here, datum_symbol(datum, self.scope, node))
+            self._declare(current, datum_symbol(datum, self.scope, node))
         check_labels(self.findings, node)
         for part, body in bodies(node):
             flow.part = part
@@ -255,7 +255,7 @@ class _ModuleChecker:
             alive = flow.statements(body)
             if part == "body" and node.kind == "FUNC" and alive:
                 self._no_return(node, flow.returns)
-        for symbol in here.names.values():
+        for symbol in current.names.values():
             if symbol not in self.findings.used and isinstance(symbol.node, DataDeclaration):
                 self.warn(
                     "RG324",
@@ -265,8 +265,8 @@ class _ModuleChecker:
                 )
         self.findings.here = self.scope
 
-    def _declare(self, here: RoutineScope, symbol: DataSymbol) -> None:
-        first = here.declare(symbol)
+    def _declare(self, current: RoutineScope, symbol: DataSymbol) -> None:
+        first = current.declare(symbol)
         if first is not None:
             self.report(
                 "RG305",
@@ -286,10 +286,10 @@ class _ModuleChecker:
                 notes=("functions return value types [K §5.4]",),
             )
 
-    def _parameter(self, parameter: Parameter, here: RoutineScope) -> None:
+    def _parameter(self, parameter: Parameter, current: RoutineScope) -> None:
         if parameter.name.startswith("<"):
             return
-        self._declare(here, parameter_symbol(parameter, self.scope, here.node))
+        self._declare(current, parameter_symbol(parameter, self.scope, current.node))
         if parameter.dimensions > _MAX_DEGREE:
             self.report("RG318", "an array has at most 3 dimensions", parameter)
         type_token = parameter.name_token - 1

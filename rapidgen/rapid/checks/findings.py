@@ -93,11 +93,11 @@ class Findings:
         """Add a warning."""
         self.report(code, message, node, label=label, help=help, severity=Severity.WARNING)
 
-    def doubted(self, judge: Callable[[], None], note: str) -> None:
+    def add_warnings(self, judge: Callable[[], None], note: str) -> None:
         """Add as warnings what is found in addition: faults that only execution meets."""
-        mark = len(self.found)
+        marker = len(self.found)
         judge()
-        known, more = self.found[:mark], self.found[mark:]
+        known, more = self.found[:marker], self.found[marker:]
         self.found = known + [
             replace(d, severity=Severity.WARNING, notes=(note,))
             for d in more
@@ -127,7 +127,7 @@ class Findings:
             return ()
         return (Label(source.span(at, at), f"'{symbol.name}' is declared here"),)
 
-    def unknown(self, role: str, name: str, node: Node | int, wanted: str | None = None) -> None:
+    def unknown(self, role: str, name: str, node: Node | int, expected: str | None = None) -> None:
         """A name that nothing declares: an error where it is certain that nothing can.
 
         Elsewhere a name that looks like a slip is worth a warning, any other one a place in the
@@ -140,18 +140,18 @@ class Findings:
         if options and key[1] in signatures.option_names(options):
             return
         self._unknown.add(key)
-        likely = closest(name, self._candidates(kinds, wanted))
+        likely = closest(name, self._candidates(kinds, expected))
         help = f"did you mean '{likely}'?" if likely else ""
-        if self.given.knows_all and wanted != "mecunit":
+        if self.given.is_complete and expected != "mecunit":
             self.report(code, f"there is no {role} '{name}'", node, label="not declared", help=help)
-        elif likely and wanted not in HARDWARE:
+        elif likely and expected not in HARDWARE:
             self.warn(code, f"no {role} '{name}' is declared here or built in", node, help=help)
         else:
-            known = role if role in ("function", "trap") else wanted
-            told = f"{name} ({known})" if known not in (None, "anytype") else name
-            self._elsewhere.setdefault(code, []).append((told, node))
+            known = role if role in ("function", "trap") else expected
+            is_reported = f"{name} ({known})" if known not in (None, "anytype") else name
+            self._elsewhere.setdefault(code, []).append((is_reported, node))
 
-    def tell_elsewhere(self) -> None:
+    def note_other_scopes(self) -> None:
         """Notes of the names that other modules, the configuration or an option may bring."""
         for code, names in self._elsewhere.items():
             listed = [name for name, _ in names]
@@ -164,7 +164,7 @@ class Findings:
                 severity=Severity.INFO,
             )
 
-    def _candidates(self, kinds: frozenset[str], wanted: str | None) -> Iterable[str]:
+    def _candidates(self, kinds: frozenset[str], expected: str | None) -> Iterable[str]:
         """Names that could stand there; of data those of another type could not."""
         task = self.module.task
         for symbols in (
@@ -175,7 +175,7 @@ class Findings:
             task.configured,
         ):
             for symbol in symbols.values():
-                if symbol.kind in kinds and _fits(self.module.type_of(symbol), wanted):
+                if symbol.kind in kinds and _fits(self.module.type_of(symbol), expected):
                     yield symbol.name
         if kinds is ROUTINES:
             yield from signatures.routine_names()
@@ -183,12 +183,12 @@ class Findings:
             yield from signatures.type_names()
         else:
             for datum in signatures.predefined().values():
-                if _fits(self.module.base(datum.type), wanted):
+                if _fits(self.module.base(datum.type), expected):
                     yield datum.name
 
 
-def _fits(found: str | None, wanted: str | None) -> bool:
+def _fits(result: str | None, expected: str | None) -> bool:
     """Whether a datum may stand where `wanted` is; also where either type is not known."""
-    if found is None or wanted is None or wanted in ("anytype", AGGREGATE):
+    if result is None or expected is None or expected in ("anytype", AGGREGATE):
         return True
-    return equal(element(found), element(wanted))
+    return equal(element(result), element(expected))

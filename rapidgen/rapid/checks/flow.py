@@ -57,13 +57,13 @@ class FlowChecker:
 
     def statements(self, body: Sequence[Statement]) -> bool:
         """Check a list; whether its end can be reached."""
-        alive, told = True, False
+        alive, is_reported = True, False
         for statement in body:
             if type(statement) is Label:
                 alive = True
                 continue
-            if not alive and not told:
-                told = True
+            if not alive and not is_reported:
+                is_reported = True
                 self.warn(
                     "RG323",
                     "this statement cannot be reached",
@@ -77,21 +77,21 @@ class FlowChecker:
 
     def _assignment(self, node: Assignment) -> bool:
         target = node.target
-        wanted: str | None = None
+        expected: str | None = None
         if isinstance(target, Name | Index | Member):
             root = self.types.root(target)
             was_used = root in self.findings.used
-            wanted = self.types.datum(target, self._hint(node))
+            expected = self.types.datum(target, self._hint(node))
             if root is not None:
                 if isinstance(target, Name) and not was_used:
                     self.findings.used.discard(root)  # being written is no use
                 self._writable(target, root)
-        if wanted is not None:
-            kind = self.findings.module.type_class(wanted)
+        if expected is not None:
+            kind = self.findings.module.type_class(expected)
             if kind in ("nonvalue", "semivalue"):
                 self.report(
                     "RG309",
-                    f"{wanted} cannot be assigned",
+                    f"{expected} cannot be assigned",
                     target,
                     help="signals are set with SetDO, SetAO or SetGO"
                     if kind == "semivalue"
@@ -100,15 +100,15 @@ class FlowChecker:
                 )
                 self.types.used(node.value)
                 return True
-        self.types.expect(node.value, wanted, "the value")
+        self.types.expect(node.value, expected, "the value")
         if (
-            wanted == "num"  # then every part of the target is known, and reported once
+            expected == "num"  # then every part of the target is known, and reported once
             and isinstance(target, Member)
             and target.component.lower() == "mass"
             and self.types.type_of(target.base) == "loaddata"
         ):
             self.types.load(node.value)
-        if wanted is not None and degree(wanted):
+        if expected is not None and degree(expected):
             self.types.same_sizes(node, target, node.value)
         return True
 
@@ -147,14 +147,14 @@ class FlowChecker:
         symbol = self.findings.find(known) if known and ":" not in known else None
         if isinstance(symbol, RoutineSymbol) and symbol.kind == "PROC":
             self.calls.loose_arguments(node.arguments)
-            self.findings.doubted(
+            self.findings.add_warnings(
                 lambda: self.calls.check_arguments(symbol, node),
                 "the call ends in ERR_CALLPROC when it is reached [K §4.5]",
             )
             return True
         if symbol is not None:
             self.warn("RG306", f"'{symbol.name}' is no procedure", node.procedure)
-        elif known and ":" not in known and self.findings.given.knows_all:
+        elif known and ":" not in known and self.findings.given.is_complete:
             self.warn(
                 "RG301",
                 f"there is no procedure '{known}'",
@@ -192,14 +192,14 @@ class FlowChecker:
                 notes=("RETURN [K §4.7]",),
             )
         if node.value is not None:
-            wanted = self.findings.module.base(routine.type) if routine.type else None
-            if wanted is not None and self.findings.module.type_class(wanted) != "value":
-                wanted = None  # reported at the head of the function
-            self.types.expect(node.value, wanted, "the returned value")
+            expected = self.findings.module.base(routine.type) if routine.type else None
+            if expected is not None and self.findings.module.type_class(expected) != "value":
+                expected = None  # reported at the head of the function
+            self.types.expect(node.value, expected, "the returned value")
         return False
 
-    def _place(self, node: Statement, word: str, where: str, section: str) -> None:
-        self.report("RG321", f"{word} stands only in {where}", node, notes=(f"[K §{section}]",))
+    def _place(self, node: Statement, keyword: str, where: str, section: str) -> None:
+        self.report("RG321", f"{keyword} stands only in {where}", node, notes=(f"[K §{section}]",))
 
     def _raise(self, node: Raise) -> bool:
         if node.number is None:
@@ -233,8 +233,8 @@ class FlowChecker:
 
     def _retry(self, node: Retry | TryNext) -> bool:
         if self.part != "ERROR":
-            word = "RETRY" if isinstance(node, Retry) else "TRYNEXT"
-            self._place(node, word, "an ERROR handler", "4.10, 4.11")
+            keyword = "RETRY" if isinstance(node, Retry) else "TRYNEXT"
+            self._place(node, keyword, "an ERROR handler", "4.10, 4.11")
         return False
 
     def _exit(self, node: Exit) -> bool:
@@ -243,10 +243,10 @@ class FlowChecker:
     def _connect(self, node: Connect) -> bool:
         target = node.target
         if isinstance(target, Name | Index | Member):
-            found = self.types.datum(target, "num")
+            result = self.types.datum(target, "num")
             root = self.types.root(target)
-            if found is not None and found != "num":
-                self.types.mismatch(target, "num", found, "the interrupt variable")
+            if result is not None and result != "num":
+                self.types.mismatch(target, "num", result, "the interrupt variable")
             elif root is not None and root.kind in ("CONST", "PERS", "LOOP"):
                 self.report(
                     "RG326",

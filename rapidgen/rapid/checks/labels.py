@@ -57,14 +57,14 @@ def flat(body: Sequence[Statement]) -> Iterator[Statement]:
 
 def bodies(routine: RoutineDeclaration) -> list[tuple[str, Sequence[Statement]]]:
     """Body and handlers of a routine, with the names that statements go by there."""
-    found: list[tuple[str, Sequence[Statement]]] = [("body", routine.body)]
+    result: list[tuple[str, Sequence[Statement]]] = [("body", routine.body)]
     if routine.backward:
-        found.append(("BACKWARD", routine.backward.body))
+        result.append(("BACKWARD", routine.backward.body))
     if routine.error:
-        found.append(("ERROR", routine.error.body))
+        result.append(("ERROR", routine.error.body))
     if routine.undo:
-        found.append(("UNDO", routine.undo.body))
-    return found
+        result.append(("UNDO", routine.undo.body))
+    return result
 
 
 def check_labels(findings: Findings, routine: RoutineDeclaration) -> None:

@@ -80,9 +80,9 @@ class TypeChecker:
         if self._depth >= _MAX_DEPTH:
             return None
         self._depth += 1
-        found = _READERS[type(node)](self, node)
+        result = _READERS[type(node)](self, node)
         self._depth -= 1
-        return found
+        return result
 
     def _number(self, node: NumberLiteral) -> str:
         if not is_single(node.value) and not self.findings.given.dialect.has_dnum:
@@ -115,22 +115,22 @@ class TypeChecker:
 
     def _read(self, node: Name | Index | Member) -> str | None:
         """A datum in value context: a signal reads as num, a non-value cannot be read."""
-        found = self.datum(node)
-        if found is None:
+        result = self.datum(node)
+        if result is None:
             return None
-        kind = self.findings.module.type_class(found)
+        kind = self.findings.module.type_class(result)
         if kind == "semivalue":
-            return array("num", degree(found))
+            return array("num", degree(result))
         if kind == "nonvalue":
             self.report(
                 "RG309",
-                f"{element(found)} has no value that could be used in an expression",
+                f"{element(result)} has no value that could be used in an expression",
                 node,
                 help="hand it to a routine with a VAR parameter",
                 notes=("value classes [K §2.16]",),
             )
             return None
-        return found
+        return result
 
     def _call(self, node: FunctionCall) -> str | None:
         symbol = called(self.findings.find(node.name))
@@ -167,15 +167,15 @@ class TypeChecker:
         """The datum that a reference starts from, without marking or reporting."""
         return root(node, self.findings.here)
 
-    def datum(self, node: Name | Index | Member, wanted: str | None = None) -> str | None:
+    def datum(self, node: Name | Index | Member, expected: str | None = None) -> str | None:
         """Declared type of a data reference, signals and non-values included."""
         if isinstance(node, Name):
             symbol = self.findings.find(node.name)
             if symbol is None:
-                self._unknown_datum(node, wanted)
+                self._unknown_datum(node, expected)
                 return None
             if symbol.kind not in DATA:
-                self._no_datum(symbol, node, wanted)
+                self._no_datum(symbol, node, expected)
                 return None
             return self.findings.module.type_of(symbol)
         if isinstance(node, Index):
@@ -203,12 +203,12 @@ class TypeChecker:
             return None
         return components[node.component.lower()]
 
-    def _unknown_datum(self, node: Name, wanted: str | None) -> None:
-        self.findings.unknown("datum", node.name, node, wanted)
+    def _unknown_datum(self, node: Name, expected: str | None) -> None:
+        self.findings.unknown("datum", node.name, node, expected)
 
-    def _no_datum(self, symbol: Symbol, node: Name, wanted: str | None) -> None:
+    def _no_datum(self, symbol: Symbol, node: Name, expected: str | None) -> None:
         if symbol.module is None and isinstance(symbol, TypeSymbol) and self._may_be_hidden:
-            self._unknown_datum(node, wanted)  # WaitDI SENSOR, 1;
+            self._unknown_datum(node, expected)  # WaitDI SENSOR, 1;
             return
         help = ""
         if symbol.kind == "FUNC":
@@ -230,7 +230,7 @@ class TypeChecker:
     def _may_be_hidden(self) -> bool:
         """Whether something that is not here, as a signal, may have the name of a predefined
         object."""
-        return not self.findings.given.knows_all
+        return not self.findings.given.is_complete
 
     def _indexed(self, node: Index) -> str | None:
         for index in node.indices:
@@ -289,10 +289,10 @@ class TypeChecker:
         if node.operator == "NOT":
             self.expect(node.operand, "bool", "the operand of NOT")
             return "bool"
-        found = self.type_of(node.operand)
-        if found is None or found in NUMERIC or found == "pos":
-            return found
-        self._operator(node, node.operator, found, None)
+        result = self.type_of(node.operand)
+        if result is None or result in NUMERIC or result == "pos":
+            return result
+        self._operator(node, node.operator, result, None)
         return None
 
     def _binary(self, node: Binary) -> str | None:
@@ -368,30 +368,30 @@ class TypeChecker:
 
     # -- places --------------------------------------------------------------------------
 
-    def expect(self, node: Expression, wanted: str | None, place: str) -> str | None:
+    def expect(self, node: Expression, expected: str | None, place: str) -> str | None:
         """Check that an expression has the type `wanted`; gives `wanted` when it fits."""
-        if wanted is None or wanted == "anytype":
+        if expected is None or expected == "anytype":
             return self.type_of(node)
         if isinstance(node, Aggregate):
-            self._members(node, wanted, place)
-            return wanted
-        if wanted == "pos" and isinstance(node, Binary) and node.has_type_of_place:
-            self.expect(node.left, wanted, place)
-            return self.expect(node.right, wanted, place)
+            self._members(node, expected, place)
+            return expected
+        if expected == "pos" and isinstance(node, Binary) and node.has_type_of_place:
+            self.expect(node.left, expected, place)
+            return self.expect(node.right, expected, place)
         if isinstance(node, NumberLiteral):
-            if wanted == "num":
+            if expected == "num":
                 self._single(node)
-                return wanted
-            if wanted == "dnum":
-                return wanted
+                return expected
+            if expected == "dnum":
+                return expected
         if isinstance(node, Name) and self.root(node) is None:
-            self._unknown_datum(node, wanted)
-            return wanted
-        found = self.type_of(node)
-        if found is None or found == wanted or equal(found, wanted):
-            return wanted
-        self.mismatch(node, wanted, found, place)
-        return wanted
+            self._unknown_datum(node, expected)
+            return expected
+        result = self.type_of(node)
+        if result is None or result == expected or equal(result, expected):
+            return expected
+        self.mismatch(node, expected, result, place)
+        return expected
 
     def same_sizes(self, node: Node, target: Expression, value: Expression) -> None:
         """Whole arrays have the same sizes [K §2.17], where both show them."""
@@ -425,20 +425,20 @@ class TypeChecker:
         for member in value.members:
             self.members_of(member, sizes[1:])
 
-    def mismatch(self, node: Expression, wanted: str, found: str, place: str) -> None:
+    def mismatch(self, node: Expression, expected: str, result: str, place: str) -> None:
         """Say that types differ."""
         help = ""
-        if {wanted, found} == {"num", "dnum"}:
+        if {expected, result} == {"num", "dnum"}:
             help = "convert with NumToDnum or DnumToNum"
-        elif wanted == "string" and found in NUMERIC:
+        elif expected == "string" and result in NUMERIC:
             help = "convert with ValToStr or NumToStr"
-        elif wanted == "bool" and found in NUMERIC:
+        elif expected == "bool" and result in NUMERIC:
             help = "compare it: x = 1"
         self.report(
             "RG307",
-            f"{place} is {shown(found)}, not {shown(wanted)}",
+            f"{place} is {shown(result)}, not {shown(expected)}",
             node,
-            label=f"this is {shown(found)}",
+            label=f"this is {shown(result)}",
             help=help,
             notes=("types must be equal; nothing is converted [K §2.17]",),
         )
@@ -482,29 +482,29 @@ class TypeChecker:
                 severity=Severity.WARNING,
             )
 
-    def _members(self, node: Aggregate, wanted: str, place: str) -> None:
+    def _members(self, node: Aggregate, expected: str, place: str) -> None:
         """Members of an aggregate against the array or record that its place wants."""
         members = node.members
-        dimensions = degree(wanted)
+        dimensions = degree(expected)
         if dimensions:
-            inner = array(element(wanted), dimensions - 1)
+            inner = array(element(expected), dimensions - 1)
             for member in members:
                 self.expect(member, inner, "the element")
             return
-        if wanted == "loaddata" and members:
+        if expected == "loaddata" and members:
             self.load(members[0])
-        components = self.findings.module.components(wanted)
+        components = self.findings.module.components(expected)
         if components is None:
-            if wanted in ATOMIC:
+            if expected in ATOMIC:
                 self.report(
-                    "RG330", f"{place} is an aggregate, but {wanted} has no components", node
+                    "RG330", f"{place} is an aggregate, but {expected} has no components", node
                 )
             return
-        if not self.findings.module.takes(wanted, len(members)):
+        if not self.findings.module.takes(expected, len(members)):
             names = ", ".join(components)
             self.report(
                 "RG330",
-                f"{wanted} has {len(components)} components, the aggregate {len(members)}",
+                f"{expected} has {len(components)} components, the aggregate {len(members)}",
                 node,
                 help=f"the components are {names}",
                 notes=("an aggregate has a member for each component [K §3.9]",),

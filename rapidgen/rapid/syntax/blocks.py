@@ -117,9 +117,9 @@ class Blocks:
         if kind in _DIVIDERS:
             self._stray(i, expected)
             self.forgiven.append(_DIVIDERS[kind])
-            mark = {"CASE": ":", "DEFAULT": ":", "ELSEIF": "THEN"}.get(kind)
-            if mark and self.reaches(i + 1, mark):
-                return self.kinds.index(mark, i) + 1
+            marker = {"CASE": ":", "DEFAULT": ":", "ELSEIF": "THEN"}.get(kind)
+            if marker and self.reaches(i + 1, marker):
+                return self.kinds.index(marker, i) + 1
             return i + 1
         help = "a statement has no ';' before it" if kind == ";" else ""
         self.expressions.fault(SyntaxFault(i, expected, help))
@@ -160,10 +160,10 @@ class Blocks:
                     return False
         return True
 
-    def reaches(self, at: int, wanted: str) -> bool:
+    def reaches(self, at: int, expected: str) -> bool:
         """Whether `wanted` comes before the statement at token `at` can end."""
         kinds = self.kinds
-        while kinds[at] != wanted:
+        while kinds[at] != expected:
             if kinds[at] == ";" or kinds[at] in STARTERS:
                 return False
             at += 1
@@ -194,14 +194,14 @@ class Blocks:
             return end  # reported as standing for this block's own end
         return end - 1
 
-    def header(self, i: int, found: SyntaxFault, wanted: str) -> int:
+    def header(self, i: int, result: SyntaxFault, wanted: str) -> int:
         """Report an error in a block's header; the index behind it, or -1 if it has no end."""
-        self.expressions.fault(found)
-        kinds, at = self.kinds, found.at
+        self.expressions.fault(result)
+        kinds, at = self.kinds, result.at
         while True:
             kind = kinds[at]
             if kind == wanted:
                 return at + 1
             if kind == ";" or (kind in STARTERS and at > i):
-                return found.at if wanted in found.expected else -1
+                return result.at if wanted in result.expected else -1
             at += 1

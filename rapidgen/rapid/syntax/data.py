@@ -93,9 +93,9 @@ class DataParser:
     def parameters(self, i: int) -> tuple[list[Parameter], int]:
         """Parameters up to ')', and the index behind it [K §5.1]."""
         kinds = self.kinds
-        found: list[Parameter] = []
+        result: list[Parameter] = []
         if kinds[i] == ")":
-            return found, i + 1
+            return result, i + 1
         groups = 0
         while True:
             optional = kinds[i] == "\\"
@@ -110,11 +110,11 @@ class DataParser:
                 for parameter in alternatives:
                     parameter.group = groups
                 groups += 1
-            found += alternatives
-            i = found[-1].last + 1
+            result += alternatives
+            i = result[-1].last + 1
             kind = kinds[i]
             if kind == ")":
-                return found, i + 1
+                return result, i + 1
             if kind == ",":
                 i += 1
             elif kind != "\\":

@@ -87,8 +87,12 @@ def describe_token(source: Source, kinds: Sequence[str], at: int) -> str:
     if at >= len(source.tokens):
         return lexer.EOF
     text = source.tokens[at]
-    shown = text if len(text) <= 40 else text[:37] + "..."
-    return f"'{shown}'" if len(text) > 1 or text.isascii() else f"'{shown}' (U+{ord(text):04X})"
+    displayed = text if len(text) <= 40 else text[:37] + "..."
+    return (
+        f"'{displayed}'"
+        if len(text) > 1 or text.isascii()
+        else f"'{displayed}' (U+{ord(text):04X})"
+    )
 
 
 def still_open(source: Source, blocks: Sequence[Block]) -> tuple[tuple[Label, ...], str]:

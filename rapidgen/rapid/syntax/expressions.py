@@ -95,18 +95,18 @@ class ExpressionParser:
         if len(self.diagnostics) >= MAX_ERRORS:
             raise ParseAborted(errors.too_many(diagnostic, MAX_ERRORS))
 
-    def fault(self, found: SyntaxFault) -> None:
+    def fault(self, result: SyntaxFault) -> None:
         """Report what a statement or declaration raised, once. No expression goes on behind it."""
         self.depth = 0
-        if found.reported or (self.kinds[found.at] is lexer.EOF and self.end_reported):
+        if result.reported or (self.kinds[result.at] is lexer.EOF and self.end_reported):
             return
-        found.reported = True
+        result.reported = True
         # A quote that takes the last line takes all that could close what is open.
-        last = found.at if self.kinds[found.at] is not lexer.UNTERMINATED else found.at + 1
+        last = result.at if self.kinds[result.at] is not lexer.UNTERMINATED else result.at + 1
         self.end_reported = self.kinds[last] is lexer.EOF
         self.report(
             errors.unexpected(
-                self.source, self.kinds, found.at, found.expected, self.open, found.help
+                self.source, self.kinds, result.at, result.expected, self.open, result.help
             )
         )
 
@@ -374,11 +374,11 @@ class ExpressionParser:
     def arguments(self, i: int, close: str) -> list[Argument]:
         """Arguments up to `close`, whose index is left in `after` [K §3.10, 4.5]."""
         kinds, texts = self.kinds, self.texts
-        found: list[Argument] = []
+        result: list[Argument] = []
         kind = kinds[i]
         if kind == close:
             self.after = i
-            return found
+            return result
         while True:
             if kind is NAME:
                 following = kinds[i + 1]
@@ -404,7 +404,7 @@ class ExpressionParser:
             else:
                 value = self.expression(i)
                 argument = Argument(i, value.last, "required", None, value)
-            found.append(argument)
+            result.append(argument)
             i = argument.last + 1
             kind = kinds[i]
             if kind == ",":
@@ -412,7 +412,7 @@ class ExpressionParser:
                 kind = kinds[i]
             elif kind == close:
                 self.after = i
-                return found
+                return result
             elif kind != "\\":
                 given = "':=', " if kind == "=" and argument.kind == "switch" else ""
                 raise SyntaxFault(i, f"{given}',', '\\' or '{close}'")

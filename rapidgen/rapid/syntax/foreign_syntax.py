@@ -19,12 +19,12 @@ _STEPS: Final = {"+": "Incr a;", "-": "Decr a;"}
 def foreign_syntax_help(source: Source, at: int) -> str:
     """The mend for what was meant at token `at`; "" where nothing of that kind is seen."""
     tokens = source.tokens
-    here, before = _token(source, at), _token(source, at - 1)
-    if here in _CHARACTERS:
-        return _CHARACTERS[here]
-    if here == "/" and at + 1 < len(tokens) and tokens[at + 1] in "/*" and _touches(source, at):
+    current, before = _token(source, at), _token(source, at - 1)
+    if current in _CHARACTERS:
+        return _CHARACTERS[current]
+    if current == "/" and at + 1 < len(tokens) and tokens[at + 1] in "/*" and _touches(source, at):
         return "a comment begins with `!`, on each of its lines"
-    if here == "=" and _touches(source, at - 1):
+    if current == "=" and _touches(source, at - 1):
         if before == "=":
             return "RAPID compares with one `=`, and assigns with `:=`"
         if before in ("+", "-", "*", "/"):

@@ -101,9 +101,9 @@ class _Writer:
         level, continued = 0, False
         for i, token in enumerate(tokens):
             kind = self.kinds[token]
-            here = self.starts.get(i)
-            if here is not None:
-                level, continued = here, False
+            current = self.starts.get(i)
+            if current is not None:
+                level, continued = current, False
                 self._flush()
                 self.line = INDENT * level
             elif not self.line:
@@ -188,7 +188,7 @@ class _Writer:
         """Whether a blank stands between token i - 1 and token i on one line."""
         if i in self.tight_before or i - 1 in self.tight_after:
             return False
-        before, here = self.source.tokens[i - 1], self.source.tokens[i]
-        if before in _NO_SPACE_AFTER or here in _NO_SPACE_BEFORE:
+        before, current = self.source.tokens[i - 1], self.source.tokens[i]
+        if before in _NO_SPACE_AFTER or current in _NO_SPACE_BEFORE:
             return False
         return not (before == "," and self.in_aggregate)

@@ -116,15 +116,15 @@ def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens
     header = HEADER.match(text)
     lead = LEAD.match(text, header.end() if header else 0)
     start = lead.end() if lead else 0
-    found: list[str] = TOKENS.findall(text, start)
-    while found and not found[-1]:
-        found.pop()
-    source = Source(text, path, encoding, text[:start], found)
+    result: list[str] = TOKENS.findall(text, start)
+    while result and not result[-1]:
+        result.pop()
+    source = Source(text, path, encoding, text[:start], result)
     spellings = Kinds()
     kinds = list(map(spellings.__getitem__, source.tokens))
     unseen = {t for t, k in spellings.items() if k is BAD_CHARACTER and not t.isprintable()}
     if unseen:
-        places = [at for at, t in zip(source.starts, found, strict=True) if t in unseen]
+        places = [at for at, t in zip(source.starts, result, strict=True) if t in unseen]
         letters = list(text)
         for at in places:
             letters[at] = " "
@@ -160,7 +160,7 @@ def string_value(text: str) -> str:
 
 
 def _unescape(match: re.Match[str]) -> str:
-    found = match.group()
-    if found == '""':
+    result = match.group()
+    if result == '""':
         return '"'
-    return "\\" if found == "\\\\" else chr(int(found[1:], 16))
+    return "\\" if result == "\\\\" else chr(int(result[1:], 16))

@@ -69,9 +69,9 @@ class ModuleParser:
         try:
             name = self.identifier(i + 1, "the name of the module")
             attributes, i = self._attributes(i + 2)
-        except SyntaxFault as found:
-            self.fault(found)
-            i = found.at
+        except SyntaxFault as result:
+            self.fault(result)
+            i = result.at
             while kinds[i] not in MODULE_STOPS:
                 i += 1
         i = self._declarations(i, declarations)
@@ -109,21 +109,21 @@ class ModuleParser:
         kinds = self.kinds
         if kinds[i] != "(":
             return (), i
-        found: list[str] = []
+        result: list[str] = []
         while True:
             i += 1
             if kinds[i] not in _ATTRIBUTES:
                 raise SyntaxFault(i, "SYSMODULE, NOVIEW, NOSTEPIN, VIEWONLY or READONLY")
-            found.append(kinds[i])
-            self._attribute_rules(i, found)
+            result.append(kinds[i])
+            self._attribute_rules(i, result)
             i += 1
             if kinds[i] == ")":
-                return tuple(found), i + 1
+                return tuple(result), i + 1
             if kinds[i] != ",":
                 raise SyntaxFault(i, "',' or ')'")
 
-    def _attribute_rules(self, i: int, found: list[str]) -> None:
-        new, before = found[-1], found[:-1]
+    def _attribute_rules(self, i: int, result: list[str]) -> None:
+        new, before = result[-1], result[:-1]
         if new in before:
             fault = f"the attribute {new} is given twice"
         elif any({new, other} == set(pair) for other in before for pair in _EXCLUDED):
@@ -143,7 +143,7 @@ class ModuleParser:
             )
         )
 
-    def _declarations(self, i: int, found: list[Declaration]) -> int:
+    def _declarations(self, i: int, result: list[Declaration]) -> int:
         """All declarations of the module; the index of what ends it."""
         kinds = self.kinds
         rank = 0
@@ -183,7 +183,7 @@ class ModuleParser:
                 self._out_of_order(declaration, new, rank)
             else:
                 rank = new
-            found.append(declaration)
+            result.append(declaration)
             i = declaration.last + 1
 
     def _next_declaration(self, start: int, at: int) -> int:
@@ -198,14 +198,14 @@ class ModuleParser:
 
     def _out_of_order(self, declaration: Declaration, new: int, rank: int) -> None:
         what = ("type definition", "data declaration")[new]
-        behind = ("", "data", "routines")[rank]
+        after = ("", "data", "routines")[rank]
         self.report(
             error(
                 "RG213",
                 self.source.span(declaration.first, declaration.first),
-                f"a {what} stands behind {behind}",
+                f"a {what} stands behind {after}",
                 "order a module: RECORD and ALIAS, then data, then routines",
-                label=f"{what}s come before {behind}",
+                label=f"{what}s come before {after}",
                 notes=("order inside a module [K §5, 9.1]",),
             )
         )
@@ -246,9 +246,9 @@ class ModuleParser:
                 end = self.data.semicolon_here(end, "';'")
                 components.append(Component(at, end, texts[at], name_here))
                 at = end + 1
-            except SyntaxFault as found:
-                self.fault(found)
-                at = found.at
+            except SyntaxFault as result:
+                self.fault(result)
+                at = result.at
                 while kinds[at] != ";" and kinds[at] not in MODULE_STOPS | {"ENDRECORD"}:
                     at += 1
                 if kinds[at] in MODULE_STOPS:
@@ -347,8 +347,8 @@ def _run(parser: ModuleParser, tokens: Tokens) -> Module:
             parser.expressions.diagnostics.append(reason.diagnostic)
         else:
             parser.expressions.diagnostics[:] = [reason.diagnostic]
-    found = sorted(parser.expressions.diagnostics, key=_position)
-    return Module(0, last, module_name, attributes, declarations, tokens.source, found)
+    result = sorted(parser.expressions.diagnostics, key=_position)
+    return Module(0, last, module_name, attributes, declarations, tokens.source, result)
 
 
 def _position(diagnostic: Diagnostic) -> tuple[int, int]:

@@ -60,9 +60,9 @@ class RoutineParser:
                 parameters, at = self.data.parameters(at + 1)
             elif kinds[at] == "(":
                 raise SyntaxFault(at, "the body of the trap", "a TRAP has no parameters")
-        except SyntaxFault as found:
-            self.expressions.fault(found)
-            at = self.behind_header(found.at)
+        except SyntaxFault as result:
+            self.expressions.fault(result)
+            at = self.behind_header(result.at)
         return self._routine_body(first, i, at, scope, type_name, name, parameters, name_token)
 
     def behind_header(self, at: int) -> int:
@@ -110,9 +110,9 @@ class RoutineParser:
                 declaration = self.data.data_declaration(at)
                 data.append(declaration)
                 at = declaration.last + 1
-            except SyntaxFault as found:
-                self.expressions.fault(found)
-                at = self.blocks.resume(at, found.at)
+            except SyntaxFault as result:
+                self.expressions.fault(result)
+                at = self.blocks.resume(at, result.at)
         body = self.list.statements(at)
         backward: Handler | None = None
         error: ErrorHandler | None = None
@@ -120,27 +120,27 @@ class RoutineParser:
         seen: list[str] = []
         while self.open[-1][1] >= 0:
             at = self.list.after
-            word = kinds[at]
-            if word not in ("BACKWARD", "ERROR", "UNDO"):
+            keyword = kinds[at]
+            if keyword not in ("BACKWARD", "ERROR", "UNDO"):
                 break
-            self._handler_order(at, word, kind, seen)
-            seen.append(word)
-            if word == "ERROR":
+            self._handler_order(at, keyword, kind, seen)
+            seen.append(keyword)
+            if keyword == "ERROR":
                 numbers, start = self._error_numbers(at + 1)
                 statements = self.list.statements(start)
                 error = error or ErrorHandler(at, self.list.after - 1, numbers, statements)
                 continue
             statements = self.list.statements(at + 1)
             handler = Handler(at, self.list.after - 1, statements)
-            if word == "UNDO":
+            if keyword == "UNDO":
                 undo = undo or handler
             else:
                 backward = backward or handler
         end = self.list.after
         if kinds[end] in ROUTINE_END_WORDS:
             if kinds[end] != CLOSER[kind]:
-                wanted = CLOSER[kind]
-                self.expressions.fault(SyntaxFault(end, wanted, f"{kind} ends with {wanted}"))
+                expected = CLOSER[kind]
+                self.expressions.fault(SyntaxFault(end, expected, f"{kind} ends with {expected}"))
         else:
             self.expressions.unclosed(end, 1)
             end -= 1
@@ -150,14 +150,14 @@ class RoutineParser:
             body, backward, error, undo, name_token,
         )  # fmt: skip
 
-    def _handler_order(self, at: int, word: str, kind: str, seen: list[str]) -> None:
+    def _handler_order(self, at: int, keyword: str, kind: str, seen: list[str]) -> None:
         order = ("BACKWARD", "ERROR", "UNDO")
-        if word == "BACKWARD" and kind != "PROC":
+        if keyword == "BACKWARD" and kind != "PROC":
             message = f"a {kind} has no BACKWARD handler"
-        elif word in seen:
-            message = f"a second {word} handler"
-        elif seen and order.index(word) < max(order.index(s) for s in seen):
-            message = f"the {word} handler stands behind {seen[-1]}"
+        elif keyword in seen:
+            message = f"a second {keyword} handler"
+        elif seen and order.index(keyword) < max(order.index(s) for s in seen):
+            message = f"the {keyword} handler stands behind {seen[-1]}"
         else:
             return
         self.expressions.report(
@@ -194,6 +194,6 @@ class RoutineParser:
                     return numbers, at + 1
                 if kinds[at] != ",":
                     raise SyntaxFault(at, "',' or ')'", "numbers and whole data only [K §7.2]")
-        except SyntaxFault as found:
-            self.expressions.fault(found)
-            return numbers, self.behind_header(found.at)
+        except SyntaxFault as result:
+            self.expressions.fault(result)
+            return numbers, self.behind_header(result.at)

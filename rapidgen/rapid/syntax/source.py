@@ -55,7 +55,7 @@ class Source:
     def lines(self) -> list[int]:
         """Offset of each line. Ends of line: LF, CRLF or CR."""
         if not self._lines:
-            found, text, at = [0], self.text, 0
+            result, text, at = [0], self.text, 0
             while at < len(text):
                 lf, cr = text.find("\n", at), text.find("\r", at)
                 if cr != -1 and (lf == -1 or cr < lf):
@@ -64,8 +64,8 @@ class Source:
                     at = lf + 1
                 else:
                     break
-                found.append(at)
-            self._lines = found
+                result.append(at)
+            self._lines = result
         return self._lines
 
     def position(self, offset: int) -> tuple[int, int]:

@@ -108,18 +108,18 @@ class StatementParser:
                     handler = handlers.get(kind)
                     if handler is None:
                         late = kind in DATA and self.open[-1][1] >= 0
-                        here = self._late_datum(i) if late else self.blocks.misplaced(i, kind)
-                        if here < 0:
+                        current = self._late_datum(i) if late else self.blocks.misplaced(i, kind)
+                        if current < 0:
                             self.after = i
                             return body
-                        i = here
+                        i = current
                         continue
                     node = handler(i)
                 append(node)
                 i = node.last + 1
-            except SyntaxFault as found:
-                self.fault(found)
-                i = self.blocks.resume(i, found.at, found.expected)
+            except SyntaxFault as result:
+                self.fault(result)
+                i = self.blocks.resume(i, result.at, result.expected)
 
     def _late_datum(self, i: int) -> int:
         """Data among statements: kept, so that nothing follows from it. The index behind it."""
@@ -262,10 +262,10 @@ class StatementParser:
                 at = condition.last + 1
                 if self.kinds[at] != "THEN":
                     raise SyntaxFault(at, "THEN or an operator")
-            except SyntaxFault as found:
+            except SyntaxFault as result:
                 condition = Placeholder(end, end, "<EXP>")
-                behind = self.blocks.header(end, found, "THEN")
-                at = (behind if behind >= 0 else self.blocks.resume(end, found.at)) - 1
+                behind = self.blocks.header(end, result, "THEN")
+                at = (behind if behind >= 0 else self.blocks.resume(end, result.at)) - 1
         if kind == "ELSE":
             otherwise = self.statements(end + 1)
             while self.kinds[self.after] in ("ELSE", "ELSEIF") and self.open[-1][1] >= 0:
@@ -279,16 +279,16 @@ class StatementParser:
             return i + 1
         return self.kinds.index("THEN", i) + 1
 
-    def _condition(self, i: int, wanted: str) -> tuple[Expression, int]:
+    def _condition(self, i: int, expected: str) -> tuple[Expression, int]:
         """Condition behind IF or WHILE, and the index of the token behind it."""
         try:
             condition = self.expression(i + 1)
             return condition, condition.last + 1
-        except SyntaxFault as found:
-            behind = self.blocks.header(i, found, wanted)
-            if behind < 0:
+        except SyntaxFault as result:
+            after = self.blocks.header(i, result, expected)
+            if after < 0:
                 raise
-            return Placeholder(i, i, "<EXP>"), behind - 1
+            return Placeholder(i, i, "<EXP>"), after - 1
 
     def _compact_if(self, i: int, condition: Expression, at: int) -> CompactIf:
         kind = self.kinds[at]
@@ -312,12 +312,12 @@ class StatementParser:
         body = self.statements(at)
         return While(i, self.blocks.leave(self.after), condition, body)
 
-    def _keyword(self, i: int, at: int, wanted: str) -> int:
+    def _keyword(self, i: int, at: int, expected: str) -> int:
         """Index behind DO; a missing one is reported and taken as if it were there."""
-        if self.kinds[at] == wanted:
+        if self.kinds[at] == expected:
             return at + 1
-        behind = self.blocks.header(i, SyntaxFault(at, f"{wanted} or an operator"), wanted)
-        return behind if behind >= 0 else at
+        after = self.blocks.header(i, SyntaxFault(at, f"{expected} or an operator"), expected)
+        return after if after >= 0 else at
 
     def _for(self, i: int) -> For:
         kinds = self.kinds
@@ -342,10 +342,10 @@ class StatementParser:
             if kinds[at] != "DO":
                 raise SyntaxFault(at, "DO or an operator" if step else "DO, STEP or an operator")
             at += 1
-        except SyntaxFault as found:
-            at = self.blocks.header(i, found, "DO")
+        except SyntaxFault as result:
+            at = self.blocks.header(i, result, "DO")
             if at < 0:
-                at = self.blocks.resume(i, found.at)
+                at = self.blocks.resume(i, result.at)
         self.blocks.enter("FOR", i)
         body = self.statements(at)
         return For(i, self.blocks.leave(self.after), variable, start, end, step, body)
@@ -353,19 +353,19 @@ class StatementParser:
     def _test(self, i: int) -> Test:
         kinds = self.kinds
         subject: Expression
-        told = -1
+        text = -1
         try:
             subject = self.expression(i + 1)
             at = subject.last + 1
             if kinds[at] not in ("CASE", "DEFAULT", "ENDTEST") and kinds[at] is not HOLDER:
                 raise SyntaxFault(at, "CASE, DEFAULT, ENDTEST or an operator")
-        except SyntaxFault as found:
-            self.fault(found)
+        except SyntaxFault as result:
+            self.fault(result)
             subject = Placeholder(i, i, "<EXP>")
-            told = at = (
-                found.at
-                if self.expressions.starts_line(found.at)
-                else self.blocks.resume(i, found.at)
+            text = at = (
+                result.at
+                if self.expressions.starts_line(result.at)
+                else self.blocks.resume(i, result.at)
             )
         self.blocks.enter("TEST", i)
         cases: list[Case] = []
@@ -393,7 +393,7 @@ class StatementParser:
             elif kind == "ENDTEST" or kind in BLOCK_ENDS:
                 break
             else:
-                if at != told:
+                if at != text:
                     self.fault(SyntaxFault(at, "CASE, DEFAULT or ENDTEST"))
                 self.statements(at + 1 if kind is HOLDER else at)
                 if self.after == at:
@@ -414,12 +414,12 @@ class StatementParser:
             if kinds[at] != ":":
                 raise SyntaxFault(at, "':', ',' or an operator")
             at += 1
-        except SyntaxFault as found:
-            self.fault(found)
-            at = found.at
+        except SyntaxFault as result:
+            self.fault(result)
+            at = result.at
             while kinds[at] != ":" and kinds[at] != ";" and kinds[at] not in STARTERS:
                 at += 1
-            at = at + 1 if kinds[at] == ":" else found.at
+            at = at + 1 if kinds[at] == ":" else result.at
             values = values or [Placeholder(i, i, "<EXP>")]
         body = self.statements(at)
         return Case(i, self.after - 1, values, body)

@@ -129,13 +129,13 @@ def _touching(source: Source) -> list[Diagnostic]:
 
 def spellings(tokens: Tokens) -> list[Diagnostic]:
     """Names too long, strings with a tab, numbers beyond any type: each at its first place."""
-    found = [_unseen(tokens)] if tokens.blanks else []
-    found += _touching(tokens.source)
+    findings = [_unseen(tokens)] if tokens.blanks else []
+    findings += _touching(tokens.source)
     folded = set()
     for text, kind in tokens.spellings.items():
         if kind in (NUMBER, BAD_RADIX) and isinf(number_value(text)):
             at = tokens.source.tokens.index(text)
-            found.append(
+            findings.append(
                 error(
                     "RG205",
                     tokens.source.span(at, at),
@@ -146,7 +146,7 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
             )
         if kind is STRING and "\t" in text:
             at = tokens.source.tokens.index(text)
-            found.append(
+            findings.append(
                 error(
                     "RG206",
                     tokens.source.span(at, at),
@@ -159,7 +159,7 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
         if kind is NAME and len(text) > MAX_NAME and text.lower() not in folded:
             folded.add(text.lower())
             at = tokens.source.tokens.index(text)
-            found.append(
+            findings.append(
                 error(
                     "RG220",
                     tokens.source.span(at, at),
@@ -169,4 +169,4 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
                     notes=("all characters of a name count [K §2.3]",),
                 )
             )
-    return found
+    return findings

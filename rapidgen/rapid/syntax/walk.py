@@ -57,14 +57,14 @@ _STATEMENTS: Final = get_args(nodes.Statement)
 
 def children(node: Node) -> list[Node]:
     """Nodes directly below a node, in the order of the source."""
-    found: list[Node] = []
+    result: list[Node] = []
     for name in _CHILDREN[type(node)]:
         value = getattr(node, name)
         if type(value) is list:
-            found += value
+            result += value
         elif value is not None:
-            found.append(value)
-    return found
+            result.append(value)
+    return result
 
 
 def walk(node: Node) -> Iterator[Node]:

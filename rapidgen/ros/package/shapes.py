@@ -90,6 +90,6 @@ def _vector(text: str) -> Vector:
 
 
 def _told(element: ET.Element, path: str, key: str) -> str:
-    found = element.find(path)
-    assert found is not None
-    return found.attrib[key]
+    result = element.find(path)
+    assert result is not None
+    return result.attrib[key]

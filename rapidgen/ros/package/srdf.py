@@ -61,11 +61,11 @@ def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: UrdfDrawing
     chain = ET.Element("chain", base_link=arm.links[0], tip_link=arm.tip)
     ET.SubElement(root, "group", name=solved).append(chain)
     if solved != name:
-        whole = ET.SubElement(root, "group", name=name)
-        ET.SubElement(whole, "group", name=solved)
+        complete = ET.SubElement(root, "group", name=name)
+        ET.SubElement(complete, "group", name=solved)
         for joint in joints:
             if joint not in arm.joints:
-                ET.SubElement(whole, "joint", name=joint)
+                ET.SubElement(complete, "joint", name=joint)
     home = ET.SubElement(root, "group_state", name="home", group=name)
     for joint_name, value in home_posture(group):
         ET.SubElement(home, "joint", name=prefix + joint_name, value=f"{value:.6g}")
@@ -76,9 +76,9 @@ def home_posture(group: GroupConfig) -> list[tuple[str, float]]:
 
     With all joints at 0 wrists are singular, and the hands of two arms may touch.
     """
-    found = []
+    result = []
     values = JointMap.of(group).to_urdf(usual_start(group))
     for joint, value in zip(group.joints, values, strict=True):
         lower, upper = urdf_range(joint)
-        found.append((joint.name, min(max(value, lower), upper)))
-    return found
+        result.append((joint.name, min(max(value, lower), upper)))
+    return result

@@ -161,11 +161,11 @@ class _Drawer:
 
     def _free(self, tag: str, wished: str) -> str:
         """A name that no other link or joint has: the robot's own joints are called anything."""
-        taken = {element.get("name") for element in self.root.iter(tag)}
+        in_use = {element.get("name") for element in self.root.iter(tag)}
         if tag == "joint":
-            taken |= {self.prefix + joint for joint in self.joints}
+            in_use |= {self.prefix + joint for joint in self.joints}
         name, numbers = wished, count(2)
-        while name in taken:
+        while name in in_use:
             name = f"{wished}_{next(numbers)}"
         return name
 

@@ -30,10 +30,10 @@ _LONGEST: Final = 120.0
 
 def _camera(task: Task, device: Value) -> Camera:
     """ERR_CAM_NOT_ON_NETWORK: a cameradev that is no camera of the controller."""
-    found = task.controller.cameras.get(device.value.lower())
-    if found is None:
+    match = task.controller.cameras.get(device.value.lower())
+    if match is None:
         raise RapidError("ERR_CAM_NOT_ON_NETWORK", device.value)
-    return found
+    return match
 
 
 @builtin("CamSetProgramMode")
@@ -121,19 +121,19 @@ def cam_get_result(
 ) -> None:
     """Fetch a result. ERR_CAM_NO_MORE_DATA: all are fetched; ERR_CAM_MAXTIME: no image came."""
     camera = _camera(task, device)
-    wanted = None if scene is None else int(scene)
+    expected = None if scene is None else int(scene)
 
     def there() -> bool:
-        return bool(_of_scene(camera, wanted)) or (camera.taken > 0 and not camera.under_way)
+        return bool(_of_scene(camera, expected)) or (camera.taken > 0 and not camera.under_way)
 
     allowed = _LONGEST if time_out is None else time_out
     if not task.wait_for(there, on=(camera.changed,), timeout=allowed):
         raise RapidError("ERR_CAM_MAXTIME", camera.name)
-    found = _of_scene(camera, wanted)
-    if not found:
+    result = _of_scene(camera, expected)
+    if not result:
         raise RapidError("ERR_CAM_NO_MORE_DATA", camera.name)
-    camera.results.remove(found[0])
-    target.set(_filled(target.get().copy(), camera, *found[0]))
+    camera.results.remove(result[0])
+    target.set(_filled(target.get().copy(), camera, *result[0]))
 
 
 @builtin("CamNumberOfResults")
@@ -143,7 +143,7 @@ def cam_number_of_results(task: Task, device: Value, scene: float | None) -> int
 
 
 def _of_scene(camera: Camera, scene: int | None) -> list[tuple[int, Seen]]:
-    return [found for found in camera.results if scene in (None, found[0])]
+    return [result for result in camera.results if scene in (None, result[0])]
 
 
 def _filled(made: Value, camera: Camera, scene: int, seen: Seen) -> Value:
@@ -204,9 +204,9 @@ def cam_set_parameter(
 ) -> None:
     """ERR_CAM_NO_PROGMODE; ERR_CAM_SET_MISMATCH: a text that is no number is not kept here."""
     camera = _in_program_mode(task, device)
-    given = next((value for value in (number, flag, text) if value is not None), 0)
+    arguments = next((value for value in (number, flag, text) if value is not None), 0)
     try:
-        camera.parameters[name.lower()] = float(given)
+        camera.parameters[name.lower()] = float(arguments)
     except ValueError as fault:
         raise RapidError("ERR_CAM_SET_MISMATCH", name) from fault
 
@@ -217,5 +217,5 @@ def cam_set_exposure(
 ) -> None:
     """They are kept as parameters; what is seen does not depend on them. ERR_CAM_NO_PROGMODE."""
     camera = _in_program_mode(task, device)
-    given = {"exposuretime": time, "brightness": brightness, "contrast": contrast}
-    camera.parameters.update({n: v for n, v in given.items() if v is not None})
+    arguments = {"exposuretime": time, "brightness": brightness, "contrast": contrast}
+    camera.parameters.update({n: v for n, v in arguments.items() if v is not None})

@@ -21,18 +21,18 @@ def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | in
     ERR_CFG_NOTFND, ERR_CFG_OUTOFBND: the list has no such instance.
     """
     configuration = task.controller.configuration
-    found = configuration.find(path)
+    result = configuration.find(path)
     hidden = path.strip("/").lower().startswith("moc/arm/")
-    if not found or (hidden and not task.controller.dialect.axis_limits_told):
+    if not result or (hidden and not task.controller.dialect.axis_limits_told):
         raise RapidError("ERR_CFG_NOTFND", path)
     if number is None:
-        return found[0]
+        return result[0]
     first = 0 if task.controller.dialect.list_number == "zero" else 1
     at = number.get() - first
-    if at not in range(len(found)):
-        raise RapidError("ERR_CFG_OUTOFBND", f"{number.get():g} of {len(found)}")
-    number.set(first + at + 1 if at + 1 < len(found) else first - 1)
-    return found[int(at)]
+    if at not in range(len(result)):
+        raise RapidError("ERR_CFG_OUTOFBND", f"{number.get():g} of {len(result)}")
+    number.set(first + at + 1 if at + 1 < len(result) else first - 1)
+    return result[int(at)]
 
 
 @builtin("ReadCfgData", cost="socket")

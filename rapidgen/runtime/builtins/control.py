@@ -39,7 +39,7 @@ def system_stop_action(
         task.controller.stop_program()
     if stop_block or halt:
         raise FatalError(40_800, "SystemStopAction", "move PP before a restart", restartable=False)
-    task.attend()
+    task.process_pending()
 
 
 @builtin("BookErrNo")
@@ -70,7 +70,7 @@ def raise_to_user(
     """RaiseToUser: the error at hand goes to the nearest handler outside NOSTEPIN [K §7.3]."""
     error = RapidError(int(number) if number is not None else task.errno)
     error.raised = True
-    task.errors.give_to_user(error, resume=bool(go_on))
+    task.errors.raise_in_user_code(error, resume=bool(go_on))
 
 
 @builtin("ErrRaise")
@@ -114,7 +114,7 @@ def wait_time(task: Task, in_pos: bool | None, seconds: float) -> None:
     if seconds > 0:
         task.sleep(min(seconds, LONGEST_WAIT))
     else:
-        task.give_way()
+        task.yield_cpu()
 
 
 @builtin("WaitUntil")
@@ -135,7 +135,7 @@ def wait_until(
         wait_standing(task)
     end = None if max_time is None else task.scheduler.now + round(max_time * 1e9)
     rate = max(0.004, poll_rate if poll_rate is not None else POLL_RATE)
-    said = task.waits_for
+    message = task.waits_for
     if task.controller.io.on_awaited is not None:
         for awaited in condition.signals():
             task.controller.io.await_value(awaited)
@@ -143,7 +143,7 @@ def wait_until(
         task.waits_for = lambda: _until(condition)
         in_time = _hold(task, condition, end, rate)
     finally:
-        task.waits_for = said
+        task.waits_for = message
     if not in_time and time_flag is None:
         raise RapidError("ERR_WAIT_MAXTIME")
     if time_flag is not None:
@@ -174,8 +174,8 @@ def _hold(task: Task, condition: Condition, end: int | None, rate: float) -> boo
 @builtin("TestAndSet")
 def test_and_set(task: Task, flag: Ref) -> bool:
     """TestAndSet: TRUE and set, when it was FALSE; nothing can come between."""
-    taken: bool = flag.get()
-    if taken:
+    in_use: bool = flag.get()
+    if in_use:
         return False
     flag.set(True)
     return True

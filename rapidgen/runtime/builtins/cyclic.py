@@ -33,9 +33,9 @@ def setup_cyclic_bool(
 @builtin("RemoveCyclicBool")
 def remove_cyclic_bool(task: Task, flag: Ref | None, name: str | None) -> None:
     """The persistent keeps its value. ERR_ARGVALERR: it has no condition in this task."""
-    wanted = _name(flag, name)
-    if not task.cyclic.remove(wanted):
-        raise RapidError("ERR_ARGVALERR", f"{wanted} is no cyclic bool")
+    expected = _name(flag, name)
+    if not task.cyclic.remove(expected):
+        raise RapidError("ERR_ARGVALERR", f"{expected} is no cyclic bool")
 
 
 @builtin("RemoveAllCyclicBool")
@@ -74,11 +74,11 @@ def is_cyclic_bool(
     task: Task, flag: Ref | None, name: str | None, reference: Value, task_name: str | None
 ) -> bool:
     """Whether a persistent has a condition, in this task or in a named one. ERR_TASKNAME."""
-    wanted = task_name if task_name is not None else reference.value if reference else task.name
+    expected = task_name if task_name is not None else reference.value if reference else task.name
     for other in task.controller.rapid_tasks.values():
-        if other.name.lower() == str(wanted).lower():
+        if other.name.lower() == str(expected).lower():
             return _name(flag, name).lower() in other.cyclic.known
-    raise RapidError("ERR_TASKNAME", str(wanted))
+    raise RapidError("ERR_TASKNAME", str(expected))
 
 
 def _name(flag: Ref | None, name: str | None) -> str:

@@ -124,8 +124,8 @@ def _put(task: Task, device: IODevice, data: bytes, *, binary: bool = False) -> 
 @builtin("Write", cost="socket")
 def write(task: Task, device: IODevice, text: str, *values: Value) -> None:
     """Write a text, a value in the standard format and a line feed."""
-    *shown, no_new_line = values
-    line = appended(task, text, *shown)
+    *displayed, no_new_line = values
+    line = appended(task, text, *displayed)
     _put(task, device, (line + ("" if no_new_line else "\n")).encode("latin-1"))
 
 
@@ -380,11 +380,11 @@ def file_time_dnum(
     digits: Ref | None,
 ) -> int:
     """Seconds since 1970."""
-    found = _status(task, path)
-    seconds = int(found.st_atime if access else found.st_ctime if status else found.st_mtime)
+    result = _status(task, path)
+    seconds = int(result.st_atime if access else result.st_ctime if status else result.st_mtime)
     if status and task.scheduler.clock == "virtual":
         # The operating system alone sets this one; a run has to be the same every time.
-        seconds = int(found.st_mtime)
+        seconds = int(result.st_mtime)
     if digits is not None:
         digits.set(str(seconds))
     return seconds
@@ -410,8 +410,8 @@ def open_dir(task: Task, device: Directory, path: str) -> None:
     except OSError as error:
         task.controller.files.release(device)
         raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
-    shown = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
-    device.names = [".", "..", *shown]
+    displayed = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
+    device.names = [".", "..", *displayed]
 
 
 @builtin("ReadDir", cost="socket")

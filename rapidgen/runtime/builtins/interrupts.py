@@ -34,10 +34,10 @@ register_type("trapdata", TrapData)
 @builtin("ISleep")
 def i_sleep(task: Task, interrupt: Ref) -> None:
     """ISleep: events are ignored for good until IWatch; not for safe interrupts."""
-    found = task.interrupts.find(interrupt.get())
-    if found.safe:
+    match = task.interrupts.find(interrupt.get())
+    if match.safe:
         raise RapidError("ERR_INOISSAFE")
-    found.asleep = True
+    match.asleep = True
 
 
 @builtin("IWatch")
@@ -63,7 +63,7 @@ def i_disable(task: Task) -> None:
 def i_enable(task: Task) -> None:
     """IEnable: what queued runs at once, in order."""
     task.interrupts.disabled = False
-    task.attend()
+    task.process_pending()
 
 
 @builtin("ITimer")
@@ -147,7 +147,7 @@ def i_signal_group(
 
 
 def _on_change(
-    task: Task, signal: AnySignal, order: Interrupt, wanted: Callable[[float], bool]
+    task: Task, signal: AnySignal, order: Interrupt, expected: Callable[[float], bool]
 ) -> None:
     source = signal.signal
     seen = source.value
@@ -156,7 +156,7 @@ def _on_change(
         nonlocal seen
         if source.value != seen:
             seen = source.value
-            if wanted(seen):
+            if expected(seen):
                 task.interrupts.happen(order)
 
     source.changed.add(look)

@@ -138,16 +138,16 @@ def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     given: str | AnySignal = source if isinstance(source, Signal | SignalAlias) else source.get()
     if isinstance(given, str) and not task.controller.dialect.alias_by_name:
         raise FatalError(40_214, "AliasIO takes a signal", f"'{given}' is a text")
-    found = task.controller.io.get(given) if isinstance(given, str) else given.signal
-    if found is None and isinstance(given, str) and isinstance(target, SignalAlias):
-        found = task.controller.io.made_up(given, target.type)
-    if found is None:
+    match = task.controller.io.get(given) if isinstance(given, str) else given.signal
+    if match is None and isinstance(given, str) and isinstance(target, SignalAlias):
+        match = task.controller.io.made_up(given, target.type)
+    if match is None:
         raise RapidError("ERR_ALIASIO_DEF", f"no signal '{given}'")
     if not isinstance(target, SignalAlias):
         raise RapidError("ERR_ALIASIO_DEF", "a signal of the configuration is no alias")
-    if found.spec.type != target.type:
-        raise RapidError("ERR_ALIASIO_TYPE", f"{found.name} is a {found.spec.type}")
-    target.target = found
+    if match.spec.type != target.type:
+        raise RapidError("ERR_ALIASIO_TYPE", f"{match.name} is a {match.spec.type}")
+    target.target = match
 
 
 @builtin("GetSignalOrigin")
@@ -245,11 +245,11 @@ def _wait_group(name: str) -> None:
         dnum_at_timeout: Ref | None,
         *_visual: object,
     ) -> None:
-        wanted = value if value is not None else dnum_value
-        assert wanted is not None
+        expected = value if value is not None else dnum_value
+        assert expected is not None
         relation = _relation(different=different, less=less, greater=greater)
         place = at_timeout if at_timeout is not None else dnum_at_timeout
-        _wait(task, SignalCondition(target.signal, relation, wanted), max_time, at_timeout=place)
+        _wait(task, SignalCondition(target.signal, relation, expected), max_time, at_timeout=place)
 
 
 _wait_group("WaitGI")

@@ -81,19 +81,19 @@ def _matrix(a: _Rows, m: float | None, n: float | None) -> "ndarray":
     return np.array([[a[i][j] for j in range(1, columns + 1)] for i in range(1, rows + 1)])
 
 
-def _put_matrix(target: Ref, found: "ndarray") -> None:
-    kept: Value = target.get()
-    rows, columns = found.shape
-    if len(kept) < rows or len(kept[1]) < columns:
+def _put_matrix(target: Ref, result: "ndarray") -> None:
+    saved: Value = target.get()
+    rows, columns = result.shape
+    if len(saved) < rows or len(saved[1]) < columns:
         raise RapidError("ERR_ARGVALERR", f"{target.name} is smaller than {rows} x {columns}")
     for i in range(rows):
         for j in range(columns):
-            kept[i + 1][j + 1] = float(found[i, j])
+            saved[i + 1][j + 1] = float(result[i, j])
 
 
-def _put_vector(target: Ref, found: "ndarray") -> None:
-    kept: Value = target.get()
-    if len(kept) < len(found):
-        raise RapidError("ERR_ARGVALERR", f"{target.name} has less than {len(found)} elements")
-    for i, value in enumerate(found, start=1):
-        kept[i] = float(value)
+def _put_vector(target: Ref, result: "ndarray") -> None:
+    saved: Value = target.get()
+    if len(saved) < len(result):
+        raise RapidError("ERR_ARGVALERR", f"{target.name} has less than {len(result)} elements")
+    for i, value in enumerate(result, start=1):
+        saved[i] = float(value)

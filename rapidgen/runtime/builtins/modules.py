@@ -136,10 +136,10 @@ def check_prog_ref(task: Task) -> None:
 
 def task_named(task: Task, reference: object, name: str | None) -> RapidTask:
     """The task of \\TaskRef or \\TaskName, else this one; ERR_TASKNAME: there is none."""
-    wanted = name if reference is None else getattr(reference, "value", None)
-    if wanted is None:
+    expected = name if reference is None else getattr(reference, "value", None)
+    if expected is None:
         return task
     for known, other in task.controller.rapid_tasks.items():
-        if known.lower() == str(wanted).lower():
+        if known.lower() == str(expected).lower():
             return other
-    raise RapidError("ERR_TASKNAME", str(wanted))
+    raise RapidError("ERR_TASKNAME", str(expected))

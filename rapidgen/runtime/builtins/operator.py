@@ -53,14 +53,14 @@ _PROCESS_DOMAIN = 110_000
 def appended(task: Task, text: str, *values: Value) -> str:
     """`text` with a value in the standard format behind it (TPWrite, Write)."""
     num, boolean, pos, orient, dnum = values
-    whole = task.controller.dialect.whole_text == "all"
+    complete = task.controller.dialect.whole_text == "all"
     if num is not None:
-        return text + number_text(num, whole=whole)
+        return text + number_text(num, complete=complete)
     if dnum is not None:
         return text + number_text(dnum, DNUM_DIGITS)
     for value in (boolean, pos, orient):
         if value is not None:
-            return text + value_text(value, whole=whole)
+            return text + value_text(value, complete=complete)
     return text
 
 
@@ -90,37 +90,41 @@ _BREAKS = (
 """What breaks a dialog off, the switch that inverts it, and its error."""
 
 
-def _reason(given: Arguments) -> str | None:
+def _reason(arguments: Arguments) -> str | None:
     """The error of a break that is there now."""
     for name, passive, error in _BREAKS:
-        source = given[name]
+        source = arguments[name]
         if source is not None:
             value = source.get() if isinstance(source, Ref | PersistentCell) else source.value
-            if bool(value) != bool(given[passive]):
+            if bool(value) != bool(arguments[passive]):
                 return error
     return None
 
 
-def _sources(given: Arguments) -> list[WaitSet]:
+def _sources(arguments: Arguments) -> list[WaitSet]:
     """What can bring a break."""
-    signals, flag = (given["DIBreak"], given["DOBreak"]), given["PersBoolBreak"]
-    found: list[WaitSet] = [s.signal.changed for s in signals if s is not None]
+    signals, flag = (arguments["DIBreak"], arguments["DOBreak"]), arguments["PersBoolBreak"]
+    result: list[WaitSet] = [s.signal.changed for s in signals if s is not None]
     if flag is not None and flag.cell is not None:
-        found.append(flag.cell)
-    return found
+        result.append(flag.cell)
+    return result
 
 
 def _ask(
     task: Task,
     dialog: str,
     text: str,
-    given: Arguments,
+    arguments: Arguments,
     check: Callable[[str], object],
     choices: Mapping[str, float] = MappingProxyType({}),
     proposed: str = "",
 ) -> Value:
     """The answer to a dialog; None when it was broken off and \\BreakFlag tells."""
-    operator, active, flag = task.controller.operator, given["UIActiveSignal"], given["BreakFlag"]
+    operator, active, flag = (
+        task.controller.operator,
+        arguments["UIActiveSignal"],
+        arguments["BreakFlag"],
+    )
     if not operator.present:
         _break_off(flag, "ERR_TP_NO_CLIENT")
         return None
@@ -129,9 +133,9 @@ def _ask(
         task.controller.io.set(active.signal, 1)
     try:
         in_time = task.wait_for(
-            lambda: question.answered or _reason(given) is not None,
-            on=(question.changed, *_sources(given)),
-            timeout=given["MaxTime"],
+            lambda: question.answered or _reason(arguments) is not None,
+            on=(question.changed, *_sources(arguments)),
+            timeout=arguments["MaxTime"],
             why=lambda: operator.waits(task.name),
         )
     finally:
@@ -139,7 +143,7 @@ def _ask(
         if active is not None:
             task.controller.io.set(active.signal, 0)
     if not question.answered:
-        _break_off(flag, (in_time and _reason(given)) or "ERR_TP_MAXTIME")
+        _break_off(flag, (in_time and _reason(arguments)) or "ERR_TP_MAXTIME")
         return None
     if flag is not None:
         flag.set(0)
@@ -156,12 +160,12 @@ def _choose(
     task: Task,
     dialog: str,
     text: str,
-    given: Arguments,
+    arguments: Arguments,
     choices: Mapping[str, float],
     default: float | None = None,
 ) -> Value:
     proposed = next((text for text, number in choices.items() if number == default), "")
-    return _ask(task, dialog, text, given, _one_of(choices), choices, proposed)
+    return _ask(task, dialog, text, arguments, _one_of(choices), choices, proposed)
 
 
 def _one_of(choices: Mapping[str, float]) -> Callable[[str], float]:
@@ -184,17 +188,17 @@ def _a_number(
         for word, bound in (("from", low), ("up to", high))
         if bound is not None
     )
-    wanted = f"a {'whole ' if integer else ''}number{bounds} is wanted"
+    expected = f"a {'whole ' if integer else ''}number{bounds} is wanted"
 
     def check(value: str) -> float:
         try:
             number = float(value)
         except ValueError as fault:
-            raise ValueError(wanted) from fault
+            raise ValueError(expected) from fault
         small = low is not None and number < low
         large = high is not None and number > high
         if small or large or not math.isfinite(number) or (integer and number != int(number)):
-            raise ValueError(wanted)
+            raise ValueError(expected)
         return number
 
     return check
@@ -207,28 +211,32 @@ def _a_text(value: str) -> str:
 
 
 @by_name("TPReadNum", "TPReadDnum", cost="string")
-def tp_read_num(task: Task, dialog: str, given: Arguments) -> None:
+def tp_read_num(task: Task, dialog: str, arguments: Arguments) -> None:
     """Ask for a number."""
-    value = _ask(task, dialog, given["TPText"], given, _a_number())
+    value = _ask(task, dialog, arguments["TPText"], arguments, _a_number())
     if value is not None:
-        given["TPAnswer"].set(value)
+        arguments["TPAnswer"].set(value)
 
 
 @by_name("TPReadFK", cost="string")
-def tp_read_fk(task: Task, dialog: str, given: Arguments) -> None:
+def tp_read_fk(task: Task, dialog: str, arguments: Arguments) -> None:
     """Ask for one of five keys; one without a text is dead."""
-    texts = [given[f"TPFK{i}"] for i in range(1, 6)]
+    texts = [arguments[f"TPFK{i}"] for i in range(1, 6)]
     keys = {text: float(i) for i, text in enumerate(texts, 1) if text.strip()}
-    value = _choose(task, dialog, given["TPText"], given, keys)
+    value = _choose(task, dialog, arguments["TPText"], arguments, keys)
     if value is not None:
-        given["TPAnswer"].set(value)
+        arguments["TPAnswer"].set(value)
 
 
-def _text(given: Arguments) -> str:
+def _text(arguments: Arguments) -> str:
     """Header and message, line by line."""
-    lines = given.get("MsgArray")
-    parts = [given["Header"], given.get("Message"), *(lines.values() if lines is not None else ())]
-    parts += [given.get(f"MsgLine{i}") for i in range(1, 6)]
+    lines = arguments.get("MsgArray")
+    parts = [
+        arguments["Header"],
+        arguments.get("Message"),
+        *(lines.values() if lines is not None else ()),
+    ]
+    parts += [arguments.get(f"MsgLine{i}") for i in range(1, 6)]
     return "\n".join(part for part in parts if part)
 
 
@@ -242,19 +250,19 @@ def _buttons(buttons: float | None, array: Mapping[int, str] | None) -> dict[str
 
 
 @by_name("UIMsgBox", cost="string")
-def ui_msg_box(task: Task, dialog: str, given: Arguments) -> None:
+def ui_msg_box(task: Task, dialog: str, arguments: Arguments) -> None:
     """Show a box with buttons and wait for one."""
-    value = _choose(task, dialog, _text(given), given, _buttons(given["Buttons"], None))
-    if given["Result"] is not None:
-        given["Result"].set(0 if value is None else value)
+    value = _choose(task, dialog, _text(arguments), arguments, _buttons(arguments["Buttons"], None))
+    if arguments["Result"] is not None:
+        arguments["Result"].set(0 if value is None else value)
 
 
 @by_name("UIMessageBox", cost="string")
-def ui_message_box(task: Task, dialog: str, given: Arguments) -> float:
+def ui_message_box(task: Task, dialog: str, arguments: Arguments) -> float:
     """Show a box with buttons; which one was pressed."""
-    choices = _buttons(given["Buttons"], given["BtnArray"])
-    default = given["DefaultBtn"]
-    return _else(_choose(task, dialog, _text(given), given, choices, default), default)
+    choices = _buttons(arguments["Buttons"], arguments["BtnArray"])
+    default = arguments["DefaultBtn"]
+    return _else(_choose(task, dialog, _text(arguments), arguments, choices, default), default)
 
 
 def _else(value: Value, default: float | None) -> float:
@@ -265,10 +273,10 @@ def _else(value: Value, default: float | None) -> float:
 
 
 @by_name("UINumEntry", "UIDnumEntry", "UINumTune", "UIDnumTune", cost="string")
-def ui_num_entry(task: Task, dialog: str, given: Arguments) -> float:
+def ui_num_entry(task: Task, dialog: str, arguments: Arguments) -> float:
     """Ask for a number, which may be tuned from an initial one."""
-    initial, low, high = given["InitValue"], given["MinValue"], given["MaxValue"]
-    integer = bool(given.get("AsInteger"))
+    initial, low, high = arguments["InitValue"], arguments["MinValue"], arguments["MaxValue"]
+    integer = bool(arguments.get("AsInteger"))
     if initial is not None and integer and initial != int(initial):
         raise RapidError("ERR_UI_NOTINT")
     if low is not None and high is not None and low > high:
@@ -278,35 +286,35 @@ def ui_num_entry(task: Task, dialog: str, given: Arguments) -> float:
         raise RapidError("ERR_UI_INITVALUE")
     check = _a_number(low, high, integer=integer)
     proposed = next((f"{value:.15g}" for value in (initial, low) if value is not None), "")
-    answer = _ask(task, dialog, _text(given), given, check, proposed=proposed)
+    answer = _ask(task, dialog, _text(arguments), arguments, check, proposed=proposed)
     return _else(answer, initial)
 
 
 @by_name("UIAlphaEntry", cost="string")
-def ui_alpha_entry(task: Task, dialog: str, given: Arguments) -> str:
+def ui_alpha_entry(task: Task, dialog: str, arguments: Arguments) -> str:
     """Ask for a text."""
-    initial = given["InitString"] or ""
-    value = _ask(task, dialog, _text(given), given, _a_text, proposed=initial)
+    initial = arguments["InitString"] or ""
+    value = _ask(task, dialog, _text(arguments), arguments, _a_text, proposed=initial)
     return value if isinstance(value, str) else initial
 
 
 @by_name("UIListView", cost="string")
-def ui_list_view(task: Task, dialog: str, given: Arguments) -> float:
+def ui_list_view(task: Task, dialog: str, arguments: Arguments) -> float:
     """Ask for one of a list's items."""
-    items, buttons, array = given["ListItems"], given["Buttons"], given["BtnArray"]
+    items, buttons, array = arguments["ListItems"], arguments["Buttons"], arguments["BtnArray"]
     choices = {item.text: float(i) for i, item in items.items() if item.text}
-    default = given["DefaultIndex"]
-    chosen = _else(_choose(task, dialog, _text(given), given, choices, default), 0)
-    if given["Result"] is not None:
+    default = arguments["DefaultIndex"]
+    chosen = _else(_choose(task, dialog, _text(arguments), arguments, choices, default), 0)
+    if arguments["Result"] is not None:
         pressed = _buttons(buttons, array) if buttons is not None or array is not None else {}
-        given["Result"].set(next(iter(pressed.values()), 0) if chosen else 0)
+        arguments["Result"].set(next(iter(pressed.values()), 0) if chosen else 0)
     return chosen or _else(default, 0)
 
 
 @by_name("UIMsgWrite", cost="string")
-def ui_msg_write(task: Task, _dialog: str, given: Arguments) -> None:
+def ui_msg_write(task: Task, _dialog: str, arguments: Arguments) -> None:
     """Show a message without waiting."""
-    for line in _text(given).split("\n"):
+    for line in _text(arguments).split("\n"):
         task.controller.operator.write(task.name, line)
 
 
@@ -330,8 +338,8 @@ def _logged(
     texts: Iterable[str | None],
 ) -> None:
     kind = EventType.WARNING if warning else EventType.INFO if info else EventType.ERROR
-    shown = [text for text in texts if text]
-    task.controller.log.write(code or _EVENTS[kind], kind, title, *shown, task=task.name)
+    displayed = [text for text in texts if text]
+    task.controller.log.write(code or _EVENTS[kind], kind, title, *displayed, task=task.name)
 
 
 @builtin("ErrWrite", cost="string")

@@ -60,11 +60,11 @@ def rmq_send_wait(
     argument: object,
     user: float | None,
     box: MessageBox,
-    wanted: object,
+    expected: object,
     timeout: float | None,
 ) -> None:
     """Send a value and wait for an answer of a type from the same queue."""
-    value, kind = value_of(wanted)
+    value, kind = value_of(expected)
     dims = dimensions(value)
     own = _own(task)
     _queues(task).send(slot.name, _message(task, argument, user))
@@ -83,10 +83,10 @@ def rmq_send_wait(
         why=lambda: f"RMQSendWait waits for an answer of {slot.name}",
     ):
         raise RapidError("ERR_RMQ_TIMEOUT")
-    found = answer()
-    assert found is not None
-    own.messages.remove(found)
-    box.message = found
+    result = answer()
+    assert result is not None
+    own.messages.remove(result)
+    box.message = result
 
 
 def _time(timeout: float | None, default: float | None) -> float | None:

@@ -148,10 +148,10 @@ def copy_raw_bytes(
         raise RapidError("ERR_OUTOFBND", f"from {start} to {place}")
     data = bytes(source.data[start - 1 :])
     if count is not None:
-        wanted = whole(count, "ERR_ARGVALERR")
-        if wanted < 0 or wanted > len(data):
-            raise RapidError("ERR_OUTOFBND", f"{wanted} bytes of {len(data)}")
-        data = data[:wanted]
+        expected = whole(count, "ERR_ARGVALERR")
+        if expected < 0 or expected > len(data):
+            raise RapidError("ERR_OUTOFBND", f"{expected} bytes of {len(data)}")
+        data = data[:expected]
     data = data[: CAPACITY - place + 1]
     if data:
         target.put(place, data)

@@ -163,15 +163,15 @@ def _completed(task: Task, precise: bool | None, place: float | None = None) -> 
 
 
 @by_name("Hand_GripInward", "Hand_GripOutward", "g_GripIn", "g_GripOut")
-def grip(task: Task, name: str, given: Arguments) -> None:
+def grip(task: Task, name: str, arguments: Arguments) -> None:
     """Until something is between the fingers (in them), or they are at their end.
 
     ERR_HAND_NOTCALIBRATED; ERR_HAND_FAILEDGRIPINWARD: \\targetPos lies behind; with \\posAlowance
     ERR_HAND_FAILEDGRIPPOS: not there; ERR_HAND_WRONGSTATE: not within 5 s.
     """
     hand, inward = _calibrated(task), "in" in name.lower().split("grip")[1]
-    _set_force(task, _FORCES[1] if given["holdForce"] is None else given["holdForce"])
-    place, allowance = given["targetPos"], given["posAlowance"]
+    _set_force(task, _FORCES[1] if arguments["holdForce"] is None else arguments["holdForce"])
+    place, allowance = arguments["targetPos"], arguments["posAlowance"]
     if place is not None:
         if (hand.position < place) if inward else (hand.position > place):
             refused = "ERR_HAND_FAILEDGRIPINWARD" if inward else "ERR_HAND_FAILEDGRIPPOS"
@@ -180,7 +180,7 @@ def grip(task: Task, name: str, given: Arguments) -> None:
         hand.set_register(register, _in_range(task, place))
     hand.order(Command.READY)
     hand.order(Command.AGILE_INWARD if inward else Command.AGILE_OUTWARD)
-    if given["NoWait"]:
+    if arguments["NoWait"]:
         return
     _wait_for(task, HandState.KEEP_OBJECT)
     if None not in (place, allowance) and abs(hand.position - place) > allowance:

@@ -233,10 +233,10 @@ def _payload(
         raise FatalError(40_660, "Nothing to send", "one of \\Str, \\RawData and \\Data")
     if count is None:
         return payload
-    wanted = whole(count, "ERR_ARGVALERR")
-    if not 0 < wanted <= len(payload):
-        raise RapidError("ERR_ARGVALERR", f"\\NoOfBytes:={wanted} of {len(payload)}")
-    return payload[:wanted]
+    expected = whole(count, "ERR_ARGVALERR")
+    if not 0 < expected <= len(payload):
+        raise RapidError("ERR_ARGVALERR", f"\\NoOfBytes:={expected} of {len(payload)}")
+    return payload[:expected]
 
 
 @builtin("SocketSend", cost="socket")
@@ -249,11 +249,11 @@ def socket_send(task: Task, socket: SocketDevice, *content: Value) -> None:
 
     def some_go() -> bool:
         nonlocal left
-        taken = network.send(endpoint, left)
-        if taken:
-            task.controller.sockets.tell("out", socket, left[:taken])
-        left = left[taken:]
-        return taken > 0
+        in_use = network.send(endpoint, left)
+        if in_use:
+            task.controller.sockets.tell("out", socket, left[:in_use])
+        left = left[in_use:]
+        return in_use > 0
 
     interrupts = task.interrupts
     disabled = interrupts.disabled
@@ -276,25 +276,25 @@ def socket_send(task: Task, socket: SocketDevice, *content: Value) -> None:
 
 
 @by_name("SocketReceive", cost="socket")
-def socket_receive(task: Task, _name: str, given: Arguments) -> None:
+def socket_receive(task: Task, _name: str, arguments: Arguments) -> None:
     """Wait for bytes: some, or exactly \\ReadNoOfBytes."""
-    endpoint = _stream(given["Socket"])
-    _receive(task, given, endpoint, exact=given["ReadNoOfBytes"] is not None)
+    endpoint = _stream(arguments["Socket"])
+    _receive(task, arguments, endpoint, exact=arguments["ReadNoOfBytes"] is not None)
 
 
-def _receive(task: Task, given: Arguments, endpoint: Endpoint, *, exact: bool) -> None:
+def _receive(task: Task, arguments: Arguments, endpoint: Endpoint, *, exact: bool) -> None:
     """Wait for bytes and put them where the program wants them."""
-    text, raw, data = given["Str"], given["RawData"], given["Data"]
-    limit = _limit(text, raw, data, given["ReadNoOfBytes"])
-    received = _wait_for_bytes(task, given, endpoint, limit, exact=exact)
+    text, raw, data = arguments["Str"], arguments["RawData"], arguments["Data"]
+    limit = _limit(text, raw, data, arguments["ReadNoOfBytes"])
+    received = _wait_for_bytes(task, arguments, endpoint, limit, exact=exact)
     if text is not None:
         text.set(received.decode("latin-1"))
     elif raw is not None:
         raw.data[:] = received
     elif data is not None:
         data.set({**data.get(), **dict(enumerate(received, 1))})
-    if given["NoRecBytes"] is not None:
-        given["NoRecBytes"].set(len(received))
+    if arguments["NoRecBytes"] is not None:
+        arguments["NoRecBytes"].set(len(received))
 
 
 def _tell_awaited(task: Task, endpoint: Endpoint | None, *, port: int = 0, count: int = 0) -> None:
@@ -303,9 +303,9 @@ def _tell_awaited(task: Task, endpoint: Endpoint | None, *, port: int = 0, count
 
 
 def _wait_for_bytes(
-    task: Task, given: Arguments, endpoint: Endpoint, limit: int, *, exact: bool
+    task: Task, arguments: Arguments, endpoint: Endpoint, limit: int, *, exact: bool
 ) -> bytes:
-    socket: SocketDevice = given["Socket"]
+    socket: SocketDevice = arguments["Socket"]
     network = task.controller.network
     result: bytes | None = None
 
@@ -319,7 +319,7 @@ def _wait_for_bytes(
         there = task.wait_for(
             try_it,
             on=(endpoint.changed,),
-            timeout=_seconds(given["Time"]),
+            timeout=_seconds(arguments["Time"]),
             why=lambda: f"waits for bytes from {_peer(endpoint)}",
         )
     except NetworkFault as fault:
@@ -357,10 +357,10 @@ def _limit(
         raise FatalError(40_660, "Nowhere to receive", "one of \\Str, \\RawData and \\Data")
     if read_count is None:
         return room
-    wanted = whole(read_count, "ERR_ARGVALERR")
-    if not 0 < wanted <= room:
-        raise RapidError("ERR_ARGVALERR", f"\\ReadNoOfBytes:={wanted} of at most {room}")
-    return wanted
+    expected = whole(read_count, "ERR_ARGVALERR")
+    if not 0 < expected <= room:
+        raise RapidError("ERR_ARGVALERR", f"\\ReadNoOfBytes:={expected} of at most {room}")
+    return expected
 
 
 @builtin("SocketPeek", cost="socket")
@@ -409,13 +409,13 @@ def socket_send_to(
 
 
 @by_name("SocketReceiveFrom", cost="socket")
-def socket_receive_from(task: Task, _name: str, given: Arguments) -> None:
+def socket_receive_from(task: Task, _name: str, arguments: Arguments) -> None:
     """Wait for one datagram; what does not fit is lost, as with every BSD socket."""
-    endpoint = _datagrams(task, given["Socket"])
-    _receive(task, given, endpoint, exact=False)
+    endpoint = _datagrams(task, arguments["Socket"])
+    _receive(task, arguments, endpoint, exact=False)
     sender = endpoint.sender or ("", 0)
-    given["RemoteAddress"].set(sender[0])
-    given["RemotePort"].set(sender[1])
+    arguments["RemoteAddress"].set(sender[0])
+    arguments["RemotePort"].set(sender[1])
 
 
 # SocketGetStatus is the program's own view: a peer that vanished still shows as connected.

@@ -35,8 +35,8 @@ def _place(text: str, position: float) -> int:
 
 def _search_place(task: Task, text: str, position: float) -> int:
     """Where a search begins; see `Switches.find_behind`."""
-    behind = task.controller.dialect.find_behind == "none" and position == len(text) + 1
-    return len(text) + 1 if behind else _place(text, position)
+    after = task.controller.dialect.find_behind == "none" and position == len(text) + 1
+    return len(text) + 1 if after else _place(text, position)
 
 
 @builtin("StrPart", cost="string", pure=True)
@@ -61,8 +61,8 @@ def str_find(task: Task, text: str, position: float, set_: str, not_in: bool | N
 @builtin("StrMatch", cost="string", pure=True)
 def str_match(task: Task, text: str, position: float, pattern: str) -> int:
     """First position from there where the pattern begins; length + 1 if none."""
-    found = text.find(pattern, _search_place(task, text, position) - 1)
-    return found + 1 if found >= 0 else len(text) + 1
+    result = text.find(pattern, _search_place(task, text, position) - 1)
+    return result + 1 if result >= 0 else len(text) + 1
 
 
 @builtin("StrMap", cost="string", pure=True)
@@ -103,7 +103,7 @@ def str_to_val(_task: Task, text: str, argument: object) -> bool:
 def val_to_str(task: Task, argument: object) -> str:
     """The text of any value; ERR_STRTOOLNG over 80 characters."""
     return limited(
-        value_text(*value_of(argument), whole=task.controller.dialect.whole_text == "all")
+        value_text(*value_of(argument), complete=task.controller.dialect.whole_text == "all")
     )
 
 
@@ -173,9 +173,9 @@ def byte_to_str(
     if binary:
         return f"{byte:08b}"
     if char:
-        shown = chr(byte)
-        as_code = task.controller.dialect.byte_to_str == "code" and not shown.isprintable()
-        return f"\\{byte:02X}" if as_code else shown
+        displayed = chr(byte)
+        as_code = task.controller.dialect.byte_to_str == "code" and not displayed.isprintable()
+        return f"\\{byte:02X}" if as_code else displayed
     return str(byte)
 
 

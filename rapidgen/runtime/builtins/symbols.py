@@ -63,12 +63,12 @@ def _reached(
     """Data by name, of this task or of the one that is named: there only persistents are seen
     [mem], anything else is ERR_SYM_ACCESS."""
     owner = task_named(task, reference, task_name)
-    data, found = _data_ref(owner, block.module if block is not None else None, name)
+    data, result = _data_ref(owner, block.module if block is not None else None, name)
     if owner is not task and not task.controller.dialect.data_of_tasks:
         raise RapidError("ERR_TASKNAME", owner.name)
     if owner is not task and data.storage != "cell":
         raise RapidError("ERR_SYM_ACCESS", f"{name} is no PERS of {owner.name}")
-    return data, found
+    return data, result
 
 
 def _indices(name: str) -> tuple[str, tuple[int, ...]]:
@@ -124,13 +124,13 @@ def set_data_val(
     if not indices:
         target.set(copy_value(value.get()))
         return
-    whole = copy_value(target.get())
-    part = whole
+    complete = copy_value(target.get())
+    part = complete
     for index in indices[:-1]:
         part = part[index]
     part[indices[-1]]  # an index outside is the usual error
     part[indices[-1]] = copy_value(value.get())
-    target.set(whole)
+    target.set(complete)
 
 
 # -- searches -----------------------------------------------------------------------------------
@@ -195,8 +195,8 @@ def set_data_search(
     local: bool | None,
 ) -> None:
     """Begin a search: kinds, place and scope narrow it, none of them means all."""
-    kinds = {k for k, wanted in (("PERS", pers), ("VAR", var), ("CONST", const)) if wanted}
-    found: list[tuple[LoadedModule | None, Data]] = [
+    kinds = {k for k, expected in (("PERS", pers), ("VAR", var), ("CONST", const)) if expected}
+    result: list[tuple[LoadedModule | None, Data]] = [
         (module, data)
         for module, declaration, data in _declared(
             task, type_, "" if in_task else in_module or "", pattern or ""
@@ -206,8 +206,8 @@ def set_data_search(
         and (not local or declaration.scope == "LOCAL")
     ]
     if not (in_task or in_module or local):
-        found += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
-    task.found, task.searched_module = iter(found), bool(in_module) and not in_task
+        result += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
+    task.found, task.searched_module = iter(result), bool(in_module) and not in_task
 
 
 @builtin("GetNextSym", cost="string")

@@ -85,10 +85,10 @@ def text_tab_get(task: Task, name: str) -> int:
 @builtin("TextGet", cost="string")
 def text_get(task: Task, table: float, index: float) -> str:
     """A text of a table; ERR_TXTNOEXIST when there is none."""
-    wanted = whole(index, "ERR_ARGVALERR")
-    text = task.controller.texts.text(whole(table, "ERR_ARGVALERR"), wanted)
+    expected = whole(index, "ERR_ARGVALERR")
+    text = task.controller.texts.text(whole(table, "ERR_ARGVALERR"), expected)
     if text is None:
-        raise RapidError("ERR_TXTNOEXIST", f"no text {wanted} in table {table:g}")
+        raise RapidError("ERR_TXTNOEXIST", f"no text {expected} in table {table:g}")
     return limited(text)
 
 

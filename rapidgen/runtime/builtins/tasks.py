@@ -41,11 +41,11 @@ def motion_planner_no(task: Task) -> int:
 
 
 def _task(task: Task, reference: Value, name: str | None) -> RapidTask:
-    wanted = name if name is not None else str(reference.value or "")
+    expected = name if name is not None else str(reference.value or "")
     for other in task.controller.rapid_tasks.values():
-        if other.name.lower() == wanted.lower():
+        if other.name.lower() == expected.lower():
             return other
-    raise RapidError("ERR_TASKNAME", wanted)
+    raise RapidError("ERR_TASKNAME", expected)
 
 
 def _moves(task: Task) -> bool:

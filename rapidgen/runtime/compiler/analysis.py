@@ -65,8 +65,10 @@ class RoutineFacts:
         target = at.arguments[0].value
         if isinstance(target, n.Name):
             value = at.arguments[1].value if key == "add" and len(at.arguments) > 1 else None
-            whole = n.NumberLiteral(at.first, at.first, 1, "1")
-            self.stores.setdefault(target.name.lower(), []).append(value if key == "add" else whole)
+            complete = n.NumberLiteral(at.first, at.first, 1, "1")
+            self.stores.setdefault(target.name.lower(), []).append(
+                value if key == "add" else complete
+            )
 
     def _by_reference(self, node: n.Expression | None) -> None:
         if isinstance(node, n.Name):

@@ -28,8 +28,8 @@ def _matched(
     An order that only the checker minds is taken; of alternatives run time finds two.
     """
     parameters = routine.parameters
-    found = match(parameters, arguments, lambda a, among: _meant(unit, parameters, a, among))
-    for pair in found.pairs:
+    result = match(parameters, arguments, lambda a, among: _meant(unit, parameters, a, among))
+    for pair in result.pairs:
         argument = pair.argument
         for misfit in pair.misfits:
             # Of two conditional arguments for one parameter one may be absent: run time tells.
@@ -39,9 +39,9 @@ def _matched(
                 continue
             name = argument.name if pair.parameter < 0 else parameters[pair.parameter].name
             raise CannotCompile(_FAULTS[misfit].format(routine.name, name), node)
-    if found.missing:
-        raise CannotCompile(f"{routine.name} needs {parameters[found.missing[0]].name}", node)
-    return found.in_order(len(parameters))
+    if result.missing:
+        raise CannotCompile(f"{routine.name} needs {parameters[result.missing[0]].name}", node)
+    return result.in_order(len(parameters))
 
 
 def _meant(
@@ -161,8 +161,8 @@ def _condition_code(unit: Unit, node: n.Expression | None, e: CompiledExpression
         and routine.node is not None
         for part in (walk(node) if node is not None else ())
     )
-    told = f"lambda: ({values}), lambda: ({signals})"
-    return f"CONDITION(lambda: {e.code}, ({sets}), {cost}, {told}, {own})"
+    report = f"lambda: ({values}), lambda: ({signals})"
+    return f"CONDITION(lambda: {e.code}, ({sets}), {cost}, {report}, {own})"
 
 
 _INVERSE: dict[str, Relation] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}

@@ -71,8 +71,8 @@ class Compiled:
 
     def handler(self, frame: FrameType) -> Callable[[], int] | None:
         """The ERROR handler of a routine that is being executed, once it is made."""
-        found: Callable[[], int] | None = frame.f_locals.get(HANDLER)
-        return found
+        match: Callable[[], int] | None = frame.f_locals.get(HANDLER)
+        return match
 
     def listed(self, frame: FrameType) -> tuple[float, ...] | None:
         """Numbers of ERROR (list) of a routine that is being executed; None: there is no list."""

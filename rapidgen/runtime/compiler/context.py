@@ -133,11 +133,11 @@ class Unit:
         return self.linker.routine(self.names.find(name))
 
     def expression(
-        self, node: n.Expression, want: Type | None = None, dims: tuple[int, ...] = ()
+        self, node: n.Expression, expected: Type | None = None, dims: tuple[int, ...] = ()
     ) -> CompiledExpression:
         """Compile an expression to a value (signals are read); `want` types aggregates and
         literals."""
-        e = self.compile(self, node, want, dims)
+        e = self.compile(self, node, expected, dims)
         if e.type.kind == "semivalue":
             value = CompiledExpression(
                 f"{e.code}.value", NUM, exact=True, effect=SHARED, fails=e.fails

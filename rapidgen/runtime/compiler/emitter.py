@@ -233,10 +233,10 @@ class Emitter:
     def _filled(self, write: Callable[[], None]) -> None:
         """Write a block that may come out empty."""
         w = self.w
-        mark = len(w.lines)
+        marker = len(w.lines)
         write()
         w.close()
-        if not any(line.text or line.charge for line in w.lines[mark:]):
+        if not any(line.text or line.charge for line in w.lines[marker:]):
             w.emit("pass")
 
     # -- labels and jumps ------------------------------------------------------------------------
@@ -292,16 +292,16 @@ class Emitter:
         """Leave Python loops one by one up to the state machine that has the label."""
         w, function = self.w, self.function
         label = node.name.lower()
-        found = function.label_states.get(label)
+        match = function.label_states.get(label)
         loops = len(function.nesting)
         inside = next((i for i in reversed(range(loops)) if label in function.nesting[i]), None)
-        if found is None or inside is None:
+        if match is None or inside is None:
             raise LabelUnreachable(
                 f"there is no label {node.name} that can be reached from here", node
             )
         self.pay(CompiledExpression("", NUM))
         w.close()
-        state, number = found
+        state, number = match
         w.emit(f"{state} = {number}")
         if inside == loops - 1:
             w.emit("continue")
@@ -351,21 +351,21 @@ class Emitter:
     def _written(self, inner: PythonFunction, write: Callable[[], None]) -> list[CodeLine]:
         """What `write` emits into a function inside the present one."""
         w, outer = self.w, self.function
-        mark = len(w.lines)
+        marker = len(w.lines)
         self.function = inner
         w.depth += 1
         write()
         w.close()
         w.depth -= 1
         self.function = outer
-        return w.cut(mark)
+        return w.cut(marker)
 
     def _defined(
         self, name: str, role: CodeRole, inner: PythonFunction, body: list[CodeLine], last: int
     ) -> list[CodeLine]:
         """A function that returns 4 at its end, where the token is `last`."""
         w = self.w
-        mark = len(w.lines)
+        marker = len(w.lines)
         self.roles[name] = role
         w.emit(f"def {name}():")
         w.depth += 1
@@ -382,7 +382,7 @@ class Emitter:
         w.emit("return 4")
         w.depth -= 1
         self.function.stored |= inner.stored
-        return w.cut(mark)
+        return w.cut(marker)
 
 
 def _leaves(node: n.Statement) -> bool:

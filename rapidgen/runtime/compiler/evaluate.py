@@ -25,10 +25,10 @@ def evaluate(node: n.Expression, kind: Type, dims: tuple[int, ...], scope: Scope
     elif isinstance(node, n.Aggregate):
         return _aggregate(node, kind, dims, scope)
     try:
-        found = constants.evaluate(node, scope, array(kind.name, len(dims)))
+        result = constants.evaluate(node, scope, array(kind.name, len(dims)))
     except constants.NotConstant as error:
         raise CannotCompile(str(error), error.node) from error
-    return build(kind, found, len(dims))
+    return build(kind, result, len(dims))
 
 
 def _aggregate(node: n.Aggregate, kind: Type, dims: tuple[int, ...], scope: Scope) -> Value:

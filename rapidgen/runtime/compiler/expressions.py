@@ -12,40 +12,40 @@ from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
 
 
 def compile_expression(
-    unit: Unit, node: n.Expression, want: Type | None, dims: tuple[int, ...]
+    unit: Unit, node: n.Expression, expected: Type | None, dims: tuple[int, ...]
 ) -> CompiledExpression:
     """Compile any expression; a signal comes as the signal itself."""
     match node:
         case n.NumberLiteral():
-            return _number(unit, node, want)
+            return _number(unit, node, expected)
         case n.StringLiteral():
             return CompiledExpression(repr(node.value), STRING, literal=True)
         case n.BoolLiteral():
             return CompiledExpression(repr(node.value), BOOL, literal=True)
         case n.Name():
-            return _name(unit, node, want)
+            return _name(unit, node, expected)
         case n.Index():
-            return _index(unit, node, want)
+            return _index(unit, node, expected)
         case n.Member():
-            return _member(unit, node, want)
+            return _member(unit, node, expected)
         case n.FunctionCall():
-            return function_call(unit, node, want)
+            return function_call(unit, node, expected)
         case n.Aggregate():
-            return _aggregate(unit, node, want, dims)
+            return _aggregate(unit, node, expected, dims)
         case n.Unary():
-            return unary(unit, node, want)
+            return unary(unit, node, expected)
         case n.Binary():
-            return binary(unit, node, want)
+            return binary(unit, node, expected)
         case n.Parenthesis():
-            return compile_expression(unit, node.inner, want, dims)
+            return compile_expression(unit, node.inner, expected, dims)
         case n.Placeholder():
-            return failing("ERR_EXECPHR", kind=want or NUM, dims=dims)
+            return failing("ERR_EXECPHR", kind=expected or NUM, dims=dims)
     raise CannotCompile("an inlined position stands only for a target", node)
 
 
-def _number(unit: Unit, node: n.NumberLiteral, want: Type | None) -> CompiledExpression:
+def _number(unit: Unit, node: n.NumberLiteral, expected: Type | None) -> CompiledExpression:
     value = node.value
-    if want is not None and want.kind == "dnum":
+    if expected is not None and expected.kind == "dnum":
         return _double(unit, value)
     try:
         value = single(value)
@@ -63,10 +63,10 @@ def _double(unit: Unit, value: float) -> CompiledExpression:
     return CompiledExpression(repr(held), DNUM, literal=True, whole=isinstance(held, int))
 
 
-def _name(unit: Unit, node: n.Name, want: Type | None) -> CompiledExpression:
+def _name(unit: Unit, node: n.Name, expected: Type | None) -> CompiledExpression:
     data = unit.data(node.name)
     if data is None:
-        return failing("ERR_REFUNKDAT", node.name, want or NUM)
+        return failing("ERR_REFUNKDAT", node.name, expected or NUM)
     return read(unit, data)
 
 
@@ -74,15 +74,17 @@ def _is_undeclared(base: CompiledExpression) -> bool:
     return base.code.startswith("FAIL('ERR_REFUNKDAT'")
 
 
-def _undeclared(base: CompiledExpression, want: Type | None) -> CompiledExpression:
+def _undeclared(base: CompiledExpression, expected: Type | None) -> CompiledExpression:
     """A part of what nothing declares: of the type that its place wants."""
-    return CompiledExpression(base.code, want or NUM, fails=True, effect=base.effect, exact=True)
+    return CompiledExpression(
+        base.code, expected or NUM, fails=True, effect=base.effect, exact=True
+    )
 
 
-def _index(unit: Unit, node: n.Index, want: Type | None) -> CompiledExpression:
+def _index(unit: Unit, node: n.Index, expected: Type | None) -> CompiledExpression:
     base = compile_expression(unit, node.base, None, ())
     if _is_undeclared(base):
-        return _undeclared(base, want)
+        return _undeclared(base, expected)
     if len(base.dims) != len(node.indices):
         raise CannotCompile("the number of indices is not the number of dimensions", node)
     indices = [unit.value_of(i, NUM, (), "index") for i in node.indices]
@@ -91,10 +93,10 @@ def _index(unit: Unit, node: n.Index, want: Type | None) -> CompiledExpression:
     return e.take(base, *indices)
 
 
-def _member(unit: Unit, node: n.Member, want: Type | None) -> CompiledExpression:
+def _member(unit: Unit, node: n.Member, expected: Type | None) -> CompiledExpression:
     base = compile_expression(unit, node.base, None, ())
     if _is_undeclared(base):
-        return _undeclared(base, want)
+        return _undeclared(base, expected)
     kind = base.type.component(node.component.lower())
     if kind is None or base.dims:
         raise CannotCompile(f"{base.type.name} has no component {node.component}", node)
@@ -104,25 +106,25 @@ def _member(unit: Unit, node: n.Member, want: Type | None) -> CompiledExpression
 
 
 def _aggregate(
-    unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int, ...]
+    unit: Unit, node: n.Aggregate, expected: Type | None, dims: tuple[int, ...]
 ) -> CompiledExpression:
-    if want is None:
+    if expected is None:
         raise CannotCompile("an aggregate has no type here", node)
     if dims:
         if dims[0] not in (0, len(node.members)):
             raise CannotCompile(f"{len(node.members)} members for {dims[0]} elements", node)
-        parts = [unit.value_of(m, want, dims[1:], "member") for m in node.members]
-        inside = ", ".join(f"{i}: {by_value(p, want)}" for i, p in enumerate(parts, start=1))
-        return CompiledExpression(f"{{{inside}}}", want, (len(parts), *dims[1:]), fresh=True).take(
-            *parts
-        )
-    if want.kind != "record" or want.make is None:
-        raise CannotCompile(f"an aggregate is no {want.name}", node)
-    if not unit.module.scope.takes(want.name, len(node.members)):
-        raise CannotCompile(f"{want.name} has {len(want.components)} components", node)
-    kinds = [kind for _, kind in want.components]
+        parts = [unit.value_of(m, expected, dims[1:], "member") for m in node.members]
+        inside = ", ".join(f"{i}: {by_value(p, expected)}" for i, p in enumerate(parts, start=1))
+        return CompiledExpression(
+            f"{{{inside}}}", expected, (len(parts), *dims[1:]), fresh=True
+        ).take(*parts)
+    if expected.kind != "record" or expected.make is None:
+        raise CannotCompile(f"an aggregate is no {expected.name}", node)
+    if not unit.module.scope.takes(expected.name, len(node.members)):
+        raise CannotCompile(f"{expected.name} has {len(expected.components)} components", node)
+    kinds = [kind for _, kind in expected.components]
     members = list(zip(node.members, kinds, strict=False))
     parts = [unit.value_of(m, kind, (), "component") for m, kind in members]
     inside = ", ".join(by_value(p, kind) for p, kind in zip(parts, kinds, strict=False))
-    cls = unit.linker.keep(want.make)
-    return CompiledExpression(f"{cls}({inside})", want, fresh=True).take(*parts)
+    cls = unit.linker.keep(expected.make)
+    return CompiledExpression(f"{cls}({inside})", expected, fresh=True).take(*parts)

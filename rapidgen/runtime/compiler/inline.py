@@ -185,13 +185,13 @@ _INLINE: dict[str, Inline] = {
 }
 
 
-def function_call(unit: Unit, node: n.FunctionCall, want: Type | None) -> CompiledExpression:
+def function_call(unit: Unit, node: n.FunctionCall, expected: Type | None) -> CompiledExpression:
     """Compile the call of a function; one that does not exist fails when it is reached."""
     routine = unit.routine_named(node.name)
     if routine is None or routine.kind != "FUNC":
         if node.name.lower() in unsupported.option_routines():
-            return calling(f"R.missing({node.name!r})", want or NUM)
-        return failing("ERR_REFUNKFUN", node.name, want or NUM)
+            return calling(f"R.missing({node.name!r})", expected or NUM)
+        return failing("ERR_REFUNKFUN", node.name, expected or NUM)
     inline = _INLINE.get(routine.name.lower()) if routine.node is None else None
     done = inline(unit, node) if inline is not None else None
     return call(unit, routine, node) if done is None else done

@@ -189,15 +189,15 @@ class Linker:
         if name in module.types:
             return module.types[name]
         symbol = module.scope.type_symbol(name)
-        found = self._unknown(module, name, node) if symbol is None else self._type(symbol)
-        module.types[name] = found
-        return found
+        result = self._unknown(module, name, node) if symbol is None else self._type(symbol)
+        module.types[name] = result
+        return result
 
     def _unknown(self, module: LoadedModule, name: str, node: n.Node, what: str = "type") -> Type:
         """The type of data that need what nothing declares: nothing can look into them."""
-        found = self.shared.unknown.get(name.lower())
-        if found is None:
-            found = self.shared.unknown[name.lower()] = predefined.unknown_type(name)
+        match = self.shared.unknown.get(name.lower())
+        if match is None:
+            match = self.shared.unknown[name.lower()] = predefined.unknown_type(name)
             option = name.lower() in signatures.option_names("types")
             self.faults.append(
                 error(
@@ -210,7 +210,7 @@ class Linker:
                     severity=Severity.WARNING,
                 )
             )
-        return found
+        return match
 
     def _check_type(self, module: LoadedModule, symbol: TypeSymbol) -> None:
         assert symbol.node is not None
@@ -253,10 +253,10 @@ class Linker:
         return self._routines[symbol]
 
     def _builtin(self, key: str) -> Routine | None:
-        found = predefined.routine(key)
-        if found is not None and found.builtin is not None:
-            self.space.setdefault(found.code, found.builtin.function)
-        return found
+        result = predefined.routine(key)
+        if result is not None and result.builtin is not None:
+            self.space.setdefault(result.code, result.builtin.function)
+        return result
 
     def _link_routine(self, module: LoadedModule, symbol: RoutineSymbol) -> None:
         d = symbol.node
@@ -303,15 +303,15 @@ class Linker:
         except CannotCompile as fault:
             names = (part.name for part in walk(d) if isinstance(part, n.Name))
             missing = next((name for name in names if module.scope.find(name) is None), None)
-            found = self.find_type(module, d.type, d)
+            result = self.find_type(module, d.type, d)
             if missing is not None:
                 # Its size or value needs a constant of another module.
-                found = self._unknown(module, missing, d, "constant")
+                result = self._unknown(module, missing, d, "constant")
             else:
                 self._fault(module, str(fault), fault.node)
-            if found is None:
+            if result is None:
                 return None
-            kind, dims, value = found, (), found.default()
+            kind, dims, value = result, (), result.default()
         return self._place(module, d, kind, dims, value)
 
     def _place(
@@ -409,15 +409,15 @@ class Linker:
             return Data(key, "VAR", kind, (), "global", f"c_{key}")
         if symbol.readonly and symbol.kind == "VAR":  # ERRNO, INTNO
             return Data(symbol.name, "VAR", NUM, (), "global", f"R.{key}", readonly=True)
-        found = predefined.datum(key)
-        if found is None or found.storage == "inline":
-            return found
+        result = predefined.datum(key)
+        if result is None or result.storage == "inline":
+            return result
         value = predefined.value(key)
-        if found.storage == "cell":
-            made = PersistentCell(found.name, found.type, (), value)
+        if result.storage == "cell":
+            made = PersistentCell(result.name, result.type, (), value)
             value = self.shared.cells.setdefault(f" {key}", made)
-        self.space[found.code] = value
-        return found
+        self.space[result.code] = value
+        return result
 
 
 def _meant(symbol: Symbol | None) -> Symbol | None:

@@ -73,10 +73,10 @@ def _select(
         word = "if" if i == 1 else "elif"
         w.emit(f"{word} {f'{chosen} == {i}' if chosen else code}:")
         _branch(emitter, body, sum(later[1:i]))
-    rest = sum(later[1:])
-    if otherwise is not None or rest:
+    remaining = sum(later[1:])
+    if otherwise is not None or remaining:
         w.emit(f"elif {chosen} == 0:" if chosen else "else:")
-        _branch(emitter, otherwise or (), rest)
+        _branch(emitter, otherwise or (), remaining)
 
 
 def _branch(emitter: Emitter, body: Sequence[n.Statement], looked: int) -> None:
@@ -163,8 +163,8 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
         code = f"AFTER({code}, {name})"
     w.emit(f"for {name} in {code}:")
     w.depth += 1
-    whole = start.whole and (step is None or step.whole)
-    with loop_bound(emitter.unit, node, whole=whole, limits=limits):
+    complete = start.whole and (step is None or step.whole)
+    with loop_bound(emitter.unit, node, complete=complete, limits=limits):
         # A program that stops here is in the pass already.
         w.token = _first(node.body, node.first)
         w.cost(emitter.options.statement)
@@ -175,7 +175,7 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
 
 @contextmanager
 def loop_bound(
-    unit: Unit, node: n.For, *, whole: bool, limits: tuple[int, int] | None
+    unit: Unit, node: n.For, *, complete: bool, limits: tuple[int, int] | None
 ) -> Iterator[None]:
     """The variable of a FOR stands for a Python local, and hides what has its name."""
     outer, unit.names = unit.names, unit.names.loop(node)
@@ -187,7 +187,7 @@ def loop_bound(
         (),
         "local",
         loop_variable(node),
-        whole=whole,
+        whole=complete,
         range=limits,
         readonly=True,
     )

@@ -12,12 +12,12 @@ _COUNTED = 1 << 52
 POS, ORIENT = TYPES["pos"], TYPES["orient"]
 
 
-def unary(unit: Unit, node: n.Unary, want: Type | None) -> CompiledExpression:
+def unary(unit: Unit, node: n.Unary, expected: Type | None) -> CompiledExpression:
     """NOT, + and -."""
     if node.operator == "NOT":
         inner = unit.value_of(node.operand, BOOL, (), "operand of NOT")
         return CompiledExpression(f"(not {inner.code})", BOOL, ops=1).take(inner)
-    inner = unit.expression(node.operand, want)
+    inner = unit.expression(node.operand, expected)
     if inner.type.kind in ("num", "dnum"):
         if node.operator == "+":
             return inner
@@ -40,7 +40,7 @@ def unary(unit: Unit, node: n.Unary, want: Type | None) -> CompiledExpression:
     raise CannotCompile(f"{node.operator} takes num, dnum or pos, not {inner.type.name}", node)
 
 
-def binary(unit: Unit, node: n.Binary, want: Type | None) -> CompiledExpression:
+def binary(unit: Unit, node: n.Binary, expected: Type | None) -> CompiledExpression:
     """Compile an operator between two operands; `want` types literals."""
     operator = node.operator
     if operator in ("AND", "OR", "XOR"):
@@ -52,7 +52,7 @@ def binary(unit: Unit, node: n.Binary, want: Type | None) -> CompiledExpression:
         )
     if operator in _COMPARE:
         return _comparison(unit, node)
-    left, right = _operands(unit, node, want)
+    left, right = _operands(unit, node, expected)
     a, b = left.type, right.type
     if left.dims or right.dims:
         raise CannotCompile(f"{operator} does not take arrays", node)
@@ -83,17 +83,17 @@ def _operands(
     unit: Unit, node: n.Binary, want: Type | None
 ) -> tuple[CompiledExpression, CompiledExpression]:
     """Both operands; a literal takes the type of the other one."""
-    wanted = want if want is not None and want.kind in ("num", "dnum") else None
+    expected = want if want is not None and want.kind in ("num", "dnum") else None
     if want is not None and want.name == "pos" and node.has_type_of_place:
         return unit.expression(node.left, want), unit.expression(node.right, want)
     if isinstance(node.left, n.Aggregate):
-        right = unit.expression(node.right, wanted)
+        right = unit.expression(node.right, expected)
         return unit.expression(node.left, right.type), right
     if isinstance(node.right, n.Aggregate):
-        left = unit.expression(node.left, wanted)
+        left = unit.expression(node.left, expected)
         return left, unit.expression(node.right, left.type)
-    left = unit.expression(node.left, wanted)
-    right = unit.expression(node.right, wanted)
+    left = unit.expression(node.left, expected)
+    right = unit.expression(node.right, expected)
     if left.type.kind != right.type.kind and {left.type.kind, right.type.kind} == {"num", "dnum"}:
         # A literal, or an operator on literals, adapts to its partner.
         left = unit.expression(node.left, right.type if right.type.kind == "dnum" else DNUM)

@@ -49,33 +49,33 @@ def find_type(name: str) -> Type | None:
 
 
 def _needed(name: str) -> Type:
-    found: Type | None = find_type(name.lower())
-    if found is None:
+    result: Type | None = find_type(name.lower())
+    if result is None:
         raise LookupError(f"the signature data use an unknown type {name}")
-    return found
+    return result
 
 
 @cache
 def datum(key: str) -> Data | None:
     """How a predefined datum is kept, by lower-case name: an atomic constant in the code."""
-    found = signatures.constant(key)
-    if found is None:
+    result = signatures.constant(key)
+    if result is None:
         return None
-    kind = _needed(found.type)
-    if found.kind == "PERS":
-        return Data(found.name, "PERS", kind, (), "cell", f"p_{key}")
-    readonly = found.readonly
+    kind = _needed(result.type)
+    if result.kind == "PERS":
+        return Data(result.name, "PERS", kind, (), "cell", f"p_{key}")
+    readonly = result.readonly
     if readonly and kind.kind != "record":
         return Data(
-            found.name, "CONST", kind, (), "inline", "", value=value(key), readonly=readonly
+            result.name, "CONST", kind, (), "inline", "", value=value(key), readonly=readonly
         )
-    return Data(found.name, found.kind, kind, (), "global", f"p_{key}", readonly=readonly)
+    return Data(result.name, result.kind, kind, (), "global", f"p_{key}", readonly=readonly)
 
 
 def value(key: str) -> Value:
     """The value that a predefined datum has at first."""
-    found = signatures.predefined()[key]
-    return build(_needed(found.type), found.value)
+    result = signatures.predefined()[key]
+    return build(_needed(result.type), result.value)
 
 
 @cache

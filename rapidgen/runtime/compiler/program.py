@@ -205,5 +205,5 @@ class Program:
             raise KeyError(key)
         if data.storage == "inline":
             return data.value
-        kept = self.space[data.code]
-        return kept.v if isinstance(kept, PersistentCell) else kept
+        saved = self.space[data.code]
+        return saved.v if isinstance(saved, PersistentCell) else saved

@@ -47,9 +47,13 @@ def read(unit: Unit, data: Data) -> CompiledExpression:
     kind, dims = data.type, data.dims
     if data.storage == "inline":
         value = data.value
-        whole = isinstance(value, int) and not isinstance(value, bool)
+        complete = isinstance(value, int) and not isinstance(value, bool)
         return CompiledExpression(
-            repr(value), kind, whole=whole, exact=True, range=(value, value) if whole else None
+            repr(value),
+            kind,
+            whole=complete,
+            exact=True,
+            range=(value, value) if complete else None,
         )
     if data.storage in ("box", "ref", "cell"):
         code = f"{code}.v"

@@ -40,9 +40,9 @@ def find(body: list[n.Statement], token: int) -> Path | None:
         if statement.first == token:
             return [(body, i)]
         for inner in _lists(statement):
-            found = find(inner, token)
-            if found is not None:
-                return [(body, i), *found]
+            result = find(inner, token)
+            if result is not None:
+                return [(body, i), *result]
     return None
 
 
@@ -62,11 +62,11 @@ def _lists(statement: n.Statement) -> Iterator[list[n.Statement]]:
 
 def after(values: Iterable[float], current: float) -> Iterator[float]:
     """Values of a FOR variable behind the current one."""
-    rest: Iterator[float] = iter(values)
-    for value in rest:
+    remaining: Iterator[float] = iter(values)
+    for value in remaining:
         if value == current:
             break
-    return rest
+    return remaining
 
 
 class _Rest:
@@ -95,9 +95,9 @@ class _Rest:
     def _take_over(self, declare: Callable[[], None]) -> None:
         """Take the values of the variables over."""
         emitter, values = self._emitter, self._standing.values
-        mark = len(emitter.w.lines)
+        marker = len(emitter.w.lines)
         declare()
-        emitter.w.cut(mark)
+        emitter.w.cut(marker)
         for name in sorted({d.code for d in emitter.unit.locals.values()} & values.keys()):
             emitter.w.emit(f"{name} = F[{name!r}]")
 
@@ -132,7 +132,7 @@ class _Rest:
         if name not in self._standing.values:
             raise CannotCompile("a FOR whose variable is lost cannot go on", node)
         emitter.w.emit(f"{name} = F[{name!r}]")
-        with loop_bound(emitter.unit, node, whole=False, limits=None):
+        with loop_bound(emitter.unit, node, complete=False, limits=None):
             self._rest(deeper)
         if not self._alone:
             emitter.w.close()

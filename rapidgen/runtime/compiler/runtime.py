@@ -152,8 +152,8 @@ def find_text(text: str, position: float, pattern: str) -> int:
     start = position - 1
     if start.__class__ is not int or not 0 <= start < len(text):
         start = _search_at(text, position)
-    found = text.find(pattern, start)
-    return found + 1 if found >= 0 else len(text) + 1
+    result = text.find(pattern, start)
+    return result + 1 if result >= 0 else len(text) + 1
 
 
 def find_set(text: str, position: float, characters: str) -> int:
@@ -246,7 +246,7 @@ class ItemRef(Ref):
         name: str,
         cell: PersistentCell | None = None,
     ) -> None:
-        super().__init__(type, (), name, whole=False, cell=cell)
+        super().__init__(type, (), name, complete=False, cell=cell)
         array[index]
         self.array = array
         self.index = index
@@ -274,7 +274,7 @@ class MemberRef(Ref):
         name: str,
         cell: PersistentCell | None = None,
     ) -> None:
-        super().__init__(type, (), name, whole=False, cell=cell)
+        super().__init__(type, (), name, complete=False, cell=cell)
         self.record = record
         self.attribute = attribute
 

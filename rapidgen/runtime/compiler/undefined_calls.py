@@ -18,18 +18,18 @@ _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})
 
 def missing_routines(program: Program) -> list[Diagnostic]:
     """One warning for each built-in that is not available and each name that is not declared."""
-    found: dict[str, Diagnostic] = {}
+    findings: dict[str, Diagnostic] = {}
     for module in program.modules.values():
-        suspects = _suspects(program, module) - found.keys()
+        suspects = _suspects(program, module) - findings.keys()
         if not suspects:
             continue
         for routine in module.tree.routines:
             for node in walk(routine):
                 if isinstance(node, n.ProcedureCall | n.FunctionCall):
                     key = node.name.lower()
-                    if key in suspects and key not in found:
-                        found[key] = _diagnostic(program, module, node)
-    return list(found.values())
+                    if key in suspects and key not in findings:
+                        findings[key] = _diagnostic(program, module, node)
+    return list(findings.values())
 
 
 def _suspects(program: Program, module: LoadedModule) -> set[str]:
@@ -55,10 +55,10 @@ def _suspects(program: Program, module: LoadedModule) -> set[str]:
         key = text.lower()
         if key not in unknown or key in suspects:
             continue
-        behind = tokens[i + 1] if i < last else ""
+        after = tokens[i + 1] if i < last else ""
         before = tokens[i - 1].upper() if i else ""
         starts = before in _BEFORE_STATEMENT or (before[:1].isalpha() and before not in KEYWORDS)
-        if behind == "(" or (starts and (behind == ";" or behind not in _NO_CALL)):
+        if after == "(" or (starts and (after == ";" or after not in _NO_CALL)):
             suspects.add(key)
     return suspects
 

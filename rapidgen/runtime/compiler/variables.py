@@ -40,10 +40,10 @@ def declare(unit: Unit, w: Writer, facts: RoutineFacts) -> None:
         values.append((d, data, value))
         if kind.kind == "num" and not dims and isinstance(value, int):
             candidates[key] = value
-    whole = IntegerLocals(candidates, facts, lambda name: _constant(unit, name))
+    complete = IntegerLocals(candidates, facts, lambda name: _constant(unit, name))
     for d, data, value in values:
         w.token = d.first
-        _variable(unit, w, d, data, value, whole)
+        _variable(unit, w, d, data, value, complete)
 
 
 def _parameter(unit: Unit, w: Writer, parameter: FormalParameter) -> None:
@@ -80,7 +80,7 @@ def _constant(unit: Unit, name: str) -> Value:
 
 
 def _variable(
-    unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, whole: IntegerLocals
+    unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, complete: IntegerLocals
 ) -> None:
     key, kind, dims, linker = d.name.lower(), data.type, data.dims, unit.linker
     if d.kind == "CONST":
@@ -93,8 +93,8 @@ def _variable(
         w.emit(f"{data.code} = BOX({value!r}, {linker.keep(kind)}, (), {d.name!r})")
     else:
         # Where statements are reported, somebody may set it to anything.
-        data.whole = key in whole.whole and kind.kind == "num" and not unit.options.tracing
-        if data.whole and key in whole.natural:
+        data.whole = key in complete.whole and kind.kind == "num" and not unit.options.tracing
+        if data.whole and key in complete.natural:
             data.range = (0, UNBOUNDED)
         w.emit(f"{data.code} = {value!r}")
 

@@ -74,19 +74,19 @@ class _Probe:
         w.emit(f"def {_ENTRY}(F):")
         w.depth = 1
         w.emit("pass")
-        mark = len(w.lines)
+        marker = len(w.lines)
         self.compiler.variables()
-        w.cut(mark)
+        w.cut(marker)
         with ExitStack() as inside:
             for loop in self._loops:
                 if loop_variable(loop) in self._known:
-                    inside.enter_context(loop_bound(unit, loop, whole=False, limits=None))
+                    inside.enter_context(loop_bound(unit, loop, complete=False, limits=None))
             for name in sorted({d.code for d in unit.locals.values()} & self._known):
                 w.emit(f"{name} = F[{name!r}]")
             write()
         w.close()
         if unit.globals_written:
-            w.lines[mark - 1].text = f"global {', '.join(sorted(unit.globals_written))}"
+            w.lines[marker - 1].text = f"global {', '.join(sorted(unit.globals_written))}"
         text, *_ = w.render()
         space = unit.linker.space
         exec(compile(text, _FILE, "exec", dont_inherit=True), space)
@@ -115,16 +115,16 @@ def watch(
     CannotCompile: it has no value there, or it would have to call something.
     """
     probe = _Probe(linker, routine, loops, options, known)
-    found: list[CompiledExpression] = []
+    result: list[CompiledExpression] = []
 
     def write() -> None:
         e = probe.unit.expression(node)
         _allowed(probe.unit, e, node)
-        found.append(e)
+        result.append(e)
         probe.compiler.emitter.w.emit(f"return {e.code}")
 
     read = probe.link(write)
-    return WatchedExpression(found[0].type, found[0].dims, read)
+    return WatchedExpression(result[0].type, result[0].dims, read)
 
 
 def store(
@@ -148,10 +148,10 @@ def store(
         for part in (node.target, node.value):
             _allowed(unit, unit.expression(part), part)
         assignment(emitter, node)
-        whole = unit.data(node.target.name) if isinstance(node.target, n.Name) else None
-        if whole is not None and whole.storage == "local":
-            changed.append(whole.code)
-            emitter.w.emit(f"return {whole.code}")
+        complete = unit.data(node.target.name) if isinstance(node.target, n.Name) else None
+        if complete is not None and complete.storage == "local":
+            changed.append(complete.code)
+            emitter.w.emit(f"return {complete.code}")
 
     function = probe.link(write)
     return (changed[0] if changed else ""), function

@@ -78,17 +78,22 @@ class Writer:
         costs = len(self._block.costs) if self._block is not None else 0
         return Mark(len(self.lines), self.depth, self.leave, self._block, costs)
 
-    def back_to(self, mark: "Mark") -> None:
+    def back_to(self, marker: "Mark") -> None:
         """Forget what was written since."""
-        del self.lines[mark.lines :]
-        self.depth, self.leave, self.synced, self._block = mark.depth, mark.leave, False, mark.block
-        if mark.block is not None:
-            del mark.block.costs[mark.costs :]
+        del self.lines[marker.lines :]
+        self.depth, self.leave, self.synced, self._block = (
+            marker.depth,
+            marker.leave,
+            False,
+            marker.block,
+        )
+        if marker.block is not None:
+            del marker.block.costs[marker.costs :]
 
-    def cut(self, mark: int) -> list[CodeLine]:
+    def cut(self, marker: int) -> list[CodeLine]:
         """Take off the lines from a place on."""
-        lines = self.lines[mark:]
-        del self.lines[mark:]
+        lines = self.lines[marker:]
+        del self.lines[marker:]
         return lines
 
     def cost(self, amount: int) -> None:
@@ -135,11 +140,11 @@ class Writer:
                 add(line.depth + 2, f"if _k == 2: {line.leave}", line.token)
                 continue
             code = line.text
-            rest = tuple(block.costs[line.paid :]) if block is not None else ()
-            refund = sum(rest)
+            remaining = tuple(block.costs[line.paid :]) if block is not None else ()
+            refund = sum(remaining)
             if code in _FILLED:
                 code = code.replace("@REFUND@", str(refund))
-                code = code.replace("@REST@", repr(rest) if rest else "()")
+                code = code.replace("@REST@", repr(remaining) if remaining else "()")
                 own = block.costs[line.paid - 1] if block is not None and line.paid else 0
                 code = code.replace("@OWN@", str(own))
             if code in ("", "b += 0", "b = R.recharge(b, ())"):

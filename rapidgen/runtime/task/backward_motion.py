@@ -68,10 +68,10 @@ class StepHistory:
 
         The way is that of the move, at its speed, to a stop point. `start` lets robots move.
         """
-        here = self._group.positions()
+        current = self._group.positions()
         for k in range(len(self._driven) - 1, -1, -1):
             one = self._driven[k]
-            if _same(_place(one.move), statement) and _near(one.end, here):
+            if _same(_place(one.move), statement) and _near(one.end, current):
                 break
         else:
             return False
@@ -94,8 +94,8 @@ class StepHistory:
 
 
 def _place(move: Move) -> Location | None:
-    found = move.place() if move.place is not None else None
-    return found if isinstance(found, Location) else None
+    result = move.place() if move.place is not None else None
+    return result if isinstance(result, Location) else None
 
 
 def _same(one: Location | None, other: Location) -> bool:

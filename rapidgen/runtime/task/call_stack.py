@@ -49,27 +49,27 @@ def between(codes: Codes, frame: FrameType | None, outside: Sequence[CodeType]) 
 
 def stack_of_error(codes: Codes, error: BaseException) -> tuple[Location, ...]:
     """Where an error was raised, outermost routine first."""
-    found: list[Location] = []
+    result: list[Location] = []
     for frame, line in frames_of(error.__traceback__):
         place = location(codes, frame.f_code.co_filename, line)
         if place is not None:
             if _is_part(codes, frame):
-                found.pop()
-            found.append(place)
-    return tuple(found)
+                result.pop()
+            result.append(place)
+    return tuple(result)
 
 
 def stack_at(codes: Codes, frame: FrameType | None) -> tuple[Location, ...]:
     """Call stack of a frame, outermost routine first."""
-    found: list[Location] = []
+    result: list[Location] = []
     inside = False
     for at in outwards(frame):
         place = location(codes, at.f_code.co_filename, at.f_lineno)
         if place is not None:
             if not inside:
-                found.append(place)
+                result.append(place)
             inside = _is_part(codes, at)
-    return tuple(reversed(found))
+    return tuple(reversed(result))
 
 
 def _is_part(codes: Codes, frame: FrameType) -> bool:

@@ -229,13 +229,13 @@ class Errors:
 
     def _own_error(self, number: float) -> RapidError:
         """1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
-        whole = int(number) if number == number and abs(number) < 1e9 else 0
-        allowed = whole == number and (
-            1 <= whole <= LARGEST_USER_ERROR
-            or whole in self._task.controller.booked
-            or error_name(whole).startswith("ERR_")
+        complete = int(number) if number == number and abs(number) < 1e9 else 0
+        allowed = complete == number and (
+            1 <= complete <= LARGEST_USER_ERROR
+            or complete in self._task.controller.booked
+            or error_name(complete).startswith("ERR_")
         )
-        error = RapidError(whole) if allowed else RapidError("ERR_ILLRAISE")
+        error = RapidError(complete) if allowed else RapidError("ERR_ILLRAISE")
         error.raised = True
         return error
 
@@ -270,7 +270,7 @@ class Errors:
 
     # -- RaiseToUser -----------------------------------------------------------------------------
 
-    def give_to_user(self, error: RapidError, *, resume: bool) -> None:
+    def raise_in_user_code(self, error: RapidError, *, resume: bool) -> None:
         """Give an error to the handler of the nearest caller outside NOSTEPIN modules [K §7.3].
 
         `resume` (\\Continue): the handler runs while the routines between are still there, and

@@ -52,9 +52,9 @@ class EventRoutines:
         while due := [e for e in self.due if which is None or e in which]:
             self.due.remove(due[0])
             for name in self.names(due[0]):
-                found = program.find_routine(None, name.lower())
-                if found is not None and found.node is not None:
-                    self.execute(due[0], program.function(found))
+                result = program.find_routine(None, name.lower())
+                if result is not None and result.node is not None:
+                    self.execute(due[0], program.function(result))
 
     def execute(self, event: EventName | Literal["SERVICE"], routine: Callable[[], object]) -> None:
         """Execute a routine at user level."""
@@ -66,7 +66,7 @@ class EventRoutines:
         finally:
             self.running = outer
         if not outer:
-            self._task.attend()
+            self._task.process_pending()
 
     @property
     def due_while_stopped(self) -> bool:

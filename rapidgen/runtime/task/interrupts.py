@@ -69,10 +69,10 @@ class Interrupts:
 
     def find(self, number: float) -> Interrupt:
         """A connected interrupt; ERR_UNKINO."""
-        found = self.connected.get(int(number))
-        if found is None:
+        match = self.connected.get(int(number))
+        if match is None:
             raise RapidError("ERR_UNKINO")
-        return found
+        return match
 
     def order(self, number: float, *, single: bool, safe: bool) -> Interrupt:
         """Begin an order. A second one without IDelete is not allowed [S4 datasys 2-ISignalDI]."""
@@ -115,7 +115,7 @@ class Interrupts:
         task = self._task
         if interrupt.asleep or self.connected.get(interrupt.number) is not interrupt:
             return
-        if task.stands and not interrupt.safe:
+        if task.is_stopped and not interrupt.safe:
             return  # lost while the program is stopped [S4 overview 4-39]
         if interrupt.single:
             for cancel in interrupt.cancel:
@@ -133,7 +133,7 @@ class Interrupts:
             self._underway -= 1
             if self.connected.get(interrupt.number) is interrupt:
                 self.queue.append((interrupt, data))
-                task.kick()
+                task.wake_at_next_statement()
 
         if due <= now:
             arrive()

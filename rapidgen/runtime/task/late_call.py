@@ -21,17 +21,17 @@ def find(program: Program, name: str, module: LoadedModule | None) -> Routine:
     key = proper.lower()
     if colon and where:
         inside = program.modules.get(where.lower())
-        found = inside.routines.get(key) if inside is not None else None
+        match = inside.routines.get(key) if inside is not None else None
     elif colon:
-        found = program.routine(program.names.globals.get(key))
+        match = program.routine(program.names.globals.get(key))
     else:
-        found = program.find_routine(module, key)
-    if found is None:
+        match = program.find_routine(module, key)
+    if match is None:
         known = program.find_data(module, key) is not None
         raise RapidError("ERR_CALLPROC" if known else "ERR_REFUNKPRC", name)
-    if not isinstance(found, Routine) or found.kind != "PROC":
+    if not isinstance(match, Routine) or match.kind != "PROC":
         raise RapidError("ERR_CALLPROC", name)
-    return found
+    return match
 
 
 def arguments(
@@ -44,12 +44,12 @@ def arguments(
         kinds = [kind.name if (kind := parameters[i].type) else None for i in among]
         return first_fit(argument.type.name if argument.type else None, among, kinds)
 
-    found = match(parameters, given, fitting)
-    if found.missing or any(_WRONG.intersection(pair.misfits) for pair in found.pairs):
+    result = match(parameters, given, fitting)
+    if result.missing or any(_WRONG.intersection(pair.misfits) for pair in result.pairs):
         raise RapidError("ERR_CALLPROC", routine.name)
     positional: list[Value] = []
     named: dict[str, Value] = {}
-    for pair in found.pairs:
+    for pair in result.pairs:
         parameter = parameters[pair.parameter]
         value = _value(parameter, pair.argument, builtin=routine.node is None)
         if parameter.optional or named or len(positional) != pair.parameter:

@@ -43,7 +43,7 @@ def standing(
     None when the program cannot go on there: in a handler, a trap or an event routine, or too
     deep inside.
     """
-    found: dict[int, StoppedFrame] = {}
+    result: dict[int, StoppedFrame] = {}
     for frame, line in frames:
         code = frame.f_code
         if any(code is other for other in _OTHER_LEVELS):
@@ -60,10 +60,10 @@ def standing(
             return None
         key, values = id(frame), dict(frame.f_locals)
         if role is CodeRole.PART:
-            key = list(found)[-1]
-            values = {**found[key].values, **values}
-        found[key] = StoppedFrame(compiled.routine, path, values)
-    return list(found.values()) if 0 < len(found) <= LARGEST_STACK else None
+            key = list(result)[-1]
+            values = {**result[key].values, **values}
+        result[key] = StoppedFrame(compiled.routine, path, values)
+    return list(result.values()) if 0 < len(result) <= LARGEST_STACK else None
 
 
 class Pointer:
@@ -107,12 +107,12 @@ class Pointer:
         if self.place is not None:
             return self.place
         frames = [(frame, frame.f_lineno) for frame in outwards(self._task.frame)]
-        found = standing(self._task.program, reversed(frames))
-        if found is None:
+        result = standing(self._task.program, reversed(frames))
+        if result is None:
             raise CannotStep("it stands in a handler, a trap or an event routine")
-        return found
+        return result
 
-    def stands_before(self) -> Location | None:
+    def next_statement(self) -> Location | None:
         """The statement that a start would execute next."""
         if self.place is None and self._task.frame is None:
             return None
@@ -151,15 +151,15 @@ class Pointer:
         """Try the statement again where the program stands. CannotCompile: not from there."""
         self._errors.kept_undo = []
         last = len(places) - 1
-        rest = self._task.program.rest
-        rests = [(p, rest(p, calls=i < last)) for i, p in enumerate(places)]
+        remaining = self._task.program.rest
+        rests = [(p, remaining(p, calls=i < last)) for i, p in enumerate(places)]
         self._below = rests[1:]
         rests[0][1](places[0].values)
 
     def go_on_below(self) -> None:
         """The next call of the routine below goes on with it instead."""
-        place, rest = self._below.pop(0)
-        self.intercept(place.routine, lambda *_, **__: rest(place.values))
+        place, remaining = self._below.pop(0)
+        self.intercept(place.routine, lambda *_, **__: remaining(place.values))
 
     def intercept(self, routine: Routine, instead: Callable[_P, _T]) -> None:
         """Let the next call of a routine do something else."""

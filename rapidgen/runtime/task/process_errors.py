@@ -40,15 +40,15 @@ class ProcessError:
 
 def _frames(task: RapidTask, outside: Sequence[CodeType]) -> tuple[list[FrameType], bool]:
     """Frames of RAPID routines, innermost first; whether the innermost is between statements."""
-    found: list[FrameType] = []
+    result: list[FrameType] = []
     between = False
     called: CodeType | None = None
     for frame in outwards(sys._getframe(1)):
         if frame.f_code.co_filename in task.program.codes:
-            between = between or (not found and any(called is code for code in outside))
-            found.append(frame)
+            between = between or (not result and any(called is code for code in outside))
+            result.append(frame)
         called = frame.f_code
-    return found, between
+    return result, between
 
 
 def _at_move(task: RapidTask, frames: list[FrameType]) -> bool:

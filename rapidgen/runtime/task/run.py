@@ -86,7 +86,7 @@ class Run:
         task = self.task
         self.errors.undo_failed = False
         self._prepare()
-        task.attend()
+        task.process_pending()
         task.charge(task.controller.costs.statement)
         self.events.run()
         entry = self.routine or task.program.find_routine(None, task.spec.entry.lower())
@@ -98,7 +98,7 @@ class Run:
         """Go on where an error stopped the program."""
         task = self.task
         self.errors.undo_failed = False
-        task.attend()
+        task.process_pending()
         places, self.pointer.place = self.pointer.place, None
         assert places is not None
         task.charge(task.controller.costs.statement)

@@ -221,10 +221,10 @@ class Task(Process):
             self.launch(self.run.body)
 
     def _procedure(self, name: str) -> Routine:
-        found = self.program.find_routine(None, name.lower())
-        if found is None or found.node is None or found.kind != "PROC" or found.parameters:
+        result = self.program.find_routine(None, name.lower())
+        if result is None or result.node is None or result.kind != "PROC" or result.parameters:
             raise CannotStep(f"{self.name} has no procedure {name} without parameters")
-        return found
+        return result
 
     def _set_pointer(self, routine: Routine | None) -> None:
         self.stepper.forget()
@@ -238,10 +238,10 @@ class Task(Process):
         if self.state in ("running", "stopped") and self.alive:
             self._leave_frames(EndOfRun())
         elif self.state != "empty":
-            kept = self.pointer.place is not None
+            saved = self.pointer.place is not None
             self.pointer.place = None
             self.enter("ready")
-            if kept:
+            if saved:
                 self._run()
 
     def _leave_frames(self, order: BaseException) -> None:
@@ -256,7 +256,7 @@ class Task(Process):
         self.controller.operation.task_changed()
 
     @property
-    def stands(self) -> bool:
+    def is_stopped(self) -> bool:
         """Whether the program is stopped, even if something runs because of that."""
         return self.held or self.events.while_stopped or self.state == "error" or self.stepping
 
@@ -321,14 +321,14 @@ class Task(Process):
         try:
             if predicate():
                 return True
-            self.attend_if_kicked()
+            self.process_pending_if_woken()
             delay = None if timeout is None else round(timeout * _NS)
             timer = None if delay is None else scheduler.after(delay, expire)
             holds = self._holds
             if why is not None:
                 self.waits_for = why
             while True:
-                self.attend_if_kicked()
+                self.process_pending_if_woken()
                 if not changed:
                     self.block()
                 changed = False
@@ -350,7 +350,7 @@ class Task(Process):
 
     # -- attention: stops, orders, traps ---------------------------------------------------------
 
-    def attend(self) -> None:
+    def process_pending(self) -> None:
         """What may come between two statements and inside a wait."""
         if self._order is not None:
             self.obey()
@@ -373,7 +373,7 @@ class Task(Process):
             return
         due = error.due(self, _BETWEEN)
         if due is None:
-            self.kick()
+            self.wake_at_next_statement()
             return
         self.interrupts.process_error = None
         raise due
@@ -381,7 +381,7 @@ class Task(Process):
     def order(self, order: BaseException) -> None:
         """Leave what is being executed by raising `order` in it."""
         self._order = order
-        self.kick()
+        self.wake_at_next_statement()
 
     def obey(self) -> None:
         """Raise what was ordered."""
@@ -393,7 +393,7 @@ class Task(Process):
         """Stop before the next statement, or in the wait; not in what runs because of a stop."""
         self.held = not self.events.while_stopped
         self._holds += 1
-        self.kick()
+        self.wake_at_next_statement()
 
     def report_statements(self) -> str:
         """Tell tracers of every statement from now on, also in routines that are being executed.
@@ -413,7 +413,7 @@ class Task(Process):
         except (CannotStep, CannotCompile) as reason:
             return str(reason)
         self._renews = True
-        self.kick()
+        self.wake_at_next_statement()
         return ""
 
     def _frames(self) -> Iterator[FrameType]:
@@ -422,12 +422,12 @@ class Task(Process):
 
     def _renew(self) -> None:
         """Leave what is being executed, between two of its statements, for code that reports."""
-        codes, here = self.program.codes, sys._getframe(1)
-        if self.in_trap or self.events.running or not between(codes, here, _BEFORE):
-            self.kick()
+        codes, current = self.program.codes, sys._getframe(1)
+        if self.in_trap or self.events.running or not between(codes, current, _BEFORE):
+            self.wake_at_next_statement()
             return
         self._renews = False
-        frames = [(frame, frame.f_lineno) for frame in outwards(here)]
+        frames = [(frame, frame.f_lineno) for frame in outwards(current)]
         self.pointer.place = standing(self.program, reversed(frames))
         if self.pointer.place is not None:
             raise PointerMoved
@@ -452,7 +452,7 @@ class Task(Process):
         """Stand here until the program is started again."""
         self.held = True
         self._holds += 1
-        self.attend()
+        self.process_pending()
 
     def stop_here(self) -> None:
         """Stop, Break: the program stops; a start goes on behind the instruction.
@@ -490,9 +490,9 @@ class Task(Process):
 
     def polls(self, b: int, costs: tuple[int, ...]) -> int:
         """A block was paid and the budget did not last: pay statement by statement."""
-        return self.recharge(b + sum(costs), costs)
+        return self.charge_again(b + sum(costs), costs)
 
-    def recharge(self, b: int, costs: tuple[int, ...]) -> int:
+    def charge_again(self, b: int, costs: tuple[int, ...]) -> int:
         """Pay again what was given back when a statement of the block failed."""
         for cost in costs:
             b -= cost
@@ -502,7 +502,7 @@ class Task(Process):
 
     def touch(self, value: Value) -> Value:
         """A PERS was read or written: other tasks may come next (schedule `pers`)."""
-        if self.scheduler.tosses():
+        if self.scheduler.switches_here():
             self.switch()
         return value
 
@@ -510,20 +510,20 @@ class Task(Process):
         """A statement is about to be executed."""
         routine, node = self.program.trace_points[point]
         module, statements = routine.module, self.controller.statements
-        told = self.stepper.forward is not None
+        report = self.stepper.forward is not None
         for tracer in statements.tracers:
             if not tracer(self.name, routine, node):
-                told = True
+                report = True
         if self.stepper.forward is not None and self.stepper.reached(module):
             self.stepper.end()
         if statements.waiting and module is not None:
             actions = statements.due(self.name, module, node)
             if actions is not None:
-                told = True
+                report = True
                 for action in actions:
                     action()
-                    self.attend()
-        if not told:
+                    self.process_pending()
+        if not report:
             self.program.told[point] = False
 
     def exit(self) -> None:
@@ -571,7 +571,7 @@ def _never() -> bool:
     return False
 
 
-_BETWEEN = (Task.poll.__code__, Task.polls.__code__, Task.recharge.__code__)
+_BETWEEN = (Task.poll.__code__, Task.polls.__code__, Task.charge_again.__code__)
 """What compiled code calls outside its statements."""
 _BEFORE = _BETWEEN[:2]
 """What it calls before a statement."""

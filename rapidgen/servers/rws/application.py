@@ -40,18 +40,18 @@ class RwsApplication:
 
     def __init__(
         self,
-        cabinet: ControllerRunner,
+        runner: ControllerRunner,
         generation: Generation,
         login: Accounts,
         *,
         strict: bool = True,
     ) -> None:
-        self.office = office = RwsContext(cabinet, generation, login, strict=strict)
+        self.context = office = RwsContext(runner, generation, login, strict=strict)
         self.generation = generation
         # The ceiling is that of RWS 1.0 [RWS manual].
-        self.sessions = Sessions(lambda: cabinet.now, limited=strict and self.is_one)
+        self.sessions = Sessions(lambda: runner.now, limited=strict and self.is_one)
         self.groups = office.groups = Groups(
-            generation, lambda: cabinet.controller.scheduler, partial(watched, office)
+            generation, lambda: runner.controller.scheduler, partial(watched, office)
         )
         office.end_session = self.sessions.end
         office.sessions = self.sessions.all
@@ -61,8 +61,8 @@ class RwsApplication:
         self._nonces: dict[str, None] = {}
         self._connections: dict[str, Session] = {}
         """Sessions by the cookie of the TCP connection."""
-        cabinet.on_restart.append(self._restarted)
-        cabinet.on_boot.append(self._booted)
+        runner.on_restart.append(self._restarted)
+        runner.on_boot.append(self._booted)
         self._booted()
 
     @property
@@ -83,12 +83,12 @@ class RwsApplication:
 
     def _booted(self) -> None:
         """Dialogs of programs can be answered from now on."""
-        self.office.controller.operator.attach()
+        self.context.controller.operator.attach()
 
     def _restarted(self) -> None:
         self.groups.end_all()
         self.sessions.end_all()
-        self.office.restarted()
+        self.context.restarted()
         self._nonces.clear()
 
     # -- a request -------------------------------------------------------------------------------
@@ -151,12 +151,12 @@ class RwsApplication:
 
     def _syntax(self, got: HttpRequest, path: str, query: dict[str, str]) -> Syntax | None:
         """What the answer is to be written in; None: this client does not say."""
-        found = wanted(self.generation, got.headers.get("accept", ""), query)
-        if found is None and not self._strict:
+        match = wanted(self.generation, got.headers.get("accept", ""), query)
+        if match is None and not self._strict:
             return "hal"
-        if found is None and path == "/logout":
+        if match is None and path == "/logout":
             return "hal"
-        return found
+        return match
 
     def _carry_out(
         self,
@@ -174,22 +174,22 @@ class RwsApplication:
             )
         self._check_type(got, files)
         method = "GET" if got.method == "HEAD" else got.method
-        found = find(self.generation, method, path, query)
-        if found.handler is None:
-            if found.allowed:
+        result = find(self.generation, method, path, query)
+        if result.handler is None:
+            if result.allowed:
                 raise RequestDenied(405, "E_INVALIDARG", f"{got.method} {path}")
             raise RequestDenied(404, "E_UNRESOLVED_URL", path)
-        self._check_grants(found.operation, session)
+        self._check_grants(result.operation, session)
         form = got.method == "POST" or path.startswith("/subscription")
-        asked = RwsRequest(
-            self.generation, session, path, suffix, found.names, query,
+        request = RwsRequest(
+            self.generation, session, path, suffix, result.names, query,
             self._form(got) if form else (), got.body,
             plain(got.headers.get("content-type", "")), got.headers.get("host", ""),
         )  # fmt: skip
-        return found.handler(self.office, asked) or RwsResponse()
+        return result.handler(self.context, request) or RwsResponse()
 
     def _check_grants(self, operation: RwsOperation | None, session: Session) -> None:
-        granted = self.office.login.granted(session.user)
+        granted = self.context.login.granted(session.user)
         lacking = missing(operation, self.generation, granted) if operation else ()
         if lacking:
             raise RequestDenied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)

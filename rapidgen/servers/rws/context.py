@@ -43,7 +43,7 @@ class RwsContext:
     def __init__(
         self, cabinet: ControllerRunner, generation: Generation, login: Accounts, *, strict: bool
     ) -> None:
-        self.cabinet = cabinet
+        self.runner = cabinet
         self.generation = generation
         self.login = login
         self.strict = strict
@@ -66,10 +66,10 @@ class RwsContext:
     @property
     def controller(self) -> VirtualController:
         """The controller that runs now."""
-        return self.cabinet.controller
+        return self.runner.controller
 
     def _new_masters(self) -> Masterships:
-        manual = ManualPrivilege(lambda: self.controller, lambda: self.cabinet.now)
+        manual = ManualPrivilege(lambda: self.controller, lambda: self.runner.now)
         return Masterships(
             self.generation, lambda: self.controller.mode, manual, strict=self.strict
         )

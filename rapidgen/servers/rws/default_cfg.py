@@ -19,9 +19,9 @@ OPTIONS = ("616-1 PC Interface",)
 """What is installed."""
 
 
-def built_in(office: "RwsContext") -> dict[tuple[str, str], tuple[Instance, ...]]:
+def built_in(context: "RwsContext") -> dict[tuple[str, str], tuple[Instance, ...]]:
     """Instances by domain and type."""
-    groups = [g for g in office.controller.motion.groups.values() if g.config.mechanical_unit]
+    groups = [g for g in context.controller.motion.groups.values() if g.config.mechanical_unit]
     joints = [row for group in groups for row in _joints(group)]
     return {
         ("SYS", "PRESENT_OPTIONS"): tuple(_row(name=o, desc=o.partition(" ")[2]) for o in OPTIONS),
@@ -46,7 +46,7 @@ def _unit_group(group: MotionGroup) -> Instance:
 
 def _joints(group: MotionGroup) -> list[tuple[Instance, Instance]]:
     """ARM and JOINT of each axis."""
-    found = []
+    result = []
     for number, joint in enumerate(group.config.joints, 1):
         arm = arm_name(group.config, joint)
         bounds = {"lower_joint_bound": joint.lower, "upper_joint_bound": joint.upper}
@@ -57,5 +57,5 @@ def _joints(group: MotionGroup) -> list[tuple[Instance, Instance]]:
             use_arm=arm,
             use_transmission=arm,
         )
-        found.append((_row(name=arm, **bounds), row))
-    return found
+        result.append((_row(name=arm, **bounds), row))
+    return result

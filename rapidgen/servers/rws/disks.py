@@ -12,23 +12,23 @@ if TYPE_CHECKING:
 VOLUMES = ("HOME", "TEMP", "BACKUP", "RAMDISK")
 
 
-def disk_path(office: "RwsContext", words: str, asked: RwsRequest) -> Path:
+def disk_path(context: "RwsContext", words: str, request: RwsRequest) -> Path:
     """Where `$HOME/a`, `HOME/a`, `HOME:/a` or `/fileservice/...` of these lies.
 
     Denied: it names no volume, or leads out of one.
     """
     text = words.removeprefix("/fileservice/").strip("/")
-    first, _, rest = text.partition("/")
+    first, _, remaining = text.partition("/")
     name = first.strip("$:").upper()
     if ":" in first.rstrip(":"):
         name, _, more = first.partition(":")
-        name, rest = name.strip("$").upper(), f"{more}/{rest}".strip("/")
+        name, remaining = name.strip("$").upper(), f"{more}/{remaining}".strip("/")
     if name not in VOLUMES:
         # RobotWare 6 and 7 differ here [VC 6.16, VC 7.21].
-        if asked.is_one:
+        if request.is_one:
             raise RequestDenied(404, "E_FAIL", f"no volume {first}")
         raise RequestDenied(400, "E_INVALID_PATH", f"no volume {first}")
     try:
-        return office.controller.files.path(f"{name}:{rest}")
+        return context.controller.files.path(f"{name}:{remaining}")
     except DiskFault as fault:
         raise RequestDenied(400, "E_INVALID_PATH", str(fault)) from fault

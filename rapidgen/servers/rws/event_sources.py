@@ -29,15 +29,15 @@ if TYPE_CHECKING:
     from rapidgen.servers.rws.context import RwsContext
 
 
-def watched(office: "RwsContext", asked: RwsRequest, wanted: WantedResource) -> EventSource:
+def watched(context: "RwsContext", request: RwsRequest, requested: WantedResource) -> EventSource:
     """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
-    path, _, suffix = wanted.resource.partition(";")
+    path, _, suffix = requested.resource.partition(";")
     path = unquote(path).rstrip("/")
     for pattern, make in _KINDS:
         match = re.fullmatch(pattern, path)
         if match is not None:
-            return make(office, asked, wanted.resource, suffix, match)
-    raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {wanted.resource}")
+            return make(context, request, requested.resource, suffix, match)
+    raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {requested.resource}")
 
 
 _Make = Callable[["RwsContext", RwsRequest, str, str, re.Match[str]], EventSource]
@@ -46,14 +46,14 @@ _Make = Callable[["RwsContext", RwsRequest, str, str, re.Match[str]], EventSourc
 def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> EventSource:
     """Watched through a WaitSet; told only when `now()` has another value."""
 
-    def watch(told: Notify) -> Callable[[], None]:
+    def watch(notify: Notify) -> Callable[[], None]:
         last = now()
 
         def look() -> None:
             nonlocal last
             if (value := now()) != last:
                 last = value
-                told(None)
+                notify(None)
 
         wait.add(look)
         return lambda: wait.remove(look)
@@ -63,47 +63,47 @@ def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> E
 
 def _panel(kind: str, name: str, read: Callable[["RwsContext"], str]) -> _Make:
     def make(
-        office: "RwsContext", _a: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+        context: "RwsContext", _a: RwsRequest, text: str, suffix: str, _m: re.Match[str]
     ) -> EventSource:
         if suffix not in ("", name):
             raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
         href = text.partition(";")[0]
 
         def item() -> Item:
-            return Item(kind, name, {name: read(office)}, {"self": href})
+            return Item(kind, name, {name: read(context)}, {"self": href})
 
-        return _on(office.controller.operation.changed, lambda: read(office), item)
+        return _on(context.controller.operation.changed, lambda: read(context), item)
 
     return make
 
 
 def _execution(
-    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+    context: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
 ) -> EventSource:
     kinds = {"ctrlexecstate": "rap-ctrlexecstate-ev", "rapidexeccycle": "rap-execcycle-ev"}
     if suffix not in kinds:
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def read() -> str:
-        c = office.controller
+        c = context.controller
         return execution.execution(c) if suffix == "ctrlexecstate" else c.cycle
 
     def item() -> Item:
         return Item(kinds[suffix], suffix, {suffix: read()}, {"self": text})
 
-    return _on(office.controller.operation.changed, read, item)
+    return _on(context.controller.operation.changed, read, item)
 
 
 def _task(
-    office: "RwsContext", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+    context: "RwsContext", request: RwsRequest, text: str, suffix: str, m: re.Match[str]
 ) -> EventSource:
-    task, programs = tasks.find_task(office, m["task"], asked), office.cabinet.programs
+    task, programs = tasks.find_task(context, m["task"], request), context.runner.programs
     if suffix == "taskchange":
 
         def change() -> Item:
-            told = {"change-count": str(programs.changes[task.name]), "task-name": task.name}
+            notify = {"change-count": str(programs.changes[task.name]), "task-name": task.name}
             return Item(
-                "rap-task-ev", "taskchange", {**told, "changetype": "module"}, {"self": text}
+                "rap-task-ev", "taskchange", {**notify, "changetype": "module"}, {"self": text}
             )
 
         return _on(programs.changed, lambda: programs.changes[task.name], change)
@@ -111,16 +111,16 @@ def _task(
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def item() -> Item:
-        told = {"task-name": task.name, "pgmtaskexec-state": tasks.execution_state(task, asked)}
-        return Item("rap-execstate-ev", "execstatechange", told, {"self": text})
+        notify = {"task-name": task.name, "pgmtaskexec-state": tasks.execution_state(task, request)}
+        return Item("rap-execstate-ev", "execstatechange", notify, {"self": text})
 
-    return _on(office.controller.operation.changed, lambda: task.state, item)
+    return _on(context.controller.operation.changed, lambda: task.state, item)
 
 
 def _tasks(
-    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+    context: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
 ) -> EventSource:
-    programs = office.cabinet.programs
+    programs = context.runner.programs
     if suffix != "buildlogchange":
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
@@ -137,9 +137,9 @@ _POINTERS = {
 
 
 def _pointer(
-    office: "RwsContext", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+    context: "RwsContext", request: RwsRequest, text: str, suffix: str, m: re.Match[str]
 ) -> EventSource:
-    task = tasks.find_task(office, m["task"], asked)
+    task = tasks.find_task(context, m["task"], request)
     if suffix not in _POINTERS:
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
     kind, title = _POINTERS[suffix]
@@ -147,7 +147,7 @@ def _pointer(
     def item() -> Item:
         place = pointers.place_of(task)
         row, column = (place.span.line, place.span.column) if place else (0, 0)
-        told = {
+        notify = {
             "module-name": place.module if place else "",
             "routine-name": place.routine if place else "",
             "BegPosLine": str(row),
@@ -155,19 +155,19 @@ def _pointer(
             "EndPosLine": str(row),
             "EndPosCol": str(column),
         }
-        return Item(kind, title, told, {"self": text})
+        return Item(kind, title, notify, {"self": text})
 
-    return _on(office.controller.operation.changed, lambda: pointers.place_of(task), item)
+    return _on(context.controller.operation.changed, lambda: pointers.place_of(task), item)
 
 
 def _dialog(
-    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
+    context: "RwsContext", _asked: RwsRequest, text: str, suffix: str, _m: re.Match[str]
 ) -> EventSource:
-    operator = office.controller.operator
+    operator = context.controller.operator
     if suffix != "uievent":
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
-    def watch(told: Notify) -> Callable[[], None]:
+    def watch(notify: Notify) -> Callable[[], None]:
         seen = {q.number: q for q in operator.questions if q.task}
 
         def look() -> None:
@@ -178,12 +178,12 @@ def _dialog(
             seen.update(now)
             for event, questions in (("ABORT", gone), ("SEND", new)):
                 for question in questions:
-                    told(Item("rap-ui-ev", "uiinstruction", dialogs.told(question, event)))
+                    notify(Item("rap-ui-ev", "uiinstruction", dialogs.told(question, event)))
 
         def written(task: str, line: str) -> None:
             stack = {"stack": f"RAPID/{task}/", "execlv": "NORMAL", "msg": f'"{line}"'}
             fields = {"instr": "TPWrite", "event": "POST", **stack}
-            told(Item("rap-ui-ev", "uiinstruction", fields))
+            notify(Item("rap-ui-ev", "uiinstruction", fields))
 
         def end() -> None:
             operator.asked.remove(look)
@@ -197,19 +197,19 @@ def _dialog(
 
 
 def _queue(
-    office: "RwsContext", _asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+    context: "RwsContext", _asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
 ) -> EventSource:
-    queue = queues.find(office, m["queue"])
+    queue = queues.find(context, m["queue"])
     if suffix not in ("", "nomessage"):
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
-    def watch(told: Notify) -> Callable[[], None]:
+    def watch(notify: Notify) -> Callable[[], None]:
         def look() -> None:
             if suffix:
-                told(Item("dipc-msg-ev", "msg", {}, {"self": text}))
+                notify(Item("dipc-msg-ev", "msg", {}, {"self": text}))
                 return
             while (fields := queues.taken(queue)) is not None:  # those from before, too
-                told(Item("dipc-msg-ev", "msg", fields, {"self": text}))
+                notify(Item("dipc-msg-ev", "msg", fields, {"self": text}))
 
         queue.queue.changed.add(look)
         return lambda: queue.queue.changed.remove(look)
@@ -218,15 +218,15 @@ def _queue(
 
 
 def _mastership(
-    office: "RwsContext", _asked: RwsRequest, text: str, _suffix: str, m: re.Match[str]
+    context: "RwsContext", _asked: RwsRequest, text: str, _suffix: str, m: re.Match[str]
 ) -> EventSource:
-    masters, domain = office.masters, m["domain"]
+    masters, domain = context.masters, m["domain"]
     if domain not in masters.domains:
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def item() -> Item:
         holder = masters.holders.get(domain)
-        told = {
+        notify = {
             "holdmastership": "TRUE" if holder else "FALSE",
             "uid": str(holder.number if holder else 0),
             "location": holder.location if holder else "",
@@ -234,25 +234,25 @@ def _mastership(
             "application": holder.application if holder else "",
             "mastership": "remote" if holder else "nomaster",
         }
-        return Item("msh-resource-value", domain, told, {"self": text})
+        return Item("msh-resource-value", domain, notify, {"self": text})
 
     return _on(masters.changed, lambda: masters.holders.get(domain), item)
 
 
 def _signal(
-    office: "RwsContext", _a: RwsRequest, text: str, suffix: str, m: re.Match[str]
+    context: "RwsContext", _a: RwsRequest, text: str, suffix: str, m: re.Match[str]
 ) -> EventSource:
     if suffix != "state":
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
-    signal = signals.find(office, m["signal"])
+    signal = signals.find(context, m["signal"])
 
     def item() -> Item:
-        told = {"lvalue": signals.value_of(signal), "lstate": "not simulated"}
-        return Item("ios-signalstate-ev", signal.name, told, {"self": text})
+        notify = {"lvalue": signals.value_of(signal), "lstate": "not simulated"}
+        return Item("ios-signalstate-ev", signal.name, notify, {"self": text})
 
-    def watch(told: Notify) -> Callable[[], None]:
+    def watch(notify: Notify) -> Callable[[], None]:
         def look() -> None:
-            told(None)
+            notify(None)
 
         signal.changed.add(look)
         return lambda: signal.changed.remove(look)
@@ -261,26 +261,26 @@ def _signal(
 
 
 def _symbol(
-    office: "RwsContext", asked: RwsRequest, text: str, suffix: str, m: re.Match[str]
+    context: "RwsContext", request: RwsRequest, text: str, suffix: str, m: re.Match[str]
 ) -> EventSource:
-    route = SYMBOL.route(asked.generation)
+    route = SYMBOL.route(request.generation)
     assert route is not None
     if suffix != "value":
         raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
-    found = symbols.find(office, m["symbol"], asked)
-    cell = found.task.cell(found.name)
+    result = symbols.find(context, m["symbol"], request)
+    cell = result.task.cell(result.name)
     if not isinstance(cell, PersistentCell) or cell.cell is None:
         raise RequestDenied(400, "E_INVALIDARG", f"no persistent: {text}")
     # RWS 2.0 gives the address without what follows the semicolon [code: App SDK].
-    href = text if asked.is_one else text.partition(";")[0]
+    href = text if request.is_one else text.partition(";")[0]
 
     def item() -> Item:
-        value = literal_text(found.value, found.type)
-        return Item("rap-value-ev", found.name, {"value": value}, {"self": href})
+        value = literal_text(result.value, result.type)
+        return Item("rap-value-ev", result.name, {"value": value}, {"self": href})
 
-    def watch(told: Notify) -> Callable[[], None]:
+    def watch(notify: Notify) -> Callable[[], None]:
         def look() -> None:
-            told(None)
+            notify(None)
 
         cell.add(look)
         return lambda: cell.remove(look)
@@ -289,7 +289,7 @@ def _symbol(
 
 
 def _elog(
-    office: "RwsContext", _a: RwsRequest, text: str, _suffix: str, m: re.Match[str]
+    context: "RwsContext", _a: RwsRequest, text: str, _suffix: str, m: re.Match[str]
 ) -> EventSource:
     domain = int(m["domain"])
 
@@ -297,12 +297,12 @@ def _elog(
         href = f"/rw/elog/{domain}/{event.sequence}"
         return Item("elog-message-ev", href, {"seqnum": str(event.sequence)}, {"self": href})
 
-    def watch(told: Notify) -> Callable[[], None]:
+    def watch(notify: Notify) -> Callable[[], None]:
         def take(event: Event) -> None:
             if domain in (0, int(event.domain)):
-                told(event_item(event))
+                notify(event_item(event))
 
-        return office.controller.log.subscribe(take)
+        return context.controller.log.subscribe(take)
 
     return EventSource(lambda: Item("elog-message-ev"), watch, has_state=False)
 

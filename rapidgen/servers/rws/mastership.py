@@ -77,23 +77,23 @@ class Masterships:
         if domain not in self.domains:
             raise RequestDenied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
 
-    def need(self, asked: RwsRequest, domain: Domain, *, by_itself: bool = False) -> None:
+    def need(self, request: RwsRequest, domain: Domain, *, by_itself: bool = False) -> None:
         """What this request does takes mastership. Denied: the session does not have it.
 
         `by_itself`: the controller takes it for the request, where nobody else has it.
         """
-        self.need_mode(asked.session)
+        self.need_mode(request.session)
         if self._generation is Generation.EIGHT:
-            if not asked.session.station or asked.session.station != self.station:
+            if not request.session.station or request.session.station != self.station:
                 raise RequestDenied(403, "E_NO_WRITE_ACCESS", "session does not have SPoC", -20_107)
             return
         name = domain if self._generation is Generation.ONE else "edit"
         holder = self.holders.get(name)
-        if holder is asked.session:
+        if holder is request.session:
             return
         if holder is not None:
             raise RequestDenied(403, "E_RESOURCE_HELD", f"mastership of {name} is held", -1)
-        implicit = by_itself or asked.query.get("mastership") == "implicit"
+        implicit = by_itself or request.query.get("mastership") == "implicit"
         if not implicit and self._strict:
             raise RequestDenied(403, "E_MASTER_REJECT", f"mastership of {name} is missing", -4_501)
 
@@ -108,10 +108,10 @@ class Masterships:
             return
         raise RequestDenied(403, "E_MODE_REJECT", "neither automatic mode nor RMMP", -4_502)
 
-    def need_start(self, asked: RwsRequest) -> None:
+    def need_start(self, request: RwsRequest) -> None:
         """A start: on RobotWare 8 with write access, and motion allowed [real 8.1.0]."""
         if self._generation is Generation.EIGHT:
-            self.need(asked, "rapid")
+            self.need(request, "rapid")
             if not self.motion_allowed:
                 raise RequestDenied(
                     403, "E_NO_WRITE_ACCESS", "motion control is not allowed", -20_107

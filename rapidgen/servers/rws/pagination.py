@@ -7,13 +7,15 @@ from rapidgen.wire.rws.bodies import Item
 
 
 def page(
-    asked: RwsRequest, items: Sequence[Item], most: int, name: str, *, always: bool = False
+    request: RwsRequest, items: Sequence[Item], most: int, name: str, *, always: bool = False
 ) -> RwsResponse:
     """The asked page of items, at most `most`; `always`: RWS 1.0 cuts them, too."""
-    if asked.is_one and not always:
+    if request.is_one and not always:
         return show(*items, collection=True)
     try:
-        start, limit = (int(asked.query.get(k, str(d))) for k, d in (("start", 0), ("limit", most)))
+        start, limit = (
+            int(request.query.get(k, str(d))) for k, d in (("start", 0), ("limit", most))
+        )
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", "start or limit") from error
     if start < 0 or limit < 1:

@@ -66,13 +66,13 @@ def _vagueness(row: _Row) -> tuple[int, bool, int, bool]:
 def find(generation: Generation, method: str, path: str, query: Mapping[str, str]) -> RouteMatch:
     """The handler of a request. With none, `allowed` empty is 404, else 405."""
     action = f"action={query['action']}" if query.get("action") else ""
-    asked = (action,) if action else (f"resource={query.get('resource', '')}", "")
+    request = (action,) if action else (f"resource={query.get('resource', '')}", "")
     allowed: list[str] = []
     for row in _rows(generation):
         match = row.pattern.fullmatch(path)
         if match is None:
             continue
-        if row.route.method == method and row.route.selector in asked:
+        if row.route.method == method and row.route.selector in request:
             return RouteMatch(row.handler, match.groupdict(), operation=row.operation)
         allowed.append(row.route.method)
     return RouteMatch(None, {}, tuple(dict.fromkeys(allowed)))

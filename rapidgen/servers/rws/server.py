@@ -31,7 +31,7 @@ _UNREAD = 1000
 
 
 def serve_rws(
-    cabinet: ControllerRunner,
+    runner: ControllerRunner,
     generation: Generation,
     host: str = "127.0.0.1",
     port: int = 0,
@@ -48,7 +48,7 @@ def serve_rws(
         host = loopback(host)
     accounts = accounts or Accounts({"Default User": KNOWN, "Admin": KNOWN})
     certificate = None if generation is Generation.ONE else self_signed(host)
-    server = _Server(RwsApplication(cabinet, generation, accounts, strict=strict), certificate)
+    server = _Server(RwsApplication(runner, generation, accounts, strict=strict), certificate)
     server.start(host, port)
     user, password = next(iter(accounts.users.items()))
     fingerprint = certificate.fingerprint if certificate else ""
@@ -58,14 +58,14 @@ def serve_rws(
 class _Server:
     """One port, and the thread with its loop."""
 
-    def __init__(self, desk: RwsApplication, certificate: Certificate | None) -> None:
-        self._desk = desk
+    def __init__(self, application: RwsApplication, certificate: Certificate | None) -> None:
+        self._application = application
         self._certificate = certificate
         self._connections = count(1)
         self._numbers: dict[asyncio.BaseTransport, int] = {}
         self._pending: set[asyncio.Future[HttpResponse]] = set()
         self._thread = WebThread(self._app())
-        desk.office.cabinet.on_restart.append(self._restarting)
+        application.context.runner.on_restart.append(self._restarting)
 
     def _app(self) -> web.Application:
         app = web.Application(client_max_size=LARGEST_BODY)
@@ -112,7 +112,7 @@ class _Server:
         except web.HTTPRequestEntityTooLarge:
             return web.Response(status=413)
         got = self._received(request, body)
-        reply = await self._on_controller(lambda: self._desk.handle(got))
+        reply = await self._on_controller(lambda: self._application.handle(got))
         # Without the query and the body: they may hold what nobody else should read.
         _LOG.debug("%s %s: %d", request.method, request.path, reply.status)
         return _response(reply)
@@ -145,7 +145,7 @@ class _Server:
 
         self._pending.add(future)
         try:
-            if not self._desk.office.cabinet.post(run):
+            if not self._application.context.runner.post(run):
                 return _RESTARTING
             return await future
         finally:
@@ -156,7 +156,7 @@ class _Server:
     async def _poll(self, request: web.Request) -> web.StreamResponse:
         number = request.match_info["number"]
         got = self._received(request)
-        protocol = PROTOCOLS[self._desk.generation]
+        protocol = PROTOCOLS[self._application.generation]
         asked = [p.strip() for p in got.headers.get("sec-websocket-protocol", "").split(",")]
         if got.headers.get("upgrade", "").lower() != "websocket" or protocol not in asked:
             return web.Response(status=400)
@@ -166,12 +166,12 @@ class _Server:
             self._thread.soon(lambda: events.put_nowait(event))
 
         def listen() -> HttpResponse:
-            session = self._desk.session_of(got)
+            session = self._application.session_of(got)
             if session is None:
                 return HttpResponse(403)
             try:
-                group = self._desk.groups.find(number, session)
-                self._desk.groups.listen(group, send, lambda: send(None))
+                group = self._application.groups.find(number, session)
+                self._application.groups.listen(group, send, lambda: send(None))
             except RequestDenied as refused:
                 return HttpResponse(refused.status)
             return HttpResponse(101)
@@ -180,7 +180,10 @@ class _Server:
         if reply.status != 101:
             return _response(reply)
         socket = web.WebSocketResponse(
-            protocols=(protocol,), autoping=self._desk.is_one, autoclose=True, max_msg_size=4096
+            protocols=(protocol,),
+            autoping=self._application.is_one,
+            autoclose=True,
+            max_msg_size=4096,
         )
         await socket.prepare(request)
         both = {
@@ -195,7 +198,9 @@ class _Server:
             for task in both:
                 task.cancel()
             await asyncio.gather(*both, return_exceptions=True)
-            self._desk.office.cabinet.post(lambda: self._desk.groups.leave(number, send))
+            self._application.context.runner.post(
+                lambda: self._application.groups.leave(number, send)
+            )
         await socket.close(code=codes[0] if codes else WSCloseCode.GOING_AWAY)
         return socket
 
@@ -210,7 +215,7 @@ class _Server:
     async def _hear(self, socket: web.WebSocketResponse) -> WSCloseCode:
         """RWS 2.0: a client that sends anything is cut off, pings are not answered [VC 7.21]."""
         async for message in socket:
-            if message.type in (WSMsgType.TEXT, WSMsgType.BINARY) and not self._desk.is_one:
+            if message.type in (WSMsgType.TEXT, WSMsgType.BINARY) and not self._application.is_one:
                 return WSCloseCode.POLICY_VIOLATION
         return WSCloseCode.OK
 

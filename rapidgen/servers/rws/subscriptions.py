@@ -86,27 +86,29 @@ class Groups:
         """Groups of a session."""
         return [group for group in self._groups.values() if group.session is session]
 
-    def begin(self, asked: RwsRequest, wanted: Iterable[WantedResource]) -> EventGroup:
+    def begin(self, request: RwsRequest, requested: Iterable[WantedResource]) -> EventGroup:
         """A new group. Denied: too many, or something that cannot be watched."""
-        if len(self.of(asked.session)) >= MOST_GROUPS:
+        if len(self.of(request.session)) >= MOST_GROUPS:
             raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
         self._made += 1
-        group = EventGroup(self._made, asked.session)
-        self.add(asked, group, wanted)
+        group = EventGroup(self._made, request.session)
+        self.add(request, group, requested)
         self._groups[str(group.number)] = group
-        asked.session.on_end.append(lambda: self.end(group))
+        request.session.on_end.append(lambda: self.end(group))
         return group
 
-    def add(self, asked: RwsRequest, group: EventGroup, wanted: Iterable[WantedResource]) -> None:
+    def add(
+        self, request: RwsRequest, group: EventGroup, requested: Iterable[WantedResource]
+    ) -> None:
         """More resources for a group, all or none. Denied."""
-        found = [_Watch(one, self._watched(asked, one)) for one in wanted]
-        every = [*group.watches, *found]
+        result = [_Watch(one, self._watched(request, one)) for one in requested]
+        every = [*group.watches, *result]
         high = sum(w.wanted.priority == 2 for w in every)
         if len(every) > MOST_RESOURCES or high > MOST_HIGH:
             raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "too many resources")
-        if any(w.wanted.priority == 2 and not w.seen.fast for w in found):
+        if any(w.wanted.priority == 2 and not w.seen.fast for w in result):
             raise RequestDenied(400, "E_INVALIDARG", "high priority is for signals and persistents")
-        for watch in found:
+        for watch in result:
             group.watches.append(watch)
             watch.end = watch.seen.watch(self._changed(group, watch))
 

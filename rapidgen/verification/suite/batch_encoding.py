@@ -47,8 +47,8 @@ def _as_topics(bench: Bench) -> None:
     if link.read():
         raise CheckFailed("batches as topics were answered")
     progress, status = bench.progress(watcher), bench.status(watcher)
-    wanted = (RawTrajectoryState.FAILED, 22, 22, 22, RawReason.SEQUENCE_GAP, 22, 0)
-    if progress[1:] != wanted or (status.in_error, status.error_code) != (
+    expected = (RawTrajectoryState.FAILED, 22, 22, 22, RawReason.SEQUENCE_GAP, 22, 0)
+    if progress[1:] != expected or (status.in_error, status.error_code) != (
         1,
         RawReason.SEQUENCE_GAP,
     ):
@@ -87,7 +87,7 @@ def _damage(bench: Bench) -> None:
         stream.link.close()
         bench.wait_until_standing(10)
         bench.executed(points, since)
-        bench.healthy()
+        bench.assert_healthy()
 
 
 @case("batch-shapes", "batches of a shape that none has", "R2")
@@ -97,7 +97,7 @@ def _shapes(bench: Bench) -> None:
     for comm in (0, 3, 7):
         link = bench.motion()
         link.send(batches.points_frame(7, 0, points, BEGIN, comm))
-        link.wait_until_lost(5, f"comm_type {comm} drops the client")
+        link.wait_disconnected(5, f"comm_type {comm} drops the client")
     link = bench.motion()
     for size in (0, 8, 16):
         link.send(messages.framed(messages.POINTS, bytes(size)))
@@ -111,13 +111,15 @@ def _shapes(bench: Bench) -> None:
         told = stream.refused(RawReason.SEQUENCE_GAP, f"a beginning at point {first}")
         if (told.accepted, told.point) != (0, 0):
             raise CheckFailed(f"a beginning at point {first}: the reply is {told}")
-    bench.stays(1, "no stream has begun")
-    words = [word for point in points[5:] for word in batches.words_of(point)]
+    bench.assert_at_rest(1, "no stream has begun")
+    values = [word for point in points[5:] for word in batches.words_of(point)]
     exchanged = bytearray(batches.points_frame(7, 5, points[5:]))
     exchanged[32:40] = exchanged[36:40] + exchanged[32:36]
     data = batches.points_frame(7, 5, points[5:])[16:]
     wrong = [(bytes(exchanged), RawReason.CHECKSUM)]
-    wrong += [(batches.words_frame(7, 5, c, words), RawReason.FRAMING) for c in (4, 6, 0, -(2**31))]
+    wrong += [
+        (batches.words_frame(7, 5, c, values), RawReason.FRAMING) for c in (4, 6, 0, -(2**31))
+    ]
     wrong += [
         (messages.framed(messages.POINTS, data[:more]), RawReason.FRAMING) for more in (-8, -4)
     ]

@@ -30,13 +30,13 @@ def _replies(bench: Bench) -> None:
     task = bench.controller.task(bench.task("ROS_motion"))
     for first in range(0, 40, 10):
         stream.put(points[first : first + 10], _NONE if first else BEGIN)
-        told = stream.accepted(f"points from {first} on")
-        if (told.stream, told.accepted) != (_LARGEST, first + 10):
+        reply = stream.accepted(f"points from {first} on")
+        if (reply.stream, reply.accepted) != (_LARGEST, first + 10):
             raise CheckFailed(
-                f"{first + 10} points of stream {_LARGEST} were sent, the reply is {told}"
+                f"{first + 10} points of stream {_LARGEST} were sent, the reply is {reply}"
             )
-        if not told.reached <= told.planned <= told.accepted:
-            raise CheckFailed(f"counts of a reply do not fit each other: {told}")
+        if not reply.reached <= reply.planned <= reply.accepted:
+            raise CheckFailed(f"counts of a reply do not fit each other: {reply}")
         # Points may be taken out between the two readings, of planned and then of room: the first
         # ones, which are short, as fast as they come, if the tasks' turns fall so.
         setting = bench.setting
@@ -44,21 +44,21 @@ def _replies(bench: Bench) -> None:
         between = 4 if otherwise or setting.slowness > 1 else 0
         in_it = task[datum(bench, "ros_head")] - task[datum(bench, "ros_tail")]
         if (
-            told.room > ring - 1 - in_it
-            or told.accepted > ring - 1 - told.room + told.planned + between
+            reply.room > ring - 1 - in_it
+            or reply.accepted > ring - 1 - reply.room + reply.planned + between
         ):
-            raise CheckFailed(f"a ring of {ring} places, the reply is {told}")
+            raise CheckFailed(f"a ring of {ring} places, the reply is {reply}")
         bench.run(0.3)
-        if bench.progress(watcher).trajectory != told.trajectory:
-            raise CheckFailed(f"PROGRESS is of another trajectory than {told}")
+        if bench.progress(watcher).trajectory != reply.trajectory:
+            raise CheckFailed(f"PROGRESS is of another trajectory than {reply}")
     stream.put(())
     if stream.accepted("a batch without points").state != RawTrajectoryState.MOVING:
         raise CheckFailed(f"the robot moves, the reply is {stream.last}")
     bench.wait_until_at(points[-1][0], 30)
     bench.run(0.5)
-    told = stream.takes("a batch without points, starved", ())
-    if told[2:] != (40, ring - 1, 40, 40, RawTrajectoryState.STARVED):
-        raise CheckFailed(f"all of 40 points are executed, the reply is {told}")
+    reply = stream.takes("a batch without points, starved", ())
+    if reply[2:] != (40, ring - 1, 40, 40, RawTrajectoryState.STARVED):
+        raise CheckFailed(f"all of 40 points are executed, the reply is {reply}")
     stream.put((), END)
     bench.run(0.5)
     for flags in (_NONE, END):
@@ -77,10 +77,10 @@ def _strange(bench: Bench) -> None:
     points = way(bench, 4)
     for number, flags in ((7, _NONE), (7, END), (0, BEGIN), (0, _NONE), (_LARGEST + 1, BEGIN)):
         stream.number, stream.sent = number, 0
-        told = stream.refuses(RawReason.NO_START, f"stream {number}, {flags!r}", points, flags)
-        wanted = number if number <= _LARGEST else 0
-        if told != messages.RawPointsRefused(wanted, 0, 0, RawReason.NO_START, -1, 0):
-            raise CheckFailed(f"a batch of no stream is answered by {told}")
+        reply = stream.refuses(RawReason.NO_START, f"stream {number}, {flags!r}", points, flags)
+        expected = number if number <= _LARGEST else 0
+        if reply != messages.RawPointsRefused(expected, 0, 0, RawReason.NO_START, -1, 0):
+            raise CheckFailed(f"a batch of no stream is answered by {reply}")
     stream.number, stream.sent = 7, 0
     stream.takes("a beginning", points, BEGIN)
     stream.number = 8
@@ -104,12 +104,16 @@ def _no_number(bench: Bench) -> None:
     for place, whose in ((16, 0), (24, 3), (32, 3), (40, 3), (last - 8, 3), (last, 3)):
         stream = Streamer(bench, number=3)
         stream.say(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
-        told = stream.last
-        if not isinstance(told, messages.RawPointsRefused) or told.accepted or told.stream != whose:
-            raise CheckFailed(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
-        if place >= 32 and told.reason != RawReason.CHECKSUM:
-            raise CheckFailed(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
-        bench.stays(1, "a beginning is damaged")
+        reply = stream.last
+        if (
+            not isinstance(reply, messages.RawPointsRefused)
+            or reply.accepted
+            or reply.stream != whose
+        ):
+            raise CheckFailed(f"8 bytes of ff at {place} of stream 3, the reply is {reply}")
+        if place >= 32 and reply.reason != RawReason.CHECKSUM:
+            raise CheckFailed(f"8 bytes of ff at {place} of stream 3, the reply is {reply}")
+        bench.assert_at_rest(1, "a beginning is damaged")
         stream.link.close(then=0.5)
 
 
@@ -125,9 +129,9 @@ def _damaged_beginning(bench: Bench) -> None:
         data = bytearray(wrong.frame(way(bench, 3), BEGIN))
         data[60] ^= 1
         stream.say(bytes(data))
-        told = stream.refused(RawReason.CHECKSUM, "a damaged beginning")
-        if told.stream != number:
-            raise CheckFailed(f"a damaged beginning of stream {number}: the reply is {told}")
+        reply = stream.refused(RawReason.CHECKSUM, "a damaged beginning")
+        if reply.stream != number:
+            raise CheckFailed(f"a damaged beginning of stream {number}: the reply is {reply}")
         stream.put(points[20:], END)
         if number == 4:
             stream.accepted("points of the stream under way")
@@ -153,7 +157,7 @@ def _enough(bench: Bench) -> None:
         if enough:
             bench.wait_until_moving(1)
         else:
-            bench.stays(2, f"{(count - 1) * duration:g} s wait in the ring")
+            bench.assert_at_rest(2, f"{(count - 1) * duration:g} s wait in the ring")
         stream.put((), FLUSH)
         bench.wait_until_at(points[-1][0], 10)
         stream.link.close(then=1.2)
@@ -171,17 +175,17 @@ def _not_now(bench: Bench) -> None:
         stream = Streamer(bench)
         stream.takes("a beginning without points", (), BEGIN)
         stream.put(way(bench, 20))
-        told = stream.last
-        if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
-            raise CheckFailed(f"after {action} points are answered by {told}")
-        if (told.accepted, told.point, told.joint) != (0, -1, 0):
-            raise CheckFailed(f"after {action} points are answered by {told}")
+        reply = stream.last
+        if not isinstance(reply, messages.RawPointsRefused) or reply.reason not in reasons:
+            raise CheckFailed(f"after {action} points are answered by {reply}")
+        if (reply.accepted, reply.point, reply.joint) != (0, -1, 0):
+            raise CheckFailed(f"after {action} points are answered by {reply}")
         program = Programmer(bench, stream.link)
-        told = program.send(orders(bench, 3, random.Random(3)), BEGIN | WHOLE)
-        if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
-            raise CheckFailed(f"after {action} the first part of a program is answered by {told}")
+        reply = program.send(orders(bench, 3, random.Random(3)), BEGIN | WHOLE)
+        if not isinstance(reply, messages.RawPointsRefused) or reply.reason not in reasons:
+            raise CheckFailed(f"after {action} the first part of a program is answered by {reply}")
         bench.start_again()
-        bench.stays(3, f"points came after {action}")
+        bench.assert_at_rest(3, f"points came after {action}")
         stream.link.close(then=1.2)
 
 
@@ -199,12 +203,12 @@ def _ends_before_it_moves(bench: Bench) -> None:
     refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 20))
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
         raise CheckFailed(f"points behind a STOP are answered by {refusal}")
-    bench.stays(1, "the stream was stopped")
+    bench.assert_at_rest(1, "the stream was stopped")
     stream.number, stream.sent = 2, 0
     stream.put((), BEGIN)
     stream.link.send(bench.download(bench.wave(3))[:68])
     stream.refuses(RawReason.SUPERSEDED, "points behind a download", way(bench, 20))
-    bench.stays(1, "the stream was superseded")
+    bench.assert_at_rest(1, "the stream was superseded")
     for number in (3, 4):
         stream.number, stream.sent = number, 0
         stream.put((), BEGIN)
@@ -213,10 +217,12 @@ def _ends_before_it_moves(bench: Bench) -> None:
             stream.sent = 17
             stream.refuses(RawReason.SEQUENCE_GAP, "points behind a hole", way(bench, 3), _NONE)
         stream.link.close(then=1)
-        told = bench.progress(watcher)
-        wanted = (RawTrajectoryState.REFUSED, RawReason.INCOMPLETE) if number == 3 else None
-        if wanted and ((told.state, told.reason) != wanted or (told.point, told.joint) != (0, 0)):
-            raise CheckFailed(f"a stream without a point was left, PROGRESS says {told}")
+        reply = bench.progress(watcher)
+        expected = (RawTrajectoryState.REFUSED, RawReason.INCOMPLETE) if number == 3 else None
+        if expected and (
+            (reply.state, reply.reason) != expected or (reply.point, reply.joint) != (0, 0)
+        ):
+            raise CheckFailed(f"a stream without a point was left, PROGRESS says {reply}")
         stream = Streamer(bench)
         watcher.read()
     bench.run(1)
@@ -231,9 +237,9 @@ def _stays(bench: Bench) -> None:
     stream, since = Streamer(bench), bench.now
     stream.takes("a stream with a stay", points, BEGIN | END)
     bench.wait_until_at(third[0], 10)
-    asked = second[1] + stay + third[1]
-    if not asked - 0.1 <= bench.now - since <= 1.3 * asked + 0.4:
-        raise CheckFailed(f"{asked:.2f} s with a stay took {bench.now - since:.2f} s")
+    requested = second[1] + stay + third[1]
+    if not requested - 0.1 <= bench.now - since <= 1.3 * requested + 0.4:
+        raise CheckFailed(f"{requested:.2f} s with a stay took {bench.now - since:.2f} s")
     still = [t for t, p in bench.track if t > since and distance(p, second[0]) < 1e-4]
     if not still:
         raise CheckFailed("the robot was not where it had to stay")
@@ -271,7 +277,7 @@ def _silent(bench: Bench) -> None:
     bench.run(2.5)
     stream.takes("points after 2.5 s of silence", points[25:50], END)
     bench.wait_until_at(points[49][0], 30)
-    stream.link.wait_until_lost(2, "a client whose stream has ended gives way")
+    stream.link.wait_disconnected(2, "a client whose stream has ended gives way")
 
 
 @case("batch-index-wraps", "more points than numbers")
@@ -316,8 +322,8 @@ def _unreadable(bench: Bench) -> None:
                 raise CheckFailed(f"read {after} of a batch has failed, the reply is {told}")
         bench.wait_until_standing(10)
         bench.executed(points[:8], since)
-        bench.stays(0.3, f"read {after} of a batch has failed")
-        bench.healthy()
+        bench.assert_at_rest(0.3, f"read {after} of a batch has failed")
+        bench.assert_healthy()
         stream.link.close(then=0.3)
 
 
@@ -326,20 +332,20 @@ def _unreadable(bench: Bench) -> None:
 )
 def _fits_unread(bench: Bench) -> None:
     """By a chance of one in 2^31: that they were not read must tell."""
-    words = 1 + len(bench.position)
+    values = 1 + len(bench.position)
     for number, unread in enumerate(("a point", "the checksum"), 1):
         stream, since, points = Streamer(bench, number=number), bench.now, way(bench, 9)
         stream.put(points[:8], BEGIN | FLUSH)
         sent = words_of(points[8])
         head = [number, 0, 8, 2]
-        wanted = checksum([*head, *sent]) if unread == "a point" else 0
-        sent += words_to(wanted, [*head, *sent], words)
+        expected = checksum([*head, *sent]) if unread == "a point" else 0
+        sent += words_to(expected, [*head, *sent], values)
         # The frame's own words, and the head's.
-        after = 4 + 4 + words * number
+        after = 4 + 4 + values * number
         fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
-        told = stream.say(words_frame(number, 8, 2, sent))
-        if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.CHECKSUM:
-            raise CheckFailed(f"{unread} of a batch cannot be read, the reply is {told}")
+        reply = stream.say(words_frame(number, 8, 2, sent))
+        if not isinstance(reply, messages.RawPointsRefused) or reply.reason != RawReason.CHECKSUM:
+            raise CheckFailed(f"{unread} of a batch cannot be read, the reply is {reply}")
         bench.wait_until_at(points[7][0], 10)
         bench.executed(points[:8], since)
         stream.link.close(then=0.5)
@@ -351,9 +357,9 @@ def _behind_the_end(bench: Bench) -> None:
     watcher = bench.watcher()
     stream = Streamer(bench)
     stream.all(way(bench, 12))
-    told = stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
-    if (told.accepted, told.point) != (12, 12):
-        raise CheckFailed(f"points came behind 12 and the end, the reply is {told}")
+    reply = stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
+    if (reply.accepted, reply.point) != (12, 12):
+        raise CheckFailed(f"points came behind 12 and the end, the reply is {reply}")
     bench.wait_until_at(stream.points[11][0], 20)
     bench.run(0.5)
     progress = bench.progress(watcher)
@@ -371,7 +377,7 @@ def _full_ring(bench: Bench) -> None:
     stream = Streamer(bench)
     points = way(bench, count, seconds)
     stream.takes("almost all that there is room for", points[:-3], BEGIN)
-    bench.stays(1, f"{count - 4} points are less than it likes to have")
+    bench.assert_at_rest(1, f"{count - 4} points are less than it likes to have")
     stream.put(points[-3:])
     if stream.accepted("all that there is room for").room:
         raise CheckFailed(f"the ring is full, the reply is {stream.last}")

@@ -17,10 +17,10 @@ _BRAKING = 0.02
 """rad or m that an axis may go on until it stands; the whole order takes it farther."""
 
 
-def _order(bench: Bench, way: str, link: RawLink) -> bytes:
+def _order(bench: Bench, path: str, link: RawLink) -> bytes:
     """A whole trajectory, in one piece or as a stream."""
     points = bench.wave(6)
-    if way == "stream":
+    if path == "stream":
         return Streamer(bench, link).frame(points, BEGIN | END)
     return bench.download(points)
 
@@ -41,24 +41,24 @@ def _order_before_stop(bench: Bench) -> None:
 
     Start may set a path in motion for the moment that an event routine needs to drop it.
     """
-    for way in _ways(bench):
+    for path in _ways(bench):
         for action in ("stop", "e-stop", "motors-off"):
             for ms in (0, 1, 3, 8, 20, 50):
                 link = bench.motion()
                 bench.run(0.15)
-                order = _order(bench, way, link)
+                order = _order(bench, path, link)
                 link.send(order)
                 bench.run(ms * 1e-3)
-                what = f"a {way} {ms} ms before {action}, and Start"
+                what = f"a {path} {ms} ms before {action}, and Start"
                 place = bench.position
                 _stopped_shortly(bench, action)
-                bench.rests(3, 2, what)
+                bench.wait_until_at_rest(3, 2, what)
                 if distance(bench.position, place) > _BRAKING:
                     raise CheckFailed(
                         f"{what}: the robot went {distance(bench.position, place):.3f}"
                     )
                 link.close(then=1.2)
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 @case(
@@ -69,24 +69,24 @@ def _order_before_stop(bench: Bench) -> None:
 )
 def _part_before_stop(bench: Bench) -> None:
     """Wherever it is cut, also inside a message; the next order is executed."""
-    for way in _ways(bench):
+    for path in _ways(bench):
         watcher = bench.watcher()
         for share in (0.0, 0.01, 0.4, 0.99):
             link = bench.motion()
             bench.run(0.15)
-            order = _order(bench, way, link)
+            order = _order(bench, path, link)
             cut = max(1, round(share * len(order)))
             link.send(order[:cut])
             bench.run(0.05)
             _stopped_shortly(bench, "stop")
             bench.run(0.3)
             link.send(order[cut:])
-            what = f"{cut} of {len(order)} bytes of a {way} before a stop, the others after Start"
-            bench.stays(2.5, what)
-            told = bench.progress(watcher)
-            if told.state != RawTrajectoryState.REFUSED:
-                raise CheckFailed(f"{what}: PROGRESS says {told}")
-            bench.moves_through(link, bench.wave(3))
+            what = f"{cut} of {len(order)} bytes of a {path} before a stop, the others after Start"
+            bench.assert_at_rest(2.5, what)
+            reply = bench.progress(watcher)
+            if reply.state != RawTrajectoryState.REFUSED:
+                raise CheckFailed(f"{what}: PROGRESS says {reply}")
+            bench.assert_moves_through(link, bench.wave(3))
             link.close(then=1.2)
         watcher.close()
 
@@ -94,12 +94,12 @@ def _part_before_stop(bench: Bench) -> None:
 @case("waiting-before-stop", "an order that waits behind a silent client", "R7a, R12")
 def _waiting_before_stop(bench: Bench) -> None:
     """It has been received, but not read, when the stop comes."""
-    for way in _ways(bench):
+    for path in _ways(bench):
         for action in ("stop", "e-stop"):
             for stopped in (_SHORT, 1.0):
                 silent = bench.motion()
                 bench.run(0.2)
-                order = _order(bench, way, silent)
+                order = _order(bench, path, silent)
                 waiting = [bench.motion() for _ in range(2)]
                 for link in waiting:
                     link.send(order)
@@ -107,10 +107,12 @@ def _waiting_before_stop(bench: Bench) -> None:
                 bench.controller.perform(action)
                 bench.run(stopped)
                 bench.start_again()
-                bench.stays(4, f"a {way} waited behind a silent client at {action}")
+                bench.assert_at_rest(4, f"a {path} waited behind a silent client at {action}")
                 silent.close()
-                bench.stays(3, f"a {way} waited behind a client at {action}, which then left")
+                bench.assert_at_rest(
+                    3, f"a {path} waited behind a client at {action}, which then left"
+                )
                 for link in waiting:
                     link.close()
                 bench.run(1.5)
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))

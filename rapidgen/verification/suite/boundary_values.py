@@ -97,14 +97,14 @@ def _fastest(bench: Bench) -> None:
         room = max(joint.upper - bench.position[axis], bench.position[axis] - joint.lower)
         if room < 1.1 * seconds * joint.speed:
             continue
-        here = bench.position
+        current = bench.position
         for share in (0.995, 1.05):
-            target = changed(here, axis, _inward(bench, axis, share * seconds * joint.speed))
-            points = [(here, 10.0), (target, seconds), (target, 1.0)]
+            target = changed(current, axis, _inward(bench, axis, share * seconds * joint.speed))
+            points = [(current, 10.0), (target, seconds), (target, 1.0)]
             if share < 1:
                 _taken(bench, points, f"joint {axis + 1} at its speed")
                 link = bench.motion()
-                bench.moves_through(link, bench.way_to(here))
+                bench.assert_moves_through(link, bench.way_to(current))
                 link.close(then=1.2)
             else:
                 refused(bench, bench.download(points), [RawReason.TOO_FAST], axis + 1, 1)
@@ -117,17 +117,17 @@ def _limits_by_rounding(bench: Bench) -> None:
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
         for limit, side in ((joint.lower, -1), (joint.upper, 1)):
-            here = bench.position
-            seconds = bench.seconds_to(changed(here, axis, limit))
-            wanted = changed(here, axis, limit + side * 0.0003 * unit)
-            link.send(bench.download([(here, 10.0), (wanted, seconds), (wanted, 0.5)]))
-            bench.wait_until_at(changed(here, axis, limit), 20 + 4 * seconds)
-            link.send(bench.download([(bench.position, 10.0), (here, seconds), (here, 0.5)]))
-            bench.wait_until_at(here, 20 + 4 * seconds)
-            wanted = changed(here, axis, limit + side * 0.0012 * unit)
-            frames = bench.download([(here, 10.0), (wanted, seconds), (wanted, 0.5)])
+            current = bench.position
+            seconds = bench.seconds_to(changed(current, axis, limit))
+            expected = changed(current, axis, limit + side * 0.0003 * unit)
+            link.send(bench.download([(current, 10.0), (expected, seconds), (expected, 0.5)]))
+            bench.wait_until_at(changed(current, axis, limit), 20 + 4 * seconds)
+            link.send(bench.download([(bench.position, 10.0), (current, seconds), (current, 0.5)]))
+            bench.wait_until_at(current, 20 + 4 * seconds)
+            expected = changed(current, axis, limit + side * 0.0012 * unit)
+            frames = bench.download([(current, 10.0), (expected, seconds), (expected, 0.5)])
             link.send(frames)
-            bench.stays(1, f"joint {axis + 1} was asked beyond its limit")
+            bench.assert_at_rest(1, f"joint {axis + 1} was asked beyond its limit")
 
 
 @case("start-tolerance", "a start within tolerance is driven to, one beyond is refused", "R8")
@@ -189,16 +189,16 @@ def _takes_its_time(bench: Bench) -> None:
         link.send(bench.download(points))
         bench.wait_until_at(points[-1][0], 30)
         bench.run(2)
-        begun, ended = _moved(bench, since)
+        started, finished = _moved(bench, since)
         moving = sum(d for _, d in points[1:])
         if points[-1][0] == points[-2][0]:
             moving -= points[-1][1]
         if points[0][0] == points[1][0]:
             moving -= points[1][1]
-            if begun - since < points[1][1]:
-                raise CheckFailed(f"the robot left its first point after {begun - since:.2f} s")
-        if not 0.85 * moving - 0.05 <= ended - begun <= 1.15 * moving + 0.25:
-            raise CheckFailed(f"{moving:.2f} s of motion took {ended - begun:.2f} s")
+            if started - since < points[1][1]:
+                raise CheckFailed(f"the robot left its first point after {started - since:.2f} s")
+        if not 0.85 * moving - 0.05 <= finished - started <= 1.15 * moving + 0.25:
+            raise CheckFailed(f"{moving:.2f} s of motion took {finished - started:.2f} s")
         for index in stands:
             if index and not _stood_at(bench, points[index][0], since, 0.8 * points[index + 1][1]):
                 raise CheckFailed(f"the robot did not stay at point {index}")
@@ -223,8 +223,8 @@ def _stop_in_a_stay(bench: Bench) -> None:
     bench.wait_until_at(second[0])
     bench.run(1)
     link.stop(1, "STOP in a stay is answered")
-    bench.stays(25, "it was stopped in a stay")
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_at_rest(25, "it was stopped in a stay")
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("approach", "a single point is approached slowly, or as slowly as asked", "R8")
@@ -241,12 +241,12 @@ def _approach(bench: Bench) -> None:
             since = bench.now
             link.send(point_frame(0, 2, target, seconds) + point_frame(1, 2, target, seconds))
             bench.wait_until_at(target, 60)
-            begun, ended = _moved(bench, since)
-            wanted = max(needed, seconds)
-            if not 0.8 * wanted - 0.1 <= ended - begun <= 1.3 * wanted + 0.3:
+            started, finished = _moved(bench, since)
+            expected = max(needed, seconds)
+            if not 0.8 * expected - 0.1 <= finished - started <= 1.3 * expected + 0.3:
                 raise CheckFailed(
                     f"joint {axis + 1}: {step:.4f} rad (m) in {seconds:.2f} s, or at approach "
-                    f"speed in {needed:.2f} s, took {ended - begun:.2f} s"
+                    f"speed in {needed:.2f} s, took {finished - started:.2f} s"
                 )
             bench.run(0.2)
 
@@ -254,10 +254,10 @@ def _approach(bench: Bench) -> None:
 @case("all-sizes", "messages in pieces of every size", "R2")
 def _pieces_of_all_sizes(bench: Bench) -> None:
     link = bench.motion()
-    here = bench.position
+    current = bench.position
     for size in (2, 3, 4, 5, 15, 16, 17, 20, 63, 64, 66, 67, 68, 69, 72, 84, 135, 136, 137, 271):
         points = [(p, 0.2) for p, _ in bench.wave(5, duration=0.2, size=0.01)]
-        points[-1] = (here, 0.4)
+        points[-1] = (current, 0.4)
         ping = b"\x0c\0\0\0\x01\0\0\0\x02\0\0\0\0\0\0\0"
         data = ping + bench.download(points) + ping
         since = bench.now
@@ -267,8 +267,8 @@ def _pieces_of_all_sizes(bench: Bench) -> None:
         for _ in range(2):
             link.expect_reply(2, f"PING in pieces of {size} bytes is answered")
         bench.run(0.5)
-        bench.wait_until_at(here, 20)
-        bench.followed([here, *(p for p, _ in points)], since=since)
+        bench.wait_until_at(current, 20)
+        bench.followed([current, *(p for p, _ in points)], since=since)
         _moved(bench, since)
 
 
@@ -277,7 +277,7 @@ def _in_one_chunk(bench: Bench) -> None:
     """More than a call of the driver can take at once, and points that lie across two calls."""
     link = bench.motion()
     for count in (14, 15, 16, 30, 46):
-        bench.moves_through(link, bench.wave(count, duration=0.15, size=0.02))
+        bench.assert_moves_through(link, bench.wave(count, duration=0.15, size=0.02))
 
 
 @case("rest-skipped", "the rest of a refused trajectory is nothing")
@@ -291,23 +291,23 @@ def _rest_is_skipped(bench: Bench) -> None:
     bench.run(0.5)
     number = bench.progress(state).trajectory
     link.send(frames[4])
-    bench.stays(0.5, "a refused trajectory goes on")
+    bench.assert_at_rest(0.5, "a refused trajectory goes on")
     _blames(bench, state, number, RawReason.JOINT_LIMIT)
     # A new start ends the skipping; so does the end of the refused one.
     good = bench.wave(4)
-    bench.moves_through(link, good)
+    bench.assert_moves_through(link, good)
     link.send(b"".join(frames))
-    bench.stays(0.5, "it was refused")
+    bench.assert_at_rest(0.5, "it was refused")
     _blames(bench, state, number + 2, RawReason.JOINT_LIMIT)
     link.send(raw_point(1, bench.position, 1.0))
-    bench.stays(0.5, "it has no start")
+    bench.assert_at_rest(0.5, "it has no start")
     _blames(bench, state, number + 3, RawReason.NO_START)
     link.send(raw_point(int(RawSpecial.END), bench.position, 1.0))
     bench.run(0.5)
-    bench.moves_through(link, bench.wave(4))
+    bench.assert_moves_through(link, bench.wave(4))
     for wrong in (-2, -5, 2, 1000):
         link.send(raw_point(-1, bench.position, 1.0) + raw_point(wrong, bench.position, 1.0))
-        bench.stays(0.4, f"number {wrong} is no next one")
+        bench.assert_at_rest(0.4, f"number {wrong} is no next one")
         link.send(raw_point(int(RawSpecial.END), bench.position, 1.0))
         bench.run(0.3)
         if bench.progress(state).reason != RawReason.SEQUENCE_GAP:
@@ -316,13 +316,13 @@ def _rest_is_skipped(bench: Bench) -> None:
 
 def _blames(bench: Bench, state: RawLink, number: int, reason: RawReason) -> None:
     bench.run(0.3)
-    told = bench.progress(state)
-    if (told.trajectory, told.state, told.reason) != (
+    reply = bench.progress(state)
+    if (reply.trajectory, reply.state, reply.reason) != (
         number,
         RawTrajectoryState.REFUSED,
         reason,
     ):
-        raise CheckFailed(f"trajectory {number} had to be refused with {reason.name}, {told}")
+        raise CheckFailed(f"trajectory {number} had to be refused with {reason.name}, {reply}")
 
 
 @case("replies-of-refused", "replies tell what became of the trajectory so far")
@@ -339,14 +339,14 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
         if number >= 3 and content != messages.RawRefused(RawReason.JOINT_LIMIT, 3, 2):
             raise CheckFailed(f"point 3 was wrong, the reply to point {number} is {content}")
     # Behind a refusal at the end nothing is left to be skipped.
-    axis, here = 0, bench.position
-    far = changed(here, axis, _inward(bench, axis, 0.3))
-    link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, here, 9.0))
-    link.send(raw_point(1, here, 1.0, RawComm.REQUEST))
+    axis, current = 0, bench.position
+    far = changed(current, axis, _inward(bench, axis, 0.3))
+    link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, current, 9.0))
+    link.send(raw_point(1, current, 1.0, RawComm.REQUEST))
     content = decode(link.expect_reply(2, "a point behind a refused end is answered"))
     if not isinstance(content, messages.RawRefused) or content.reason != RawReason.NO_START:
         raise CheckFailed(f"a point behind a refused end is answered by {content}")
-    link.send(raw_point(int(RawSpecial.END), here, 1.0))
+    link.send(raw_point(int(RawSpecial.END), current, 1.0))
     bench.run(0.5)
     state = bench.watcher()
     number = bench.progress(state).trajectory

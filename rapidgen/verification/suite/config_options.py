@@ -15,13 +15,13 @@ reading = SuiteGroup("reading")
 
 def _quick(bench: Bench) -> list[Point]:
     """To a place, and back, in less time than the first axis needs."""
-    joint, here = bench.group.joints[0], bench.position
-    step = min(1.0, 0.5 * max(joint.upper - here[0], here[0] - joint.lower))
-    if joint.upper - here[0] < here[0] - joint.lower:
+    joint, current = bench.group.joints[0], bench.position
+    step = min(1.0, 0.5 * max(joint.upper - current[0], current[0] - joint.lower))
+    if joint.upper - current[0] < current[0] - joint.lower:
         step = -step
     seconds = 0.3 * abs(step) / joint.speed
-    there = changed(here, 0, here[0] + step)
-    return [(here, 1.0), (there, seconds), (changed(here, 0, here[0] + 0.9 * step), 1.0)]
+    target = changed(current, 0, current[0] + step)
+    return [(current, 1.0), (target, seconds), (changed(current, 0, current[0] + 0.9 * step), 1.0)]
 
 
 @case("slowed-down", "what is too fast is slowed down where told so", "R10")
@@ -49,16 +49,16 @@ def _strangers(bench: Bench) -> None:
     ports, known = bench.group.ports, [bench.state() for _ in range(3)]
     bench.run(0.5)
     for port in (ports.motion, ports.state, ports.control):
-        stranger = bench.stranger(port) if port else None
+        stranger = bench.connect_unlisted(port) if port else None
         if stranger is None:
             continue
         stranger.send(bench.download(bench.wave(4)))
-        bench.stays(1, "a stranger has asked for it")
+        bench.assert_at_rest(1, "a stranger has asked for it")
         if not stranger.lost or stranger.read():
             raise CheckFailed(f"a stranger is served on port {port}")
     if any(link.lost for link in known):
         raise CheckFailed("strangers take the place of others")
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 @links("stalls", "a client that stalls inside of a message is dropped where told so", "R12")
@@ -70,10 +70,10 @@ def _stalls(bench: Bench) -> None:
     if link.lost:
         raise CheckFailed("a client that takes its time is dropped")
     if seconds:
-        link.wait_until_lost(2, "a client that stalls inside of a message is dropped")
+        link.wait_disconnected(2, "a client that stalls inside of a message is dropped")
     else:
         link.close()
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 @links("control-silent", "a control client that does not read harms nobody", "R13", needs="control")
@@ -82,13 +82,13 @@ def _control_silent(bench: Bench) -> None:
     bench.run(0.2)
     silent.stop_reading()
     for _ in range(3):
-        bench.sets_off(link, bench.wave(12), 0.3)
+        bench.start_motion(link, bench.wave(12), 0.3)
         link.send(STOP)
         if link.reply(messages.JOINT_TRAJ_PT) != messages.RawAcknowledged():
             raise CheckFailed("STOP is not confirmed while a control client does not read")
         bench.wait_until_standing(3)
         bench.run(0.5)
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
 
 
 @reading("braking", "a robot that brakes is in motion, one that has stopped is not", "R16")
@@ -96,7 +96,7 @@ def _braking(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
     period = bench.config.state_period
     for _ in range(3):
-        bench.sets_off(link, bench.wave(12, size=0.3), 0.6)
+        bench.start_motion(link, bench.wave(12, size=0.3), 0.6)
         link.send(STOP)
         since = bench.now
         bench.wait_until_standing(3)
@@ -116,11 +116,11 @@ def _there_and_back(bench: Bench) -> None:
     bench.run(2 * bench.config.state_period)
     for _ in range(3):
         bench.status(state)
-        here, since = bench.position, bench.now
+        current, since = bench.position, bench.now
         away = bench.wave(2, duration=0.15, size=0.002)[1][0]
-        link.send(bench.download([(here, 1.0), (away, 0.15), (here, 0.15)]))
+        link.send(bench.download([(current, 1.0), (away, 0.15), (current, 0.15)]))
         bench.run(0.6 + 2 * bench.config.state_period + 2 * bench.setting.motion.settle)
-        if distance(bench.position, here) > 1e-4:
+        if distance(bench.position, current) > 1e-4:
             raise CheckFailed("a movement there and back does not end where it began")
         moved = [status.in_motion for _, status in state.told(messages.RawStatus, since)]
         if 1 not in moved or moved[-1]:

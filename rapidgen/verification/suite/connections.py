@@ -26,7 +26,7 @@ def _leaves_in_a_download(bench: Bench) -> None:
         link.send(bench.download(bench.wave(8))[: 68 * 5])
         bench.run(0.2)
         link.close(abort=abort)
-        bench.stays(3, "its client left in the download")
+        bench.assert_at_rest(3, "its client left in the download")
         _has_no_start(bench)
         _moves(bench)
 
@@ -35,9 +35,9 @@ def _has_no_start(bench: Bench) -> None:
     """Nothing of what one client has sent counts for the next."""
     link = bench.motion()
     link.send(raw_point(5, bench.position, 1.0, RawComm.REQUEST))
-    told = decode(link.expect_reply(2, "a point without a start is answered"))
-    if not isinstance(told, messages.RawRefused) or told.reason != RawReason.NO_START:
-        raise CheckFailed(f"a point without a start is answered by {told}")
+    reply = decode(link.expect_reply(2, "a point without a start is answered"))
+    if not isinstance(reply, messages.RawRefused) or reply.reason != RawReason.NO_START:
+        raise CheckFailed(f"a point without a start is answered by {reply}")
     link.close(then=0.2)
 
 
@@ -46,46 +46,46 @@ def _leaves_while_moving(bench: Bench) -> None:
     for abort in (False, True):
         points = bench.wave(20)
         link = bench.motion()
-        bench.sets_off(link, points, 0.5)
+        bench.start_motion(link, points, 0.5)
         link.close(abort=abort)
         bench.wait_until_standing(5)
         if distance(bench.position, points[-1][0]) < 1e-4:
             raise CheckFailed("the robot went on to the end for a client that had left")
-        bench.stays(2, "its client is gone")
+        bench.assert_at_rest(2, "its client is gone")
         _moves(bench)
 
 
 def _moves(bench: Bench) -> None:
     link = bench.motion()
-    bench.moves_through(link, bench.wave(3, duration=0.2))
+    bench.assert_moves_through(link, bench.wave(3, duration=0.2))
     link.close(then=0.2)
 
 
 @case("idle-client", "an idle client is never timed out")
 def _idle_client(bench: Bench) -> None:
     link = bench.motion()
-    bench.stays(900, "nobody asked for anything")
-    bench.moves_through(link, bench.wave(4))
+    bench.assert_at_rest(900, "nobody asked for anything")
+    bench.assert_moves_through(link, bench.wave(4))
 
 
 @case("newest-takes-over", "the newest client is served", "R12")
 def _newest_takes_over(bench: Bench) -> None:
     old = bench.motion()
-    bench.moves_through(old, bench.wave(3))
+    bench.assert_moves_through(old, bench.wave(3))
     new = bench.motion()
     bench.run(5)
-    bench.moves_through(new, bench.wave(3))
+    bench.assert_moves_through(new, bench.wave(3))
 
 
 @case("dead-peer", "a peer that died without a word blocks nobody", "R12")
 def _dead_peer(bench: Bench) -> None:
     old = bench.motion()
-    bench.moves_through(old, bench.wave(3))
+    bench.assert_moves_through(old, bench.wave(3))
     # It never says another word, not even an end: the old link stays half-open.
     for _ in range(3):
         fresh = bench.motion()
         bench.run(5)
-        bench.moves_through(fresh, bench.wave(3))
+        bench.assert_moves_through(fresh, bench.wave(3))
 
 
 @case("state-comes-back", "a state client that comes back is served", "R13")
@@ -125,11 +125,11 @@ def _gives_way(bench: Bench, old: RawLink, new: RawLink, what: str) -> None:
         _pings(bench, old, slowly=slowly)
     last = bench.now
     bench.run(0.8)
-    old.wait_until_lost(3, f"a silent client gives way: {what}")
+    old.wait_disconnected(3, f"a silent client gives way: {what}")
     if not 0.9 < bench.now - last < 1.4:
         raise CheckFailed(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
     _pings(bench, new, 0.3)
-    bench.stays(0.3, f"the client before gave way: {what}")
+    bench.assert_at_rest(0.3, f"the client before gave way: {what}")
 
 
 @case("silent-at-rest", "a newer client waits for a second of silence", "R12")
@@ -154,7 +154,7 @@ def _sets_off(bench: Bench, link: RawLink, what: str) -> list[Point]:
         Streamer(bench, link).put(points, BEGIN | FLUSH | END)
         bench.wait_until_moving()
     else:
-        bench.sets_off(link, points)
+        bench.start_motion(link, points)
     return points
 
 
@@ -164,14 +164,22 @@ def _silent_while_moving(bench: Bench) -> None:
     for what in ("download", "stream") if bench.streams else ("download",):
         old, since = bench.motion(), bench.now
         points = _sets_off(bench, old, what)
-        for said in (b"GET / HTTP/1.1\r\nHost: robot\r\n\r\n", b"\xff" * 100, b"", _PING, None):
+        for log_entries in (
+            b"GET / HTTP/1.1\r\nHost: robot\r\n\r\n",
+            b"\xff" * 100,
+            b"",
+            _PING,
+            None,
+        ):
             new = bench.motion()
-            if said is None:
+            if log_entries is None:
                 break
-            new.send(said)
+            new.send(log_entries)
             bench.run(0.3)
             if bench.standing:
-                raise CheckFailed(f"{what}: a newer client says {said!r}, and the robot stops")
+                raise CheckFailed(
+                    f"{what}: a newer client says {log_entries!r}, and the robot stops"
+                )
             new.close()
         bench.arrives(points, since, 30)
         # To the driver it is over when the controller says so: the axes follow late.
@@ -187,8 +195,8 @@ _PING = encode(messages.RawPing(), RawComm.REQUEST)
 def _second_stops(bench: Bench) -> None:
     """Also byte by byte, and behind something else; whatever the first client does."""
     old, watcher = bench.motion(), bench.watcher()
-    ways = ("download", "stream", "fed") if bench.streams else ("download", "download", "fed")
-    for number, what in enumerate(ways):
+    paths = ("download", "stream", "fed") if bench.streams else ("download", "download", "fed")
+    for number, what in enumerate(paths):
         _sets_off(bench, old, what)
         bench.run(0.3)
         new = bench.motion()
@@ -200,27 +208,27 @@ def _second_stops(bench: Bench) -> None:
             new.send(STOP[-1:])
         else:
             new.send(STOP)
-        asked = bench.now
+        requested = bench.now
         bench.wait_until_standing(1)
-        if bench.now - asked > 0.6 + bench.setting.motion.settle:
-            raise CheckFailed(f"{what}: a second client's STOP takes {bench.now - asked:.2f} s")
+        if bench.now - requested > 0.6 + bench.setting.motion.settle:
+            raise CheckFailed(f"{what}: a second client's STOP takes {bench.now - requested:.2f} s")
         if number == 1 and not isinstance(new.reply(PING, 1), messages.RawAcknowledged):
             raise CheckFailed("the PING in front of a second client's STOP is not answered")
         if not isinstance(new.reply(messages.JOINT_TRAJ_PT, 1), messages.RawAcknowledged):
             raise CheckFailed(f"{what}: a second client's STOP is not confirmed")
-        bench.stays(1, f"{what}: a second client has said STOP")
+        bench.assert_at_rest(1, f"{what}: a second client has said STOP")
         told = bench.progress(watcher)
         if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
             raise CheckFailed(f"{what}: a second client has said STOP, PROGRESS says {told}")
-        bench.moves_through(new, bench.wave(3))
+        bench.assert_moves_through(new, bench.wave(3))
         old = new
     # Its own trajectory takes the place of what is under way, and begins where that has stopped.
     _sets_off(bench, old, "download")
     new, far = bench.motion(), changed(bench.position, 0, bench.position[0] + 0.5)
     new.send(point_frame(0, 2, far, 3.0) + point_frame(1, 2, far, 3.0))
     bench.wait_until_standing(3)
-    bench.stays(1, "a second client's trajectory begins elsewhere")
-    bench.moves_through(new, bench.wave(3))
+    bench.assert_at_rest(1, "a second client's trajectory begins elsewhere")
+    bench.assert_moves_through(new, bench.wave(3))
 
 
 @case("server-breaks", "a server socket that breaks is opened again")

@@ -33,16 +33,16 @@ def stopped(link: RawLink, trajectory: int) -> None:
         pass
 
 
-def not_done(told: object, reason: RawReason, what: str) -> None:
+def not_done(reply: object, reason: RawReason, what: str) -> None:
     """Broken unless a reply says that it was not done, for that reason."""
-    if told != messages.RawNotDone(reason):
-        raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {told}")
+    if reply != messages.RawNotDone(reason):
+        raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {reply}")
 
 
-def done(told: object, what: str) -> None:
+def done(reply: object, what: str) -> None:
     """Broken unless a reply is a plain success."""
-    if not isinstance(told, messages.RawAcknowledged):
-        raise CheckFailed(f"{what}: the reply is {told}")
+    if not isinstance(reply, messages.RawAcknowledged):
+        raise CheckFailed(f"{what}: the reply is {reply}")
 
 
 @case("control-stop", "STOP over the control port, and where the robot stands", "R5")
@@ -52,29 +52,29 @@ def _stops(bench: Bench) -> None:
     stop(control)
     for delay in (0.0, 0.02, 0.7):
         link, since, points = bench.motion(), bench.now, bench.wave(12)
-        bench.sets_off(link, points, delay)
-        asked = bench.now
+        bench.start_motion(link, points, delay)
+        requested = bench.now
         control.read()
         stop(control)
         bench.wait_until_standing(3)
-        if bench.now - asked > 1.5:
-            raise CheckFailed(f"the robot stood {bench.now - asked:.2f} s after STOP")
+        if bench.now - requested > 1.5:
+            raise CheckFailed(f"the robot stood {bench.now - requested:.2f} s after STOP")
         bench.followed([p for p, _ in points], since=since)
-        told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
+        reply = control.expect(messages.RawStopped, 2, "STOPPED arrives")
         progress = bench.progress(watcher)
-        here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
+        current = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
         # Axes that follow late are measured on their last millimetres.
         near = 5e-3 if bench.setting.motion.servo_lag else 1e-4
-        if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > near:
-            raise CheckFailed(f"the robot stands at {here}, STOPPED says {told.joints}")
-        if (told.trajectory, told.reached, told.reason) != (
+        if max(abs(a - b) for a, b in zip(reply.joints, current, strict=True)) > near:
+            raise CheckFailed(f"the robot stands at {current}, STOPPED says {reply.joints}")
+        if (reply.trajectory, reply.reached, reply.reason) != (
             progress.trajectory,
             progress.reached,
             RawReason.STOPPED,
         ):
-            raise CheckFailed(f"STOPPED says {told}, PROGRESS {progress}")
-        bench.stays(2, "it was stopped over the control port")
-        bench.moves_through(link, bench.wave(3))
+            raise CheckFailed(f"STOPPED says {reply}, PROGRESS {progress}")
+        bench.assert_at_rest(2, "it was stopped over the control port")
+        bench.assert_moves_through(link, bench.wave(3))
         link.close(then=1.5)
 
 
@@ -99,21 +99,22 @@ def _stop_under_load(bench: Bench) -> None:
         # Questions without points: each is read, checked and answered.
         question = stream.frame((), RawStreamFlag(0))
         stream.link.send(question * 400)
-        asked = bench.now
+        requested = bench.now
         stop(control)
         # Some controllers let a program go on behind StopMove only when the robot has settled.
         settled = bench.setting.motion.settle if bench.setting.motion.stop_waits else 0
-        if bench.now - asked > 0.3 + settled:
-            raise CheckFailed(f"under load STOP is answered after {bench.now - asked:.2f} s")
-        late = next(o.time for o in orders if o.time >= asked and o.instruction == "StopMove")
+        if bench.now - requested > 0.3 + settled:
+            raise CheckFailed(f"under load STOP is answered after {bench.now - requested:.2f} s")
+        late = next(o.time for o in orders if o.time >= requested and o.instruction == "StopMove")
         most = delay + 0.01 * bench.setting.slowness
-        if late - asked > most and not bench.setting.random_schedule:
+        if late - requested > most and not bench.setting.random_schedule:
             raise CheckFailed(
-                f"under load the robot is told to stop after {late - asked:.3f} s, not {most:.3f} s"
+                f"under load the robot is told to stop after {late - requested:.3f} s, "
+                f"not {most:.3f} s"
             )
-        bench.rests(3, 1, "it was stopped under load")
+        bench.wait_until_at_rest(3, 1, "it was stopped under load")
         stream.link.close(then=2)
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 @case("control-any-moment", "STOP over the control port at every moment", "R7b")
@@ -130,8 +131,8 @@ def _stop_at_any_moment(bench: Bench) -> None:
         bench.wait_until_standing(5)
         bench.run(0.3)
         link.stop()
-        bench.stays(0.4, f"STOP came {step * 4} ms behind a trajectory")
-    bench.moves_through(link, bench.wave(4))
+        bench.assert_at_rest(0.4, f"STOP came {step * 4} ms behind a trajectory")
+    bench.assert_moves_through(link, bench.wave(4))
 
 
 @case("pause", "a pause on the path")
@@ -141,14 +142,14 @@ def _pauses(bench: Bench) -> None:
     not_done(control.ask(messages.RawPause(1)), RawReason.IDLE, "a pause of nothing")
     not_done(control.ask(messages.RawPause(0)), RawReason.IDLE, "an end of no pause")
     link, since, points = bench.motion(), bench.now, bench.wave(14)
-    bench.sets_off(link, points)
+    bench.start_motion(link, points)
     for _ in range(3):
         bench.run(0.8)
         done(control.ask(messages.RawPause(1)), "PAUSE")
-        bench.rests(3, 4, "it is paused")
-        told, status = bench.progress(watcher), bench.status(watcher)
-        if told.state != RawTrajectoryState.PAUSED or told.reason:
-            raise CheckFailed(f"a trajectory is paused, PROGRESS says {told}")
+        bench.wait_until_at_rest(3, 4, "it is paused")
+        reply, status = bench.progress(watcher), bench.status(watcher)
+        if reply.state != RawTrajectoryState.PAUSED or reply.reason:
+            raise CheckFailed(f"a trajectory is paused, PROGRESS says {reply}")
         if (status.in_motion, status.in_error) != (0, 0):
             raise CheckFailed(f"a trajectory is paused, STATUS says {status}")
         done(control.ask(messages.RawPause(1)), "PAUSE again")
@@ -166,7 +167,7 @@ def _pause_ends(bench: Bench) -> None:
     """What halts a motion halts a paused one; nothing of it goes on."""
     for action in ("STOP", "control STOP", "e-stop", "motors-off", "stop", "leaves", "another"):
         control, link = bench.control(), bench.motion()
-        bench.sets_off(link, bench.wave(14), 0.5)
+        bench.start_motion(link, bench.wave(14), 0.5)
         done(control.ask(messages.RawPause(1)), "PAUSE")
         bench.wait_until_standing(3)
         if action == "STOP":
@@ -181,15 +182,15 @@ def _pause_ends(bench: Bench) -> None:
         else:
             bench.controller.perform(action)
         bench.run(0.5)
-        told = control.ask(messages.RawPause(0))
-        if isinstance(told, messages.RawAcknowledged) and action != "another":
-            raise CheckFailed(f"after {action} an end of the pause is taken: {told}")
-        bench.rests(5, 3, f"it was paused, then came {action}")
+        reply = control.ask(messages.RawPause(0))
+        if isinstance(reply, messages.RawAcknowledged) and action != "another":
+            raise CheckFailed(f"after {action} an end of the pause is taken: {reply}")
+        bench.wait_until_at_rest(5, 3, f"it was paused, then came {action}")
         bench.start_again()
-        bench.stays(3, f"it was paused, then came {action} and a start of the program")
+        bench.assert_at_rest(3, f"it was paused, then came {action} and a start of the program")
         control.close()
         link.close(then=2)
-        bench.moves_through(bench.motion(), bench.wave(3))
+        bench.assert_moves_through(bench.motion(), bench.wave(3))
         bench.run(1.5)
 
 
@@ -197,18 +198,18 @@ def _pause_ends(bench: Bench) -> None:
 def _nobody_answers(bench: Bench) -> None:
     """Whoever asks something of a motion task that does not run is told so, soon."""
     control, link = bench.control(), bench.motion()
-    bench.sets_off(link, bench.wave(12))
+    bench.start_motion(link, bench.wave(12))
     bench.controller.perform("stop")
     bench.run(0.5)
-    asked = bench.now
-    told = control.ask(messages.RawSpeed(50))
-    if not isinstance(told, messages.RawNotDone) or bench.now - asked > 1.5:
-        raise CheckFailed(f"SPEED is answered by {told} after {bench.now - asked:.2f} s")
+    requested = bench.now
+    reply = control.ask(messages.RawSpeed(50))
+    if not isinstance(reply, messages.RawNotDone) or bench.now - requested > 1.5:
+        raise CheckFailed(f"SPEED is answered by {reply} after {bench.now - requested:.2f} s")
     bench.controller.perform("start")
-    bench.stays(3, "the program was stopped and started")
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_at_rest(3, "the program was stopped and started")
+    bench.assert_moves_through(link, bench.wave(3))
     # In a long move: short ones get their time for the speed, and need no SpeedRefresh.
-    bench.sets_off(link, bench.wave(12, duration=1.0), 0.3)
+    bench.start_motion(link, bench.wave(12, duration=1.0), 0.3)
     ends = fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM", 1000)
     not_done(control.ask(messages.RawSpeed(50)), RawReason.INTERNAL, "SPEED that is not set")
     ends()
@@ -236,18 +237,18 @@ def _one_stops(bench: Bench) -> None:
         for instruction in ("StopMove", "StartMove", "StopMoveReset"):
             wrapped(task, instruction, watched(name))
     for port in (control, link):
-        bench.sets_off(link, bench.wave(12), 0.3)
+        bench.start_motion(link, bench.wave(12), 0.3)
         stop(port)
-        bench.rests(3, 1, "it was stopped")
-    bench.sets_off(link, bench.wave(12), 0.3)
+        bench.wait_until_at_rest(3, 1, "it was stopped")
+    bench.start_motion(link, bench.wave(12), 0.3)
     done(control.ask(messages.RawPause(1)), "PAUSE")
     done(control.ask(messages.RawPause(0)), "the end of a pause")
     control.ask(messages.RawHeartbeat(0.25))
     bench.wait_until_standing(3)
-    bench.moves_through(link, bench.wave(3))
-    beside = [name for name in used if not tasks[name].spec.motion]
-    if beside != [bench.task("ROS_supervisor")]:
-        raise CheckFailed(f"the robot is stopped and started by {beside}")
+    bench.assert_moves_through(link, bench.wave(3))
+    adjacent = [name for name in used if not tasks[name].spec.motion]
+    if adjacent != [bench.task("ROS_supervisor")]:
+        raise CheckFailed(f"the robot is stopped and started by {adjacent}")
 
 
 @case("heartbeats", "a missing heartbeat stops the robot", "R12")
@@ -260,36 +261,36 @@ def _heartbeats(bench: Bench) -> None:
         if before:
             control.ask(beat)
         points = bench.wave(30)
-        bench.sets_off(link, points)
-        told = control.ask(beat)
+        bench.start_motion(link, points)
+        reply = control.ask(beat)
         for _ in range(12):
             bench.run(0.3)
-            told = control.ask(beat)
-            if not isinstance(told, messages.RawHeartbeatReply):
-                raise CheckFailed(f"HEARTBEAT is answered by {told}")
-            if told.trajectory != bench.progress(watcher).trajectory:
-                raise CheckFailed(f"HEARTBEAT is answered for another trajectory: {told}")
-            if bench.standing or told.state != RawTrajectoryState.MOVING:
-                raise CheckFailed(f"the robot does not move although heartbeats come: {told}")
+            reply = control.ask(beat)
+            if not isinstance(reply, messages.RawHeartbeatReply):
+                raise CheckFailed(f"HEARTBEAT is answered by {reply}")
+            if reply.trajectory != bench.progress(watcher).trajectory:
+                raise CheckFailed(f"HEARTBEAT is answered for another trajectory: {reply}")
+            if bench.standing or reply.state != RawTrajectoryState.MOVING:
+                raise CheckFailed(f"the robot does not move although heartbeats come: {reply}")
         last = bench.now
         told_stop = control.expect(messages.RawStopped, 3, "without a heartbeat the robot stops")
         bench.wait_until_standing(3)
         if not 0.45 < bench.now - last < 2.5 or told_stop.reason != RawReason.CLIENT_LOST:
             raise CheckFailed(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
-        bench.stays(3, "a heartbeat is missing")
+        bench.assert_at_rest(3, "a heartbeat is missing")
         # It is missed once.
-        bench.moves_through(link, bench.wave(6))
-        bench.sets_off(link, bench.wave(30))
+        bench.assert_moves_through(link, bench.wave(6))
+        bench.start_motion(link, bench.wave(30))
         control.ask(beat)
         # Some controllers let the supervisor go on only when the robot has settled.
         stopped(control, bench.progress(watcher).trajectory)
-        told = control.ask(messages.RawHeartbeat(0))
+        reply = control.ask(messages.RawHeartbeat(0))
         if (
-            not isinstance(told, messages.RawHeartbeatReply)
-            or told.state != RawTrajectoryState.FAILED
+            not isinstance(reply, messages.RawHeartbeatReply)
+            or reply.state != RawTrajectoryState.FAILED
         ):
-            raise CheckFailed(f"a heartbeat after one was missing is answered by {told}")
-        bench.moves_through(link, bench.wave(10))
+            raise CheckFailed(f"a heartbeat after one was missing is answered by {reply}")
+        bench.assert_moves_through(link, bench.wave(10))
         if not isinstance(control.ask(messages.RawHeartbeat(3600)), messages.RawHeartbeatReply):
             raise CheckFailed("an hour between heartbeats is refused")
         for wrong in (-1.0, 3601.0, 1e5, math.nan, math.inf):
@@ -304,7 +305,7 @@ def _heartbeat_in_time(bench: Bench) -> None:
     control, link = bench.control(), bench.motion()
     orders = watched_orders(bench)
     for seconds in (0.25, 0.53):
-        bench.sets_off(link, bench.wave(20))
+        bench.start_motion(link, bench.wave(20))
         control.ask(messages.RawHeartbeat(seconds))
         last = bench.now
         bench.wait_until_standing(3)
@@ -312,7 +313,7 @@ def _heartbeat_in_time(bench: Bench) -> None:
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.06:
             raise CheckFailed(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         control.ask(messages.RawHeartbeat(0))
-        bench.moves_through(link, bench.wave(4))
+        bench.assert_moves_through(link, bench.wave(4))
         # Axes may follow late.
         bench.wait_until_standing()
 
@@ -353,19 +354,21 @@ def _instructions_fail(bench: Bench) -> None:
     ):
         control, link = bench.control(), bench.motion()
         points = bench.wave(30)
-        bench.sets_off(link, points)
+        bench.start_motion(link, points)
         recovers = fails(bench, "ROS_control", instruction, error)
         control.send(messages.encode(HELLO, RawComm.REQUEST))
         bench.run(0.3)
         control.send(STOP)
         bench.run(1)
         recovers()
-        bench.healthy()
+        bench.assert_healthy()
         control = bench.control()
         bench.run(0.3)
         stop(control, 2)
-        bench.rests(3, 1, f"it was stopped; {instruction} of the control server has failed")
-        bench.moves_through(link, bench.wave(3))
+        bench.wait_until_at_rest(
+            3, 1, f"it was stopped; {instruction} of the control server has failed"
+        )
+        bench.assert_moves_through(link, bench.wave(3))
         control.close()
         link.close(then=1.3)
     for content in _REQUESTS:
@@ -373,9 +376,9 @@ def _instructions_fail(bench: Bench) -> None:
         # What is read behind length, type and kind is the request's own.
         recovers = fails(bench, "ROS_control", "UnpackRawBytes", "ERR_OUTOFBND", after=3)
         control.send(content)
-        control.wait_until_lost(2, "a request that cannot be read drops its client")
+        control.wait_disconnected(2, "a request that cannot be read drops its client")
         recovers()
-        bench.healthy()
+        bench.assert_healthy()
         stop(bench.control(), 2)
 
 
@@ -391,10 +394,10 @@ _REQUESTS = (
 @case("first-start", "a driver that starts for the first time orders nothing", background=True)
 def _first_start(bench: Bench) -> None:
     """Its persistents say 0 then, also where 0 would mean a pause or a trajectory."""
-    heard = watched_orders(bench)
+    received = watched_orders(bench)
     bench.run(2)
-    if heard:
-        raise CheckFailed(f"nobody has asked for anything, the driver orders {heard[0]}")
+    if received:
+        raise CheckFailed(f"nobody has asked for anything, the driver orders {received[0]}")
 
 
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
@@ -410,28 +413,28 @@ def _supervisor_is_gone(bench: Bench) -> None:
         if other.status(state).motion_possible:
             raise CheckFailed("the supervisor has ended, STATUS says that motion is possible")
         link.send(other.download(other.wave(8)))
-        other.stays(3, "the supervisor does not answer")
-        for asked in (control, link):
-            asked.send(STOP)
-            told = asked.reply(_TRAJ, 3)
+        other.assert_at_rest(3, "the supervisor does not answer")
+        for requested in (control, link):
+            requested.send(STOP)
+            told = requested.reply(_TRAJ, 3)
             if not isinstance(told, messages.RawFailure):
                 raise CheckFailed(f"the supervisor does not answer, STOP is answered by {told}")
         not_done(control.ask(messages.RawPause(1), 3), RawReason.INTERNAL, "PAUSE")
-        other.stays(1, "the supervisor does not answer")
+        other.assert_at_rest(1, "the supervisor does not answer")
     with bench.beside(bench.system) as other:
         control, link = other.control(), other.motion()
-        other.sets_off(link, other.wave(30))
+        other.start_motion(link, other.wave(30))
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(0.5)
         control.stop(3)
-        other.rests(1, 3, "it was stopped, the supervisor does not answer")
+        other.wait_until_at_rest(1, 3, "it was stopped, the supervisor does not answer")
 
 
 @case("old-end", "STOPPED tells what ends, not what has ended")
 def _old_end(bench: Bench) -> None:
     """A client that comes later is not told of what ended before; a cut tells joint and place."""
     link = bench.motion()
-    bench.sets_off(link, bench.wave(12))
+    bench.start_motion(link, bench.wave(12))
     link.stop()
     bench.wait_until_standing(3)
     bench.run(patience(bench))
@@ -445,16 +448,16 @@ def _old_end(bench: Bench) -> None:
     stream.put(points, BEGIN)
     bench.wait_until_moving()
     joint = bench.group.joints[1]
-    here = points[-1][0]
-    stream.put([((here[0], joint.upper + 0.1, *here[2:]), 30.0)])
+    current = points[-1][0]
+    stream.put([((current[0], joint.upper + 0.1, *current[2:]), 30.0)])
     stream.refused(RawReason.JOINT_LIMIT, "joint 2 is outside its limits")
-    told = control.expect(messages.RawStopped, 10, "STOPPED arrives")
-    if (told.reached, told.reason) != (20, RawReason.JOINT_LIMIT):
-        raise CheckFailed(f"a stream was cut behind 20 points, STOPPED says {told}")
+    reply = control.expect(messages.RawStopped, 10, "STOPPED arrives")
+    if (reply.reached, reply.reason) != (20, RawReason.JOINT_LIMIT):
+        raise CheckFailed(f"a stream was cut behind 20 points, STOPPED says {reply}")
     # Axes that follow late are not quite there yet.
     near = 1e-3 + 0.2 * bench.setting.motion.servo_lag
-    if distance(told.joints[: len(here)], here) > near or any(told.joints[len(here) :]):
-        raise CheckFailed(f"the stream ended at {here}, STOPPED says {told.joints}")
+    if distance(reply.joints[: len(current)], current) > near or any(reply.joints[len(current) :]):
+        raise CheckFailed(f"the stream ended at {current}, STOPPED says {reply.joints}")
 
 
 @case("stream-control", "pause, speed and STOP of a stream")
@@ -470,7 +473,7 @@ def _stream_over_control(bench: Bench) -> None:
     done(control.ask(messages.RawPause(1)), "PAUSE of a stream")
     bench.wait_until_standing(3)
     stream.takes("points while the stream is paused", points[25:50])
-    bench.stays(3, "the stream is paused")
+    bench.assert_at_rest(3, "the stream is paused")
     done(control.ask(messages.RawPause(0)), "the end of a pause")
     stream.takes("points behind a pause", points[50:70])
     stream.takes("the end of a stream behind a pause", points[70:], END)
@@ -481,8 +484,8 @@ def _stream_over_control(bench: Bench) -> None:
     bench.run(0.5)
     control.read()
     stop(control)
-    told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
+    reply = control.expect(messages.RawStopped, 2, "STOPPED arrives")
     refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 3))
-    if refusal.trajectory != told.trajectory or refusal.point != told.reached:
-        raise CheckFailed(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
-    bench.rests(1, 2, "the stream was stopped")
+    if refusal.trajectory != reply.trajectory or refusal.point != reply.reached:
+        raise CheckFailed(f"STOPPED says {reply}, a batch behind it is answered by {refusal}")
+    bench.wait_until_at_rest(1, 2, "the stream was stopped")

@@ -23,7 +23,7 @@ def _control_client_leaves(bench: Bench) -> None:
     for heartbeats in (True, False, True):
         control, link = bench.control(), bench.motion()
         points = bench.wave(12)
-        bench.sets_off(link, points)
+        bench.start_motion(link, points)
         if heartbeats:
             control.ask(messages.RawHeartbeat(0.8))
         bench.run(0.3)
@@ -32,7 +32,7 @@ def _control_client_leaves(bench: Bench) -> None:
             bench.wait_until_standing(3)
             if distance(bench.position, points[-1][0]) < 1e-3:
                 raise CheckFailed("the robot went on though the client that beats has left")
-            bench.stays(2, "the client that beats has left")
+            bench.assert_at_rest(2, "the client that beats has left")
         else:
             bench.wait_until_at(points[-1][0], 20)
         link.close(then=2)
@@ -44,14 +44,14 @@ def _newest_control_client(bench: Bench) -> None:
     old = bench.control()
     for _ in range(2):
         control = bench.control()
-        old.wait_until_lost(1, "the client before gives way")
+        old.wait_disconnected(1, "the client before gives way")
         old = control
         bench.run(0.5)
         link = bench.motion()
         bench.run(1.2)
-        bench.sets_off(link, bench.wave(12))
+        bench.start_motion(link, bench.wave(12))
         stop(control)
-        bench.rests(3, 1, "the newest client has stopped it")
+        bench.wait_until_at_rest(3, 1, "the newest client has stopped it")
 
 
 @case("control-hello", "HELLO, PING and requests in pieces and lumps", "R2")
@@ -102,11 +102,11 @@ def _control_junk(bench: Bench) -> None:
     ]
     link = bench.motion()
     points = bench.wave(40)
-    bench.sets_off(link, points)
+    bench.start_motion(link, points)
     for data in wrong:
         control = bench.control()
         control.send(data)
-        control.wait_until_lost(3, f"{data[:24].hex()} drops its client")
+        control.wait_disconnected(3, f"{data[:24].hex()} drops its client")
         if bench.standing:
             raise CheckFailed(f"the robot stopped for {data[:24].hex()}")
     bench.wait_until_at(points[-1][0], 30)
@@ -132,27 +132,27 @@ def _signals(bench: Bench) -> None:
 
 
 def _one_signal(bench: Bench, control: RawLink, index: int, kind: str, writable: bool) -> None:
-    there = bench.config.signals[index].name in bench.controller.signals
-    told = control.ask(messages.RawSignal(index, 0, 0.0))
-    if not there:
-        not_done(told, RawReason.NO_SIGNAL, f"signal {index} is not on the controller")
+    target = bench.config.signals[index].name in bench.controller.signals
+    reply = control.ask(messages.RawSignal(index, 0, 0.0))
+    if not target:
+        not_done(reply, RawReason.NO_SIGNAL, f"signal {index} is not on the controller")
         return
-    if not isinstance(told, messages.RawSignalReply) or told.signal != index:
-        raise CheckFailed(f"signal {index} is read as {told}")
+    if not isinstance(reply, messages.RawSignalReply) or reply.signal != index:
+        raise CheckFailed(f"signal {index} is read as {reply}")
     name, signals = bench.config.signals[index].name, bench.controller.signals
     if not writable:
         signals[name] = 1
-        told = control.ask(messages.RawSignal(index, 0, 0.0))
-        if told != messages.RawSignalReply(index, 1.0):
-            raise CheckFailed(f"signal {index} is 1, it is read as {told}")
-        told = control.ask(messages.RawSignal(index, 1, 0.0))
-        not_done(told, RawReason.READ_ONLY, f"signal {index} may not be written")
+        reply = control.ask(messages.RawSignal(index, 0, 0.0))
+        if reply != messages.RawSignalReply(index, 1.0):
+            raise CheckFailed(f"signal {index} is 1, it is read as {reply}")
+        reply = control.ask(messages.RawSignal(index, 1, 0.0))
+        not_done(reply, RawReason.READ_ONLY, f"signal {index} may not be written")
         if signals[name] != 1:
             raise CheckFailed(f"signal {index} may not be written, and is {signals[name]}")
         return
-    told = control.ask(messages.RawSignal(index, 1, 1.0))
-    if told != messages.RawSignalReply(index, 1.0):
-        raise CheckFailed(f"signal {index} is written as {told}")
+    reply = control.ask(messages.RawSignal(index, 1, 1.0))
+    if reply != messages.RawSignalReply(index, 1.0):
+        raise CheckFailed(f"signal {index} is written as {reply}")
     none = {"DO": (2.0, 0.5, -1.0), "GO": (-1.0, 0.5)}.get(kind, ())
     for value in (*none, math.nan, math.inf, 1e20):
         not_done(
@@ -163,7 +163,7 @@ def _one_signal(bench: Bench, control: RawLink, index: int, kind: str, writable:
     if signals[name] != 1:
         raise CheckFailed(f"signal {index} is written, and is {signals[name]}")
     for write in (2, -1):
-        told = control.ask(messages.RawSignal(index, write, 0.0))
-        not_done(told, RawReason.BAD_VALUE, "neither read nor write")
+        reply = control.ask(messages.RawSignal(index, write, 0.0))
+        not_done(reply, RawReason.BAD_VALUE, "neither read nor write")
     if control.ask(messages.RawSignal(index, 1, 0.0)) != messages.RawSignalReply(index, 0.0):
         raise CheckFailed(f"signal {index} does not go back to 0")

@@ -29,12 +29,12 @@ def _alone(bench: Bench) -> None:
 def _stops_alone(bench: Bench, port: str) -> None:
     control, link = bench.control(), bench.motion()
     supervisor = bench.controller.task(bench.task("ROS_supervisor"))
-    bench.sets_off(link, bench.wave(12), 0.5)
+    bench.start_motion(link, bench.wave(12), 0.5)
     if port == "heartbeat":
         control.ask(messages.RawHeartbeat(0.2))
     orders, last = watched_orders(bench), bench.last_event
     supervisor.stop()
-    asked = bench.now
+    requested = bench.now
     chosen = control if port == "control" else link
     if port == "leaves":
         link.close()
@@ -44,31 +44,33 @@ def _stops_alone(bench: Bench, port: str) -> None:
     bench.wait_until_standing(1.3 + motion.settle + motion.servo_lag)
     if port in ("control", "motion"):
         told = chosen.reply(_TRAJ, 2)
-        if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - asked < 1.8:
-            raise CheckFailed(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
+        if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - requested < 1.8:
+            raise CheckFailed(f"STOP is answered by {told} after {bench.now - requested:.2f} s")
     if not any(o.instruction == "StopMove" and o.free for o in orders):
         raise CheckFailed(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
     # Some controllers let a program go on behind StopMove, and tell of it, only then.
     bench.run(2 * motion.settle if motion.stop_waits else 0)
-    said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
-    if "ROS: the supervisor does not answer" not in said:
-        raise CheckFailed(f"the supervisor hangs, the robot was stopped, the event log says {said}")
+    log_entries = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
+    if "ROS: the supervisor does not answer" not in log_entries:
+        raise CheckFailed(
+            f"the supervisor hangs, the robot was stopped, the event log says {log_entries}"
+        )
     for paused in (0, 1):
         refused = control.ask(messages.RawPause(paused))
         not_done(refused, RawReason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
-    bench.stays(1, "the robot was stopped, the supervisor hangs")
+    bench.assert_at_rest(1, "the robot was stopped, the supervisor hangs")
     link = link if port != "leaves" else bench.motion()
     supervisor.start()
-    bench.stays(3, "the supervisor goes on")
+    bench.assert_at_rest(3, "the supervisor goes on")
     if bench.setting.motion.stop_owner == "kind":
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
         return
     # There the supervisor cannot take back what a server has done.
-    said = [e.title for e in bench.controller.log.since(last)]
-    if "ROS: the robot stays stopped" not in said:
-        raise CheckFailed(f"a server's stop cannot be taken back, the event log says {said}")
+    log_entries = [e.title for e in bench.controller.log.since(last)]
+    if "ROS: the robot stays stopped" not in log_entries:
+        raise CheckFailed(f"a server's stop cannot be taken back, the event log says {log_entries}")
     link.send(bench.download(bench.wave(3)))
-    bench.stays(4, "a server's stop cannot be taken back")
+    bench.assert_at_rest(4, "a server's stop cannot be taken back")
 
 
 @case("cannot-stop-alone", "a server that cannot stop the robot, either")
@@ -76,7 +78,7 @@ def _cannot(bench: Bench) -> None:
     """Where its StopMove is refused the event log says so, and another task stops the robot."""
     control, link = bench.control(), bench.motion()
     supervisor = bench.controller.task(bench.task("ROS_supervisor"))
-    bench.sets_off(link, bench.wave(12), 0.5)
+    bench.start_motion(link, bench.wave(12), 0.5)
     last = bench.last_event
     fails(bench, "ROS_control", "StopMove", "ERR_PATH_STOP")
     supervisor.stop()
@@ -89,28 +91,28 @@ def _cannot(bench: Bench) -> None:
         raise CheckFailed(f"a server cannot stop the robot, {told}, the event log says {texts}")
     bench.wait_until_standing(1 + bench.setting.motion.settle + bench.setting.motion.servo_lag)
     supervisor.start()
-    bench.rests(3, 1, "the supervisor goes on, and was asked to stop")
+    bench.wait_until_at_rest(3, 1, "the supervisor goes on, and was asked to stop")
     if bench.setting.motion.stop_owner != "kind":
         # There the supervisor cannot take back the stop of a server.
         return
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("beats", "heartbeats to the moment", "R12")
 def _beats(bench: Bench) -> None:
     """To the moment, and missed once; none is awaited behind a HEARTBEAT of 0."""
     control, link = bench.control(), bench.motion()
-    told = control.ask(messages.RawHeartbeat(0))
-    if not isinstance(told, messages.RawHeartbeatReply) or told.state != RawTrajectoryState.NONE:
-        raise CheckFailed(f"a heartbeat at rest is answered by {told}")
+    reply = control.ask(messages.RawHeartbeat(0))
+    if not isinstance(reply, messages.RawHeartbeatReply) or reply.state != RawTrajectoryState.NONE:
+        raise CheckFailed(f"a heartbeat at rest is answered by {reply}")
     points = bench.wave(12)
-    bench.sets_off(link, points)
+    bench.start_motion(link, points)
     for seconds in (0.3, 0.0):
         control.ask(messages.RawHeartbeat(seconds))
     bench.wait_until_at(points[-1][0], 10)
     orders = watched_orders(bench)
     for seconds in (0.25, 1.03):
-        bench.sets_off(link, bench.wave(12))
+        bench.start_motion(link, bench.wave(12))
         orders.clear()
         control.ask(messages.RawHeartbeat(0.1))
         beating = control.ask(messages.RawHeartbeat(seconds))
@@ -129,11 +131,11 @@ def _beats(bench: Bench) -> None:
                 raise CheckFailed(f"HEARTBEAT is answered by {beating}")
             # Some controllers let the supervisor go on only when the robot has settled.
             stopped(control, beating.trajectory)
-            told = control.ask(messages.RawHeartbeat(0.2))
-            if not isinstance(told, messages.RawHeartbeatReply) or told.state != _FAILED:
-                raise CheckFailed(f"a heartbeat after one was missing is answered by {told}")
+            reply = control.ask(messages.RawHeartbeat(0.2))
+            if not isinstance(reply, messages.RawHeartbeatReply) or reply.state != _FAILED:
+                raise CheckFailed(f"a heartbeat after one was missing is answered by {reply}")
             control.ask(messages.RawHeartbeat(0))
-        bench.moves_through(link, bench.wave(5))
+        bench.assert_moves_through(link, bench.wave(5))
 
 
 @case("beating-clients", "clients that beat, and are lost in each way", "R12")
@@ -142,7 +144,7 @@ def _leave(bench: Bench) -> None:
     link, control = bench.motion(), bench.control()
     for how in ("leaves", "is replaced", "is reset", "has not beaten", "is dropped", "leaves"):
         points = bench.wave(6, duration=0.25)
-        bench.sets_off(link, points)
+        bench.start_motion(link, points)
         if how != "has not beaten":
             control.ask(messages.RawHeartbeat(0.6))
         bench.run(0.2)
@@ -158,12 +160,14 @@ def _leave(bench: Bench) -> None:
         if how == "has not beaten":
             bench.wait_until_at(points[-1][0], 5)
         else:
-            bench.rests(0.3 + 0.05 * bench.setting.slowness, 0.3, f"a client that beats {how}")
+            bench.wait_until_at_rest(
+                0.3 + 0.05 * bench.setting.slowness, 0.3, f"a client that beats {how}"
+            )
         if not control.lost:
             raise CheckFailed(f"a control client that {how} keeps its connection")
         control = next_one if next_one is not None else bench.control()
         # Whoever comes next has asked for no heartbeats.
-        bench.moves_through(link, bench.wave(6, duration=0.25))
+        bench.assert_moves_through(link, bench.wave(6, duration=0.25))
 
 
 @case("stops-before", "STOP before a stream moves")
@@ -176,13 +180,13 @@ def _not_begun(bench: Bench) -> None:
     stream.put(way(bench, 1), BEGIN)
     number = stream.accepted("the first points").trajectory
     stop(control)
-    told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
-    here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
+    reply = control.expect(messages.RawStopped, 2, "STOPPED arrives")
+    current = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
     if (
-        told[:3] != (number, 0, RawReason.STOPPED)
-        or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
+        reply[:3] != (number, 0, RawReason.STOPPED)
+        or max(abs(a - b) for a, b in zip(reply.joints, current, strict=True)) > 1e-5
     ):
-        raise CheckFailed(f"a stream was stopped before it moved, STOPPED says {told}")
+        raise CheckFailed(f"a stream was stopped before it moved, STOPPED says {reply}")
     stream.refuses(RawReason.STOPPED, "points behind STOP", way(bench, 2))
     bench.run(0.3)
     progress = bench.progress(watcher)
@@ -192,4 +196,4 @@ def _not_begun(bench: Bench) -> None:
         RawReason.STOPPED,
     ):
         raise CheckFailed(f"a stream was stopped before it moved, PROGRESS says {progress}")
-    bench.stays(0.5, "the stream was stopped before it moved")
+    bench.assert_at_rest(0.5, "the stream was stopped before it moved")

@@ -26,16 +26,18 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
         state, link = bench.state(), bench.motion()
         points = bench.wave(10)
         since = bench.now
-        bench.sets_off(link, points, delay)
+        bench.start_motion(link, points, delay)
         bench.controller.perform(action)
         bench.wait_until_standing(10)
         bench.followed([p for p, _ in points], since=since)
-        bench.stays(2, f"{action}")
+        bench.assert_at_rest(2, f"{action}")
         if pp_to_main:
             bench.controller.perform("pp-to-main")
             bench.run(0.5)
         _back_to_work(bench)
-        bench.stays(5, f"the program was started again after {action}, nobody asked for motion")
+        bench.assert_at_rest(
+            5, f"the program was started again after {action}, nobody asked for motion"
+        )
         if action != "power-loss":
             status = bench.status(state)
             if status.motion_possible != 1:
@@ -45,7 +47,7 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
         link.close()
         state.close(then=1.5)
         link = bench.motion()
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
         link.close(then=1.5)
 
 
@@ -60,11 +62,11 @@ def _refused_while_not_executing(bench: Bench) -> None:
         bench.controller.perform(action)
         bench.run(1)
         link.send(bench.download(bench.wave(4)))
-        bench.stays(5, f"the controller is in {action}")
-        status, told = bench.status(state), bench.progress(state)
-        if (told.state, told.point, told.joint) != (RawTrajectoryState.REFUSED, -1, 0):
+        bench.assert_at_rest(5, f"the controller is in {action}")
+        status, reply = bench.status(state), bench.progress(state)
+        if (reply.state, reply.point, reply.joint) != (RawTrajectoryState.REFUSED, -1, 0):
             raise CheckFailed(
-                f"after {action} a trajectory is refused for no point, PROGRESS: {told}"
+                f"after {action} a trajectory is refused for no point, PROGRESS: {reply}"
             )
         reason, _ = messages.split_error_code(status.error_code)
         if status.in_error != 1 or reason not in reasons:
@@ -72,8 +74,8 @@ def _refused_while_not_executing(bench: Bench) -> None:
         if status.motion_possible != 0:
             raise CheckFailed(f"after {action} STATUS says that motion is possible")
         _back_to_work(bench)
-        bench.stays(5, "what came while nothing was executing is not kept")
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_at_rest(5, "what came while nothing was executing is not kept")
+        bench.assert_moves_through(link, bench.wave(3))
         link.close()
         state.close(then=1.5)
 
@@ -111,7 +113,7 @@ def _pp_to_main_idle(bench: Bench) -> None:
         bench.controller.perform("start")
         bench.run(1)
         link = bench.motion()
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
         link.close(then=1.5)
 
 
@@ -123,7 +125,7 @@ def _without_signals(bench: Bench) -> None:
         status = other.status(state)
         if status.drives_powered != RawTriState.UNKNOWN:
             raise CheckFailed(f"without signals STATUS says {status}")
-        other.moves_through(link, other.wave(4))
+        other.assert_moves_through(link, other.wave(4))
 
 
 @case("open-files", "signals that the controller refused, or that nothing drives")
@@ -143,23 +145,23 @@ def _serves_and_stops(bench: Bench) -> None:
     """A trajectory arrives, STOP ends one, and STATUS says of both when they are over."""
     state, link, period = bench.state(), bench.motion(), bench.config.state_period
     bench.run(2 * period)
-    bench.moves_through(link, bench.wave(4))
+    bench.assert_moves_through(link, bench.wave(4))
     _is_over(bench, state, "a trajectory has arrived")
     points, since = bench.wave(10), bench.now
-    bench.sets_off(link, points, 0.5)
+    bench.start_motion(link, points, 0.5)
     if bench.status(state, 2 + period).in_motion != 1:
         raise CheckFailed("a trajectory is under way, STATUS says that nothing moves")
     link.send(STOP)
-    bench.rests(5, 1, "STOP was sent")
+    bench.wait_until_at_rest(5, 1, "STOP was sent")
     bench.followed([p for p, _ in points], since=since)
     _is_over(bench, state, "STOP has ended a trajectory")
     _stopped_meanwhile(bench, link)
-    bench.sets_off(bench.motion(), bench.wave(10), 0.3)
+    bench.start_motion(bench.motion(), bench.wave(10), 0.3)
     bench.controller.perform("e-stop")
-    bench.rests(10, 2, "an emergency stop")
+    bench.wait_until_at_rest(10, 2, "an emergency stop")
     _back_to_work(bench)
-    bench.stays(5, "the program was started again, nobody asked for motion")
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_at_rest(5, "the program was started again, nobody asked for motion")
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 def _stopped_meanwhile(bench: Bench, link: RawLink) -> None:
@@ -172,9 +174,9 @@ def _stopped_meanwhile(bench: Bench, link: RawLink) -> None:
     link.send(data)
     other = bench.motion()
     other.send(data)
-    bench.stays(2, "the program is stopped")
+    bench.assert_at_rest(2, "the program is stopped")
     bench.controller.perform("start")
-    bench.stays(4, "the program was started; what was sent before is nothing")
+    bench.assert_at_rest(4, "the program was started; what was sent before is nothing")
     other.close(then=1.5)
 
 
@@ -200,8 +202,8 @@ def _standing_forgotten(bench: Bench) -> None:
 
 
 def _name(bench: Bench, function: str) -> str:
-    (found,) = (s for s in STATUS_SIGNALS if s.function == function)
-    return signal_name(bench.config, bench.group, found)
+    (result,) = (s for s in STATUS_SIGNALS if s.function == function)
+    return signal_name(bench.config, bench.group, result)
 
 
 @case("mixed-builds", "modules of different builds refuse to move", once=True)
@@ -221,13 +223,13 @@ def _mixed_builds(bench: Bench) -> None:
             frames = other.download(other.wave(4))
             link.send(frames[:68])
             other.run(0.5)
-            told = other.progress(state)
-            if (told.state, told.reason, told.point, told.joint) != (
+            reply = other.progress(state)
+            if (reply.state, reply.reason, reply.point, reply.joint) != (
                 RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH, -1, 0
             ):  # fmt: skip
-                raise CheckFailed(f"{path} is of another build, PROGRESS says {told}")
+                raise CheckFailed(f"{path} is of another build, PROGRESS says {reply}")
             link.send(frames[68:])
-            other.stays(3, f"{path} is of another build")
+            other.assert_at_rest(3, f"{path} is of another build")
             status = other.status(state)
             if status.motion_possible != 0:
                 raise CheckFailed(
@@ -238,12 +240,12 @@ def _mixed_builds(bench: Bench) -> None:
 @case("no-task-ends", "no task ends by itself", "R3")
 def _no_task_ends(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
-    bench.moves_through(link, bench.wave(4))
+    bench.assert_moves_through(link, bench.wave(4))
     bench.status(state)
     bench.run(60)
-    ended = [name for name, task in bench.controller.tasks.items() if task.state != "running"]
-    if ended:
-        raise CheckFailed(f"tasks that ended by themselves: {', '.join(ended)}")
+    finished = [name for name, task in bench.controller.tasks.items() if task.state != "running"]
+    if finished:
+        raise CheckFailed(f"tasks that ended by themselves: {', '.join(finished)}")
 
 
 case("e-stop", "nothing resumes after an emergency stop")(partial(_interrupted, action="e-stop"))
@@ -266,11 +268,11 @@ case("power-loss", "nothing resumes after a power failure")(
 def _power_loss_after_stop(bench: Bench) -> None:
     """A halt that the failure has interrupted ends after Start, without PP to main."""
     for action in ("stop", "manual", "e-stop", "power-loss"):
-        bench.sets_off(bench.motion(), bench.wave(8), 0.6)
+        bench.start_motion(bench.motion(), bench.wave(8), 0.6)
         bench.controller.perform(action)
         bench.run(0.1)
         bench.controller.perform("power-loss")
         bench.wait_until_standing(10)
         _back_to_work(bench)
-        bench.stays(3, f"{action}, a power failure and Start")
-        bench.moves_through(bench.motion(), bench.wave(3))
+        bench.assert_at_rest(3, f"{action}, a power failure and Start")
+        bench.assert_moves_through(bench.motion(), bench.wave(3))

@@ -62,7 +62,7 @@ def _legs(bench: Bench, points: Sequence[Point]) -> list[_Leg]:
 
     return [
         _Leg(
-            tuple((there - here) / seconds for here, there in zip(one, other, strict=True)),
+            tuple((target - current) / seconds for current, target in zip(one, other, strict=True)),
             frames.distance(tcp(one), tcp(other)) / seconds,
         )
         for (one, _), (other, seconds) in pairwise(points)
@@ -122,34 +122,34 @@ def _check(bench: Bench, points: Sequence[Point], what: str, percent: float = 10
     group = bench.motion_group
     group.listeners.append(moves.append)
     link = bench.motion()
-    asked = points
+    requested = points
     if percent < 100:
         asks_as_it_begins(bench, bench.control(), percent)
         points = [(place, seconds * 100 / percent) for place, seconds in points]
-    begins(bench, link, asked)
+    begins(bench, link, requested)
     longest = 2 * sum(seconds for _, seconds in points[1:]) + 2
     bench.until(lambda: len(moves) == len(points) - 1, longest, f"{what}: each point is a move")
     bench.wait_until_at(points[-1][0], longest)
     group.listeners.remove(moves.append)
     link.close(then=0.3)
     legs = _legs(bench, points)
-    wanted = [_corner(bench, *two) for two in pairwise(legs)]
+    expected = [_corner(bench, *two) for two in pairwise(legs)]
     seen = [m.zone for m in moves if isinstance(m, JointMove)]
     # The first point is where the robot stands.
-    if len(seen) != len(wanted) + 1 or not seen[-1].fine:
+    if len(seen) != len(expected) + 1 or not seen[-1].fine:
         raise CheckFailed(f"{what}: {len(points)} points, but {len(seen)} moves")
-    for number, (zone, one) in enumerate(zip(seen, wanted, strict=False), 1):
+    for number, (zone, one) in enumerate(zip(seen, expected, strict=False), 1):
         if not _alike(zone, one):
             raise CheckFailed(f"{what}, point {number}: {zone}, not {one}")
 
 
-def _alike(zone: Zone, wanted: Zone) -> bool:
+def _alike(zone: Zone, expected: Zone) -> bool:
     """Equal, to what a num holds of positions and durations."""
-    if zone.fine or wanted.fine:
-        return zone.fine == wanted.fine
+    if zone.fine or expected.fine:
+        return zone.fine == expected.fine
     names = ("tcp", "orientation", "external", "angle", "linear", "rotary")
     return all(
-        math.isclose(getattr(zone, n), getattr(wanted, n), rel_tol=5e-3, abs_tol=1e-6)
+        math.isclose(getattr(zone, n), getattr(expected, n), rel_tol=5e-3, abs_tol=1e-6)
         for n in names
     )
 
@@ -159,20 +159,20 @@ class _Walk:
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
-        here = bench.position
+        current = bench.position
         self._inward = [
             1.0 if joint.upper - value >= value - joint.lower else -1.0
-            for joint, value in zip(bench.group.joints, here, strict=True)
+            for joint, value in zip(bench.group.joints, current, strict=True)
         ]
-        self.points: list[Point] = [(here, 1.0)]
+        self.points: list[Point] = [(current, 1.0)]
 
     def go(self, speeds: Sequence[float], seconds: float) -> None:
-        here = self.points[-1][0]
-        there = tuple(
+        current = self.points[-1][0]
+        target = tuple(
             value + sign * speed * seconds
-            for value, sign, speed in zip(here, self._inward, speeds, strict=True)
+            for value, sign, speed in zip(current, self._inward, speeds, strict=True)
         )
-        self.points.append((there, seconds))
+        self.points.append((target, seconds))
 
 
 def _usual(bench: Bench) -> list[float]:
@@ -216,9 +216,9 @@ def _largest(bench: Bench) -> None:
     walk = _Walk(bench)
     joint = bench.group.joints[0]
     speed = min(0.5 * joint.speed, 1.2 if joint.kind == "revolute" else 0.8)
-    rest = [0.0] * (len(bench.group.joints) - 1)
+    remaining = [0.0] * (len(bench.group.joints) - 1)
     for part in (0.5, 0.8, -0.8, 0.5, -0.4):
-        walk.go([part * speed, *rest], least)
+        walk.go([part * speed, *remaining], least)
     _check(bench, walk.points, "a quick TCP")
 
 
@@ -245,12 +245,12 @@ def _unknown(bench: Bench) -> None:
     zones: list[Zone] = []
     group = bench.motion_group
 
-    def heard(move: Move) -> None:
+    def received(move: Move) -> None:
         zones.append(move.zone)
 
-    group.listeners.append(heard)
+    group.listeners.append(received)
     fails(bench, "ROS_motion", "CalcRobT", "ERR_ROBLIMIT")
-    bench.moves_through(bench.motion(), bench.wave(6))
-    group.listeners.remove(heard)
+    bench.assert_moves_through(bench.motion(), bench.wave(6))
+    group.listeners.remove(received)
     if not any(_alike(zone, _named(policy.zone)) for zone in zones):
         raise CheckFailed(f"CalcRobT has failed, the zones are {zones}")

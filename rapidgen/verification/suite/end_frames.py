@@ -28,8 +28,8 @@ _NO_START = messages.RawRefused(RawReason.NO_START, 0, 0)
 def _inward(bench: Bench, steps: Position) -> Position:
     """Each axis by its step, to the side where there is more room."""
     return tuple(
-        inward(joint, here, step)
-        for joint, here, step in zip(bench.group.joints, bench.position, steps, strict=True)
+        inward(joint, current, step)
+        for joint, current, step in zip(bench.group.joints, bench.position, steps, strict=True)
     )
 
 
@@ -52,12 +52,12 @@ def _slack(bench: Bench) -> float:
     return 0.03 + 0.02 * bench.setting.slowness
 
 
-def _in_time(bench: Bench, what: str, seen: float, wanted: float, possible: float = 0.0) -> None:
+def _in_time(bench: Bench, what: str, seen: float, expected: float, possible: float = 0.0) -> None:
     """Broken unless something took as long as wanted, or as is possible where that is longer."""
     motion = bench.setting.motion
     late = _slack(bench) + motion.settle + motion.servo_lag
-    if not 0.95 * wanted - 0.02 <= seen <= max(wanted, possible) + late:
-        raise CheckFailed(f"{what} took {seen:.3f} s, not {wanted:.3f} s")
+    if not 0.95 * expected - 0.02 <= seen <= max(expected, possible) + late:
+        raise CheckFailed(f"{what} took {seen:.3f} s, not {expected:.3f} s")
 
 
 def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
@@ -74,15 +74,15 @@ def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
 
 def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
     """Broken unless PROGRESS says within that time that all points are executed."""
-    wanted = (table.number, RawTrajectoryState.DONE, count, count, count, 0, -1, 0)
+    expected = (table.number, RawTrajectoryState.DONE, count, count, count, 0, -1, 0)
     table.watcher.read()
     more = 2.5 * bench.config.state_period + 2 * bench.setting.motion.settle
-    until, told = bench.now + seconds + more, None
+    until, reply = bench.now + seconds + more, None
     while bench.now < until:
-        told = table.watcher.expect(messages.RawProgress, 2, "a PROGRESS arrives")
-        if told == wanted:
+        reply = table.watcher.expect(messages.RawProgress, 2, "a PROGRESS arrives")
+        if reply == expected:
             return
-    raise CheckFailed(f"{count} points are executed, PROGRESS says {told}")
+    raise CheckFailed(f"{count} points are executed, PROGRESS says {reply}")
 
 
 @case("one-place", "one point, sent twice, in its time", "R8")
@@ -91,17 +91,17 @@ def _one_place(bench: Bench) -> None:
     table, joints = Table(bench), bench.group.joints
     for part, given in ((0.9, 0.05), (0.9, 0.8), (0.5, 0.05), (0.0, 0.4)):
         steps = tuple(part * bench.start_tolerance(joint) for joint in joints)
-        there = _inward(bench, steps)
+        target = _inward(bench, steps)
         needed = _approach(bench, steps) if any(steps) else 0.0
         # From rest to rest, and the TCP below its ceiling.
-        needed = max(needed, 2 * bench.tcp_seconds(bench.position, there))
-        table.row(_BEGIN, there, given, _TAKEN)
-        table.accepted(there, given)
+        needed = max(needed, 2 * bench.tcp_seconds(bench.position, target))
+        table.row(_BEGIN, target, given, _TAKEN)
+        table.accepted(target, given)
         since = bench.now
         table.ask()
         if bench.now - since > 0.2:
             raise CheckFailed(f"the end frame was answered after {bench.now - since:.2f} s")
-        bench.wait_until_at(there, 5)
+        bench.wait_until_at(target, 5)
         if needed:
             took = bench.now - since
             possible = _from_rest(bench, steps)
@@ -116,27 +116,27 @@ def _start(bench: Bench) -> None:
     table, joints = Table(bench), bench.group.joints
     near = tuple(map(bench.start_tolerance, joints))
     # Where no axis is at zero.
-    there = _inward(bench, tuple(4 * n for n in near))
+    target = _inward(bench, tuple(4 * n for n in near))
     table.row(_BEGIN, bench.position, 0.1, _TAKEN)
-    table.accepted(there, bench.seconds_to(there))
+    table.accepted(target, bench.seconds_to(target))
     table.ask()
-    bench.wait_until_at(there, 5)
+    bench.wait_until_at(target, 5)
     bench.wait_until_standing()
     if min(near) > 0:
         beyond = _inward(bench, tuple(1.03 * n for n in near))
         for axis in range(len(joints)):
             far = messages.RawRefused(RawReason.START_TOO_FAR, 0, axis + 1)
-            start = (*there[:axis], *beyond[axis:])
+            start = (*target[:axis], *beyond[axis:])
             table.row(_BEGIN, start, 9.0, _TAKEN)
-            table.row(_END, there, 9.0, far)
-            alone = changed(there, axis, beyond[axis])
+            table.row(_END, target, 9.0, far)
+            alone = changed(target, axis, beyond[axis])
             table.row(_BEGIN, alone, 9.0, _TAKEN)
             table.row(1, alone, 9.0, _TAKEN)
-            table.row(_END, there, 9.0, far)
+            table.row(_END, target, 9.0, far)
         table.number += 1
-        table.row(1, there, 9.0, _NO_START)
+        table.row(1, target, 9.0, _NO_START)
         table.ask()
-        bench.stays(0.1, "the first point was too far")
+        bench.assert_at_rest(0.1, "the first point was too far")
     _ways(bench, table, near)
 
 
@@ -144,7 +144,7 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
     policy = bench.config.trajectory
     short = max(0.3, 1.05 * policy.min_segment)
     for last in (True, False):
-        here = bench.position
+        current = bench.position
         start = _inward(bench, tuple(-0.97 * n for n in near))
         one, two, three = (p for p, _ in bench.wave(4, duration=short, size=0.03)[1:])
         points: list[Point] = [(start, 9.0), (one, short), (one, 0.5), (two, short)]
@@ -161,11 +161,11 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
             # A robot that follows late does not quite get to a place where it does not stay; below
             # a ceiling of the TCP ways from and to rest may take longer.
             continue
-        begun = _times(bench, since, here)[1]
+        started = _times(bench, since, current)[1]
         at_start = _times(bench, since, start)[0]
         if min(near) > 0:
             needed = _approach(bench, tuple(0.97 * n for n in near))
-            _in_time(bench, "the way to the first point", at_start - begun, needed)
+            _in_time(bench, "the way to the first point", at_start - started, needed)
         arrived, left = _times(bench, at_start, one)
         _in_time(bench, "the first way", arrived - at_start, short)
         _in_time(bench, "a stay", left - arrived, 0.5)
@@ -178,26 +178,26 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
 @case("not-now", "an end frame while no motion is possible, or another one moves", "R7a")
 def _not_now(bench: Bench) -> None:
     """What has stopped or stops the robot meanwhile is the reason; a halt is waited for."""
-    table, here = Table(bench), bench.position
+    table, current = Table(bench), bench.position
 
     def refused(reason: RawReason) -> None:
-        table.row(_END, here, 9.0, messages.RawRefused(reason, -1, 0))
+        table.row(_END, current, 9.0, messages.RawRefused(reason, -1, 0))
         table.number += 1
-        table.row(1, here, 9.0, _NO_START)
+        table.row(1, current, 9.0, _NO_START)
         table.ask()
 
     if bench.group.ports.control:
         control = bench.control()
         for _ in range(2):
-            table.row(_BEGIN, here, 9.0, _TAKEN)
-            table.row(1, here, 9.0, _TAKEN)
+            table.row(_BEGIN, current, 9.0, _TAKEN)
+            table.row(1, current, 9.0, _TAKEN)
             table.ask()
             table.stop(control)
             refused(RawReason.STOPPED)
     stops = (("stop", RawReason.NOT_EXECUTING), ("e-stop", RawReason.EMERGENCY_STOP))
     # While commissioning the driver stops with the program, and nobody answers.
     for action, reason in () if bench.config.commissioning else stops:
-        table.row(_BEGIN, here, 9.0, _TAKEN)
+        table.row(_BEGIN, current, 9.0, _TAKEN)
         table.ask()
         bench.controller.perform(action)
         # Sooner than anybody looks by himself.
@@ -205,35 +205,35 @@ def _not_now(bench: Bench) -> None:
         refused(reason)
         bench.start_again()
         bench.run(0.5)
-    bench.stays(0.2, "nothing was handed over")
+    bench.assert_at_rest(0.2, "nothing was handed over")
     _while_moving(bench, table)
 
 
 def _while_moving(bench: Bench, table: Table) -> None:
     """The one under way ends; its halt is waited for, no longer than it takes."""
-    joint, here = bench.group.joints[0], bench.position
-    step = 0.8 * max(joint.upper - here[0], here[0] - joint.lower)
-    away = _inward(bench, (step, *[0.0] * (len(here) - 1)))
+    joint, current = bench.group.joints[0], bench.position
+    step = 0.8 * max(joint.upper - current[0], current[0] - joint.lower)
+    away = _inward(bench, (step, *[0.0] * (len(current) - 1)))
     # A TCP with a ceiling of its own is slower than the axis.
     slower = 1.1 if bench.group.tcp_speed_limit >= 5 else 14
     seconds = slower * step / joint.speed
-    table.row(_BEGIN, here, 9.0, _TAKEN)
+    table.row(_BEGIN, current, 9.0, _TAKEN)
     table.accepted(away, seconds)
     table.ask()
     bench.wait_until_moving()
     bench.run(0.6 * seconds)
     # The new one begins elsewhere.
     far = messages.RawRefused(RawReason.START_TOO_FAR, 0, 1)
-    for number, wanted in ((_BEGIN, _TAKEN), (_END, far)):
-        table.row(number, here, 0.2, wanted)
+    for number, expected in ((_BEGIN, _TAKEN), (_END, far)):
+        table.row(number, current, 0.2, expected)
     since = bench.now
     table.ask()
     halted = bench.now
     if not since + 0.02 < halted < since + 0.9 + bench.setting.motion.settle:
         raise CheckFailed(f"a trajectory under way was halted in {halted - since:.3f} s")
     bench.wait_until_standing(5)
-    bench.followed([here, away], since=since - 0.6 * seconds)
-    bench.moves_through(table.link, bench.way_to(here))
+    bench.followed([current, away], since=since - 0.6 * seconds)
+    bench.assert_moves_through(table.link, bench.way_to(current))
 
 
 def _long(bench: Bench, count: int) -> list[Point]:
@@ -256,11 +256,13 @@ def _fed(bench: Bench) -> None:
         bench.run(silence)
         if not isinstance(table.link.ask(messages.RawPing(), 0.05), messages.RawAcknowledged):
             raise CheckFailed("PING is not confirmed while a trajectory is fed")
-    asked = sum(d for _, d in points[1:])
-    bench.wait_until_at(points[-1][0], asked + 5)
+    requested = sum(d for _, d in points[1:])
+    bench.wait_until_at(points[-1][0], requested + 5)
     # How closely axes follow dense points depends on their accelerations.
-    if bench.now - since > 1.4 * asked + 1:
-        raise CheckFailed(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
+    if bench.now - since > 1.4 * requested + 1:
+        raise CheckFailed(
+            f"{requested:.2f} s of {len(points)} points took {bench.now - since:.2f} s"
+        )
     _done(bench, table, len(points), 0.1)
     bench.executed(points, since)
 
@@ -292,12 +294,12 @@ def _ends_while_fed(bench: Bench) -> None:
         bench.wait_until_standing(3)
         bench.followed([start, *(p for p, _ in points)], since=since)
         bench.controller.perform("start")
-        bench.stays(1, f"a long trajectory was ended by {action}")
+        bench.assert_at_rest(1, f"a long trajectory was ended by {action}")
     goal = changed(points[0][0], 0, inward(bench.group.joints[0], points[0][0][0], 0.3))
     far = messages.RawRefused(RawReason.START_TOO_FAR, 0, 1)
-    for sequence, wanted in ((_BEGIN, _TAKEN), (_END, far)):
-        table.row(sequence, goal, 0.3, wanted)
+    for sequence, expected in ((_BEGIN, _TAKEN), (_END, far)):
+        table.row(sequence, goal, 0.3, expected)
     table.ask()
     # Axes may follow late.
     bench.wait_until_standing(1)
-    bench.stays(0.3, "the one before was superseded")
+    bench.assert_at_rest(0.3, "the one before was superseded")

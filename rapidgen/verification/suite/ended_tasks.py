@@ -46,11 +46,11 @@ def _boundary_frames() -> list[bytes]:
         for number in _WHOLE
         for length, comm, code in ((12, 2, 0), (12, 1, 0), (12, number, 2), (12, 2, number))
     ]
-    words = [struct.pack("<i", value) for value in _WHOLE]
-    words += [struct.pack("<f", value) for value in _REAL]
+    values = [struct.pack("<i", value) for value in _WHOLE]
+    values += [struct.pack("<f", value) for value in _REAL]
     for number, size in _SIZES.items():
         for place in range(min(size, 5)):
-            for word in words:
+            for word in values:
                 data = bytearray(struct.pack("<i", 1) * size)
                 data[4 * place : 4 * place + 4] = word
                 frames.append(messages.framed(number, bytes(data)))
@@ -72,9 +72,9 @@ def _boundaries(bench: Bench) -> None:
             if link.lost:
                 link = connect()
         bench.run(0.3)
-        bench.healthy()
+        bench.assert_healthy()
         link.close(then=1.5)
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 def _modules(bench: Bench) -> list[str]:
@@ -88,7 +88,7 @@ def _halts(bench: Bench, module: str, situation: str) -> None:
     bench.run(0.5)
     stream = None
     if situation == "moving":
-        bench.sets_off(link, bench.wave(8, duration=unit), 0.6 * unit)
+        bench.start_motion(link, bench.wave(8, duration=unit), 0.6 * unit)
     elif situation == "streaming":
         stream = Streamer(bench, link)
         stream.takes("points", bench.wave(8, duration=unit), BEGIN)
@@ -96,33 +96,35 @@ def _halts(bench: Bench, module: str, situation: str) -> None:
         bench.run(0.6 * unit)
     orders, last, task = watched_orders(bench), bench.last_event, bench.rapid_task(module)
     task.stop("")
-    ended = bench.now
+    finished = bench.now
     bench.run(DETECTED)
     if situation != "idle" and not any(o.instruction == "StopMove" for o in orders):
         raise CheckFailed(f"{what}: after {DETECTED} s no task has stopped it")
-    said = [str(event) for event in bench.controller.log.since(last)]
-    if not any("a server task has ended" in text and task.name in text for text in said):
-        raise CheckFailed(f"{what}: after {bench.now - ended:.2f} s the event log says {said}")
+    log_entries = [str(event) for event in bench.controller.log.since(last)]
+    if not any("a server task has ended" in text and task.name in text for text in log_entries):
+        raise CheckFailed(
+            f"{what}: after {bench.now - finished:.2f} s the event log says {log_entries}"
+        )
     bench.wait_until_standing(1 + bench.setting.motion.settle + bench.setting.motion.servo_lag)
     bench.run(patience(bench))
     if module != "ROS_stateServer":
-        status, told = bench.status(watcher), bench.progress(watcher)
+        status, reply = bench.status(watcher), bench.progress(watcher)
         if (status.motion_possible, status.error_code) != (0, RawReason.TASK_ENDED):
             raise CheckFailed(f"{what}: STATUS says {status}")
-        if situation != "idle" and (told.state, told.reason) != (
+        if situation != "idle" and (reply.state, reply.reason) != (
             RawTrajectoryState.FAILED,
             RawReason.TASK_ENDED,
         ):
-            raise CheckFailed(f"{what}: PROGRESS says {told}")
+            raise CheckFailed(f"{what}: PROGRESS says {reply}")
     if module != "ROS_motionServer":
         _is_refused(bench, link, stream, what)
-    bench.stays(1, what)
+    bench.assert_at_rest(1, what)
     task.start()
     bench.run(2 + patience(bench))
     if module == "ROS_supervisor" and bench.setting.motion.stop_owner != "kind":
         # There the supervisor cannot take back what a server has done.
         return
-    bench.moves_through(link if not link.lost else bench.motion(), bench.wave(3))
+    bench.assert_moves_through(link if not link.lost else bench.motion(), bench.wave(3))
 
 
 def _is_refused(bench: Bench, link: RawLink, stream: Streamer | None, what: str) -> None:
@@ -193,13 +195,15 @@ def _ends_with_an_error(bench: Bench, module: str) -> None:
     bench.wait_until_standing(2)
     if not link.lost:
         link.send(bench.download(bench.wave(3)))
-    bench.stays(2, f"{task.name} ended with an error, and the program was started")
+    bench.assert_at_rest(2, f"{task.name} ended with an error, and the program was started")
     _pings(bench)
     fault.clear()
     bench.controller.perform("power-loss")
     bench.start_again()
-    bench.stays(2, f"{task.name} ended with an error, the controller and the program were started")
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_at_rest(
+        2, f"{task.name} ended with an error, the controller and the program were started"
+    )
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 def _pings(bench: Bench) -> None:

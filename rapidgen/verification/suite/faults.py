@@ -32,8 +32,8 @@ def _stop_and_more_in_one_packet(bench: Bench) -> None:
         at_end = distance(bench.position, second[-1][0]) < 1e-3
         if not delay and not at_end:
             raise CheckFailed("a trajectory in the packet of a STOP is not executed")
-        bench.stays(2, "all that was sent is over")
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_at_rest(2, "all that was sent is over")
+        bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("loop", "a way through its own end", "C6")
@@ -44,7 +44,7 @@ def _loop(bench: Bench) -> None:
     points: list[Point] = [*out, *((p, 0.4) for p, _ in reversed(out[:-1]))]
     points += [(p, 0.4) for p, _ in out[1:3]]
     since = bench.now
-    bench.sets_off(link, points)
+    bench.start_motion(link, points)
     # The first move may be under way before anybody could tell.
     while bench.progress(watcher).state in (
         RawTrajectoryState.RECEIVING,
@@ -67,13 +67,13 @@ def _close_points(bench: Bench) -> None:
     link = bench.motion()
     shortest = max(0.15, 1.05 * bench.config.trajectory.min_segment)
     for size in (2e-3, 1e-4, 1e-6):
-        here = bench.position
-        points: list[Point] = [(here, 10.0)]
+        current = bench.position
+        points: list[Point] = [(current, 10.0)]
         for number in range(1, 20):
             step = size * number
             away = (
                 h + (step if j.upper - h > h - j.lower else -step)
-                for h, j in zip(here, bench.group.joints, strict=True)
+                for h, j in zip(current, bench.group.joints, strict=True)
             )
             points.append((tuple(away), shortest))
         since = bench.now
@@ -84,7 +84,7 @@ def _close_points(bench: Bench) -> None:
         took = max(t for t, _ in bench.track) - since
         if took > 20 * shortest + 3:
             raise CheckFailed(f"{19 * shortest:.1f} s of short segments took {took:.1f} s")
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("override", "a speed override of 50 %")
@@ -92,15 +92,15 @@ def _override(bench: Bench) -> None:
     """Half the speed: the same way, in twice the time."""
     group = bench.motion_group
     link = bench.motion()
-    taken = []
+    accepted = []
     for override in (1.0, 0.5):
         group.override = override
         points, since = bench.wave(6), bench.now
-        bench.moves_through(link, points)
-        taken.append(bench.now - since)
+        bench.assert_moves_through(link, points)
+        accepted.append(bench.now - since)
     group.override = 1.0
-    if not 1.6 * taken[0] - 0.5 < taken[1] < 2.4 * taken[0] + 0.5:
-        raise CheckFailed(f"at 50 % {taken[0]:.2f} s became {taken[1]:.2f} s")
+    if not 1.6 * accepted[0] - 0.5 < accepted[1] < 2.4 * accepted[0] + 0.5:
+        raise CheckFailed(f"at 50 % {accepted[0]:.2f} s became {accepted[1]:.2f} s")
 
 
 @case("manual-speed", "a trajectory in manual mode", background=True)
@@ -114,7 +114,7 @@ def _manual_mode(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
     if bench.status(state).motion_possible != 1:
         raise CheckFailed("in manual mode, motors on, program running, no motion is possible")
-    bench.moves_through(link, bench.wave(5, duration=1.0))
+    bench.assert_moves_through(link, bench.wave(5, duration=1.0))
 
 
 def _garbled(value: object, chance: random.Random) -> object:
@@ -139,12 +139,12 @@ def _stale_data(bench: Bench) -> None:
             if distance(before, other.position) > 1e-4:
                 raise CheckFailed("the robot moved at the start, by what its data happened to hold")
             link = other.motion()
-            other.moves_through(link, other.wave(4))
-            other.sets_off(link, other.wave(8))
+            other.assert_moves_through(link, other.wave(4))
+            other.start_motion(link, other.wave(8))
             link.stop()
             other.wait_until_standing(5)
-            other.moves_through(link, other.wave(3))
-            other.healthy()
+            other.assert_moves_through(link, other.wave(3))
+            other.assert_healthy()
 
 
 def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:
@@ -200,7 +200,7 @@ def _moves_nothing(bench: Bench, system: System, what: str) -> None:
         if port in other.controller.network.listeners:
             link = other.motion()
             link.send(other.download(other.wave(4)))
-        other.stays(4, f"{what} was loaded")
+        other.assert_at_rest(4, f"{what} was loaded")
     finally:
         other.close()
 
@@ -227,7 +227,7 @@ def _two_groups(bench: Bench) -> None:
         other.wait_until_at(second[-1][0])
     mine.close()
     bench.run(1.5)
-    bench.moves_through(bench.motion(), bench.wave(3))
+    bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
 @case("even-speed", "no slowing down at points of a straight way", "R9")
@@ -236,19 +236,19 @@ def _even(bench: Bench) -> None:
     points = bench.wave(2)
     start, end = points[0][0], points[1][0]
     count, seconds = 12, max(0.25, 1.1 * bench.config.trajectory.min_segment)
-    way = [
+    path = [
         tuple(a + (b - a) * n / count for a, b in zip(start, end, strict=True))
         for n in range(count + 1)
     ]
     link, since = bench.motion(), bench.now
-    link.send(bench.download([(p, seconds if n else 10.0) for n, p in enumerate(way)]))
+    link.send(bench.download([(p, seconds if n else 10.0) for n, p in enumerate(path)]))
     bench.wait_until_at(end, 30)
     track = [(t, p) for t, p in bench.track if t >= since]
-    begun, ended = track[0][0] + 3 * seconds, track[-1][0] - 3 * seconds
+    started, finished = track[0][0] + 3 * seconds, track[-1][0] - 3 * seconds
     speeds = [
         distance(a, b) / (t2 - t1)
         for (t1, a), (t2, b) in pairwise(track)
-        if begun < t1 and t2 < ended and t2 - t1 > 1e-3
+        if started < t1 and t2 < finished and t2 - t1 > 1e-3
     ]
     if not speeds:
         raise CheckFailed("on a straight way the robot hardly moved")

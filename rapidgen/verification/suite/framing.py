@@ -21,13 +21,13 @@ def _word(value: int) -> bytes:
 def _dropped_and_served(bench: Bench, junk: bytes) -> None:
     link = bench.motion()
     link.send(junk)
-    link.wait_until_lost(5, "a client that breaks framing is dropped")
+    link.wait_disconnected(5, "a client that breaks framing is dropped")
     _good_client(bench)
 
 
 def _good_client(bench: Bench) -> None:
     link = bench.motion()
-    bench.moves_through(link, bench.wave(3, duration=0.2))
+    bench.assert_moves_through(link, bench.wave(3, duration=0.2))
     link.close(then=0.1)
 
 
@@ -62,7 +62,7 @@ def _unknown_types(bench: Bench) -> None:
             link.send(data[:500])
             bench.run(0.02)
             link.send(data[500:])
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("unknown-request", "a request of another type gets a failure reply")
@@ -78,7 +78,7 @@ def _unknown_request(bench: Bench) -> None:
 def _breaks_in_a_download(bench: Bench) -> None:
     link = bench.motion()
     link.send(bench.download(bench.wave(6))[: 68 * 3 + 20] + b"\xff" * 64)
-    bench.stays(3, "the download broke off")
+    bench.assert_at_rest(3, "the download broke off")
     _good_client(bench)
 
 
@@ -100,7 +100,7 @@ def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
         data = malformed(bench, chance)
         link = bench.motion()
         link.send(data)
-        bench.stays(0.3, f"malformed: {data.hex()}")
+        bench.assert_at_rest(0.3, f"malformed: {data.hex()}")
         link.close(abort=chance.random() < 0.3, then=0.1)
         _good_client(bench)
         bench.forget()

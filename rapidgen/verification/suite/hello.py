@@ -29,9 +29,9 @@ def _padded(values: list[float]) -> tuple[float, ...]:
 @case("hello", "HELLO tells limits and capacities as they were configured")
 def _hello_tells_all(bench: Bench) -> None:
     link = bench.state()
-    told = bench.says_hello(link)
+    reply = bench.send_hello(link)
     joints, policy = bench.group.joints, bench.config.trajectory
-    wanted: dict[str, object] = {
+    expected: dict[str, object] = {
         "protocol": messages.PROTOCOL_VERSION,
         "driver": tuple(int(part) for part in __version__.split(".")[:3]),
         "build_id": bench.system.build_id,
@@ -53,25 +53,25 @@ def _hello_tells_all(bench: Bench) -> None:
         "batch": batches.batch_points(len(joints)) if bench.streams else 0,
         "signals": len(bench.config.signals) if bench.group.ports.control else 0,
     }
-    for name, value in wanted.items():
-        if not _same(getattr(told, name), value):
+    for name, value in expected.items():
+        if not _same(getattr(reply, name), value):
             raise CheckFailed(
-                f"HELLO tells {name} {getattr(told, name)}, the configuration {value}"
+                f"HELLO tells {name} {getattr(reply, name)}, the configuration {value}"
             )
-    if RawFeature.PROGRESS not in RawFeature(told.features):
+    if RawFeature.PROGRESS not in RawFeature(reply.features):
         raise CheckFailed("HELLO does not promise PROGRESS")
     progress = bench.progress(link)
     if progress.state not in (RawTrajectoryState.NONE, RawTrajectoryState.DONE):
         raise CheckFailed(f"a driver that was never asked for anything tells {progress}")
 
 
-def _same(told: object, wanted: object) -> bool:
+def _same(reply: object, expected: object) -> bool:
     """Equal, but for the last digits of what RAPID's text of a number can hold."""
-    if isinstance(told, tuple) and isinstance(wanted, tuple):
-        return len(told) == len(wanted) and all(map(_same, told, wanted))
-    if isinstance(told, float) and isinstance(wanted, float):
-        return abs(told - wanted) <= 1e-6 * max(1.0, abs(wanted))
-    return told == wanted
+    if isinstance(reply, tuple) and isinstance(expected, tuple):
+        return len(reply) == len(expected) and all(map(_same, reply, expected))
+    if isinstance(reply, float) and isinstance(expected, float):
+        return abs(reply - expected) <= 1e-6 * max(1.0, abs(expected))
+    return reply == expected
 
 
 @case("hello-versions", "a HELLO of another version is refused, PROGRESS only where asked for")
@@ -80,14 +80,16 @@ def _other_versions(bench: Bench) -> None:
     older = HELLO._replace(protocol=messages.PROTOCOL_VERSION - 1)
     for _ in range(3):
         link.send(messages.encode(older, RawComm.REQUEST))
-        told = link.expect(messages.RawHelloRefusal, 2, "an older HELLO is answered")
-        if told.protocol != messages.PROTOCOL_VERSION:
-            raise CheckFailed(f"an older HELLO is answered by version {told.protocol}")
+        reply = link.expect(messages.RawHelloRefusal, 2, "an older HELLO is answered")
+        if reply.protocol != messages.PROTOCOL_VERSION:
+            raise CheckFailed(f"an older HELLO is answered by version {reply.protocol}")
     bench.run(1)
-    said = [e for e in bench.controller.log if "another version was refused" in str(e)]
-    if len(said) != 1 or f"has version {older.protocol}," not in " ".join(said[0].texts):
+    log_entries = [e for e in bench.controller.log if "another version was refused" in str(e)]
+    if len(log_entries) != 1 or f"has version {older.protocol}," not in " ".join(
+        log_entries[0].texts
+    ):
         raise CheckFailed(
-            f"a client of version {older.protocol} was refused, the event log says {said}"
+            f"a client of version {older.protocol} was refused, the event log says {log_entries}"
         )
     if any(f.number == messages.PROGRESS for f in link.read()):
         raise CheckFailed("PROGRESS comes although HELLO was refused")
@@ -113,12 +115,12 @@ def _hello_in_pieces(bench: Bench) -> None:
 @case("state-port-junk", "what is no HELLO breaks that link and no other")
 def _state_port_takes_nothing_else(bench: Bench) -> None:
     good = messages.encode(HELLO, RawComm.REQUEST)
-    words = struct.unpack(f"<{len(good) // 4}i", good)
+    values = struct.unpack(f"<{len(good) // 4}i", good)
     wrong = {
-        "another length": (words[0] - 1, *words[1:]),
-        "another type": (words[0], messages.PING, *words[2:]),
-        "a topic": (*words[:2], 1, *words[3:]),
-        "a reply": (*words[:2], 3, *words[3:]),
+        "another length": (values[0] - 1, *values[1:]),
+        "another type": (values[0], messages.PING, *values[2:]),
+        "a topic": (*values[:2], 1, *values[3:]),
+        "a reply": (*values[:2], 3, *values[3:]),
     }
     messages_of = {name: struct.pack(f"<{len(w)}i", *w) for name, w in wrong.items()}
     messages_of["a byte too many"] = good + b"\0"
@@ -128,7 +130,7 @@ def _state_port_takes_nothing_else(bench: Bench) -> None:
         link = bench.state()
         bench.status(link)
         link.send(data)
-        link.wait_until_lost(3, f"HELLO as {name} breaks the link")
+        link.wait_disconnected(3, f"HELLO as {name} breaks the link")
         bench.status(bench.state(), 5)
         bench.run(0.5)
 
@@ -165,41 +167,41 @@ def _progress_tells_the_way(bench: Bench) -> None:
     before = bench.progress(link).trajectory
     for number in range(1, 3):
         points = _straight(bench, 12)
-        bench.sets_off(motion, points, bench.config.state_period)
-        told: list[messages.RawProgress] = []
-        while not told or told[-1].state != RawTrajectoryState.DONE:
-            told.append(bench.progress(link))
-            _is_consistent(told[-1], before + number, len(points))
+        bench.start_motion(motion, points, bench.config.state_period)
+        reply: list[messages.RawProgress] = []
+        while not reply or reply[-1].state != RawTrajectoryState.DONE:
+            reply.append(bench.progress(link))
+            _is_consistent(reply[-1], before + number, len(points))
             passed = _passed(bench, points)
             # A point counts when its successor was given to the planner: late, never early.
-            if told[-1].state == RawTrajectoryState.MOVING and not (
-                passed - 4 <= told[-1].reached <= passed + 0.5
+            if reply[-1].state == RawTrajectoryState.MOVING and not (
+                passed - 4 <= reply[-1].reached <= passed + 0.5
             ):
-                raise CheckFailed(f"the robot has passed {passed:.1f} points, {told[-1]}")
-            if len(told) > 100:
-                raise CheckFailed(f"the trajectory does not end: {told[-1]}")
-        counts = [(t.received, t.planned, t.reached) for t in told]
+                raise CheckFailed(f"the robot has passed {passed:.1f} points, {reply[-1]}")
+            if len(reply) > 100:
+                raise CheckFailed(f"the trajectory does not end: {reply[-1]}")
+        counts = [(t.received, t.planned, t.reached) for t in reply]
         if any(a > b for one, two in pairwise(counts) for a, b in zip(one, two, strict=True)):
             raise CheckFailed(f"counts of PROGRESS go back: {counts}")
-        if told[-1] != (before + number, RawTrajectoryState.DONE, 12, 12, 12, 0, -1, 0):
-            raise CheckFailed(f"a trajectory of 12 points is done, PROGRESS says {told[-1]}")
-        seen = {t.state for t in told}
+        if reply[-1] != (before + number, RawTrajectoryState.DONE, 12, 12, 12, 0, -1, 0):
+            raise CheckFailed(f"a trajectory of 12 points is done, PROGRESS says {reply[-1]}")
+        seen = {t.state for t in reply}
         if RawTrajectoryState.MOVING not in seen:
             raise CheckFailed("no PROGRESS says that the robot is moving")
         bench.run(0.5)
 
 
-def _is_consistent(told: messages.RawProgress, number: int, count: int) -> None:
+def _is_consistent(reply: messages.RawProgress, number: int, count: int) -> None:
     fine = (
-        told.trajectory == number
-        and told.state
+        reply.trajectory == number
+        and reply.state
         in (RawTrajectoryState.RECEIVING, RawTrajectoryState.MOVING, RawTrajectoryState.DONE)
-        and 0 <= told.reached <= told.planned <= told.received <= count
-        and (told.reason, told.point, told.joint) == (0, -1, 0)
+        and 0 <= reply.reached <= reply.planned <= reply.received <= count
+        and (reply.reason, reply.point, reply.joint) == (0, -1, 0)
     )
     if not fine:
         raise CheckFailed(
-            f"trajectory {number} of {count} points is under way, PROGRESS says {told}"
+            f"trajectory {number} of {count} points is under way, PROGRESS says {reply}"
         )
 
 
@@ -210,13 +212,13 @@ def _progress_of_a_download(bench: Bench) -> None:
     size = messages.POINT_BYTES
     for sent in range(1, 5):
         motion.send(frames[(sent - 1) * size : sent * size])
-        told = _newest(bench, link)
-        if told[1:] != (RawTrajectoryState.RECEIVING, sent, 0, 0, 0, -1, 0):
-            raise CheckFailed(f"{sent} points were sent, PROGRESS says {told}")
+        reply = _newest(bench, link)
+        if reply[1:] != (RawTrajectoryState.RECEIVING, sent, 0, 0, 0, -1, 0):
+            raise CheckFailed(f"{sent} points were sent, PROGRESS says {reply}")
     motion.stop(1)
-    told = _newest(bench, link)
-    if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
-        raise CheckFailed(f"a download was stopped, PROGRESS says {told}")
+    reply = _newest(bench, link)
+    if (reply.state, reply.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
+        raise CheckFailed(f"a download was stopped, PROGRESS says {reply}")
     if bench.status(link).in_error:
         raise CheckFailed("a download that was stopped is an error in STATUS")
 
@@ -228,16 +230,16 @@ def _progress_of_a_refusal(bench: Bench) -> None:
     high = bench.group.joints[1].upper + 0.5
     points[3] = ((points[3][0][0], high, *points[3][0][2:]), 30.0)
     motion.send(bench.download(points))
-    told = _newest(bench, link)
-    if told[1:] != (RawTrajectoryState.REFUSED, 3, 0, 0, RawReason.JOINT_LIMIT, 3, 2):
-        raise CheckFailed(f"point 3 was refused for joint 2, PROGRESS says {told}")
+    reply = _newest(bench, link)
+    if reply[1:] != (RawTrajectoryState.REFUSED, 3, 0, 0, RawReason.JOINT_LIMIT, 3, 2):
+        raise CheckFailed(f"point 3 was refused for joint 2, PROGRESS says {reply}")
     status = bench.status(link)
     if (status.in_error, status.error_code) != (1, 204):
         raise CheckFailed(f"point 3 was refused for joint 2, STATUS says {status}")
     motion.stop(1)
-    told, status = _newest(bench, link), bench.status(link)
-    if (told.state, status.in_error, status.error_code) != (RawTrajectoryState.STOPPED, 0, 0):
-        raise CheckFailed(f"STOP ends the report of a refusal, but {told}, {status}")
+    reply, status = _newest(bench, link), bench.status(link)
+    if (reply.state, status.in_error, status.error_code) != (RawTrajectoryState.STOPPED, 0, 0):
+        raise CheckFailed(f"STOP ends the report of a refusal, but {reply}, {status}")
 
 
 @case(
@@ -259,7 +261,7 @@ def _progress_of_an_early_end(bench: Bench) -> None:
     ):
         link, motion = bench.watcher(), bench.motion()
         points = _straight(bench, 16)
-        bench.sets_off(motion, points, 1.5)
+        bench.start_motion(motion, points, 1.5)
         if action == "STOP":
             motion.send(STOP)
         elif action == "leaves":
@@ -267,14 +269,14 @@ def _progress_of_an_early_end(bench: Bench) -> None:
         else:
             bench.controller.perform(action)
         bench.wait_until_standing(5)
-        told, passed = _newest(bench, link), _passed(bench, points)
-        if told.state != state or told.reason not in reasons or told.joint:
-            raise CheckFailed(f"a trajectory was ended by {action}, PROGRESS says {told}")
-        if told.point != told.reached or not passed - 4 <= told.reached <= passed + 0.5:
-            raise CheckFailed(f"{action} after {passed:.1f} points, PROGRESS says {told}")
+        reply, passed = _newest(bench, link), _passed(bench, points)
+        if reply.state != state or reply.reason not in reasons or reply.joint:
+            raise CheckFailed(f"a trajectory was ended by {action}, PROGRESS says {reply}")
+        if reply.point != reply.reached or not passed - 4 <= reply.reached <= passed + 0.5:
+            raise CheckFailed(f"{action} after {passed:.1f} points, PROGRESS says {reply}")
         status = bench.status(link)
         failed = state is RawTrajectoryState.FAILED
-        if (status.in_error, status.error_code) != ((1, told.reason) if failed else (0, 0)):
+        if (status.in_error, status.error_code) != ((1, reply.reason) if failed else (0, 0)):
             raise CheckFailed(f"a trajectory was ended by {action}, STATUS says {status}")
         if status.in_motion:
             raise CheckFailed(f"the robot stands after {action}, STATUS says {status}")
@@ -287,12 +289,12 @@ def _progress_of_an_early_end(bench: Bench) -> None:
 @case("progress-superseded", "PROGRESS is of the newest trajectory")
 def _progress_of_a_successor(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
-    bench.sets_off(motion, bench.wave(30), 0.5)
+    bench.start_motion(motion, bench.wave(30), 0.5)
     number = bench.progress(link).trajectory
     motion.send(bench.download(bench.wave(4))[:68])
-    told = _newest(bench, link)
-    if told[:3] != (number + 1, RawTrajectoryState.RECEIVING, 1):
-        raise CheckFailed(f"a new trajectory has begun, PROGRESS says {told}")
+    reply = _newest(bench, link)
+    if reply[:3] != (number + 1, RawTrajectoryState.RECEIVING, 1):
+        raise CheckFailed(f"a new trajectory has begun, PROGRESS says {reply}")
     bench.wait_until_standing(2)
     link.read()
     bench.run(1)
@@ -313,19 +315,19 @@ def _progress_in_between(bench: Bench) -> None:
     far = (bench.group.joints[0].upper + 0.5, *points[2][0][1:])
     points[2] = (far, 30.0)
     motion.send(bench.download(points))
-    told = _newest(bench, link)
+    reply = _newest(bench, link)
     refusal = (RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
-    if told[1:] != refusal:
-        raise CheckFailed(f"point 2 was refused for joint 1, PROGRESS says {told}")
+    if reply[1:] != refusal:
+        raise CheckFailed(f"point 2 was refused for joint 1, PROGRESS says {reply}")
     # A trajectory begins: nothing is known of it but its number.
     task = bench.controller.task(bench.task("ROS_motionServer"))
     declared = task.rapid.program.modules["ros_common"].declarations
     names = {key.rstrip("_0123456789"): f"ROS_common:{key}" for key in declared}
-    task[names["ros_trajectory"]] = told.trajectory + 1
+    task[names["ros_trajectory"]] = reply.trajectory + 1
     between = _newest(bench, link)
-    if between != (told.trajectory + 1, RawTrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
-        raise CheckFailed(f"a trajectory begins after {told}, PROGRESS says {between}")
-    task[names["ros_trajectory"]] = told.trajectory
+    if between != (reply.trajectory + 1, RawTrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
+        raise CheckFailed(f"a trajectory begins after {reply}, PROGRESS says {between}")
+    task[names["ros_trajectory"]] = reply.trajectory
     # A STOP takes back the refusal: its code is written before its state.
     task[names["ros_refusal"]] = RawReason.STOPPED
     between = _newest(bench, link)
@@ -334,7 +336,7 @@ def _progress_in_between(bench: Bench) -> None:
     status = bench.status(link)
     if (status.in_error, status.error_code) != (0, 0):
         raise CheckFailed(f"a STOP takes back a refusal, STATUS says {status}")
-    bench.moves_through(motion, bench.wave(3))
+    bench.assert_moves_through(motion, bench.wave(3))
 
 
 @case("other-hellos", "a HELLO of later versions, and one that cannot be read")
@@ -347,10 +349,10 @@ def _other_hellos(bench: Bench) -> None:
     bench.progress(link)
     fails(bench, "ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
     link.send(messages.encode(HELLO, RawComm.REQUEST))
-    link.wait_until_lost(1, "a HELLO that cannot be read breaks the link")
+    link.wait_disconnected(1, "a HELLO that cannot be read breaks the link")
     good = messages.encode(HELLO, RawComm.REQUEST)
     for data in (good + b"\0", good[:8] + b"\3" + good[9:], b"\x21" + good[1:]):
         link = bench.watcher()
         link.send(data)
-        link.wait_until_lost(1, "what is no HELLO breaks the link")
+        link.wait_disconnected(1, "what is no HELLO breaks the link")
     bench.progress(bench.watcher())

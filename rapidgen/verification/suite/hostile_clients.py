@@ -46,7 +46,7 @@ def _headed(chance: random.Random) -> bytes:
 
 def _motion(bench: Bench) -> None:
     link = bench.motion()
-    bench.moves_through(link, bench.wave(3, duration=0.2))
+    bench.assert_moves_through(link, bench.wave(3, duration=0.2))
     link.close(then=0.1)
 
 
@@ -65,23 +65,23 @@ def _control(bench: Bench) -> None:
 
 def _doors(bench: Bench) -> dict[str, tuple[Callable[[], RawLink], _Serve]]:
     """The ports of the driver: who connects there, and how a good client is served."""
-    found: dict[str, tuple[Callable[[], RawLink], _Serve]] = {
+    result: dict[str, tuple[Callable[[], RawLink], _Serve]] = {
         "motion": (bench.motion, _motion),
         "state": (bench.state, _state),
     }
     if bench.group.ports.control:
-        found["control"] = (bench.control, _control)
-    return found
+        result["control"] = (bench.control, _control)
+    return result
 
 
 def _opens(bench: Bench, port: str, data: bytes, chance: random.Random) -> None:
     connect, serve = _doors(bench)[port]
     link = connect()
     link.send(data)
-    bench.stays(0.3, f"on the {port} port: {data.hex()}")
+    bench.assert_at_rest(0.3, f"on the {port} port: {data.hex()}")
     link.close(abort=chance.random() < 0.3, then=0.1)
     try:
-        bench.healthy()
+        bench.assert_healthy()
         serve(bench)
     except CheckFailed as error:
         raise CheckFailed(f"after {data.hex()} on the {port} port: {error}") from error

@@ -43,11 +43,11 @@ the last row at a trajectory of long ago."""
 def _serves(bench: Bench) -> None:
     """A trajectory, a STOP in the next one, and another trajectory."""
     link = bench.motion()
-    bench.moves_through(link, bench.wave(3, duration=0.2))
-    bench.sets_off(link, bench.wave(8), 0.3)
+    bench.assert_moves_through(link, bench.wave(3, duration=0.2))
+    bench.start_motion(link, bench.wave(8), 0.3)
     link.stop()
     bench.wait_until_standing(5)
-    bench.moves_through(link, bench.wave(3, duration=0.2))
+    bench.assert_moves_through(link, bench.wave(3, duration=0.2))
     bench.status(bench.state(), 5)
     link.close(then=0.3)
 
@@ -77,14 +77,14 @@ def _instructions_fail(bench: Bench) -> None:
             link = bench.motion()
             state = bench.state()
             if moving:
-                bench.sets_off(link, bench.wave(6))
+                bench.start_motion(link, bench.wave(6))
             recovers = fails(bench, module, instruction, error, 2)
             bench.run(0.3)
             link.send(STOP)
             bench.run(2)
             recovers()
-            bench.healthy()
-            bench.stays(1, f"it was stopped; {instruction} of {module} has failed")
+            bench.assert_healthy()
+            bench.assert_at_rest(1, f"it was stopped; {instruction} of {module} has failed")
             link.close()
             state.close(then=2.5)
             try:
@@ -103,21 +103,21 @@ def _move_fails(bench: Bench) -> None:
         watcher, link = bench.watcher(), bench.motion()
         errors = _errors(bench)
         points = bench.wave(10)
-        bench.sets_off(link, points, 0.9)
+        bench.start_motion(link, points, 0.9)
         fails(bench, "ROS_motion", "MoveAbsJ", error)
-        bench.rests(5, 3, f"a move ended with {error}")
+        bench.wait_until_at_rest(5, 3, f"a move ended with {error}")
         bench.run(0.3)
-        told, status = bench.progress(watcher), bench.status(watcher)
-        if (told.state, told.reason) != (RawTrajectoryState.FAILED, reason):
-            raise CheckFailed(f"a move ended with {error}, PROGRESS says {told}")
+        reply, status = bench.progress(watcher), bench.status(watcher)
+        if (reply.state, reply.reason) != (RawTrajectoryState.FAILED, reason):
+            raise CheckFailed(f"a move ended with {error}, PROGRESS says {reply}")
         if (status.in_error, status.error_code, status.in_motion) != (1, reason, 0):
             raise CheckFailed(f"a move ended with {error}, STATUS says {status}")
-        said = [text for text in _errors(bench)[len(errors) :] if text_of(reason) in text]
-        if len(said) != 1 or f"point {told.planned - 1}" not in said[0]:
+        log_entries = [text for text in _errors(bench)[len(errors) :] if text_of(reason) in text]
+        if len(log_entries) != 1 or f"point {reply.planned - 1}" not in log_entries[0]:
             raise CheckFailed(
-                f"a move to point {told.planned - 1} failed, the event log says {said}"
+                f"a move to point {reply.planned - 1} failed, the event log says {log_entries}"
             )
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
         bench.run(0.3)
         if bench.status(watcher).in_error:
             raise CheckFailed("in_error stays after a good trajectory")
@@ -140,11 +140,11 @@ def _path_stays(bench: Bench) -> None:
     ):
         link = bench.motion()
         # What is ordered already would take for longer than a stop does.
-        bench.sets_off(link, bench.wave(6, duration=2.0), 0.5)
+        bench.start_motion(link, bench.wave(6, duration=2.0), 0.5)
         fails(bench, "ROS_motion", instruction, "ERR_PATH_STOP", times)
         link.stop(2, "STOP is answered, whatever becomes of the path")
-        bench.rests(1, 6, f"it was stopped; {instruction} has failed {times} times")
-        bench.moves_through(link, bench.wave(4))
+        bench.wait_until_at_rest(1, 6, f"it was stopped; {instruction} has failed {times} times")
+        bench.assert_moves_through(link, bench.wave(4))
         link.close(then=1.5)
 
 
@@ -157,27 +157,29 @@ def _far_off_once(bench: Bench) -> None:
         ("ERR_PATH_STOP", "Its stop cannot be taken back."),
     ):
         last, keeps = bench.last_event, bench.setting.motion.stop_move_reset == "keeps"
-        bench.sets_off(link, bench.wave(12), 0.3)
+        bench.start_motion(link, bench.wave(12), 0.3)
         recovers = fails(bench, "ROS_supervisor", "StartMove", error, 1000)
         link.stop()
-        bench.rests(3, 3, f"it was stopped, StartMove says {error}")
-        said = [e.texts[0] for e in bench.controller.log.since(last) if e.title == STAYS_STOPPED]
+        bench.wait_until_at_rest(3, 3, f"it was stopped, StartMove says {error}")
+        log_entries = [
+            e.texts[0] for e in bench.controller.log.since(last) if e.title == STAYS_STOPPED
+        ]
         held = keeps or error != "ERR_PATHDIST"
-        if bool(bench.motion_group.stop_reasons) != held or said != [why] * held:
+        if bool(bench.motion_group.stop_reasons) != held or log_entries != [why] * held:
             raise CheckFailed(
                 f"StartMove says {error}: held by {bench.motion_group.stop_reasons}, the event "
-                f"log says {said}"
+                f"log says {log_entries}"
             )
         recovers()
         bench.run(0.5)
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("port-taken", "a port that is taken is waited for", "R18")
 def _port_taken(bench: Bench) -> None:
     with bench.beside(bench.system, setting=bench.setting.early()) as other:
         network = other.controller.network
-        taken = [
+        accepted = [
             network.bind("127.0.0.1", port)
             for port in (other.group.ports.motion, other.group.ports.state)
         ]
@@ -187,7 +189,7 @@ def _port_taken(bench: Bench) -> None:
             raise CheckFailed(
                 f"two ports were taken for 4 s, the event log has {len(warned)} warnings"
             )
-        for endpoint in taken:
+        for endpoint in accepted:
             network.close(endpoint)
         other.run(1.1)
         _serves(other)
@@ -202,7 +204,7 @@ def _counters_wrap(bench: Bench) -> None:
             watcher, link = other.watcher(), other.motion()
             first = other.progress(watcher).trajectory
             for _ in range(4):
-                other.moves_through(link, other.wave(6, duration=0.2))
+                other.assert_moves_through(link, other.wave(6, duration=0.2))
                 _serves_stop(other)
                 link = other.motion()
             other.run(0.3)
@@ -211,7 +213,7 @@ def _counters_wrap(bench: Bench) -> None:
                 raise CheckFailed(
                     f"after trajectory {first} come eight others, the last is {number}"
                 )
-            other.healthy()
+            other.assert_healthy()
 
 
 @case("number-again", "a trajectory with the number of a program of years ago", needs="stream")
@@ -220,7 +222,7 @@ def _number_again(bench: Bench) -> None:
     watcher, link = bench.watcher(), bench.motion()
     task = bench.controller.task(bench.task("ROS_motion"))
     task[datum(bench, "ros_program")] = bench.progress(watcher).trajectory + 1
-    bench.moves_through(link, bench.wave(4))
+    bench.assert_moves_through(link, bench.wave(4))
 
 
 def set_counters(bench: Bench, value: int) -> None:
@@ -237,7 +239,7 @@ def set_counters(bench: Bench, value: int) -> None:
 def _serves_stop(bench: Bench) -> None:
     link = bench.motion()
     bench.run(1.2)
-    bench.sets_off(link, bench.wave(6))
+    bench.start_motion(link, bench.wave(6))
     link.stop()
     bench.wait_until_standing(5)
     link.close(then=0.2)
@@ -255,8 +257,8 @@ def _clocks_at_their_end(bench: Bench) -> None:
             value.started -= 50 * 86_400 * 10**9
     link.send(bench.download(bench.wave(4))[68:])
     bench.run(2)
-    bench.healthy()
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_healthy()
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("state-for-hours", "the state schedule over the ends of its clock", once=True)
@@ -315,28 +317,28 @@ def _stopped_without_signals(bench: Bench) -> None:
     """The supervisor cannot see that the program was stopped: the robot stays stopped."""
     with bench.beside(replace(bench.system, signals=(), outputs=(), cross=(), events=())) as other:
         link = other.motion()
-        other.sets_off(link, other.wave(10))
+        other.start_motion(link, other.wave(10))
         other.controller.perform("stop")
         other.wait_until_standing(5)
         watcher = other.watcher()
         link.send(STOP)
         other.run(3)
-        told = other.progress(watcher)
-        if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
+        reply = other.progress(watcher)
+        if (reply.state, reply.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
             raise CheckFailed(
-                f"STOP came while the motion task does not answer, PROGRESS says {told}"
+                f"STOP came while the motion task does not answer, PROGRESS says {reply}"
             )
-        if told.point != told.reached or not 0 < told.planned <= told.received:
+        if reply.point != reply.reached or not 0 < reply.planned <= reply.received:
             raise CheckFailed(
-                f"STOP came while the motion task does not answer, PROGRESS says {told}"
+                f"STOP came while the motion task does not answer, PROGRESS says {reply}"
             )
-        said = [e for e in other.controller.log if "does not answer" in str(e)]
-        if len(said) != 1:
+        log_entries = [e for e in other.controller.log if "does not answer" in str(e)]
+        if len(log_entries) != 1:
             raise CheckFailed(
-                f"the motion task does not answer, the event log says so {len(said)} times"
+                f"the motion task does not answer, the event log says so {len(log_entries)} times"
             )
         link.send(other.download(other.wave(4)))
-        other.stays(5, "the program is stopped")
+        other.assert_at_rest(5, "the program is stopped")
         other.controller.perform("start")
-        other.stays(3, "the program was started again, nobody asked for motion")
-        other.moves_through(link, other.wave(4))
+        other.assert_at_rest(3, "the program was started again, nobody asked for motion")
+        other.assert_moves_through(link, other.wave(4))

@@ -33,16 +33,16 @@ _TRAJ = JOINT_TRAJ_PT
 
 def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> messages.RawProgress:
     """PROGRESS; Broken unless the newest trajectory has ended early for that reason."""
-    told = bench.progress(watcher)
+    reply = bench.progress(watcher)
     stopped = reason is RawReason.STOPPED
     state = RawTrajectoryState.STOPPED if stopped else RawTrajectoryState.FAILED
     reasons = [reason]
     if bench.setting.switch_at_pers and reason is RawReason.MOTORS_OFF:
         # Motors that are off stop the program, too, which may be read first.
         reasons.append(RawReason.PROGRAM_STOPPED)
-    if told.state != state or told.reason not in reasons:
-        raise CheckFailed(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
-    return told
+    if reply.state != state or reply.reason not in reasons:
+        raise CheckFailed(f"{what}: {reason.name} is wanted, PROGRESS says {reply}")
+    return reply
 
 
 def _works(bench: Bench, link: RawLink) -> None:
@@ -66,10 +66,14 @@ def _before_a_move(bench: Bench) -> None:
         bench.wait_until_standing(1)
         bench.run(pause)
         bench.controller.perform("start")
-        bench.stays(patience(bench), f"the program was stopped before move {number}, and started")
-        told = _ended(bench, watcher, RawReason.PROGRAM_STOPPED, "the program was stopped")
-        if (told.planned, told.reached) != (number + 1, max(1, number - 1)):
-            raise CheckFailed(f"the program was stopped before move {number}, PROGRESS says {told}")
+        bench.assert_at_rest(
+            patience(bench), f"the program was stopped before move {number}, and started"
+        )
+        reply = _ended(bench, watcher, RawReason.PROGRAM_STOPPED, "the program was stopped")
+        if (reply.planned, reply.reached) != (number + 1, max(1, number - 1)):
+            raise CheckFailed(
+                f"the program was stopped before move {number}, PROGRESS says {reply}"
+            )
         _works(bench, link)
 
 
@@ -87,17 +91,19 @@ def _first_reason(bench: Bench) -> None:
     bench.controller.perform("start")
     bench.run(patience(bench))
     # A move that fails just when the supervisor has asked for a halt.
-    under_way = _fails_with_a_halt(bench, "ERR_COLL_STOP")
+    in_progress = _fails_with_a_halt(bench, "ERR_COLL_STOP")
     link.send(bench.download(bench.wave(5, duration=unit)))
-    bench.until(lambda: bool(under_way), 2 * unit, "the second move begins")
+    bench.until(lambda: bool(in_progress), 2 * unit, "the second move begins")
     link.stop()
     bench.wait_until_standing(2)
     bench.run(patience(bench))
     _ended(bench, watcher, RawReason.STOPPED, "STOP, then a move that fails")
     _works(bench, link)
-    said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
-    if said:
-        raise CheckFailed(f"a trajectory was stopped, the event log says {[str(e) for e in said]}")
+    log_entries = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
+    if log_entries:
+        raise CheckFailed(
+            f"a trajectory was stopped, the event log says {[str(e) for e in log_entries]}"
+        )
 
 
 def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
@@ -106,8 +112,8 @@ def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
     The time when it is under way is put into the list.
     """
     view = bench.controller.task(bench.task("ROS_motion"))
-    asked, done = datum(bench, "ros_abort"), datum(bench, "ros_abort_done")
-    under_way: list[float] = []
+    requested, done = datum(bench, "ros_abort"), datum(bench, "ros_abort_done")
+    in_progress: list[float] = []
     left = 2
 
     def wrap(as_before: Instruction) -> Instruction:
@@ -116,15 +122,15 @@ def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
             left -= 1
             if left != 0:
                 return as_before(*arguments)
-            under_way.append(bench.now)
-            while view[asked] == view[done]:
+            in_progress.append(bench.now)
+            while view[requested] == view[done]:
                 view.rapid.sleep(0.001)
             raise RapidError(error)
 
         return failing
 
     wrapped(bench.rapid_task("ROS_motion"), "MoveAbsJ", wrap)
-    return under_way
+    return in_progress
 
 
 @case("late-point", "a point of a stopped trajectory that comes late", "R5")
@@ -138,13 +144,13 @@ def _late_point(bench: Bench) -> None:
     bench.run(1.15 * unit)
     link.stop()
     bench.run(patience(bench))
-    told = _ended(bench, watcher, RawReason.STOPPED, "STOP")
+    reply = _ended(bench, watcher, RawReason.STOPPED, "STOP")
     points = list(task[ring].values())
     place = int(task[head]) % len(points)
-    points[place].session, points[place].index = told.trajectory, told.planned + 1
+    points[place].session, points[place].index = reply.trajectory, reply.planned + 1
     points[place].target, points[place].duration = points[1].target, 1.0
     task[head] = task[head] + 1
-    bench.stays(1, "a point of a stopped trajectory came late")
+    bench.assert_at_rest(1, "a point of a stopped trajectory came late")
     _works(bench, link)
     if any(e.type is EventType.ERROR for e in bench.controller.log.since(last)):
         raise CheckFailed("a point of a stopped trajectory came late, and is told as an error")
@@ -157,8 +163,8 @@ def _beside(bench: Bench, system: System, *, early: bool = False) -> Bench:
 
 def _bare(system: System, *events: str) -> System:
     """Without signals, and with the event routines of these events alone."""
-    kept = tuple(e for e in system.events if e.event in events)
-    return replace(system, signals=(), outputs=(), cross=(), events=kept)
+    saved = tuple(e for e in system.events if e.event in events)
+    return replace(system, signals=(), outputs=(), cross=(), events=saved)
 
 
 def _moves(bench: Bench, link: RawLink) -> None:
@@ -193,13 +199,15 @@ def _unseen(bench: Bench) -> None:
             if not restarts:
                 other.run(5)
                 _ended(other, watcher, reason, f"{action} of a driver without signals")
-            said = [e.time for e in other.controller.log.since(last) if "answer" in e.title]
-            if len(said) != int(not restarts) or any(abs(t - halted - 2) > 0.2 for t in said):
+            log_entries = [e.time for e in other.controller.log.since(last) if "answer" in e.title]
+            if len(log_entries) != int(not restarts) or any(
+                abs(t - halted - 2) > 0.2 for t in log_entries
+            ):
                 raise CheckFailed(
-                    f"from {halted:.2f} s on nobody answers, which is told at {said} s"
+                    f"from {halted:.2f} s on nobody answers, which is told at {log_entries} s"
                 )
             other.start_again()
-            other.stays(1, f"{action} of a driver without signals, then Start")
+            other.assert_at_rest(1, f"{action} of a driver without signals, then Start")
             _ended(other, watcher, reason, f"{action} of a driver without signals, then Start")
             other.run(patience(other))
             _works(other, link)
@@ -214,13 +222,15 @@ def _stopped_alone(bench: Bench) -> None:
             other.run(patience(other))
             link = other.motion()
             link.send(end_as_request(other, 3, unit_of(other)))
-            told = messages.decode(link.expect_reply(3, "the end frame is answered"))
+            reply = messages.decode(link.expect_reply(3, "the end frame is answered"))
             # Nobody tells of an emergency stop where it calls no event routine.
             unseen = action == "e-stop" and not other.setting.dialect.e_stop_routines
-            if told != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0) and not unseen:
-                raise CheckFailed(f"{action} of a driver without signals, a trajectory: {told}")
+            if reply != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0) and not unseen:
+                raise CheckFailed(f"{action} of a driver without signals, a trajectory: {reply}")
             other.start_again()
-            other.stays(patience(other), f"{action} of a driver without signals, then Start")
+            other.assert_at_rest(
+                patience(other), f"{action} of a driver without signals, then Start"
+            )
             _works(other, link)
             link.close(then=0.3)
 
@@ -243,18 +253,22 @@ def _cannot(bench: Bench) -> None:
             bench.controller.perform("start")
         bench.wait_until_standing(1)
         last, meter = bench.last_event, CpuMeter(bench)
-        bench.stays(2.5, f"{instruction} of the motion task fails")
+        bench.assert_at_rest(2.5, f"{instruction} of the motion task fails")
         meter.end(f"while {instruction} of the motion task fails")
-        said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
-        if said != [title]:
-            raise CheckFailed(f"{instruction} of the motion task fails, the event log says {said}")
+        log_entries = [
+            e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")
+        ]
+        if log_entries != [title]:
+            raise CheckFailed(
+                f"{instruction} of the motion task fails, the event log says {log_entries}"
+            )
         ends()
         bench.run(patience(bench))
         link = link if not link.lost else bench.motion()
         _works(bench, link)
 
 
-def _crept(bench: Bench, here: Position, wait: float, when: str) -> None:
+def _crept(bench: Bench, current: Position, wait: float, when: str) -> None:
     """Broken where Start let the robot move further than it must.
 
     Start sets the path in motion, and chance decides which task is first to go on. In a `wait` of
@@ -264,7 +278,7 @@ def _crept(bench: Bench, here: Position, wait: float, when: str) -> None:
     if wait > soon(bench):
         raise CheckFailed(f"{when}: the robot is stopped after {wait:.3f} s")
     for number, (joint, a, b) in enumerate(
-        zip(bench.group.joints, here, bench.position, strict=True), 1
+        zip(bench.group.joints, current, bench.position, strict=True), 1
     ):
         if abs(b - a) > joint.acceleration * wait * wait + SETTLED:
             raise CheckFailed(
@@ -288,13 +302,13 @@ def _start_alone(bench: Bench) -> None:
             other.run(patience(other))
             if action == "e-stop" and other.setting.dialect.e_stop_routines:
                 _ended(other, watcher, RawReason.PROGRAM_STOPPED, action)
-            here, since = other.position, other.now
+            current, since = other.position, other.now
             other.start_again()
             if other.setting.random_schedule:
                 other.run(0.3)
                 stops = [order.time for order in orders if order.time >= since]
-                _crept(other, here, min(stops, default=since) - since, f"{action}, then Start")
-            other.stays(patience(other), f"{action}, then Start")
+                _crept(other, current, min(stops, default=since) - since, f"{action}, then Start")
+            other.assert_at_rest(patience(other), f"{action}, then Start")
             _ended(other, watcher, RawReason.PROGRAM_STOPPED, f"{action}, then Start")
             if action in ("stop", "e-stop"):
                 _works(other, link)
@@ -327,23 +341,23 @@ def _without_routines(bench: Bench) -> None:
                 _pause(other, control, 1)
             other.controller.perform(action)
             if control is not None:
-                told = control.ask(messages.RawPause(0))
+                reply = control.ask(messages.RawPause(0))
                 # Where a task's turn ends at a PERS, the supervisor may have ended it all by then.
                 reasons = (reason, RawReason.IDLE) if other.setting.switch_at_pers else (reason,)
-                if told not in [messages.RawNotDone(reason) for reason in reasons]:
-                    raise CheckFailed(f"{action}, and right behind it the end of a pause: {told}")
+                if reply not in [messages.RawNotDone(reason) for reason in reasons]:
+                    raise CheckFailed(f"{action}, and right behind it the end of a pause: {reply}")
             other.wait_until_standing(1)
             other.run(patience(other))
             _ended(other, watcher, reason, f"{action} without event routines")
             other.start_again()
-            other.stays(patience(other), f"{action} without event routines, then Start")
+            other.assert_at_rest(patience(other), f"{action} without event routines, then Start")
             _works(other, link)
         _moves(other, link)
         other.controller.perform("power-loss")
         other.run(6)
         control = other.control() if control is not None else None
         other.start_again()
-        other.stays(2, "a power failure without event routines, then Start")
+        other.assert_at_rest(2, "a power failure without event routines, then Start")
         if control is not None:
             stopped = control.expect(messages.RawStopped, 1, "STOPPED arrives")
             if stopped.reason != RawReason.POWER_FAILURE:
@@ -352,11 +366,11 @@ def _without_routines(bench: Bench) -> None:
 
 
 def _pause(bench: Bench, control: RawLink, paused: int) -> None:
-    told = control.ask(messages.RawPause(paused))
+    reply = control.ask(messages.RawPause(paused))
     bench.run(0.1)
-    if told != messages.RawAcknowledged() or bench.standing != bool(paused):
+    if reply != messages.RawAcknowledged() or bench.standing != bool(paused):
         raise CheckFailed(
-            f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}"
+            f"PAUSE {paused} is answered by {reply}, the robot stands: {bench.standing}"
         )
 
 
@@ -365,22 +379,22 @@ def _pauses_at_its_end(
 ) -> None:
     """A trajectory that is paused on its way, and in the stay at its end."""
     unit = unit_of(bench)
-    way = bench.wave(2, duration=unit)
-    begins(bench, link, [*way, (way[1][0], 2 * unit)])
+    path = bench.wave(2, duration=unit)
+    begins(bench, link, [*path, (path[1][0], 2 * unit)])
     if control is not None:
         for paused in (1, 0):
             _pause(bench, control, paused)
-    bench.wait_until_at(way[1][0], unit + 1)
+    bench.wait_until_at(path[1][0], unit + 1)
     if control is not None:
         _pause(bench, control, 1)
         bench.run(2 * bench.config.state_period)
         if bench.status(watcher).motion_possible:
             raise CheckFailed("a trajectory is paused, STATUS says that another one may come")
     bench.run(2.5 * unit)
-    told, status = bench.progress(watcher), bench.status(watcher)
-    if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
+    reply, status = bench.progress(watcher), bench.status(watcher)
+    if (reply.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
         raise CheckFailed(
-            f"a trajectory that was paused in its last stay is over: {told}, {status}"
+            f"a trajectory that was paused in its last stay is over: {reply}, {status}"
         )
 
 
@@ -390,7 +404,7 @@ def _refills(bench: Bench, link: RawLink) -> None:
     if count > bench.config.trajectory.capacity:
         return
     seconds = max(0.1, 1.05 * bench.config.trajectory.min_segment)
-    bench.sets_off(link, bench.wave(count, duration=seconds, size=0.01), 20 * seconds)
+    bench.start_motion(link, bench.wave(count, duration=seconds, size=0.01), 20 * seconds)
     if bench.standing:
         raise CheckFailed("a trajectory longer than the ring stops on its way")
     link.stop()
@@ -415,7 +429,7 @@ def _stale_build(bench: Bench) -> None:
         task[datum(other, "ros_shown_motion")] = bench.system.build_id
         watcher, link = other.watcher(), other.motion()
         link.send(other.download(other.wave(3)))
-        other.stays(1, "modules of the motion task are of different builds")
-        told = other.progress(watcher)
-        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
-            raise CheckFailed(f"modules of the motion task are of different builds, {told}")
+        other.assert_at_rest(1, "modules of the motion task are of different builds")
+        reply = other.progress(watcher)
+        if (reply.state, reply.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
+            raise CheckFailed(f"modules of the motion task are of different builds, {reply}")

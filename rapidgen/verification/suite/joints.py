@@ -29,24 +29,24 @@ class _RejectedJoint:
         stream = self._stream
         stream.number += 1
         stream.sent = 0
-        told = stream.refuses(reason, f"joint {axis + 1} of point {point}", points, BEGIN | END)
-        if (told.stream, told.accepted, told.point, told.joint) != (
+        reply = stream.refuses(reason, f"joint {axis + 1} of point {point}", points, BEGIN | END)
+        if (reply.stream, reply.accepted, reply.point, reply.joint) != (
             stream.number,
             point,
             point,
             axis + 1,
         ):
             raise CheckFailed(
-                f"{reason.name} of joint {axis + 1}, point {point}: the reply is {told}"
+                f"{reason.name} of joint {axis + 1}, point {point}: the reply is {reply}"
             )
-        self._bench.stays(0.2, f"joint {axis + 1} is refused: {reason.name}")
+        self._bench.assert_at_rest(0.2, f"joint {axis + 1} is refused: {reason.name}")
 
     def limits(self) -> None:
         """Each joint beyond each of its limits."""
-        here = self._bench.position
+        current = self._bench.position
         for axis, joint in enumerate(self._bench.group.joints):
             for value in (joint.lower - _BEYOND, joint.upper + _BEYOND):
-                points = [(here, 1.0), (changed(here, axis, value), 30.0), (here, 30.0)]
+                points = [(current, 1.0), (changed(current, axis, value), 30.0), (current, 30.0)]
                 self(points, RawReason.JOINT_LIMIT, 1, axis)
 
     def close(self) -> None:
@@ -58,29 +58,31 @@ class _RejectedJoint:
     "stream-joints", "limits, speed and start of each joint of a stream", "R10, R11", needs="stream"
 )
 def _joints_of_a_stream(bench: Bench) -> None:
-    policy, here = bench.config.trajectory, bench.position
+    policy, current = bench.config.trajectory, bench.position
     blame = _RejectedJoint(bench)
     blame.limits()
     seconds = max(0.2, policy.min_segment)
     for axis, joint in enumerate(bench.group.joints):
         near = bench.start_tolerance(joint)
         if near > 0:
-            start = changed(here, axis, inward(joint, here[axis], 1.1 * near))
-            blame([(start, 1.0), (here, 5.0)], RawReason.START_TOO_FAR, 0, axis)
+            start = changed(current, axis, inward(joint, current[axis], 1.1 * near))
+            blame([(start, 1.0), (current, 5.0)], RawReason.START_TOO_FAR, 0, axis)
         fast = 1.05 * seconds * joint.speed
-        room = max(joint.upper - here[axis], here[axis] - joint.lower)
+        room = max(joint.upper - current[axis], current[axis] - joint.lower)
         if policy.too_fast == "refuse" and bench.group.tcp_speed_limit >= 5 and room > fast:
-            target = changed(here, axis, inward(joint, here[axis], fast))
-            blame([(here, 1.0), (target, seconds), (here, 9.0)], RawReason.TOO_FAST, 1, axis)
+            target = changed(current, axis, inward(joint, current[axis], fast))
+            blame([(current, 1.0), (target, seconds), (current, 9.0)], RawReason.TOO_FAST, 1, axis)
     blame.close()
     bench.run(1.2)
     # The first point's duration is not the client's business, nor how far the start is off.
     stream = Streamer(bench)
-    away = changed(here, 0, inward(bench.group.joints[0], here[0], 0.5 * policy.start_tolerance))
-    stream.takes("a start within tolerance", [(away, 9.0), (here, 1.0)], BEGIN | END)
+    away = changed(
+        current, 0, inward(bench.group.joints[0], current[0], 0.5 * policy.start_tolerance)
+    )
+    stream.takes("a start within tolerance", [(away, 9.0), (current, 1.0)], BEGIN | END)
     bench.wait_until_moving(1)
     bench.run(2.5)
-    if not bench.standing or distance(bench.position, here) > 1e-4:
+    if not bench.standing or distance(bench.position, current) > 1e-4:
         raise CheckFailed(
             "the way to the first point of a stream took as long as its duration says"
         )
@@ -90,9 +92,9 @@ def _joints_of_a_stream(bench: Bench) -> None:
 def _away_from_zero(bench: Bench) -> None:
     """Where no joint is near zero, short ways are short, and nothing else is changed."""
     link = bench.motion()
-    there = tuple(0.4 * (j.upper if j.upper > -j.lower else j.lower) for j in bench.group.joints)
-    bench.moves_through(link, bench.way_to(there))
-    bench.moves_through(link, bench.wave(5, duration=0.15))
+    target = tuple(0.4 * (j.upper if j.upper > -j.lower else j.lower) for j in bench.group.joints)
+    bench.assert_moves_through(link, bench.way_to(target))
+    bench.assert_moves_through(link, bench.wave(5, duration=0.15))
     stream, since = Streamer(bench, link), bench.now
     points = way(bench, 12)
     stream.all(points)
@@ -137,7 +139,7 @@ def _one_signal_missing(bench: Bench) -> None:
         _shown(bench, state, "at rest", missing.function, on, off, 1)
         for function, value in (("controller_error", 1), ("standing", 0)):
             _is_seen(bench, state, function, value, seen=function != missing.function)
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
         bench.run(0.5)
         bench.controller.perform("stop")
         bench.run(0.5)
@@ -146,7 +148,7 @@ def _one_signal_missing(bench: Bench) -> None:
         bench.controller.perform("e-stop")
         bench.run(0.5)
         _shown(bench, state, "e-stop", missing.function, off, on, 0)
-        bench.stays(0.5, "nobody asked for anything")
+        bench.assert_at_rest(0.5, "nobody asked for anything")
         signals[name] = signal
     _power_again(bench)
     _shown(bench, bench.watcher(), "all signals are back", "", on, off, 1)
@@ -162,8 +164,8 @@ def _is_seen(bench: Bench, state: RawLink, function: str, value: int, *, seen: b
             bench.controller.signals[name] = now
         bench.run(2 * bench.config.state_period)
         status = bench.status(state)
-        told = status.in_error if function == "controller_error" else status.in_motion
-        if told != (seen and now == value):
+        reply = status.in_error if function == "controller_error" else status.in_motion
+        if reply != (seen and now == value):
             raise CheckFailed(f"signal {name} is {now}, STATUS says {status}")
 
 
@@ -185,10 +187,10 @@ def _shown(
     possible: int,
 ) -> None:
     status = bench.status(state)
-    wanted = (
+    expected = (
         RawTriState.UNKNOWN if missing == "motors_on" else powered,
         RawTriState.UNKNOWN if missing == "emergency_stop" else e_stopped,
         possible,
     )
-    if (status.drives_powered, status.e_stopped, status.motion_possible) != wanted:
+    if (status.drives_powered, status.e_stopped, status.motion_possible) != expected:
         raise CheckFailed(f"{when}, without the signal for {missing}, STATUS says {status}")

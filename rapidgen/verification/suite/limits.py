@@ -82,11 +82,11 @@ def _nonsense(joint: Joint, lowest: float, highest: float) -> list[_Told]:
 
 
 def _hello(link: RawLink) -> messages.RawHelloReply:
-    told = link.ask(HELLO)
+    reply = link.ask(HELLO)
     link.close()
-    if not isinstance(told, messages.RawHelloReply):
-        raise CheckFailed(f"HELLO is answered by {told}")
-    return told
+    if not isinstance(reply, messages.RawHelloReply):
+        raise CheckFailed(f"HELLO is answered by {reply}")
+    return reply
 
 
 class _Cell:
@@ -97,10 +97,10 @@ class _Cell:
         self._newest = 0
         self.plain = _hello(bench.state())
 
-    def start(self, told: Sequence[_Told]) -> None:
+    def start(self, reply: Sequence[_Told]) -> None:
         """Start with other limits; Broken unless the event log tells just what is different."""
         bench = self._bench
-        for joint, one in zip(bench.group.joints, told, strict=True):
+        for joint, one in zip(bench.group.joints, reply, strict=True):
             path = f"/MOC/ARM/{arm_name(bench.group, joint)}"
             for values in bench.controller.configuration.find(path):
                 for name, value in (("lower", one.lower), ("upper", one.upper)):
@@ -111,35 +111,35 @@ class _Cell:
         for action in ("power-loss", "pp-to-main", "auto", "motors-on", "start"):
             bench.controller.perform(action)
         bench.run(1)
-        for number, (joint, one) in enumerate(zip(bench.group.joints, told, strict=True), 1):
+        for number, (joint, one) in enumerate(zip(bench.group.joints, reply, strict=True), 1):
             self._is_said(number, joint, one)
 
-    def _is_said(self, number: int, joint: Joint, told: _Told) -> None:
+    def _is_said(self, number: int, joint: Joint, reply: _Told) -> None:
         title = f"ROS: limits of joint {number} "
         log = self._bench.controller.log.since(self._newest)
-        found = [e for e in log if e.title.startswith(title)]
-        what = f"joint {number} may move from {told.lower} to {told.upper}, of {joint}"
-        if not (told.said and self._bench.setting.dialect.axis_limits_told):
-            if found:
-                raise CheckFailed(f"{what}: the event log says {found[0]}")
+        result = [e for e in log if e.title.startswith(title)]
+        what = f"joint {number} may move from {reply.lower} to {reply.upper}, of {joint}"
+        if not (reply.said and self._bench.setting.dialect.axis_limits_told):
+            if result:
+                raise CheckFailed(f"{what}: the event log says {result[0]}")
             return
-        kind, effect = _SAID[told.said]
-        if [(e.type, e.title, e.texts[0]) for e in found] != [(kind, title + told.said, effect)]:
-            raise CheckFailed(f"{what}: the event log says {[str(e) for e in found]}")
-        _are(found[0].texts[1], "Configuration", joint, joint.lower, joint.upper)
-        _are(found[0].texts[2], "Controller", joint, told.lower or 0.0, told.upper or 0.0)
+        kind, effect = _SAID[reply.said]
+        if [(e.type, e.title, e.texts[0]) for e in result] != [(kind, title + reply.said, effect)]:
+            raise CheckFailed(f"{what}: the event log says {[str(e) for e in result]}")
+        _are(result[0].texts[1], "Configuration", joint, joint.lower, joint.upper)
+        _are(result[0].texts[2], "Controller", joint, reply.lower or 0.0, reply.upper or 0.0)
 
     def in_force(self) -> messages.RawHelloReply:
         """What HELLO says, which must be the same on both ports."""
         bench = self._bench
-        told = _hello(bench.state())
+        reply = _hello(bench.state())
         if bench.group.ports.control:
             other = _hello(bench.control())
-            if (other.lower, other.upper) != (told.lower, told.upper):
+            if (other.lower, other.upper) != (reply.lower, reply.upper):
                 raise CheckFailed(
-                    f"the control port tells limits of {other}, the state port {told}"
+                    f"the control port tells limits of {other}, the state port {reply}"
                 )
-        return told
+        return reply
 
 
 def _answer(link: RawLink, others: Position, axis: int, value: float) -> messages.RawContent:
@@ -151,9 +151,9 @@ def _answer(link: RawLink, others: Position, axis: int, value: float) -> message
 def _are(text: str, whose: str, joint: Joint, lower: float, upper: float) -> None:
     """Broken unless a text of the event log holds these limits, to two digits."""
     factor, unit = (57.29578, "deg") if joint.kind == "revolute" else (1000.0, "mm")
-    told = re.fullmatch(rf"{whose}: (-?\d+(?:\.\d\d?)?) to (-?\d+(?:\.\d\d?)?) {unit}", text)
+    reply = re.fullmatch(rf"{whose}: (-?\d+(?:\.\d\d?)?) to (-?\d+(?:\.\d\d?)?) {unit}", text)
     for number, limit in enumerate((factor * lower, factor * upper), 1):
-        if told is None or abs(float(told[number]) - limit) > 0.0051 + 1e-5 * abs(limit):
+        if reply is None or abs(float(reply[number]) - limit) > 0.0051 + 1e-5 * abs(limit):
             raise CheckFailed(f"a limit of {limit:.3f} {unit} is told in {text!r}")
 
 
@@ -168,17 +168,17 @@ def _limits_as_told(bench: Bench) -> None:
     _counts(bench, cell, [_Told(j.lower - 0.3, j.upper + 0.3, "are wider") for j in joints])
 
 
-def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
+def _counts(bench: Bench, cell: _Cell, reply: Sequence[_Told]) -> None:
     """Broken unless just the limits in force are told, and taken."""
-    cell.start(told)
+    cell.start(reply)
     hello, link = cell.in_force(), bench.motion()
     silent = not bench.setting.dialect.axis_limits_told
     left = [
         (joint.lower, joint.upper) if silent else one.left(joint)
-        for joint, one in zip(bench.group.joints, told, strict=True)
+        for joint, one in zip(bench.group.joints, reply, strict=True)
     ]
     # An axis may stand at its end, where the controller lets it go no longer.
-    here = tuple(
+    current = tuple(
         min(max(p, low), high) for p, (low, high) in zip(bench.position, left, strict=True)
     )
     for axis, limits in enumerate(left):
@@ -186,16 +186,16 @@ def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
         if any(abs(t - w) > 1e-6 * max(1.0, abs(w)) for t, w in zip(seen, limits, strict=True)):
             raise CheckFailed(f"joint {axis + 1} may move in {limits}, HELLO says {seen}")
         for limit, inside in ((limits[0], _NEAR), (limits[1], -_NEAR)):
-            for value, wanted in (
+            for value, expected in (
                 (limit + inside, messages.RawAcknowledged()),
                 (limit - inside, messages.RawRefused(RawReason.JOINT_LIMIT, 0, axis + 1)),
             ):
-                answer = _answer(link, here, axis, value)
-                if answer != wanted:
+                answer = _answer(link, current, axis, value)
+                if answer != expected:
                     raise CheckFailed(
                         f"joint {axis + 1} is at {value}, the limit {limit}: {answer}"
                     )
-    bench.stays(0.5, "no trajectory was sent to its end")
+    bench.assert_at_rest(0.5, "no trajectory was sent to its end")
 
 
 @case("limits-without-sense", "a joint of which no range is left")
@@ -223,4 +223,4 @@ def _limits_without_sense(bench: Bench) -> None:
                 raise CheckFailed(
                     f"nothing is left of joint {axis + 1}, it is at {value}: {answer}"
                 )
-        bench.stays(0.5, "a joint has no range")
+        bench.assert_at_rest(0.5, "a joint has no range")

@@ -41,26 +41,26 @@ def _days(bench: Bench) -> None:
             control = bench.control()
             for _ in range(2):
                 bench.run(0.3)
-                told = control.ask(messages.RawHeartbeat(1.0))
-                if not isinstance(told, messages.RawHeartbeatReply):
+                reply = control.ask(messages.RawHeartbeat(1.0))
+                if not isinstance(reply, messages.RawHeartbeatReply):
                     raise CheckFailed(
-                        f"after days without a client HEARTBEAT is answered by {told}"
+                        f"after days without a client HEARTBEAT is answered by {reply}"
                     )
             control.ask(messages.RawHeartbeat(0))
             bench.run(_DAYS + 2)
             control.stop()
             control.close()
-        bench.sets_off(link, bench.wave(8), 0.3)
+        bench.start_motion(link, bench.wave(8), 0.3)
         link.stop()
         bench.wait_until_standing(3)
-        bench.moves_through(link, bench.wave(3))
-        bench.sets_off(link, bench.wave(8), 0.3)
+        bench.assert_moves_through(link, bench.wave(3))
+        bench.start_motion(link, bench.wave(8), 0.3)
         bench.controller.perform("stop")
         bench.run(_DAYS + 2)
         bench.controller.perform("start")
-        bench.stays(2, "it was stopped for days")
-        bench.moves_through(link, bench.wave(3))
-        bench.healthy()
+        bench.assert_at_rest(2, "it was stopped for days")
+        bench.assert_moves_through(link, bench.wave(3))
+        bench.assert_healthy()
 
 
 @case("unheard", "bells that a stopped program does not hear", "R7a", background=True)
@@ -68,12 +68,12 @@ def _unheard(bench: Bench) -> None:
     """Stop and PP to main in a motion, Start long after: the motion task goes on."""
     link = bench.motion()
     for steps in (("stop", "pp-to-main"), ("stop",), ("e-stop", "pp-to-main")):
-        bench.sets_off(link, bench.wave(8), 0.4)
+        bench.start_motion(link, bench.wave(8), 0.4)
         for step in steps:
             bench.controller.perform(step)
             bench.run(0.01)
         bench.run(11)
         bench.start_again()
-        bench.stays(2, f"{', '.join(steps)}, and Start")
-        bench.healthy()
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_at_rest(2, f"{', '.join(steps)}, and Start")
+        bench.assert_healthy()
+        bench.assert_moves_through(link, bench.wave(3))

@@ -54,8 +54,8 @@ def _scaled(unit: float, *steps: _Step) -> list[_Step]:
 
 def _in_order(
     bench: Bench,
-    begun: float,
-    told: Sequence[tuple[float, RawTrajectoryState | int, int, int]],
+    started: float,
+    reply: Sequence[tuple[float, RawTrajectoryState | int, int, int]],
     steps: Sequence[_Step],
 ) -> None:
     """Broken unless what was told, and when, is each step in its turn and in its time."""
@@ -63,24 +63,25 @@ def _in_order(
     late = _CLOSE + bench.setting.motion.settle * len(steps)
     seen, at = set(), 0
     each = [(step.state, step.planned, step.reached) for step in steps]
-    for when, *said in told:
+    for when, *log_entries in reply:
         # Where a task's turn may end at a PERS, a reply may be put together between two steps.
         now, then = each[at], each[min(at + 1, len(each) - 1)]
-        between = said[0] in (now[0], then[0]) and all(
-            a <= value <= b for value, a, b in zip(said[1:], now[1:], then[1:], strict=True)
+        between = log_entries[0] in (now[0], then[0]) and all(
+            a <= value <= b for value, a, b in zip(log_entries[1:], now[1:], then[1:], strict=True)
         )
-        if bench.setting.switch_at_pers and between and tuple(said) not in each[at:]:
+        if bench.setting.switch_at_pers and between and tuple(log_entries) not in each[at:]:
             continue
-        while at < len(steps) and tuple(said) != each[at]:
+        while at < len(steps) and tuple(log_entries) != each[at]:
             at += 1
         if at == len(steps):
             raise CheckFailed(
-                f"{when - begun:.3f} s behind its beginning a trajectory is told to be in state "
-                f"{said[0]} with {said[1]} points planned and {said[2]} reached"
+                f"{when - started:.3f} s behind its beginning "
+                f"a trajectory is told to be in state {log_entries[0]} "
+                f"with {log_entries[1]} points planned and {log_entries[2]} reached"
             )
         seen.add(at)
-        if not steps[at].since - _CLOSE <= when - begun <= steps[at].until + late:
-            raise CheckFailed(f"{steps[at]} is told {when - begun:.3f} s behind the beginning")
+        if not steps[at].since - _CLOSE <= when - started <= steps[at].until + late:
+            raise CheckFailed(f"{steps[at]} is told {when - started:.3f} s behind the beginning")
     missing = [step for number, step in enumerate(steps) if number not in seen]
     if missing:
         raise CheckFailed(f"it is never told that {missing}")
@@ -90,26 +91,26 @@ def watched(
     link: RawLink, since: float
 ) -> list[tuple[float, messages.RawProgress, messages.RawStatus]]:
     """PROGRESS from `since` on, each with its time and the STATUS that came with it."""
-    found: list[tuple[float, messages.RawProgress, messages.RawStatus]] = []
+    failures: list[tuple[float, messages.RawProgress, messages.RawStatus]] = []
     status: messages.RawStatus | None = None
     for when, frame in link.frames:
         content = messages.decode(frame) if when >= since else None
         if isinstance(content, messages.RawStatus):
             status = content
         elif isinstance(content, messages.RawProgress) and status is not None:
-            found.append((when, content, status))
-    return found
+            failures.append((when, content, status))
+    return failures
 
 
 def _goes_by(
-    bench: Bench, link: RawLink, begun: float, trajectory: int, count: int, steps: Sequence[_Step]
+    bench: Bench, link: RawLink, started: float, trajectory: int, count: int, steps: Sequence[_Step]
 ) -> None:
     """Broken unless PROGRESS and STATUS told each step of a good trajectory of `count` points."""
-    told = watched(link, begun + _CLOSE)
-    _in_order(bench, begun, [(t, p.state, p.planned, p.reached) for t, p, _ in told], steps)
+    reply = watched(link, started + _CLOSE)
+    _in_order(bench, started, [(t, p.state, p.planned, p.reached) for t, p, _ in reply], steps)
     over, lag = 0.0, 6 * bench.setting.motion.servo_lag
-    following = [progress.state for _, progress, _ in told[1:]]
-    for (when, progress, status), then in zip_longest(told, following):
+    following = [progress.state for _, progress, _ in reply[1:]]
+    for (when, progress, status), then in zip_longest(reply, following):
         if (progress.trajectory, progress.received, *progress[5:]) != (trajectory, count, 0, -1, 0):
             raise CheckFailed(f"at {when:.3f} s trajectory {trajectory} is told as {progress}")
         moving = [int(progress.state == RawTrajectoryState.MOVING)]
@@ -154,11 +155,11 @@ class CpuMeter:
     def end(self, doing: str) -> None:
         """Broken unless it was little, as it is for a driver that waits."""
         scheduler, config = self._bench.controller.scheduler, self._bench.config
-        share = 1 - (scheduler.idle - self._idle) / (scheduler.now - self._now)
+        fraction = 1 - (scheduler.idle - self._idle) / (scheduler.now - self._now)
         # The state server has some 3 ms of work in each period.
         little = len(config.groups) * (0.06 + 0.004 / config.state_period)
-        if share > little * self._bench.setting.slowness:
-            raise CheckFailed(f"{doing} the driver takes {share:.0%} of the processor")
+        if fraction > little * self._bench.setting.slowness:
+            raise CheckFailed(f"{doing} the driver takes {fraction:.0%} of the processor")
         self.begin()
 
 
@@ -169,11 +170,11 @@ def _step_by_step(bench: Bench) -> None:
     number, done = bench.progress(watcher).trajectory, RawTrajectoryState.DONE
     meter = CpuMeter(bench)
     for last in (True, False):
-        way = bench.wave(6, duration=unit)
-        points: list[Point] = [*way[:4], (way[3][0], unit), *way[4:]]
+        path = bench.wave(6, duration=unit)
+        points: list[Point] = [*path[:4], (path[3][0], unit), *path[4:]]
         ends = [_Step(6, 7, 8, 7), _Step(7, _EVER, 8, 8, done)]
         if last:
-            points.append((way[5][0], unit))
+            points.append((path[5][0], unit))
         else:
             ends = [_Step(6, _EVER, 7, 7, done)]
         frames = bench.download(points)
@@ -182,7 +183,7 @@ def _step_by_step(bench: Bench) -> None:
         meter.end("while points are awaited")
         sent = bench.now
         link.send(frames[68:])
-        begun = begins_soon(bench, sent)
+        started = begins_soon(bench, sent)
         number += 1
         bench.run(8 * unit)
         meter.end("while the robot moves")
@@ -196,19 +197,19 @@ def _step_by_step(bench: Bench) -> None:
             _Step(4.3, 6, 7, 5),
             *ends,
         )
-        _goes_by(bench, watcher, begun, number, len(points), steps)
+        _goes_by(bench, watcher, started, number, len(points), steps)
         bench.run(0.53)
         meter.end("when nothing is under way")
         # One point, sent twice, near where the robot stands.
         target = tuple(
-            inward(joint, here, 0.9 * bench.start_tolerance(joint))
-            for joint, here in zip(bench.group.joints, bench.position, strict=True)
+            inward(joint, current, 0.9 * bench.start_tolerance(joint))
+            for joint, current in zip(bench.group.joints, bench.position, strict=True)
         )
-        begun = begins(bench, link, [(target, 2 * unit)] * 2)
+        started = begins(bench, link, [(target, 2 * unit)] * 2)
         number += 1
         bench.run(3 * unit)
         steps = _scaled(unit, _Step(0, 2, 1, 0), _Step(2, _EVER, 2, 2, done))
-        _goes_by(bench, watcher, begun, number, 2, steps)
+        _goes_by(bench, watcher, started, number, 2, steps)
 
 
 @case("stream-by-step", "each step of a stream in its time", "R9", needs="stream")
@@ -229,7 +230,7 @@ def _stream_by_step(bench: Bench) -> None:
             bench.run(0.03)
 
     stream.put(points[:3], BEGIN | FLUSH)
-    begun = begins_soon(bench, bench.now)
+    started = begins_soon(bench, bench.now)
     ask(2.5 * unit)
     meter.begin()
     bench.run(0.5)
@@ -237,16 +238,16 @@ def _stream_by_step(bench: Bench) -> None:
     status = bench.status(watcher)
     if (status.in_motion, status.in_error) != (0, 0):
         raise CheckFailed(f"a stream waits for points, STATUS says {status}")
-    more = bench.now - begun
+    more = bench.now - started
     stream.put(points[3:], FLUSH)
     ask(1.7 * unit)
-    over = bench.now - begun
+    over = bench.now - started
     stream.put((), END)
     ask(0.2)
     steps = _scaled(unit, _Step(0, 1, 2, 1), _Step(0.3, 2, 3, 1), _Step(2, _EVER, 3, 3, starved))
     _in_order(
         bench,
-        begun,
+        started,
         told,
         [
             *steps,
@@ -260,7 +261,7 @@ def _stream_by_step(bench: Bench) -> None:
     stream.number, stream.sent = 2, 0
     points = bench.wave(3, duration=unit)
     stream.put(points[:2], BEGIN | FLUSH)
-    begun = begins_soon(bench, bench.now)
+    started = begins_soon(bench, bench.now)
     bench.run(0.5 * unit)
     beyond = (bench.group.joints[0].upper + 1, *points[2][0][1:])
     stream.refuses(RawReason.JOINT_LIMIT, "joint 1 is outside its limits", [(beyond, 30.0)])
@@ -318,18 +319,18 @@ def _halts(bench: Bench) -> None:
     bench.run(1.15 * unit)
     since = bench.now
     link.stop(latest, "STOP on the way is answered")
-    told = _over_soon(bench, watcher, since, "STOP on the way")
-    if (told.planned, told.reached) != (3, 1):
-        raise CheckFailed(f"STOP came between points 1 and 2, PROGRESS says {told}")
-    way = bench.wave(3, duration=unit)
-    begins(bench, link, [*way[:2], (way[1][0], 5.0), way[2]])
-    bench.wait_until_at(way[1][0], 5)
+    reply = _over_soon(bench, watcher, since, "STOP on the way")
+    if (reply.planned, reply.reached) != (3, 1):
+        raise CheckFailed(f"STOP came between points 1 and 2, PROGRESS says {reply}")
+    path = bench.wave(3, duration=unit)
+    begins(bench, link, [*path[:2], (path[1][0], 5.0), path[2]])
+    bench.wait_until_at(path[1][0], 5)
     bench.run(0.5)
     since = bench.now
     link.stop(latest, "STOP in a stay is answered")
-    told = _over_soon(bench, watcher, since, "STOP in a stay")
-    if (told.planned, told.reached) != (3, 2):
-        raise CheckFailed(f"STOP came in the stay behind two points, PROGRESS says {told}")
+    reply = _over_soon(bench, watcher, since, "STOP in a stay")
+    if (reply.planned, reply.reached) != (3, 2):
+        raise CheckFailed(f"STOP came in the stay behind two points, PROGRESS says {reply}")
     for _ in range(2):
         begins(bench, link, bench.wave(5, duration=unit))
         bench.run(1.15 * unit)
@@ -337,10 +338,10 @@ def _halts(bench: Bench) -> None:
         fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 6)
         link.send(STOP)
         _stop_is_told(bench, watcher, since)
-        bench.rests(1, 1, "it was stopped, and its path not cleared at once")
-        told = _over_soon(bench, watcher, since, "a path that cannot be cleared at once")
-        if (told.planned, told.reached) != (3, 1):
-            raise CheckFailed(f"STOP came between points 1 and 2, PROGRESS says {told}")
+        bench.wait_until_at_rest(1, 1, "it was stopped, and its path not cleared at once")
+        reply = _over_soon(bench, watcher, since, "a path that cannot be cleared at once")
+        if (reply.planned, reply.reached) != (3, 1):
+            raise CheckFailed(f"STOP came between points 1 and 2, PROGRESS says {reply}")
     if _cycles(bench) != cycles:
         raise CheckFailed("main of the motion task began anew")
 
@@ -361,9 +362,9 @@ def _halted_twice(bench: Bench) -> None:
         bench.run(1.15 * unit)
         at_call(bench, "ROS_motion", "SkipWarn", call, ask)
         link.send(STOP)
-        bench.rests(2, 0.5, "it was stopped twice")
-        bench.healthy()
-        bench.moves_through(link, bench.wave(3))
+        bench.wait_until_at_rest(2, 0.5, "it was stopped twice")
+        bench.assert_healthy()
+        bench.assert_moves_through(link, bench.wave(3))
 
 
 def datum(bench: Bench, name: str) -> str:
@@ -387,7 +388,7 @@ def _gives_up(bench: Bench) -> None:
         points, last = bench.wave(6, duration=unit), bench.last_event
         link.send(bench.download(points))
         number += 1
-        begun = begins_soon(bench, bench.now)
+        started = begins_soon(bench, bench.now)
         if error:
             fails(bench, "ROS_motion", "MoveAbsJ", error, after=1)
         else:
@@ -396,14 +397,14 @@ def _gives_up(bench: Bench) -> None:
         bench.wait_until_standing(5)
         # The axes come to rest behind what the controller plans.
         latest = 2 * unit + 0.1 + bench.setting.motion.servo_lag
-        if bench.now - begun > latest or distance(bench.position, points[2][0]) < 5e-4:
+        if bench.now - started > latest or distance(bench.position, points[2][0]) < 5e-4:
             raise CheckFailed(f"{reason.name} on the way to point 2, and the robot went on to it")
-        bench.stays(1, "its trajectory has failed")
+        bench.assert_at_rest(1, "its trajectory has failed")
         planned = 4 if error else 3
-        wanted = (number, RawTrajectoryState.FAILED, 6, planned, 2, reason, 2, 0)
+        expected = (number, RawTrajectoryState.FAILED, 6, planned, 2, reason, 2, 0)
         progress, status = bench.progress(watcher), bench.status(watcher)
-        if progress != wanted or status != (1, 0, reason, 1, 0, RawMode.AUTO, 1):
-            raise CheckFailed(f"{reason.name}, wanted {wanted}: {progress}, {status}")
+        if progress != expected or status != (1, 0, reason, 1, 0, RawMode.AUTO, 1):
+            raise CheckFailed(f"{reason.name}, wanted {expected}: {progress}, {status}")
         # What has failed is over.
         points = bench.wave(2, duration=unit)
         link.send(bench.download(points))
@@ -411,9 +412,9 @@ def _gives_up(bench: Bench) -> None:
         begins_soon(bench, bench.now)
         bench.wait_until_at(points[1][0], 2 * unit)
         bench.wait_until_standing(1)
-        said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
-        if len(said) != 1 or said[0].texts[:2] != (
+        log_entries = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
+        if len(log_entries) != 1 or log_entries[0].texts[:2] != (
             messages.text_of(reason),
             f"At point {planned - 1}.",
         ):
-            raise CheckFailed(f"{reason.name}, the event log says {[str(e) for e in said]}")
+            raise CheckFailed(f"{reason.name}, the event log says {[str(e) for e in log_entries]}")

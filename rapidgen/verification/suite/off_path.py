@@ -25,12 +25,12 @@ def _zigzag(bench: Bench, count: int, seconds: float) -> list[Point]:
     seconds = min(seconds, max(0.7 * wide / (0.95 * speed) for wide, speed in ranges))
 
     def corner(odd: int) -> Position:
-        found = []
+        failures = []
         for number, joint in enumerate(bench.group.joints):
             wide = min(0.7 * (joint.upper - joint.lower), 0.95 * joint.speed * seconds)
             away = wide / 2 if (odd + number) % 2 else -wide / 2
-            found.append((joint.upper + joint.lower) / 2 + away)
-        return tuple(found)
+            failures.append((joint.upper + joint.lower) / 2 + away)
+        return tuple(failures)
 
     # Both before `seconds` changes: a TCP below a ceiling takes longer, and goes no further for it.
     ends = corner(0), corner(1)
@@ -40,10 +40,10 @@ def _zigzag(bench: Bench, count: int, seconds: float) -> list[Point]:
 
 def _speed(bench: Bench) -> float:
     """The largest share of its speed that an axis runs at now."""
-    (since, before), (now, here) = bench.track[-2:]
+    (since, before), (now, current) = bench.track[-2:]
     if now == since or bench.now - now > 0.01:
         return 0.0
-    joints = zip(bench.group.joints, before, here, strict=True)
+    joints = zip(bench.group.joints, before, current, strict=True)
     return max(abs(b - a) / (now - since) / joint.speed for joint, a, b in joints)
 
 
@@ -52,15 +52,15 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
     motion = replace(bench.setting.motion, quick_factor=quick)
     with bench.beside(bench.system, setting=replace(bench.setting, motion=motion)) as other:
         link = other.motion()
-        way = _zigzag(other, 6, seconds)
-        to_it = 2 * other.seconds_to(way[0][0])
-        link.send(other.download([(other.position, 10.0), (way[0][0], to_it)]))
-        other.wait_until_at(way[0][0], 2 * to_it + 5)
+        path = _zigzag(other, 6, seconds)
+        to_it = 2 * other.seconds_to(path[0][0])
+        link.send(other.download([(other.position, 10.0), (path[0][0], to_it)]))
+        other.wait_until_at(path[0][0], 2 * to_it + 5)
         other.run(0.3 + 2 * motion.settle)
-        other.sets_off(link, [(other.position, 10.0), *way[1:]])
-        if way[0][1] > seconds:
+        other.start_motion(link, [(other.position, 10.0), *path[1:]])
+        if path[0][1] > seconds:
             # A ceiling of the TCP keeps the axes slower; in the middle they are fastest.
-            other.run(0.5 * way[0][1])
+            other.run(0.5 * path[0][1])
         else:
             other.until(lambda: _speed(other) >= _FAST, 5, f"an axis runs at {_FAST:.0%}")
         last = other.last_event
@@ -77,29 +77,29 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
                 )
             other.controller.perform("pp-to-main")
             other.start_again()
-        told = f"after {action} at speed, {1000 * off:.0f} mm off the path"
-        other.stays(4, f"{told}, nobody asked for motion")
-        said = [e for e in other.controller.log.since(last) if e.title == STAYS_STOPPED]
+        reply = f"after {action} at speed, {1000 * off:.0f} mm off the path"
+        other.assert_at_rest(4, f"{reply}, nobody asked for motion")
+        log_entries = [e for e in other.controller.log.since(last) if e.title == STAYS_STOPPED]
         held = off > motion.path_distance and motion.stop_move_reset == "keeps"
-        if said and not held:
-            raise CheckFailed(f"{told}, the event log says {said[0]}")
+        if log_entries and not held:
+            raise CheckFailed(f"{reply}, the event log says {log_entries[0]}")
         if other.motion_group.stop_reasons:
-            if not (held and said):
-                raise CheckFailed(f"{told}, the robot is held, and the event log does not say why")
+            if not (held and log_entries):
+                raise CheckFailed(f"{reply}, the robot is held, and the event log does not say why")
             # What the event tells to do.
             for step in ("stop", "pp-to-main", "start"):
                 other.controller.perform(step)
-        other.stays(1, f"{told}, nobody asked for motion")
+        other.assert_at_rest(1, f"{reply}, nobody asked for motion")
         link.close()
         other.run(1.5)
-        other.moves_through(other.motion(), other.wave(3))
-        other.healthy()
+        other.assert_moves_through(other.motion(), other.wave(3))
+        other.assert_healthy()
     return off
 
 
 def _at_speed(bench: Bench, action: str) -> None:
     """Nothing resumes, and a new trajectory is executed from where the robot stands."""
-    found = [
+    result = [
         _stopped_at_speed(bench, action, quick, seconds)
         for quick, seconds in ((2.0, 0.5), (0.2, 0.5), (0.04, 0.7))
     ]
@@ -108,9 +108,11 @@ def _at_speed(bench: Bench, action: str) -> None:
     # Where a cleared path is forgotten nothing tells how far off it was; and below a ceiling of the
     # TCP a robot may be too slow to get off it.
     fast = bench.group.tcp_speed_limit >= CEILING
-    told = by_brakes and fast and motion.cleared_distance == "counts"
-    if told and bench.motion_group.kinematics is not None and max(found) < 0.05:
-        raise CheckFailed(f"the robot never was far from its path: {[f'{d:.3f} m' for d in found]}")
+    reply = by_brakes and fast and motion.cleared_distance == "counts"
+    if reply and bench.motion_group.kinematics is not None and max(result) < 0.05:
+        raise CheckFailed(
+            f"the robot never was far from its path: {[f'{d:.3f} m' for d in result]}"
+        )
 
 
 case("e-stop-at-speed", "an emergency stop at full speed")(partial(_at_speed, action="e-stop"))

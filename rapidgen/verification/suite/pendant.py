@@ -42,10 +42,14 @@ class _Pendant:
         place += f"Joint {joint}. " if joint else ""
         if len(events) != 1 or events[0].type is not EventType.WARNING:
             raise CheckFailed(f"{after}: the event log has {[str(e) for e in events]}")
-        said = " ".join(events[0].texts)
-        if text not in said or place.strip() not in said or ("Joint" in said) != bool(joint):
+        log_entries = " ".join(events[0].texts)
+        if (
+            text not in log_entries
+            or place.strip() not in log_entries
+            or ("Joint" in log_entries) != bool(joint)
+        ):
             raise CheckFailed(
-                f"{after}: the event log says {said!r}, wanted {text!r} and {place!r}"
+                f"{after}: the event log says {log_entries!r}, wanted {text!r} and {place!r}"
             )
 
 
@@ -111,9 +115,11 @@ def _lines_are_rationed(bench: Bench) -> None:
         _send_wrong(bench, link, 1)
         bench.run(1.5)
         events = pendant.take()
-        said = str(events[0]) if events else ""
-        if len(events) != 1 or ((more or "more like") in said) != bool(more):
-            raise CheckFailed(f"after eight refusals at once the next one is told as {said!r}")
+        log_entries = str(events[0]) if events else ""
+        if len(events) != 1 or ((more or "more like") in log_entries) != bool(more):
+            raise CheckFailed(
+                f"after eight refusals at once the next one is told as {log_entries!r}"
+            )
 
 
 @case("quiet", "what is in order is not told", "R19")
@@ -122,8 +128,8 @@ def _peace_is_quiet(bench: Bench) -> None:
     pendant = _Pendant(bench)
     for _ in range(3):
         link, state = bench.motion(), bench.state()
-        bench.moves_through(link, bench.wave(4))
-        bench.sets_off(link, bench.wave(8))
+        bench.assert_moves_through(link, bench.wave(4))
+        bench.start_motion(link, bench.wave(8))
         link.send(STOP)
         bench.wait_until_standing(5)
         bench.run(0.5)

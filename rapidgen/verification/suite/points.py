@@ -34,14 +34,14 @@ class Table:
         self._rows: list[tuple[bytes, messages.RawContent, str]] = []
 
     def row(
-        self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.RawContent
+        self, sequence: int, joints: Sequence[float], seconds: float, expected: messages.RawContent
     ) -> None:
         """One more point. A trajectory begins with -1."""
         if sequence == _BEGIN:
             self.number += 1
         frame = raw_point(sequence, joints, seconds, RawComm.REQUEST)
-        shown = ", ".join(f"{value:.9g}" for value in joints)
-        self._rows.append((frame, wanted, f"point {sequence} ({shown}) in {seconds:.9g} s"))
+        displayed = ", ".join(f"{value:.9g}" for value in joints)
+        self._rows.append((frame, expected, f"point {sequence} ({displayed}) in {seconds:.9g} s"))
 
     def accepted(self, joints: Sequence[float], seconds: float) -> None:
         """An end frame with which the trajectory is handed over."""
@@ -50,19 +50,19 @@ class Table:
     def ask(self) -> None:
         """Send the rows. Broken when a reply is another one."""
         self.link.send(b"".join(frame for frame, _, _ in self._rows))
-        for _, wanted, what in self._rows:
-            told = messages.decode(self.link.expect_reply(5, f"{what} is answered"))
-            if type(told) is not type(wanted) or told != wanted:
-                raise CheckFailed(f"{what}: wanted {wanted}, the reply is {told}")
+        for _, expected, what in self._rows:
+            reply = messages.decode(self.link.expect_reply(5, f"{what} is answered"))
+            if type(reply) is not type(expected) or reply != expected:
+                raise CheckFailed(f"{what}: wanted {expected}, the reply is {reply}")
         self._rows.clear()
 
     def stop(self, link: RawLink | None = None) -> None:
         """STOP, here or over another connection, and its reply."""
-        told = (link or self.link).stop()
-        if not isinstance(told, messages.RawAcknowledged):
-            raise CheckFailed(f"STOP is answered by {told}")
+        reply = (link or self.link).stop()
+        if not isinstance(reply, messages.RawAcknowledged):
+            raise CheckFailed(f"STOP is answered by {reply}")
 
-    def shows(self, state: RawTrajectoryState, received: int, told: messages.RawRefused) -> None:
+    def shows(self, state: RawTrajectoryState, received: int, reply: messages.RawRefused) -> None:
         """Broken unless PROGRESS says so of the newest trajectory."""
         self.bench.run(2 * self.bench.config.state_period)
         seen = self.bench.progress(self.watcher)
@@ -70,10 +70,10 @@ class Table:
             self.number,
             state,
             received,
-            *told,
+            *reply,
         ):
             raise CheckFailed(
-                f"trajectory {self.number}, {state.name} with {received} points and {told}: "
+                f"trajectory {self.number}, {state.name} with {received} points and {reply}: "
                 f"PROGRESS says {seen}"
             )
 
@@ -84,16 +84,16 @@ _NOTHING = messages.RawRefused(0, -1, 0)
 
 def fast_ends(joint: Joint, seconds: float, share: float) -> tuple[float, float] | None:
     """Two places of an axis that are `share` of what it can do in a time apart, about zero."""
-    way = share * seconds * joint.speed
+    path = share * seconds * joint.speed
     margin = 2 * small_unit(joint)
-    low = max(joint.lower + margin, min(-way / 2, joint.upper - margin - way))
-    return (low, low + way) if low + way <= joint.upper - margin else None
+    low = max(joint.lower + margin, min(-path / 2, joint.upper - margin - path))
+    return (low, low + path) if low + path <= joint.upper - margin else None
 
 
 @case("each-value", "each value of a point at its bounds and beyond", "R10, R11")
 def _each_value(bench: Bench) -> None:
     """Limits, speeds and numbers that are none, of each joint alone; what is padding."""
-    table, here = Table(bench), bench.position
+    table, current = Table(bench), bench.position
     policy = bench.config.trajectory
     seconds = max(0.1, policy.min_segment)
     fault = policy.too_fast == "refuse"
@@ -108,19 +108,19 @@ def _each_value(bench: Bench) -> None:
             (-math.inf, RawReason.NOT_FINITE),
         ):
             wrong = messages.RawRefused(reason, 0, axis + 1)
-            table.row(_BEGIN, changed(here, axis, value), _SLOW, wrong)
-            table.row(1, here, _SLOW, wrong)
-        table.row(_BEGIN, changed(here, axis, joint.lower), _SLOW, _TAKEN)
-        table.row(1, changed(here, axis, joint.upper), _SLOW, _TAKEN)
-        table.row(2, changed(here, axis, joint.lower), _SLOW, _TAKEN)
+            table.row(_BEGIN, changed(current, axis, value), _SLOW, wrong)
+            table.row(1, current, _SLOW, wrong)
+        table.row(_BEGIN, changed(current, axis, joint.lower), _SLOW, _TAKEN)
+        table.row(1, changed(current, axis, joint.upper), _SLOW, _TAKEN)
+        table.row(2, changed(current, axis, joint.lower), _SLOW, _TAKEN)
         # Where a first point lies nobody has to reach in its time.
         for value in (joint.upper, joint.lower):
-            table.row(_BEGIN, changed(here, axis, value), 0.0, _TAKEN)
+            table.row(_BEGIN, changed(current, axis, value), 0.0, _TAKEN)
         for share in (0.999, 1.01):
             ends = fast_ends(joint, seconds, share)
             if ends is None:
                 continue
-            places = [changed(here, axis, value) for value in ends]
+            places = [changed(current, axis, value) for value in ends]
             if 1.1 * bench.tcp_seconds(places[0], places[1]) > seconds:
                 continue
             wrong = messages.RawRefused(RawReason.TOO_FAST, 2, axis + 1)
@@ -131,22 +131,22 @@ def _each_value(bench: Bench) -> None:
                 if share < 1:
                     table.row(3, one, seconds, _TAKEN)
         table.ask()
-    missing = len(here)
+    missing = len(current)
     for axis in range(missing, messages.MAX_JOINTS):
-        zeros = (*here, *[0.0] * (axis - missing))
+        zeros = (*current, *[0.0] * (axis - missing))
         for value in (0.5, 1e-45, math.nan):
             wrong = messages.RawRefused(RawReason.BAD_PADDING, 1, axis + 1)
-            table.row(_BEGIN, here, _SLOW, _TAKEN)
+            table.row(_BEGIN, current, _SLOW, _TAKEN)
             table.row(1, (*zeros, value), _SLOW, wrong)
         table.row(_BEGIN, (*zeros, -0.0), _SLOW, _TAKEN)
     # The first fault counts.
     first, last = bench.group.joints[0], bench.group.joints[-1]
-    both = (first.upper + 1, *here[1:-1], last.upper + 1)
+    both = (first.upper + 1, *current[1:-1], last.upper + 1)
     table.row(_BEGIN, both, _SLOW, messages.RawRefused(RawReason.JOINT_LIMIT, 0, 1))
     table.row(_BEGIN, both, math.nan, messages.RawRefused(RawReason.NOT_FINITE, 0, 0))
-    table.row(_BEGIN, here, _SLOW, _TAKEN)
+    table.row(_BEGIN, current, _SLOW, _TAKEN)
     table.ask()
-    bench.stays(0.1, "no trajectory was sent whole")
+    bench.assert_at_rest(0.1, "no trajectory was sent whole")
     _rounded(bench, table)
 
 
@@ -164,13 +164,13 @@ def _rounded(bench: Bench, table: Table) -> None:
         # Whose ways have no length, and so need no time.
         table.row(1, two, bench.config.trajectory.min_segment or 0.001, _TAKEN)
         table.ask()
-        bench.stays(0.1, "no trajectory was sent whole")
+        bench.assert_at_rest(0.1, "no trajectory was sent whole")
 
 
 @case("each-duration", "durations at their bounds and beyond", "R10")
 def _each_duration(bench: Bench) -> None:
     """Of the first point, of one in between, and of the last one."""
-    table, here = Table(bench), bench.position
+    table, current = Table(bench), bench.position
     policy = bench.config.trajectory
     wrong: tuple[tuple[float, RawReason], ...] = (
         (-1e-3, RawReason.BAD_DURATION),
@@ -183,41 +183,41 @@ def _each_duration(bench: Bench) -> None:
         (2e9, RawReason.NOT_FINITE),
     )
     for seconds, reason in wrong:
-        table.row(_BEGIN, here, seconds, messages.RawRefused(reason, 0, 0))
-        table.row(_BEGIN, here, 0.0, _TAKEN)
-        table.row(1, here, seconds, messages.RawRefused(reason, 1, 0))
+        table.row(_BEGIN, current, seconds, messages.RawRefused(reason, 0, 0))
+        table.row(_BEGIN, current, 0.0, _TAKEN)
+        table.row(1, current, seconds, messages.RawRefused(reason, 1, 0))
     for seconds in (0.0, -0.0, 1e-3, 0.9, 1.0, _LONGEST):
-        table.row(_BEGIN, here, seconds, _TAKEN)
+        table.row(_BEGIN, current, seconds, _TAKEN)
     for seconds in (0.0, -0.0):
-        table.row(1, here, 1.0, _TAKEN)
-        table.row(2, here, seconds, messages.RawRefused(RawReason.BAD_DURATION, 2, 0))
-        table.row(_BEGIN, here, 1.0, _TAKEN)
+        table.row(1, current, 1.0, _TAKEN)
+        table.row(2, current, seconds, messages.RawRefused(RawReason.BAD_DURATION, 2, 0))
+        table.row(_BEGIN, current, 1.0, _TAKEN)
     for number, seconds in enumerate((_LONGEST, 1.0, max(0.9, policy.min_segment)), 1):
-        table.row(number, here, seconds, _TAKEN)
-    table.row(4, here, policy.min_segment, _TAKEN)
+        table.row(number, current, seconds, _TAKEN)
+    table.row(4, current, policy.min_segment, _TAKEN)
     shorter = 0.999 * policy.min_segment
     if policy.min_segment > 0.005:
         short = messages.RawRefused(RawReason.SEGMENT_TOO_SHORT, 5, 0)
-        table.row(5, here, shorter, short if policy.too_fast == "refuse" else _TAKEN)
+        table.row(5, current, shorter, short if policy.too_fast == "refuse" else _TAKEN)
         # The last one has no successor that would have to be planned in time.
-        table.row(_BEGIN, here, shorter, _TAKEN)
-        table.row(1, here, 1.0, _TAKEN)
-        table.accepted(here, shorter / 2)
+        table.row(_BEGIN, current, shorter, _TAKEN)
+        table.row(1, current, 1.0, _TAKEN)
+        table.accepted(current, shorter / 2)
     table.ask()
     table.stop()
-    bench.stays(0.2, "it was asked to stay where it is")
+    bench.assert_at_rest(0.2, "it was asked to stay where it is")
 
 
 @case("each-number", "numbers of points, STOP among them, and what is skipped", "C4")
 def _each_number(bench: Bench) -> None:
     """Numbers of points in order and out of it, STOP in between, and what follows a refusal."""
-    table, here = Table(bench), bench.position
+    table, current = Table(bench), bench.position
 
-    def row(sequence: int, wanted: messages.RawContent, joints: Position = here) -> None:
-        table.row(sequence, joints, _SLOW, wanted)
+    def row(sequence: int, expected: messages.RawContent, joints: Position = current) -> None:
+        table.row(sequence, joints, _SLOW, expected)
 
     alone = messages.RawRefused(RawReason.NO_START, 0, 0)
-    far = changed(here, 0, bench.group.joints[0].upper + 1)
+    far = changed(current, 0, bench.group.joints[0].upper + 1)
     beyond = messages.RawRefused(RawReason.JOINT_LIMIT, 0, 1)
 
     def without_a_start(sequence: int) -> None:
@@ -271,40 +271,40 @@ def _each_number(bench: Bench) -> None:
     _of_other_builds(bench, table)
     for sequence in (_BEGIN, 1):
         row(sequence, _TAKEN)
-    table.accepted(here, _SLOW)
+    table.accepted(current, _SLOW)
     # What was handed over has no next point.
     without_a_start(3)
     table.ask()
     table.stop()
     # Nor is anything of one client's, refused or not, of the next one's.
-    for joints, wanted in ((here, _TAKEN), (far, beyond)):
-        row(_BEGIN, wanted, joints)
+    for joints, expected in ((current, _TAKEN), (far, beyond)):
+        row(_BEGIN, expected, joints)
         table.ask()
         table.link.close()
         table.link = bench.motion()
         without_a_start(1)
         row(_END, alone)
         table.ask()
-    bench.stays(0.2, "it was asked to stay where it is")
+    bench.assert_at_rest(0.2, "it was asked to stay where it is")
 
 
 def _full(bench: Bench, table: Table) -> None:
     """The last point that there is room for, and the first that there is none for."""
-    here, capacity = bench.position, bench.config.trajectory.capacity
+    current, capacity = bench.position, bench.config.trajectory.capacity
     for last in (capacity, _END):
-        table.row(_BEGIN, here, _SLOW, _TAKEN)
+        table.row(_BEGIN, current, _SLOW, _TAKEN)
         table.ask()
         # As if all the others had come: a thousand points that are like each other say nothing.
         bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_count"] = (
             capacity - 1
         )
         full = messages.RawRefused(RawReason.CAPACITY, capacity, 0)
-        table.row(capacity - 1, here, _SLOW, _TAKEN)
-        table.row(last, here, _SLOW, full)
+        table.row(capacity - 1, current, _SLOW, _TAKEN)
+        table.row(last, current, _SLOW, full)
         if last == _END:
             table.number += 1
             full = messages.RawRefused(RawReason.NO_START, 0, 0)
-        table.row(1, here, _SLOW, full)
+        table.row(1, current, _SLOW, full)
         table.ask()
 
 
@@ -335,20 +335,22 @@ def _one_more(bench: Bench) -> None:
     ):
         before = bench.last_event
         sequence, reason, place = int(RawSpecial.END), RawReason.NO_START, ""
-        joint, wanted = 0, bench.position
+        joint, expected = 0, bench.position
         if axis is not None:
             sequence, reason, joint = _BEGIN, RawReason.JOINT_LIMIT, axis + 1
             place = f"Joint {joint}."
-            wanted = changed(wanted, axis, joints[axis].upper + 1)
+            expected = changed(expected, axis, joints[axis].upper + 1)
         # Nothing is left to be skipped.
         table.stop()
         for _ in range(at_once):
-            table.row(sequence, wanted, _SLOW, messages.RawRefused(reason, 0, joint))
+            table.row(sequence, expected, _SLOW, messages.RawRefused(reason, 0, joint))
         table.ask()
         bench.run(1.05)
-        said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
+        log_entries = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
         text = messages.text_of(reason)
-        if said != [f"{text} Point 0. {place} {more}".split()]:
-            raise CheckFailed(f"{at_once} refusals for {reason.name}, the event log says {said}")
+        if log_entries != [f"{text} Point 0. {place} {more}".split()]:
+            raise CheckFailed(
+                f"{at_once} refusals for {reason.name}, the event log says {log_entries}"
+            )
         if lines:
             raise CheckFailed(f"{at_once} refusals for {reason.name}, the pendant says {lines}")

@@ -45,12 +45,12 @@ def _signals(bench: Bench) -> None:
     bench.wait_until_at(first.joints, 60)
     written = [n for n, s in enumerate(exposed) if s.access == "write" and s.kind[1] == "O"]
     if not written or not computes(bench):
-        told = client.send([replace(first, marks=((0.0, 1.0, START, 0.01),))])
-        if not isinstance(told, messages.RawPointsRefused):
-            raise CheckFailed(f"no signal is set on the way here, the reply is {told}")
+        reply = client.send([replace(first, marks=((0.0, 1.0, START, 0.01),))])
+        if not isinstance(reply, messages.RawPointsRefused):
+            raise CheckFailed(f"no signal is set on the way here, the reply is {reply}")
         return
-    there = replace(last, kind=MOVES[0], pose=reached(bench, last.joints), speed=0.1)
-    back = replace(there, joints=first.joints, pose=reached(bench, first.joints))
+    target = replace(last, kind=MOVES[0], pose=reached(bench, last.joints), speed=0.1)
+    back = replace(target, joints=first.joints, pose=reached(bench, first.joints))
     middle = [(a + b) / 2 for a, b in zip(first.joints, last.joints, strict=True)]
     (x, y, z), turned = reached(bench, tuple(middle))
     # A circle that is not level turns the tool out of a SCARA's reach.
@@ -58,7 +58,7 @@ def _signals(bench: Bench) -> None:
     kinds = [k for k in kinds_with_marks(bench) if k is not RawInstruction.MOVE_C or not level]
     for kind in kinds:
         for number in written:
-            for go, from_there in ((there, first), (back, there)):
+            for go, from_there in ((target, first), (back, target)):
                 own = replace(
                     go,
                     kind=kind,
@@ -66,21 +66,21 @@ def _signals(bench: Bench) -> None:
                     via=((x, y, z + 0.01), turned) if kind is RawInstruction.MOVE_C else None,
                 )
                 _one_way(bench, client, own, from_there.joints, number)
-    way = ((x, y, z + 0.01), turned)
+    path = ((x, y, z + 0.01), turned)
     for kind in kinds:
         if kind is RawInstruction.MOVE_ABSJ:
             continue
         client.takes("a program", [replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None)])
         bench.wait_until_at(first.joints, 60)
         bench.run(0.5)
-        via = way if kind is RawInstruction.MOVE_C else None
-        _eight(bench, client, replace(there, kind=kind, via=via), written[0])
+        via = path if kind is RawInstruction.MOVE_C else None
+        _eight(bench, client, replace(target, kind=kind, via=via), written[0])
     _wrong_marks(bench, client, replace(back, kind=MOVES[0]), written[0])
     marks = ((float(written[0]), 1.0, START, 0.01),)
-    for order in (replace(there, kind=MOVES[1]), first):
+    for order in (replace(target, kind=MOVES[1]), first):
         if order.kind not in kinds:
-            told = client.send([replace(order, marks=marks)])
-            client.refused(told, RawReason.NO_INSTRUCTION, 0, "signals on the way of a joint move")
+            reply = client.send([replace(order, marks=marks)])
+            client.refused(reply, RawReason.NO_INSTRUCTION, 0, "signals on the way of a joint move")
 
 
 def _one_way(
@@ -99,7 +99,7 @@ def _one_way(
     marks = [(float(number), float(v), *at) for v, at in zip((1, 0, 1), own, strict=True)]
     client.takes("signals on the way", [replace(order, marks=tuple(marks))])
     bench.wait_until_at(order.joints, 60)
-    ended = bench.track[-1][0]
+    finished = bench.track[-1][0]
     signal.changed.remove(note)
     if [value for value, _, _ in seen] != [1, 0, 1]:
         raise CheckFailed(f"{signal.name} was to be 1, 0, 1 on the way, and was {seen}")
@@ -109,8 +109,8 @@ def _one_way(
     far = (math.dist(begin, bench.tcp(on)), math.dist(end, bench.tcp(off)))
     if straight and max(abs(far[0] - 0.01), abs(far[1] - 0.015)) > _AWAY:
         raise CheckFailed(f"{signal.name} was set {far} m from the ends, not 0.01 and 0.015")
-    if not 0 < ended - when < 0.3:
-        raise CheckFailed(f"{signal.name} was set {ended - when:.3f} s before the end, not 0.05")
+    if not 0 < finished - when < 0.3:
+        raise CheckFailed(f"{signal.name} was set {finished - when:.3f} s before the end, not 0.05")
 
 
 def _eight(bench: Bench, client: Programmer, order: RawMove, number: int) -> None:
@@ -159,16 +159,16 @@ def _wrong_marks(bench: Bench, client: Programmer, order: RawMove, number: int) 
                 for value in _impossible(signal)
             ]
     for marks, reason in wrong:
-        told = client.send([replace(order, marks=tuple(marks))])
-        client.refused(told, reason, 0, f"signals {marks}")
+        reply = client.send([replace(order, marks=tuple(marks))])
+        client.refused(reply, reason, 0, f"signals {marks}")
     far = ((n, 1.0, START, 10.0), (n, 1.0, END, 0.0))
-    told = client.send([replace(order, marks=far), replace(order, speed=0.0)])
-    client.refused(told, RawReason.BAD_SPEED, 1, f"signals {far} are right")
-    words = [*millionths(bench.position), 2048 + RawInstruction.WAIT]
+    reply = client.send([replace(order, marks=far), replace(order, speed=0.0)])
+    client.refused(reply, RawReason.BAD_SPEED, 1, f"signals {far} are right")
+    values = [*millionths(bench.position), 2048 + RawInstruction.WAIT]
     client.number += 1
-    told = client.say([*words, *millionths([1.0, n, 1.0, START, 0.01, 0.5])], 1, ALL)
-    client.refused(told, RawReason.NO_INSTRUCTION, 0, "a signal on the way of a wait")
-    bench.stays(0.5, "no signal was right")
+    reply = client.say([*values, *millionths([1.0, n, 1.0, START, 0.01, 0.5])], 1, ALL)
+    client.refused(reply, RawReason.NO_INSTRUCTION, 0, "a signal on the way of a wait")
+    bench.assert_at_rest(0.5, "no signal was right")
 
 
 def _impossible(signal: ExposedSignal) -> tuple[float, ...]:
@@ -179,46 +179,46 @@ def _impossible(signal: ExposedSignal) -> tuple[float, ...]:
 def _sets(bench: Bench) -> None:
     """Behind a stop point; a signal that does not come ends the program; STOP ends the wait."""
     exposed, client, watcher = bench.config.signals, Programmer(bench), bench.watcher()
-    there, *_ = orders(bench, 2, random.Random(22))
-    there = replace(there, zone=0.01)
+    target, *_ = orders(bench, 2, random.Random(22))
+    target = replace(target, zone=0.01)
     for index, signal in enumerate(exposed):
         if signal.access != "write" or signal.kind[1] != "O":
-            told = _sends(client, SET, [float(index), 1.0])
-            client.refused(told, RawReason.READ_ONLY, 0, f"SET of {signal.name}")
+            reply = _sends(client, SET, [float(index), 1.0])
+            client.refused(reply, RawReason.READ_ONLY, 0, f"SET of {signal.name}")
             continue
         for value in _impossible(signal):
-            told = _sends(client, SET, [float(index), value])
-            client.refused(told, RawReason.BAD_VALUE, 0, f"SET of {signal.name} to {value}")
+            reply = _sends(client, SET, [float(index), value])
+            client.refused(reply, RawReason.BAD_VALUE, 0, f"SET of {signal.name} to {value}")
         bench.controller.signals[signal.name] = 0
-        _accepted(_sends(client, SET, [float(index), 1.0], before=there))
-        bench.wait_until_at(there.joints, 60)
+        _accepted(_sends(client, SET, [float(index), 1.0], before=target))
+        bench.wait_until_at(target.joints, 60)
         bench.run(0.5)
         if bench.controller.signals[signal.name] != 1:
             raise CheckFailed(f"{signal.name} was to be set")
     for index, signal in enumerate(exposed):
         if signal.kind[0] == "A":
-            told = _sends(client, WAIT_SIGNAL, [float(index), 1.0, 1.0])
-            client.refused(told, RawReason.BAD_VALUE, 0, f"a wait for {signal.name}")
+            reply = _sends(client, WAIT_SIGNAL, [float(index), 1.0, 1.0])
+            client.refused(reply, RawReason.BAD_VALUE, 0, f"a wait for {signal.name}")
             continue
         if signal.name in bench.controller.signals:
             now = float(bench.controller.signals[signal.name])
-            _accepted(_sends(client, WAIT_SIGNAL, [float(index), now, 0.0], before=there))
-            bench.wait_until_at(there.joints, 60)
+            _accepted(_sends(client, WAIT_SIGNAL, [float(index), now, 0.0], before=target))
+            bench.wait_until_at(target.joints, 60)
         if signal.kind[1] == "I":
             _waits(bench, client, index, signal.name)
             seen = bench.progress(watcher)
             if seen.reason != RawReason.STOPPED:
                 raise CheckFailed(f"STOP has ended a wait for {signal.name}, PROGRESS says {seen}")
         for value in (*_impossible(signal), -1.0):
-            told = _sends(client, WAIT_SIGNAL, [float(index), value, 1.0])
-            client.refused(told, RawReason.BAD_VALUE, 0, f"a wait for {signal.name} to be {value}")
+            reply = _sends(client, WAIT_SIGNAL, [float(index), value, 1.0])
+            client.refused(reply, RawReason.BAD_VALUE, 0, f"a wait for {signal.name} to be {value}")
         for seconds in (-1.0, 2001.0):
-            told = _sends(client, WAIT_SIGNAL, [float(index), 1.0, seconds])
-            client.refused(told, RawReason.BAD_VALUE, 0, f"a wait of {seconds} s")
+            reply = _sends(client, WAIT_SIGNAL, [float(index), 1.0, seconds])
+            client.refused(reply, RawReason.BAD_VALUE, 0, f"a wait of {seconds} s")
     if exposed:
         for kind, more in ((SET, [1.0]), (WAIT_SIGNAL, [1.0, 1.0])):
-            told = _sends(client, kind, [float(len(exposed)), *more])
-            client.refused(told, RawReason.NO_SIGNAL, 0, f"{kind.name} of no signal")
+            reply = _sends(client, kind, [float(len(exposed)), *more])
+            client.refused(reply, RawReason.NO_SIGNAL, 0, f"{kind.name} of no signal")
         corners_made(bench)
 
 
@@ -229,8 +229,8 @@ def _without(bench: Bench) -> None:
     if not exposed:
         raise NotApplicable("no signal is exposed")
     for index, signal in enumerate(exposed):
-        there = tuple(s for s in bench.system.signals if s.name != signal.name)
-        with bench.beside(replace(bench.system, signals=there)) as other:
+        target = tuple(s for s in bench.system.signals if s.name != signal.name)
+        with bench.beside(replace(bench.system, signals=target)) as other:
             _one_without(other, index, signal)
 
 
@@ -246,13 +246,13 @@ def _one_without(bench: Bench, index: int, signal: ExposedSignal) -> None:
         pose = reached(bench, second.joints)
         line = replace(second, kind=MOVES[0], pose=pose, marks=((float(index), 1.0, START, 0.01),))
         sent.append(client.send([line]))
-    for told in sent:
-        _accepted(told)
-        bench.stays(1, "the signal is not there")
+    for reply in sent:
+        _accepted(reply)
+        bench.assert_at_rest(1, "the signal is not there")
         _no_signal(bench.progress(watcher), signal)
     if signal.kind[0] != "A":
-        _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 5.0], behind=second))
-        bench.stays(1, "the signal is not there")
+        _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 5.0], after=second))
+        bench.assert_at_rest(1, "the signal is not there")
         _no_signal(bench.progress(watcher), signal)
     for number, other in enumerate(bench.config.signals):
         if number != index and other.kind[0] != "A":
@@ -271,32 +271,32 @@ def _one_without(bench: Bench, index: int, signal: ExposedSignal) -> None:
                 raise CheckFailed(f"{signal.name} is not there, and {other.name} is not set")
 
 
-def _no_signal(told: messages.RawProgress, signal: ExposedSignal) -> None:
-    if (told.reason, told.reached) != (RawReason.NO_SIGNAL, 0):
-        raise CheckFailed(f"{signal.name} is not there, PROGRESS says {told}")
+def _no_signal(reply: messages.RawProgress, signal: ExposedSignal) -> None:
+    if (reply.reason, reply.reached) != (RawReason.NO_SIGNAL, 0):
+        raise CheckFailed(f"{signal.name} is not there, PROGRESS says {reply}")
 
 
 def _waits(bench: Bench, client: Programmer, index: int, name: str) -> None:
-    there = orders(bench, 2, random.Random(23))[1]
-    there = replace(there, kind=RawInstruction.MOVE_ABSJ, pose=None, zone=None)
+    target = orders(bench, 2, random.Random(23))[1]
+    target = replace(target, kind=RawInstruction.MOVE_ABSJ, pose=None, zone=None)
     signals, watcher = bench.controller.signals, bench.watcher()
     signals[name] = 0
-    _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 100.0], behind=there))
-    bench.stays(1, f"the program waits for {name}")
+    _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 100.0], after=target))
+    bench.assert_at_rest(1, f"the program waits for {name}")
     signals[name] = 1
-    bench.wait_until_at(there.joints, 60)
+    bench.wait_until_at(target.joints, 60)
     signals[name] = 0
-    _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 0.5], behind=there))
-    bench.stays(2, f"{name} does not come")
+    _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 0.5], after=target))
+    bench.assert_at_rest(2, f"{name} does not come")
     seen = bench.progress(watcher)
     if (seen.reason, seen.reached) != (RawReason.WAITED, 0):
         raise CheckFailed(f"{name} did not come, PROGRESS says {seen}")
-    away = replace(there, joints=orders(bench, 1, random.Random(0))[0].joints)
-    _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 100.0], behind=away))
+    away = replace(target, joints=orders(bench, 1, random.Random(0))[0].joints)
+    _accepted(_sends(client, WAIT_SIGNAL, [float(index), 1.0, 100.0], after=away))
     bench.run(0.5)
     client.link.stop()
     signals[name] = 1
-    bench.stays(2, "STOP has ended a wait")
+    bench.assert_at_rest(2, "STOP has ended a wait")
 
 
 def _sends(
@@ -305,18 +305,18 @@ def _sends(
     operands: list[float],
     *,
     before: RawMove | None = None,
-    behind: RawMove | None = None,
+    after: RawMove | None = None,
 ) -> messages.RawContent:
     """A program of one instruction, and a move before or behind it; the reply."""
     client.number += 1
-    words = [*millionths(client.bench.position), *(before.words if before else ())]
-    words += [int(kind), *millionths(operands), *(behind.words if behind else ())]
-    return client.say(words, 1 + (before is not None) + (behind is not None), ALL)
+    values = [*millionths(client.bench.position), *(before.words if before else ())]
+    values += [int(kind), *millionths(operands), *(after.words if after else ())]
+    return client.say(values, 1 + (before is not None) + (after is not None), ALL)
 
 
-def _accepted(told: messages.RawContent) -> None:
-    if not isinstance(told, messages.RawPointsAccepted):
-        raise CheckFailed(f"a right program is answered by {told}")
+def _accepted(reply: messages.RawContent) -> None:
+    if not isinstance(reply, messages.RawPointsAccepted):
+        raise CheckFailed(f"a right program is answered by {reply}")
 
 
 @case("program-settings", "singularities and configurations are allowed on request alone")
@@ -326,21 +326,21 @@ def _settings(bench: Bench) -> None:
     if bench.motion_group.kinematics is None:
         client.refused(_sends(client, SETTINGS, [0.0]), RawReason.NO_INSTRUCTION, 0, "settings")
         return
-    there = replace(
+    target = replace(
         orders(bench, 2, random.Random(27))[1], kind=RawInstruction.MOVE_ABSJ, pose=None
     )
     for value in (4.0, -1.0, 0.5):
-        told = _sends(client, SETTINGS, [value])
-        client.refused(told, RawReason.BAD_VALUE, 0, f"settings {value}")
+        reply = _sends(client, SETTINGS, [value])
+        client.refused(reply, RawReason.BAD_VALUE, 0, f"settings {value}")
     for asks, bits in ((False, 0), *((True, bits) for bits in range(4))):
-        start = replace(there, joints=bench.position)
+        start = replace(target, joints=bench.position)
         # As a routine of the customer's may have left them.
         modal.check_joint = modal.check_linear = False
         modal.singularities = Singularities.WRIST
         if asks:
-            _accepted(_sends(client, SETTINGS, [float(bits)], behind=there))
+            _accepted(_sends(client, SETTINGS, [float(bits)], after=target))
         else:
-            client.takes("a program without settings", [there])
+            client.takes("a program without settings", [target])
         bench.wait_until_moving()
         if not modal.check_joint:
             raise CheckFailed("ConfJ is off in a program that did not ask for it")
@@ -350,9 +350,9 @@ def _settings(bench: Bench) -> None:
         if bits == 3:
             client.link.stop()
         else:
-            bench.wait_until_at(there.joints, 60)
+            bench.wait_until_at(target.joints, 60)
         bench.wait_until_standing(10)
         bench.run(0.5)
         if modal.singularities is not Singularities.OFF or not modal.check_linear:
             raise CheckFailed(f"a program with settings {bits} is over, and they are not")
-        there = start
+        target = start

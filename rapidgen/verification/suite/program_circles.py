@@ -36,8 +36,8 @@ def _circles(bench: Bench) -> None:
     if not computes(bench):
         raise NotApplicable("the driver computes no poses")
     client = Programmer(bench)
-    found = orders(bench, 3, random.Random(71))
-    one, two, three = (replace(o, kind=RawInstruction.MOVE_ABSJ, pose=None) for o in found)
+    result = orders(bench, 3, random.Random(71))
+    one, two, three = (replace(o, kind=RawInstruction.MOVE_ABSJ, pose=None) for o in result)
     client.takes("a program", [replace(one, zone=None)])
     bench.wait_until_at(one.joints, 60)
     bench.run(0.5)
@@ -46,17 +46,17 @@ def _circles(bench: Bench) -> None:
     line = replace(one, kind=RawInstruction.MOVE_L, pose=reached(bench, one.joints))
     for before, start in (((), one), ((two, three), three), ((three, line), line)):
         for right, why, circle in _with_end(bench, start, two):
-            told = client.send([*before, circle, wrong])
+            reply = client.send([*before, circle, wrong])
             reason = RawReason.BAD_SPEED if right else RawReason.NO_CIRCLE
-            client.refused(told, reason, len(before) + right, why)
+            client.refused(reply, reason, len(before) + right, why)
     _in_other_frames(bench, client, two, three)
-    bench.stays(0.5, "no program was right")
+    bench.assert_at_rest(0.5, "no program was right")
     client.takes("a move, something follows", [replace(two, zone=None)], BEGIN)
     bench.wait_until_at(two.joints, 60)
     *_, (_, why, circle) = _with_end(bench, two, three)
-    told = client.say(circle.words, 1, END, first=1)
-    client.refused(told, RawReason.NO_CIRCLE, 1, f"in the next batch {why}")
-    bench.stays(0.5, "no circle was right")
+    reply = client.say(circle.words, 1, END, first=1)
+    client.refused(reply, RawReason.NO_CIRCLE, 1, f"in the next batch {why}")
+    bench.assert_at_rest(0.5, "no circle was right")
 
 
 def _in_other_frames(bench: Bench, client: Programmer, start: RawMove, end: RawMove) -> None:
@@ -74,24 +74,24 @@ def _in_other_frames(bench: Bench, client: Programmer, start: RawMove, end: RawM
         assert circle.via is not None
         pose, via = (frames.compose(origin, place) for place in (circle.pose, circle.via))
         seen = replace(circle, pose=pose, via=via, frames=own)
-        told = says(client, replace(before, frames=(0, 0)), given, seen, replace(end, speed=0.0))
+        reply = says(client, replace(before, frames=(0, 0)), given, seen, replace(end, speed=0.0))
         index = 3 if reason is RawReason.BAD_SPEED else 2
-        client.refused(told, reason, index, "a circle in another work object")
+        client.refused(reply, reason, index, "a circle in another work object")
 
 
 def _with_end(bench: Bench, start: RawMove, end: RawMove) -> Iterator[tuple[bool, str, RawMove]]:
     """Whether they are right, what they are, and circles from the end of one move to another's."""
     first, last = reached(bench, start.joints)[0], reached(bench, end.joints)[0]
-    way = frames.subtract(last, first)
-    chord = frames.norm(way)
-    along = frames.unit(way)
+    path = frames.subtract(last, first)
+    chord = frames.norm(path)
+    along = frames.unit(path)
     # Any direction across it.
     across = frames.unit(
         frames.cross(along, (0.0, 0.0, 1.0) if abs(along[2]) < 0.9 else (1.0, 0.0, 0.0))
     )
 
     def at(share: float, height: float) -> RawMove:
-        via = frames.add(frames.scale(way, share), frames.scale(across, height))
+        via = frames.add(frames.scale(path, share), frames.scale(across, height))
         return _circle(bench, start, end, via)
 
     yield True, "half a circle", at(0.5, chord / 2)

@@ -37,12 +37,12 @@ _WAITS = {"DI": "WaitDI", "DO": "WaitDO", "GI": "WaitGI", "GO": "WaitGO"}
 @case("program-reading-fails", "an instruction that cannot be read moves nothing", once=True)
 def _reading_fails(bench: Bench) -> None:
     """Whatever fails, and at whichever word: nothing moves, and a program behind it is taken."""
-    words, count = _everything(bench)
+    values, count = _everything(bench)
     for name in _READS:
-        for after in range(_calls(bench, name, words, count)):
+        for after in range(_calls(bench, name, values, count)):
             link = bench.motion()
             ends = fails(bench, "ROS_motionServer", name, "ERR_OUTOFBND", after=after)
-            link.send(words_frame(1, 0, count, words, ALL, number=PROGRAM))
+            link.send(words_frame(1, 0, count, values, ALL, number=PROGRAM))
             bench.until(partial(_answered, link), 4, f"{name} has failed; an answer comes")
             ends()
             if not link.lost:
@@ -54,7 +54,7 @@ def _reading_fails(bench: Bench) -> None:
                     raise CheckFailed(f"{name} number {after + 1} has failed, the reply is {told}")
                 link.close()
             bench.run(0.3)
-    bench.rests(1, 1, "no program could be read")
+    bench.wait_until_at_rest(1, 1, "no program could be read")
     _serves(bench)
 
 
@@ -64,8 +64,8 @@ def _answered(link: RawLink) -> bool:
 
 def _everything(bench: Bench) -> tuple[list[int], int]:
     """A program of all that this driver reads, the last of it wrong: it is never executed."""
-    here = bench.position
-    order = RawMove(RawInstruction.MOVE_ABSJ, here, None, frames=(0, 0))
+    current = bench.position
+    order = RawMove(RawInstruction.MOVE_ABSJ, current, None, frames=(0, 0))
     parts: list[list[int]] = [order.words, [RawInstruction.WAIT, *millionths([0.1])]]
     signals = bench.config.signals
     written = [n for n, s in enumerate(signals) if s.access == "write" and s.kind[1] == "O"]
@@ -78,12 +78,12 @@ def _everything(bench: Bench) -> tuple[list[int], int]:
             [RawInstruction.TOOL, *millionths([*frame, *frame, 1.0, 0.0, 0.0, 0.0])],
             [RawInstruction.WORK_OBJECT, *millionths([*frame, *frame])],
         ]
-        pose = reached(bench, here)
+        pose = reached(bench, current)
         marks = ((float(written[0]), 1.0, 0.0, 0.01),) if written else ()
         parts.append(replace(order, kind=RawInstruction.MOVE_L, pose=pose, marks=marks).words)
-        there = orders(bench, 2, random.Random(52))[1].joints
-        circle = replace(order, kind=RawInstruction.MOVE_C, joints=there, marks=marks)
-        end = reached(bench, there)
+        target = orders(bench, 2, random.Random(52))[1].joints
+        circle = replace(order, kind=RawInstruction.MOVE_C, joints=target, marks=marks)
+        end = reached(bench, target)
         parts.append(replace(circle, pose=end, via=aside(pose, end)).words)
         if marks and order.kind in kinds_with_marks(bench):
             parts.append(replace(order, marks=marks).words)
@@ -94,10 +94,10 @@ def _everything(bench: Bench) -> tuple[list[int], int]:
         parts.append([RawInstruction.CALL, *millionths([0.0, 0.0]), *weld_words(1.0)])
     else:
         parts.append([99])
-    return [*millionths(here), *(word for part in parts for word in part)], len(parts)
+    return [*millionths(current), *(word for part in parts for word in part)], len(parts)
 
 
-def _calls(bench: Bench, name: str, words: list[int], count: int) -> int:
+def _calls(bench: Bench, name: str, values: list[int], count: int) -> int:
     """How often the motion server calls something until it has read a program."""
     number = 0
 
@@ -111,7 +111,7 @@ def _calls(bench: Bench, name: str, words: list[int], count: int) -> int:
 
     wrapped(bench.rapid_task("ROS_motionServer"), name, counted)
     link = bench.motion()
-    link.send(words_frame(1, 0, count, words, ALL, number=PROGRAM))
+    link.send(words_frame(1, 0, count, values, ALL, number=PROGRAM))
     reason = RawReason.NO_ROUTINE if knows_these(bench) else RawReason.NO_INSTRUCTION
     Programmer(bench, link).refused(link.reply(PROGRAM, 5), reason, count - 1, "the last one")
     link.close(then=1.5)
@@ -131,55 +131,55 @@ def _instructions_fail(bench: Bench) -> None:
     """With the one before it executed, and nothing behind it; a program behind it is taken."""
     first, second, third = orders(bench, 4, random.Random(42))[1:]
     client, watcher = Programmer(bench), bench.watcher()
-    for name, error, reason, words in _due(bench, first, second):
+    for name, error, reason, values in _due(bench, first, second):
         end = fails(bench, "ROS_motion", name, error, after=int(name == "MoveAbsJ"))
         place = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, zone=None)
         client.number += 1
         then = replace(third, kind=RawInstruction.MOVE_ABSJ, pose=None)
         # All of them begin with the same speed, zone and frames.
-        own = [*millionths(bench.position), *place.words, *words, *then.words]
-        told = client.say(own, 3, ALL)
-        if not isinstance(told, messages.RawPointsAccepted):
-            raise CheckFailed(f"{name} was right, the reply is {told}")
+        own = [*millionths(bench.position), *place.words, *values, *then.words]
+        reply = client.say(own, 3, ALL)
+        if not isinstance(reply, messages.RawPointsAccepted):
+            raise CheckFailed(f"{name} was right, the reply is {reply}")
         for _ in range(200):
             seen = bench.progress(watcher)
-            if seen.state == RawTrajectoryState.FAILED and seen.trajectory == told.trajectory:
+            if seen.state == RawTrajectoryState.FAILED and seen.trajectory == reply.trajectory:
                 break
         end()
         if (seen.reason, seen.reached) != (reason, 1):
             raise CheckFailed(f"{name} has failed with {error}, PROGRESS says {seen}")
         if name not in _FAILING:
-            bench.stays(0.5, f"{name} has failed")
-    bench.rests(2, 1, "the programs have ended")
+            bench.assert_at_rest(0.5, f"{name} has failed")
+    bench.wait_until_at_rest(2, 1, "the programs have ended")
     client.takes("a program behind one that failed", [first, second])
     bench.wait_until_at(second.joints, 60)
 
 
 def _due(
-    bench: Bench, here: RawMove, there: RawMove
+    bench: Bench, current: RawMove, target: RawMove
 ) -> Iterator[tuple[str, str, RawReason, list[int]]]:
     """Which instruction fails with what, the reason of that, and the words for it."""
-    moved = replace(there, zone=None)
+    moved = replace(target, zone=None)
     joints = replace(moved, kind=RawInstruction.MOVE_ABSJ, pose=None)
     yield "MoveAbsJ", "ERR_COLL_STOP", RawReason.COLLISION, joints.words
     signals = bench.config.signals
     written = [n for n, s in enumerate(signals) if s.access == "write" and s.kind[1] == "O"]
     for number, signal in enumerate(signals):
         if number in written:
-            words = [RawInstruction.SET, *millionths([float(number), 1.0])]
-            yield _SETS[signal.kind], "ERR_NORUNUNIT", RawReason.BAD_VALUE, words
+            values = [RawInstruction.SET, *millionths([float(number), 1.0])]
+            yield _SETS[signal.kind], "ERR_NORUNUNIT", RawReason.BAD_VALUE, values
         if signal.kind in _WAITS:
-            words = [RawInstruction.WAIT_SIGNAL, *millionths([float(number), 1.0, 1.0])]
-            yield _WAITS[signal.kind], "ERR_NORUNUNIT", RawReason.NO_SIGNAL, words
-            yield _WAITS[signal.kind], "ERR_WAIT_MAXTIME", RawReason.WAITED, words
+            values = [RawInstruction.WAIT_SIGNAL, *millionths([float(number), 1.0, 1.0])]
+            yield _WAITS[signal.kind], "ERR_NORUNUNIT", RawReason.NO_SIGNAL, values
+            yield _WAITS[signal.kind], "ERR_WAIT_MAXTIME", RawReason.WAITED, values
     if not computes(bench):
         return
-    pose = reached(bench, there.joints)
-    way = aside(reached(bench, here.joints), pose)
+    pose = reached(bench, target.joints)
+    path = aside(reached(bench, current.joints), pose)
     for name, kind in _FAILING.items():
         if kind not in kinds_with_marks(bench) or kind is RawInstruction.MOVE_ABSJ:
             continue
-        via = way if kind is RawInstruction.MOVE_C else None
+        via = path if kind is RawInstruction.MOVE_C else None
         order = replace(moved, kind=kind, pose=pose, via=via)
         yield name, "ERR_PATH_STOP", RawReason.MOTION_ERROR, order.words
         for number in written[:1]:

@@ -38,14 +38,14 @@ def _tools(bench: Bench) -> None:
     bench.wait_until_at(first.joints, 60)
     tools = (bench.group.tool, *bench.group.tools)
     objects = (bench.group.work_object, *bench.group.work_objects)
-    told = client.send([replace(first, frames=(len(tools), 0))])
-    client.refused(told, RawReason.NO_FRAME, 0, "a tool too many")
-    told = client.send([replace(first, frames=(len(tools) + 1, 0))])
-    client.refused(told, RawReason.NO_FRAME, 0, "two tools too many")
-    told = client.send([replace(first, frames=(0, len(objects)))])
-    client.refused(told, RawReason.NO_FRAME, 0, "a work object too many")
-    told = client.send([replace(first, frames=(0, len(objects) + 1))])
-    client.refused(told, RawReason.NO_FRAME, 0, "two work objects too many")
+    reply = client.send([replace(first, frames=(len(tools), 0))])
+    client.refused(reply, RawReason.NO_FRAME, 0, "a tool too many")
+    reply = client.send([replace(first, frames=(len(tools) + 1, 0))])
+    client.refused(reply, RawReason.NO_FRAME, 0, "two tools too many")
+    reply = client.send([replace(first, frames=(0, len(objects)))])
+    client.refused(reply, RawReason.NO_FRAME, 0, "a work object too many")
+    reply = client.send([replace(first, frames=(0, len(objects) + 1))])
+    client.refused(reply, RawReason.NO_FRAME, 0, "two work objects too many")
     if not computes(bench) or (len(tools), len(objects)) == (1, 1):
         return
     for tool in range(len(tools)):
@@ -107,23 +107,23 @@ def _own(bench: Bench) -> None:
             client.refused(says(client, (kind, values)), RawReason.NO_INSTRUCTION, 0, kind.name)
         return
     for kind, values in _wrong():
-        told = says(client, (kind, values))
-        client.refused(told, RawReason.BAD_VALUE, 0, f"{kind.name} {values}")
+        reply = says(client, (kind, values))
+        client.refused(reply, RawReason.BAD_VALUE, 0, f"{kind.name} {values}")
     for kind, values in _largest():
         if not isinstance(says(client, (kind, values)), messages.RawPointsAccepted):
             raise CheckFailed(f"{kind.name} {values} is refused")
         bench.run(0.5)
     own, their = (tools, 0), (0, objects)
-    standing = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, joints=bench.position)
-    for order in (replace(standing, frames=own), replace(standing, frames=their)):
+    at_rest = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, joints=bench.position)
+    for order in (replace(at_rest, frames=own), replace(at_rest, frames=their)):
         client.refused(says(client, order), RawReason.NO_FRAME, 0, "values that nobody gave")
-    told = says(client, (TOOL, right[0]), replace(standing, frames=their))
-    client.refused(told, RawReason.NO_FRAME, 1, "a tool is no work object")
+    reply = says(client, (TOOL, right[0]), replace(at_rest, frames=their))
+    client.refused(reply, RawReason.NO_FRAME, 1, "a tool is no work object")
     if not computes(bench):
         return
-    before, behind = _tool(0.05, 2.0), _tool(-0.02, 0.25)
+    before, after = _tool(0.05, 2.0), _tool(-0.02, 0.25)
     place = placement_of(right[1])
-    way = [
+    path = [
         replace(
             order,
             kind=MOVES[0],
@@ -131,28 +131,28 @@ def _own(bench: Bench) -> None:
             frames=(tools, objects),
             pose=_seen(bench, order.joints, placement_of(values), place),
         )
-        for order, values in ((first, before), (second, before), (third, behind))
+        for order, values in ((first, before), (second, before), (third, after))
     ]
-    told = says(client, (TOOL, behind), (WORK_OBJECT, right[1]), way[0])
-    client.refused(told, RawReason.POSE_MISMATCH, 2, "a pose of another tool")
+    reply = says(client, (TOOL, after), (WORK_OBJECT, right[1]), path[0])
+    client.refused(reply, RawReason.POSE_MISMATCH, 2, "a pose of another tool")
     # To where the robot has no further way on a line.
-    client.takes("a program", [replace(standing, joints=first.joints)])
+    client.takes("a program", [replace(at_rest, joints=first.joints)])
     bench.wait_until_at(first.joints, 60)
     start, since = bench.position, bench.now
-    told = says(
-        client, (TOOL, before), (WORK_OBJECT, right[1]), way[0], way[1], (TOOL, behind), way[2]
+    reply = says(
+        client, (TOOL, before), (WORK_OBJECT, right[1]), path[0], path[1], (TOOL, after), path[2]
     )
-    if not isinstance(told, messages.RawPointsAccepted):
-        raise CheckFailed(f"tools by values are answered by {told}")
+    if not isinstance(reply, messages.RawPointsAccepted):
+        raise CheckFailed(f"tools by values are answered by {reply}")
     bench.wait_until_moving()
     _is(bench, before, "of the moves under way")
     bench.wait_until_at(third.joints, 60)
-    _is(bench, behind, "of the last move")
+    _is(bench, after, "of the last move")
     joints = [start, *(order.joints for order in (second, third))]
     bench.followed(joints, since=since, corner=0.1)
     _stood_at(bench, second.joints, since)
     client.refused(
-        says(client, replace(way[2], frames=(tools, objects))),
+        says(client, replace(path[2], frames=(tools, objects))),
         RawReason.NO_FRAME,
         0,
         "values of a program that is over",
@@ -162,12 +162,12 @@ def _own(bench: Bench) -> None:
 def says(client: Programmer, *orders: RawMove | Other) -> messages.RawContent:
     """A program of moves, and of instructions with their operands; the reply."""
     client.number += 1
-    words = millionths(client.bench.position)
+    values = millionths(client.bench.position)
     for order in orders:
-        words += (
+        values += (
             order.words if isinstance(order, RawMove) else [int(order[0]), *millionths(order[1])]
         )
-    return client.say(words, len(orders), ALL)
+    return client.say(values, len(orders), ALL)
 
 
 def tool_of(away: float, mass: float) -> Other:
@@ -193,8 +193,8 @@ def _object(away: float) -> list[float]:
 def _wrong() -> list[tuple[RawInstruction, list[float]]]:
     """Operands with one value that is none."""
     tool, wobj = _tool(0.05, 2.0), _object(0.1)
-    found = [(TOOL, [*tool[:at], value, *tool[at + 1 :]]) for at, value in _WRONG]
-    return found + [(WORK_OBJECT, [*wobj[:at], 101.0, *wobj[at + 1 :]]) for at in (0, 7)]
+    result = [(TOOL, [*tool[:at], value, *tool[at + 1 :]]) for at, value in _WRONG]
+    return result + [(WORK_OBJECT, [*wobj[:at], 101.0, *wobj[at + 1 :]]) for at in (0, 7)]
 
 
 def _largest() -> list[tuple[RawInstruction, list[float]]]:
@@ -234,6 +234,6 @@ def _is(bench: Bench, values: Sequence[float], what: str) -> None:
     frame, load = tool.tframe, tool.tload
     moments = load.ix, load.iy, load.iz
     has = (frame.trans.z, frame.rot.q2, load.cog.z, load.aom.q2, load.mass, *moments)
-    wanted = (1000 * values[2], values[4], 1000 * values[9], values[11], *values[14:])
-    if not all(abs(a - b) < _NEAR for a, b in zip(has, wanted, strict=True)):
-        raise CheckFailed(f"{what} the tool is {has}, not {wanted}")
+    expected = (1000 * values[2], values[4], 1000 * values[9], values[11], *values[14:])
+    if not all(abs(a - b) < _NEAR for a, b in zip(has, expected, strict=True)):
+        raise CheckFailed(f"{what} the tool is {has}, not {expected}")

@@ -43,18 +43,18 @@ def _by_joints(order: RawMove, frames: tuple[int, int]) -> RawMove:
 
 def _stand_still(bench: Bench, client: Programmer) -> list[RawMove]:
     """Moves in the neighbourhood; the robot stands at the first one."""
-    found = orders(bench, 9, random.Random(61))
-    client.takes("a program", found[:1])
-    bench.wait_until_at(found[0].joints, 60)
-    return found
+    result = orders(bench, 9, random.Random(61))
+    client.takes("a program", result[:1])
+    bench.wait_until_at(result[0].joints, 60)
+    return result
 
 
 @case("program-zones", "a move is passed through its zone unless something needs a stop")
 def _zones(bench: Bench) -> None:
     """Circles are passed like lines; a stop is at the end, before a wait and another tool."""
     client = Programmer(bench)
-    way = _stand_still(bench, client)
-    one, two, *others = (_by_joints(order, (0, 0)) for order in way[1:])
+    path = _stand_still(bench, client)
+    one, two, *others = (_by_joints(order, (0, 0)) for order in path[1:])
     wait = RawInstruction.WAIT, [0.1]
     _stop_at(client, [one, two, replace(one, zone=None), two, wait, one], [0, 0, 1, 1, 1])
     if computes(bench) and len(bench.group.joints) >= 6:
@@ -83,9 +83,9 @@ def _stop_at(client: Programmer, program: Sequence[RawMove | Other], stops: list
     """Send a program; Broken unless its moves are ordered as stop points where it says."""
     bench = client.bench
     with _ordered(bench) as moves:
-        told = says(client, *program)
-        if not isinstance(told, messages.RawPointsAccepted):
-            raise CheckFailed(f"the instructions are right, the reply is {told}")
+        reply = says(client, *program)
+        if not isinstance(reply, messages.RawPointsAccepted):
+            raise CheckFailed(f"the instructions are right, the reply is {reply}")
         bench.until(lambda: len(moves) == len(stops), 90, "all moves are ordered")
         bench.wait_until_standing(30)
     if [int(move.zone.fine) for move in moves] != stops:
@@ -105,20 +105,20 @@ def _operands(bench: Bench) -> None:
         *((n, value, RawReason.BAD_ZONE) for n in zones for value in (-1, 2**31 - 1)),
         *((5, value, RawReason.BAD_ZONE) for value in (-1, 1, *millionths([2.0]))),
     ):
-        words = order.words
-        words[place] = wrong
+        values = order.words
+        values[place] = wrong
         client.number += 1
-        told = client.say([*start, *order.words, *words], 2, ALL)
-        client.refused(told, reason, 1, f"word {place} of a move is {wrong}")
+        reply = client.say([*start, *order.words, *values], 2, ALL)
+        client.refused(reply, reason, 1, f"word {place} of a move is {wrong}")
     # What is behind it is wrong.
     for places, value in ((speeds, slowest), (zones, [0]), (zones[:3], widest)):
         for place in places:
-            words = order.words
-            words[place : place + 1] = value
+            values = order.words
+            values[place : place + 1] = value
             client.number += 1
-            told = client.say([*start, *words, 99], 2, ALL)
-            client.refused(told, RawReason.NO_INSTRUCTION, 1, f"word {place} of a move is {value}")
-    bench.stays(0.5, "no program was right")
+            reply = client.say([*start, *values, 99], 2, ALL)
+            client.refused(reply, RawReason.NO_INSTRUCTION, 1, f"word {place} of a move is {value}")
+    bench.assert_at_rest(0.5, "no program was right")
 
 
 @case("program-speeds", "a slower program is slower in each of its speeds", needs="control")
@@ -134,10 +134,12 @@ def _speeds(bench: Bench) -> None:
             bench.wait_until_moving()
             bench.wait_until_at(program[-1].joints, 90)
         for order, move in zip(program, moves, strict=True):
-            wanted = [percent / 100 * value for value in order.speeds]
-            for one, other in zip(astuple(move.speed), wanted, strict=True):
+            expected = [percent / 100 * value for value in order.speeds]
+            for one, other in zip(astuple(move.speed), expected, strict=True):
                 if abs(one - other) > 0.002 * other:
-                    raise CheckFailed(f"at SPEED {percent:g} {wanted} is wanted, not {move.speed}")
+                    raise CheckFailed(
+                        f"at SPEED {percent:g} {expected} is wanted, not {move.speed}"
+                    )
         bench.run(0.5)
 
 
@@ -172,13 +174,13 @@ def _displaced_late(bench: Bench) -> None:
         # As the motion task prepares the program.
         at_call(bench, "ROS_motion", "ConfJ", 1, displace)
         number = client.takes("a pose", [line])
-        bench.stays(patience(bench), f"poses are displaced by {displacement}")
-        told = bench.progress(watcher)
+        bench.assert_at_rest(patience(bench), f"poses are displaced by {displacement}")
+        reply = bench.progress(watcher)
         if (
-            told[:2] != (number, RawTrajectoryState.FAILED)
-            or told.reason != RawReason.POSE_MISMATCH
+            reply[:2] != (number, RawTrajectoryState.FAILED)
+            or reply.reason != RawReason.POSE_MISMATCH
         ):
-            raise CheckFailed(f"poses are displaced by {displacement}, PROGRESS says {told}")
+            raise CheckFailed(f"poses are displaced by {displacement}, PROGRESS says {reply}")
         if displacement is _DISPLACED[0]:
             client.takes("joints, which no displacement takes elsewhere", [joints])
             bench.wait_until_at(joints.joints, 60)
@@ -191,8 +193,8 @@ def _displaced_late(bench: Bench) -> None:
     client.takes("a pose that is displaced no more", [line])
     bench.wait_until_at(line.joints, 60)
     bench.run(patience(bench))
-    if (told := bench.progress(watcher)).state != RawTrajectoryState.DONE:
-        raise CheckFailed(f"a pose is displaced no more, PROGRESS says {told}")
+    if (reply := bench.progress(watcher)).state != RawTrajectoryState.DONE:
+        raise CheckFailed(f"a pose is displaced no more, PROGRESS says {reply}")
 
 
 def _stand_joints(bench: Bench) -> tuple[float, ...]:

@@ -40,9 +40,9 @@ def _prefix(bench: Bench) -> None:
             start, since = bench.position, bench.now
             client.takes("a program", program)
             _ended(client, control, watcher, ending, at, len(program))
-            bench.stays(1, f"{ending} has ended a program")
+            bench.assert_at_rest(1, f"{ending} has ended a program")
             bench.start_again()
-            bench.stays(2, f"{ending} has ended a program")
+            bench.assert_at_rest(2, f"{ending} has ended a program")
             if ending != "e-stop":
                 bench.followed([start, *(o.joints for o in program)], since=since, corner=_ASIDE)
             client.link.close(then=1.5)
@@ -67,13 +67,13 @@ def _kinds(bench: Bench) -> None:
                 bench.controller.signals[name] = 0
             client = Programmer(bench)
             client.number += 1
-            words = [*millionths(bench.position), *(w for part in program for w in part)]
-            told = client.say(words, len(program), ALL)
-            if not isinstance(told, messages.RawPointsAccepted):
-                raise CheckFailed(f"a program of all kinds is right, the reply is {told}")
+            values = [*millionths(bench.position), *(w for part in program for w in part)]
+            reply = client.say(values, len(program), ALL)
+            if not isinstance(reply, messages.RawPointsAccepted):
+                raise CheckFailed(f"a program of all kinds is right, the reply is {reply}")
             seen = _ended(client, control, watcher, ending, at, len(program))
             bench.start_again()
-            bench.stays(1, f"{ending} has ended a program")
+            bench.assert_at_rest(1, f"{ending} has ended a program")
             for name in outputs[:1]:
                 value = bench.controller.signals[name]
                 if value != (seen.reached > sets) and not seen.reached <= sets < seen.planned:
@@ -142,10 +142,10 @@ def _ended(
     _end(bench, client, control, ending)
     bench.wait_until_standing(10)
     bench.run(0.5)
-    told = bench.progress(watcher)
-    if told.reason != _ENDINGS[ending] or not at <= told.reached < length:
-        raise CheckFailed(f"{ending} behind instruction {at}: PROGRESS says {told}")
-    return told
+    reply = bench.progress(watcher)
+    if reply.reason != _ENDINGS[ending] or not at <= reply.reached < length:
+        raise CheckFailed(f"{ending} behind instruction {at}: PROGRESS says {reply}")
+    return reply
 
 
 def _end(bench: Bench, client: Programmer, control: RawLink, ending: str) -> None:
@@ -172,7 +172,7 @@ def _paused(bench: Bench) -> None:
     for at in (0, 1):
         _reaches(bench, watcher, at)
         done(control.ask(messages.RawPause(1)), "PAUSE")
-        bench.rests(3, 1, "a program is paused")
+        bench.wait_until_at_rest(3, 1, "a program is paused")
         done(control.ask(messages.RawPause(0)), "the end of PAUSE")
     bench.wait_until_at(program[-1].joints, 60)
     bench.followed([start, *(o.joints for o in program)], since=since, corner=_ASIDE)

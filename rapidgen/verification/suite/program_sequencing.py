@@ -40,12 +40,12 @@ def _told(
     bench: Bench, watcher: RawLink, trajectory: int, state: RawTrajectoryState, reason: RawReason
 ) -> messages.RawProgress:
     """PROGRESS; Broken unless it says that of the trajectory."""
-    told = bench.progress(watcher)
-    if (told.trajectory, told.state, told.reason) != (trajectory, state, reason):
+    reply = bench.progress(watcher)
+    if (reply.trajectory, reply.state, reply.reason) != (trajectory, state, reason):
         raise CheckFailed(
-            f"{trajectory} {state.name} for {reason.name} is wanted, PROGRESS: {told}"
+            f"{trajectory} {state.name} for {reason.name} is wanted, PROGRESS: {reply}"
         )
-    return told
+    return reply
 
 
 @case("program-late", "an instruction that comes late is dropped, a hole ends the program", "R5")
@@ -60,23 +60,25 @@ def _late(bench: Bench) -> None:
     bench.run(0.3)
     client.link.stop()
     bench.run(patience(bench))
-    told = _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
+    reply = _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
     ring = _ring(bench)
     late, like = ring[int(task[head]) % len(ring)], ring[0]
-    late.session, late.index = number, told.planned + 1
+    late.session, late.index = number, reply.planned + 1
     late.kind, late.joints, late.speed, late.zone = like.kind, like.joints, like.speed, like.zone
     task[head] = task[head] + 1
-    bench.stays(1, "an instruction of a stopped program came late")
+    bench.assert_at_rest(1, "an instruction of a stopped program came late")
     number = client.takes("a program behind it", program)
     next(o for o in ring if (o.session, o.index) == (number, 4)).index = 5.0
     bench.wait_until_at(program[2].joints, 60)
-    bench.stays(1, "an instruction is missing")
-    told = _told(bench, watcher, number, RawTrajectoryState.FAILED, RawReason.INTERNAL)
-    if (told.planned, told.reached) != (3, 3):
-        raise CheckFailed(f"the fourth instruction is missing, PROGRESS says {told}")
-    said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
-    if len(said) != 1:
-        raise CheckFailed(f"an instruction is missing, the event log says {[str(e) for e in said]}")
+    bench.assert_at_rest(1, "an instruction is missing")
+    reply = _told(bench, watcher, number, RawTrajectoryState.FAILED, RawReason.INTERNAL)
+    if (reply.planned, reply.reached) != (3, 3):
+        raise CheckFailed(f"the fourth instruction is missing, PROGRESS says {reply}")
+    log_entries = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
+    if len(log_entries) != 1:
+        raise CheckFailed(
+            f"an instruction is missing, the event log says {[str(e) for e in log_entries]}"
+        )
     client.takes("a program behind that", program)
     bench.wait_until_at(program[-1].joints, 60)
 
@@ -118,7 +120,7 @@ def _stop_starved(bench: Bench) -> None:
         at_call(bench, "ROS_motion", "WaitTime", 1, ask)
         if client.link.reply(JOINT_TRAJ_PT) != messages.RawAcknowledged():
             raise CheckFailed("STOP is not confirmed while more is waited for")
-        bench.stays(patience(bench), "it was stopped while it waited for more")
+        bench.assert_at_rest(patience(bench), "it was stopped while it waited for more")
         _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
-        bench.healthy()
-        bench.moves_through(client.link, bench.wave(3))
+        bench.assert_healthy()
+        bench.assert_moves_through(client.link, bench.wave(3))

@@ -117,9 +117,9 @@ def program_matches_rapid(
         raise MotionDiffers(
             f"a program took {mine[0]:.3f} s, {theirs[0]:.3f} s when written in RAPID"
         )
-    ways = points(bench, mine[1]), points(bench, theirs[1])
-    for one, way in (ways, ways[::-1]):
-        far = farthest(one, way)
+    paths = points(bench, mine[1]), points(bench, theirs[1])
+    for one, path in (paths, paths[::-1]):
+        far = farthest(one, path)
         if far > same:
             raise MotionDiffers(
                 f"a program is {far * 1000:.3f} mm off the way of the same in RAPID"
@@ -139,15 +139,15 @@ def _configurations(bench: Bench) -> None:
     if not computes(bench):
         raise NotApplicable("the driver computes no poses")
     client, middle = Programmer(bench), bent(bench)
-    there = RawMove(MOVE_ABSJ, middle, None, zone=None)
-    client.takes("a program", [there])
+    target = RawMove(MOVE_ABSJ, middle, None, zone=None)
+    client.takes("a program", [target])
     bench.wait_until_at(middle, 60)
     for n, joint in enumerate(bench.group.joints):
         if joint.kind != "revolute" or not joint.lower < -middle[n] < joint.upper:
             continue
         turned = changed(middle, n, -middle[n])
         away = replace(
-            there, kind=RawInstruction.MOVE_J, joints=turned, pose=reached(bench, turned)
+            target, kind=RawInstruction.MOVE_J, joints=turned, pose=reached(bench, turned)
         )
         back = replace(away, joints=middle, pose=reached(bench, middle))
         for order in (away, back):
@@ -163,16 +163,16 @@ def _arm_side(bench: Bench) -> None:
     if geometry is None or not computes(bench):
         raise NotApplicable("the driver computes no poses")
     middle = bent(bench)
-    client, asked = Programmer(bench), (0.9, -middle[1], *middle[2:])
-    alike = geometry.configuration(asked)
-    to_pose = RawMove(RawInstruction.MOVE_J, asked, reached(bench, asked), zone=None)
-    for other in geometry.solutions(geometry.forward(asked), asked):
-        if distance(other, asked) < 0.1 or geometry.configuration(other) != alike:
+    client, requested = Programmer(bench), (0.9, -middle[1], *middle[2:])
+    alike = geometry.configuration(requested)
+    to_pose = RawMove(RawInstruction.MOVE_J, requested, reached(bench, requested), zone=None)
+    for other in geometry.solutions(geometry.forward(requested), requested):
+        if distance(other, requested) < 0.1 or geometry.configuration(other) != alike:
             continue
-        there = tuple(round(value, 6) for value in other)
-        for way in ([RawMove(MOVE_ABSJ, there, None, zone=None)], [to_pose]):
-            client.takes("another posture of the pose", way)
-            bench.wait_until_at(way[0].joints, 60)
+        target = tuple(round(value, 6) for value in other)
+        for path in ([RawMove(MOVE_ABSJ, target, None, zone=None)], [to_pose]):
+            client.takes("another posture of the pose", path)
+            bench.wait_until_at(path[0].joints, 60)
             bench.run(0.5)
 
 
@@ -183,20 +183,22 @@ def _index_wraps(bench: Bench) -> None:
     program = orders(bench, 10, random.Random(12))
     some = [replace(o, zone=None) for o in program]
     client.number += 1
-    words = [*millionths(bench.position), *(w for o in some[:3] for w in o.words)]
-    client.say(words, 3, BEGIN)
+    values = [*millionths(bench.position), *(w for o in some[:3] for w in o.words)]
+    client.say(values, 3, BEGIN)
     bench.wait_until_at(some[2].joints, 60)
     bench.run(0.5)
     server = bench.controller.task(bench.task("ROS_motionServer"))
     motion = bench.controller.task(bench.task("ROS_motion"))
     server["ROS_acceptance:ROS_count"] = server["ROS_stream:accepted"] = last - 3
     motion["ROS_motion:expected"] = last - 2
-    told = client.say([w for o in some[3:9] for w in o.words], 6, RawStreamFlag.END, first=last - 3)
-    if not isinstance(told, messages.RawPointsAccepted) or told.accepted != 3:
-        raise CheckFailed(f"six instructions from {last - 3} on, the reply is {told}")
+    reply = client.say(
+        [w for o in some[3:9] for w in o.words], 6, RawStreamFlag.END, first=last - 3
+    )
+    if not isinstance(reply, messages.RawPointsAccepted) or reply.accepted != 3:
+        raise CheckFailed(f"six instructions from {last - 3} on, the reply is {reply}")
     bench.wait_until_at(some[8].joints, 60)
     bench.run(0.5)
-    bench.healthy()
+    bench.assert_healthy()
 
 
 @case("program-refused", "one wrong instruction refuses a program whole, with its index")
@@ -207,20 +209,22 @@ def _refused(bench: Bench) -> None:
     for n, own in enumerate(bench.group.joints):
         for value in (own.lower - 2 * small_unit(own), own.upper + 2 * small_unit(own)):
             outside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
-            told = client.send([*right[:3], replace(outside, kind=MOVE_ABSJ), *right[3:]])
-            wanted = (RawReason.JOINT_LIMIT, 3, n + 1)
-            if told[-3:] != wanted:
-                raise CheckFailed(f"joint {n + 1} at {value}: the reply is {told}")
+            reply = client.send([*right[:3], replace(outside, kind=MOVE_ABSJ), *right[3:]])
+            expected = (RawReason.JOINT_LIMIT, 3, n + 1)
+            if reply[-3:] != expected:
+                raise CheckFailed(f"joint {n + 1} at {value}: the reply is {reply}")
         for value in (own.lower + small_unit(own), own.upper - small_unit(own)):
             inside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
             # What is behind it is wrong.
-            behind = replace(right[3], speed=0.0)
-            told = client.send([*right[:3], replace(inside, kind=MOVE_ABSJ), behind])
-            client.refused(told, RawReason.BAD_SPEED, 4, f"joint {n + 1} at {value}")
+            after = replace(right[3], speed=0.0)
+            reply = client.send([*right[:3], replace(inside, kind=MOVE_ABSJ), after])
+            client.refused(reply, RawReason.BAD_SPEED, 4, f"joint {n + 1} at {value}")
     # The smallest and the widest zone: what is behind it is wrong.
     for zone in (0.0, 2 / 3):
-        told = client.send([*right[:3], replace(right[3], zone=zone), replace(right[3], speed=0.0)])
-        client.refused(told, RawReason.BAD_SPEED, 4, f"a zone of {zone:g} m")
+        reply = client.send(
+            [*right[:3], replace(right[3], zone=zone), replace(right[3], speed=0.0)]
+        )
+        client.refused(reply, RawReason.BAD_SPEED, 4, f"a zone of {zone:g} m")
     wrong: list[tuple[RawMove, RawReason]] = [
         (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),
@@ -243,53 +247,53 @@ def _refused(bench: Bench) -> None:
             wrong.append((circle, RawReason.POSE_MISMATCH))
             break
     for order, reason in wrong:
-        told = client.send([*right[:3], order, *right[3:]])
-        client.refused(told, reason, 3, f"a program with {order}")
+        reply = client.send([*right[:3], order, *right[3:]])
+        client.refused(reply, reason, 3, f"a program with {order}")
     fastest = 1e-6 * round(1e6 * bench.group.tcp_speed_limit)
     wrong_too = [replace(right[3], speed=fastest + 1e-3), replace(right[3], zone=0.67)]
     for order, reason in zip(wrong_too, (RawReason.BAD_SPEED, RawReason.BAD_ZONE), strict=True):
         client.refused(client.send([*right[:3], order]), reason, 3, f"a program with {order}")
     # As fast and as wide as may be: 1.5 times that is the widest radius.
     most = replace(right[3], speed=fastest, zone=2 / 3)
-    told = client.send([*right[:3], most, replace(most, speed=0.0)])
-    client.refused(told, RawReason.BAD_SPEED, 4, f"{most} is right")
-    for words in ([99, 0], [0], [-1], [4096 + MOVE_ABSJ, 0], [4096]):
+    reply = client.send([*right[:3], most, replace(most, speed=0.0)])
+    client.refused(reply, RawReason.BAD_SPEED, 4, f"{most} is right")
+    for values in ([99, 0], [0], [-1], [4096 + MOVE_ABSJ, 0], [4096]):
         client.number += 1
         start = millionths(bench.position)
-        told = client.say([*start, *words], 1, ALL)
-        client.refused(told, RawReason.NO_INSTRUCTION, 0, f"the instruction {words}")
+        reply = client.say([*start, *values], 1, ALL)
+        client.refused(reply, RawReason.NO_INSTRUCTION, 0, f"the instruction {values}")
     client.number += 1
-    told = client.say([*millionths(bench.position), MOVE_ABSJ, 0], 1, ALL)
-    client.refused(told, RawReason.FRAMING, 0, "half an instruction")
+    reply = client.say([*millionths(bench.position), MOVE_ABSJ, 0], 1, ALL)
+    client.refused(reply, RawReason.FRAMING, 0, "half an instruction")
     client.number += 1
     place = millionths(bench.position)
-    told = client.say([*place, MOVE_ABSJ, *place], 1, ALL)
-    client.refused(told, RawReason.BAD_SPEED, 0, "a speed is that of a program before")
+    reply = client.say([*place, MOVE_ABSJ, *place], 1, ALL)
+    client.refused(reply, RawReason.BAD_SPEED, 0, "a speed is that of a program before")
     client.number += 1
     with_speed = [MOVE_ABSJ | messages.RawModal.SPEED, *millionths(right[0].speeds)]
-    told = client.say([*place, *with_speed, *place], 1, ALL)
-    client.refused(told, RawReason.BAD_ZONE, 0, "a zone is that of a program before")
+    reply = client.say([*place, *with_speed, *place], 1, ALL)
+    client.refused(reply, RawReason.BAD_ZONE, 0, "a zone is that of a program before")
     client.number += 1
-    told = client.say([*millionths(bench.position), *right[0].words, 0], 1, ALL)
-    client.refused(told, RawReason.FRAMING, 1, "a word too many")
+    reply = client.say([*millionths(bench.position), *right[0].words, 0], 1, ALL)
+    client.refused(reply, RawReason.FRAMING, 1, "a word too many")
     for n, own in enumerate(bench.group.joints):
-        there = changed(bench.position, n, inward(own, bench.position[n], 0.1))
-        told = client.send(right, start=there)
-        if told[-3:] != (RawReason.START_TOO_FAR, 0, n + 1):
-            raise CheckFailed(f"another beginning for joint {n + 1}, the reply is {told}")
+        target = changed(bench.position, n, inward(own, bench.position[n], 0.1))
+        reply = client.send(right, start=target)
+        if reply[-3:] != (RawReason.START_TOO_FAR, 0, n + 1):
+            raise CheckFailed(f"another beginning for joint {n + 1}, the reply is {reply}")
     many = [right[0]] * (bench.config.trajectory.ring + 3)
-    told = client.send(many)
-    if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.OVERRUN:
-        raise CheckFailed(f"more instructions than the ring holds: the reply is {told}")
+    reply = client.send(many)
+    if not isinstance(reply, messages.RawPointsRefused) or reply.reason != RawReason.OVERRUN:
+        raise CheckFailed(f"more instructions than the ring holds: the reply is {reply}")
     if bench.motion_group.kinematics is not None and not computes(bench):
         pose = reached(bench, right[3].joints)
         untold = replace(right[3], kind=RawInstruction.MOVE_L, pose=pose)
-        told = client.send([*right[:3], untold])
-        client.refused(told, RawReason.NO_GEOMETRY, 3, "a pose of which nobody knows the joints")
-    bench.stays(1, "no program was right")
-    told = bench.progress(watcher)
-    if (told.state, told.planned) != (RawTrajectoryState.REFUSED, 0):
-        raise CheckFailed(f"a program was refused, PROGRESS says {told}")
+        reply = client.send([*right[:3], untold])
+        client.refused(reply, RawReason.NO_GEOMETRY, 3, "a pose of which nobody knows the joints")
+    bench.assert_at_rest(1, "no program was right")
+    reply = bench.progress(watcher)
+    if (reply.state, reply.planned) != (RawTrajectoryState.REFUSED, 0):
+        raise CheckFailed(f"a program was refused, PROGRESS says {reply}")
     client.takes("a right program", right)
     bench.wait_until_at(right[-1].joints, 60)
 
@@ -301,21 +305,21 @@ def _stream(bench: Bench) -> None:
     program = orders(bench, 16, random.Random(11))
     client.number += 1
     some = [*millionths(bench.position), *(word for o in program[:8] for word in o.words)]
-    told = client.say(some, 8, BEGIN)
-    if not isinstance(told, messages.RawPointsAccepted):
-        raise CheckFailed(f"the first instructions are right, the reply is {told}")
+    reply = client.say(some, 8, BEGIN)
+    if not isinstance(reply, messages.RawPointsAccepted):
+        raise CheckFailed(f"the first instructions are right, the reply is {reply}")
     bench.wait_until_moving()
     wrong = replace(program[12], speed=0.0)
-    rest = [word for o in (*program[8:12], wrong, *program[13:]) for word in o.words]
-    told = client.say(rest, 8, messages.RawStreamFlag.END, first=8)
-    client.refused(told, RawReason.BAD_SPEED, 12, "a wrong speed in the middle")
+    remaining = [word for o in (*program[8:12], wrong, *program[13:]) for word in o.words]
+    reply = client.say(remaining, 8, messages.RawStreamFlag.END, first=8)
+    client.refused(reply, RawReason.BAD_SPEED, 12, "a wrong speed in the middle")
     bench.wait_until_at(program[11].joints, 90)
     bench.run(0.5)
     seen = bench.progress(watcher)
-    wanted = (RawTrajectoryState.FAILED, 12, RawReason.BAD_SPEED)
-    if (seen.state, seen.reached, seen.reason) != wanted:
+    expected = (RawTrajectoryState.FAILED, 12, RawReason.BAD_SPEED)
+    if (seen.state, seen.reached, seen.reason) != expected:
         raise CheckFailed(f"a program was cut behind 12 instructions, PROGRESS says {seen}")
-    bench.stays(1, "a program was cut")
+    bench.assert_at_rest(1, "a program was cut")
 
 
 @case("program-halves", "a trajectory ends a program, and a program a trajectory")
@@ -334,14 +338,14 @@ def _superseded(bench: Bench) -> None:
             break
     else:
         raise CheckFailed(f"a trajectory has come into a program, PROGRESS says {told}")
-    bench.stays(1, "the program has ended")
+    bench.assert_at_rest(1, "the program has ended")
     points = bench.wave(20)
-    bench.sets_off(client.link, points, 0.5)
+    bench.start_motion(client.link, points, 0.5)
     reply = client.send(program)
     if isinstance(reply, messages.RawPointsRefused):
         # It began where the robot was when it was sent.
         client.refused(reply, RawReason.START_TOO_FAR, 0, "a program into a trajectory")
-        bench.rests(5, 1, "neither is under way")
+        bench.wait_until_at_rest(5, 1, "neither is under way")
         client.takes("a program", program)
     bench.wait_until_at(program[-1].joints, 60)
 
@@ -351,36 +355,36 @@ def _waits(bench: Bench) -> None:
     """The move before it is a stop point, whatever its zone; what cannot be is refused."""
     client = Programmer(bench)
     first, *_, last = orders(bench, 6, random.Random(4))
-    there = replace(last, kind=MOVE_ABSJ, pose=None, zone=0.01)
+    target = replace(last, kind=MOVE_ABSJ, pose=None, zone=0.01)
 
     def sends(seconds: float) -> messages.RawContent:
         client.number += 1
         wait = [int(RawInstruction.WAIT), *millionths([seconds])]
-        words = [*millionths(bench.position), *there.words, *wait, *first.words]
-        return client.say(words, 3, ALL)
+        values = [*millionths(bench.position), *target.words, *wait, *first.words]
+        return client.say(values, 3, ALL)
 
     def comes_by() -> bool:
-        return distance(bench.position, there.joints) < SETTLED
+        return distance(bench.position, target.joints) < SETTLED
 
     for seconds in (1.5, 0.5, 0.0):
         if not isinstance(sends(seconds), messages.RawPointsAccepted):
             raise CheckFailed(f"a program with a wait of {seconds} s is refused")
         if seconds:
-            bench.wait_until_at(there.joints, 60)
+            bench.wait_until_at(target.joints, 60)
         else:  # Axes that lag go on before they have come to rest.
             bench.until(comes_by, 60, "the robot comes by the point before the wait")
-        bench.stays(0.8 * seconds, "the program waits")
+        bench.assert_at_rest(0.8 * seconds, "the program waits")
         bench.wait_until_at(first.joints, 60)
     corners_made(bench)
     for seconds in (-1.0, 2001.0):
         client.refused(sends(seconds), RawReason.BAD_VALUE, 1, f"a wait of {seconds} s")
     # The longest.
     sends(2000.0)
-    bench.wait_until_at(there.joints, 60)
+    bench.wait_until_at(target.joints, 60)
     bench.run(0.5)
     client.link.stop()
-    bench.stays(2, "STOP has ended a wait")
-    for words, reason in (
+    bench.assert_at_rest(2, "STOP has ended a wait")
+    for values, reason in (
         ([1024 + MOVE_ABSJ, *millionths([99.0, 0.0])], RawReason.NO_FRAME),
         ([1024 + MOVE_ABSJ, *millionths([0.0, 0.5])], RawReason.NO_FRAME),
         ([int(RawInstruction.SET), *millionths([99.0, 0.0])], None),
@@ -388,12 +392,12 @@ def _waits(bench: Bench) -> None:
     ):
         client.number += 1
         start = millionths(bench.position)
-        told = client.say([*start, *words, *start], 1, ALL)
-        if not isinstance(told, messages.RawPointsRefused) or told.point != 0:
-            raise CheckFailed(f"the instruction {words} is answered by {told}")
+        reply = client.say([*start, *values, *start], 1, ALL)
+        if not isinstance(reply, messages.RawPointsRefused) or reply.point != 0:
+            raise CheckFailed(f"the instruction {values} is answered by {reply}")
         if reason is not None:
-            client.refused(told, reason, 0, f"the instruction {words}")
-    bench.stays(1, "no instruction was right")
+            client.refused(reply, reason, 0, f"the instruction {values}")
+    bench.assert_at_rest(1, "no instruction was right")
 
 
 def corners_made(bench: Bench) -> None:
@@ -410,7 +414,7 @@ plain = SuiteGroup("programs")
 def _basic(bench: Bench) -> None:
     """HELLO does not tell PROGRAMS, and PROGRAM is answered by a failure."""
     link = bench.motion()
-    told = bench.says_hello(bench.state())
+    told = bench.send_hello(bench.state())
     if bool(told.features & messages.RawFeature.PROGRAMS) is not bench.streams:
         raise CheckFailed(f"HELLO tells the features {told.features}")
     if bench.streams:
@@ -419,4 +423,4 @@ def _basic(bench: Bench) -> None:
     link.send(words_frame(1, 0, 1, [*place, MOVE_ABSJ, *place], ALL, number=PROGRAM))
     if not isinstance(link.reply(PROGRAM), messages.RawFailure):
         raise CheckFailed("a driver of the basic profile takes a program")
-    bench.stays(1, "nothing was taken")
+    bench.assert_at_rest(1, "nothing was taken")

@@ -28,8 +28,10 @@ def refused(
     state, link = bench.watcher(), bench.motion()
     link.send(frames)
     # A controller has read all of it by then.
-    bench.stays(3 * bench.setting.slowness, f"it had to be refused: {messages.text_of(reasons[0])}")
-    status, told = bench.status(state), bench.progress(state)
+    bench.assert_at_rest(
+        3 * bench.setting.slowness, f"it had to be refused: {messages.text_of(reasons[0])}"
+    )
+    status, reply = bench.status(state), bench.progress(state)
     reason, wrong = messages.split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
         names = " or ".join(r.name for r in reasons)
@@ -37,14 +39,14 @@ def refused(
             f"wanted in_error with {names}{f' of joint {joint}' if joint else ''}, STATUS says "
             f"in_error {status.in_error}, error_code {status.error_code}"
         )
-    if (told.state, told.reason, told.joint) != (RawTrajectoryState.REFUSED, reason, wrong):
-        raise CheckFailed(f"STATUS says error_code {status.error_code}, PROGRESS {told}")
-    if point == 0 and reason != RawReason.START_TOO_FAR and told.received:
-        raise CheckFailed(f"the first point had to be refused, PROGRESS says {told}")
-    if point is not None and told.point != point:
-        raise CheckFailed(f"point {point} had to be blamed, PROGRESS says {told}")
+    if (reply.state, reply.reason, reply.joint) != (RawTrajectoryState.REFUSED, reason, wrong):
+        raise CheckFailed(f"STATUS says error_code {status.error_code}, PROGRESS {reply}")
+    if point == 0 and reason != RawReason.START_TOO_FAR and reply.received:
+        raise CheckFailed(f"the first point had to be refused, PROGRESS says {reply}")
+    if point is not None and reply.point != point:
+        raise CheckFailed(f"point {point} had to be blamed, PROGRESS says {reply}")
     # A refusal is over with the next good trajectory.
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_moves_through(link, bench.wave(3))
     bench.run(0.5)
     if bench.status(state).in_error != 0:
         raise CheckFailed("in_error stays after a good trajectory")
@@ -123,10 +125,12 @@ def _outside_limits(bench: Bench) -> None:
 def _start_too_far(bench: Bench) -> None:
     points = bench.wave(4)
     for axis, joint in enumerate(bench.group.joints):
-        here = bench.position
+        current = bench.position
         near = bench.start_tolerance(joint)
-        away = here[axis] + (1.5 * near if here[axis] + 2 * near < joint.upper else -1.5 * near)
-        start = (*here[:axis], away, *here[axis + 1 :])
+        away = current[axis] + (
+            1.5 * near if current[axis] + 2 * near < joint.upper else -1.5 * near
+        )
+        start = (*current[:axis], away, *current[axis + 1 :])
         points = [(start, 10.0), *bench.wave(4)[1:]]
         refused(bench, bench.download(points), [RawReason.START_TOO_FAR], axis + 1, 0)
 
@@ -136,15 +140,15 @@ def _too_fast(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "refuse":
         raise NotApplicable("`too_fast` slows down")
     for axis, joint in enumerate(bench.group.joints):
-        here = bench.position
+        current = bench.position
         seconds = max(0.2, bench.config.trajectory.min_segment)
         step = 1.2 * seconds * joint.speed
-        if here[axis] + step > joint.upper:
+        if current[axis] + step > joint.upper:
             step = -step
-        if here[axis] + step < joint.lower:
+        if current[axis] + step < joint.lower:
             continue
-        target = (*here[:axis], here[axis] + step, *here[axis + 1 :])
-        points = [(here, 10.0), (target, seconds), (target, 1.0)]
+        target = (*current[:axis], current[axis] + step, *current[axis + 1 :])
+        points = [(current, 10.0), (target, seconds), (target, 1.0)]
         refused(
             bench, bench.download(points), [RawReason.TOO_FAST, RawReason.TCP_TOO_FAST], axis + 1, 1
         )
@@ -177,7 +181,7 @@ def _no_end(bench: Bench) -> None:
     points = bench.wave(5)
     link = bench.motion()
     link.send(bench.download(points)[: -(messages.POINT_BYTES - 4) - 4])
-    bench.stays(5, "its end frame has not come")
+    bench.assert_at_rest(5, "its end frame has not come")
 
 
 @case("reasons", "a request is told reason, point and joint")
@@ -195,4 +199,4 @@ def _requests_are_told_why(bench: Bench) -> None:
         raise CheckFailed(f"the reply to the end frame is {content}")
     if (content.point, content.joint) != (2, 1):
         raise CheckFailed(f"the reply blames point {content.point}, joint {content.joint}")
-    bench.stays(2, "it was refused")
+    bench.assert_at_rest(2, "it was refused")

@@ -21,7 +21,7 @@ def _sent_meanwhile(bench: Bench) -> None:
         known.send(data)
         new = bench.motion()
         new.send(data)
-        bench.stays(2, f"the controller is in {action}")
+        bench.assert_at_rest(2, f"the controller is in {action}")
         _nothing_comes_of_it(bench)
         known.close()
         new.close()
@@ -81,11 +81,11 @@ def _batches(bench: Bench) -> None:
 def _nothing_comes_of_it(bench: Bench) -> None:
     bench.run(0.3)
     bench.start_again()
-    bench.stays(4, "the program was started; what was sent before is nothing")
+    bench.assert_at_rest(4, "the program was started; what was sent before is nothing")
 
 
 def _served(bench: Bench) -> None:
     bench.run(1.5)
     link = bench.motion()
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_moves_through(link, bench.wave(3))
     link.close(then=0.5)

@@ -25,7 +25,7 @@ _REPLY = 2.0
 def _whole_trajectory(bench: Bench) -> None:
     points = bench.wave(12)
     link = bench.motion()
-    bench.moves_through(link, points)
+    bench.assert_moves_through(link, points)
     if link.read():
         raise CheckFailed("points sent as topics were answered")
 
@@ -37,10 +37,10 @@ def _first_point_of_ten_seconds(bench: Bench) -> None:
     started = bench.now
     link.send(bench.download(points))
     bench.wait_until_at(points[-1][0], 30)
-    taken, asked = bench.now - started, sum(d for _, d in points[1:])
-    if taken > asked + 3:
+    accepted, requested = bench.now - started, sum(d for _, d in points[1:])
+    if accepted > requested + 3:
         raise CheckFailed(
-            f"{asked:.1f} s of motion took {taken:.1f} s: the first 10 s were waited for"
+            f"{requested:.1f} s of motion took {accepted:.1f} s: the first 10 s were waited for"
         )
 
 
@@ -51,8 +51,8 @@ def _single_point_sent_twice(bench: Bench) -> None:
 
     def away(part: float) -> Position:
         return tuple(
-            inward(joint, here, part * bench.start_tolerance(joint))
-            for joint, here in zip(joints, bench.position, strict=True)
+            inward(joint, current, part * bench.start_tolerance(joint))
+            for joint, current in zip(joints, bench.position, strict=True)
         )
 
     def twice(target: Position) -> bytes:
@@ -65,7 +65,7 @@ def _single_point_sent_twice(bench: Bench) -> None:
     refused(bench, twice(away(1.1)), [RawReason.START_TOO_FAR], joint=1, point=0)
     link = bench.motion()
     # Two points of which only the second is elsewhere are a way like any other.
-    bench.moves_through(link, bench.wave(2, duration=1.0))
+    bench.assert_moves_through(link, bench.wave(2, duration=1.0))
 
 
 @case("equal-stamps", "equal stamps are a stay, and the rest follows")
@@ -74,14 +74,14 @@ def _equal_stamps(bench: Bench) -> None:
     # The node turns equal stamps into 10 s; the robot stays for them, and goes on.
     points: list[Point] = [first, second, (second[0], 10.0), third]
     link = bench.motion()
-    bench.moves_through(link, points)
+    bench.assert_moves_through(link, points)
 
 
 @case("more-trajectories", "trajectory after trajectory over one connection")
 def _more_trajectories(bench: Bench) -> None:
     link = bench.motion()
     for _ in range(5):
-        bench.moves_through(link, bench.wave(5))
+        bench.assert_moves_through(link, bench.wave(5))
 
 
 @case("state-stream", "JOINT and STATUS as plain topics at the set rate", "R16")
@@ -119,15 +119,15 @@ def _state_is_true(bench: Bench) -> None:
     if (idle.mode, idle.motion_possible) != (2, 1):
         raise CheckFailed(f"a robot in automatic mode with its program running says {idle}")
     points = bench.wave(6)
-    bench.sets_off(motion, points)
+    bench.start_motion(motion, points)
     if bench.status(link).in_motion != 1:
         raise CheckFailed("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
     _, last = link.told(messages.RawJointPosition)[-1]
-    here = bench.position
-    if distance(last.joints[: len(here)], here) > 1e-4 or any(last.joints[len(here) :]):
-        raise CheckFailed(f"JOINT says {last.joints}, the robot stands at {here}")
+    current = bench.position
+    if distance(last.joints[: len(current)], current) > 1e-4 or any(last.joints[len(current) :]):
+        raise CheckFailed(f"JOINT says {last.joints}, the robot stands at {current}")
     if bench.status(link).in_motion != 0:
         raise CheckFailed("a standing robot says that it is in motion")
 
@@ -137,14 +137,14 @@ def _short_movements_show(bench: Bench) -> None:
     link, motion = bench.state(), bench.motion()
     bench.run(0.5)
     for attempt in range(5):
-        here = bench.position
+        current = bench.position
         step = 0.0005 if attempt % 2 else -0.0005
         target = tuple(
             min(max(h + step, j.lower), j.upper)
-            for h, j in zip(here, bench.group.joints, strict=True)
+            for h, j in zip(current, bench.group.joints, strict=True)
         )
         before = len(link.frames)
-        motion.send(bench.download([(here, 10.0), (target, 0.1), (target, 0.1)]))
+        motion.send(bench.download([(current, 10.0), (target, 0.1), (target, 0.1)]))
         bench.run(1.0)
         seen = [decode(f) for _, f in link.frames[before:] if f.number == STATUS]
         if not any(isinstance(s, messages.RawStatus) and s.in_motion == 1 for s in seen):
@@ -166,13 +166,13 @@ def _limits_are_reached(bench: Bench) -> None:
     # What is a limit in 64 bits may lie outside of it by a rounding to 32.
     for index, joint in enumerate(bench.group.joints):
         for limit in (joint.lower, joint.upper):
-            here = bench.position
-            target = (*here[:index], limit, *here[index + 1 :])
+            current = bench.position
+            target = (*current[:index], limit, *current[index + 1 :])
             seconds = bench.seconds_to(target)
-            link.send(bench.download([(here, 10.0), (target, seconds), (target, 0.5)]))
+            link.send(bench.download([(current, 10.0), (target, seconds), (target, 0.5)]))
             bench.wait_until_at(target, 20 + 4 * seconds)
-            link.send(bench.download([(target, 10.0), (here, seconds), (here, 0.5)]))
-            bench.wait_until_at(here, 20 + 4 * seconds)
+            link.send(bench.download([(target, 10.0), (current, seconds), (current, 0.5)]))
+            bench.wait_until_at(current, 20 + 4 * seconds)
 
 
 @case("in-pieces", "a trajectory byte by byte", "R2")
@@ -194,15 +194,15 @@ def _in_one_piece_with_a_stop(bench: Bench) -> None:
     link.send(bench.download(points) + STOP)
     link.expect_reply(5, "STOP behind a trajectory in one segment is answered")
     bench.wait_until_standing()
-    bench.stays(2, "it was stopped")
-    bench.moves_through(link, bench.wave(4))
+    bench.assert_at_rest(2, "it was stopped")
+    bench.assert_moves_through(link, bench.wave(4))
 
 
 @case("full-capacity", "as many points as the driver says it holds", "R1", once=True)
 def _full_capacity(bench: Bench) -> None:
     count = bench.config.trajectory.capacity
     link = bench.motion()
-    bench.moves_through(link, bench.wave(min(count, 1000), duration=0.2, size=0.01))
+    bench.assert_moves_through(link, bench.wave(min(count, 1000), duration=0.2, size=0.01))
 
 
 @case("ping", "PING as a request is answered")
@@ -229,4 +229,4 @@ def _requests_are_answered(bench: Bench) -> None:
 def _stray_point(bench: Bench) -> None:
     link = bench.motion()
     link.send(raw_point(3, bench.wave(3)[-1][0], 1.0))
-    bench.stays(2, "a point without a start")
+    bench.assert_at_rest(2, "a point without a start")

@@ -32,12 +32,12 @@ def _whole_headers(bench: Bench) -> None:
             what = f"a message of type {number} and {length} bytes"
             if before:
                 _pings(link, f"in front of {what}")
-            link.wait_until_lost(0.2, f"{what} breaks the link")
+            link.wait_disconnected(0.2, f"{what} breaks the link")
             if link.read():
                 raise CheckFailed(f"{what} is answered")
         link = bench.motion()
         link.send(head[:4])
-        link.wait_until_lost(0.2, f"{length} as a length breaks the link")
+        link.wait_disconnected(0.2, f"{length} as a length breaks the link")
     # What one client began is nothing to the next one.
     link = bench.motion()
     link.send(_PING[:10])
@@ -56,20 +56,20 @@ def _whole_headers(bench: Bench) -> None:
             bench.run(0.01)
         link.send(_PING)
         _pings(link, f"behind a message of 1024 bytes in pieces of {size}")
-    bench.stays(0.5, "nobody asked for motion")
+    bench.assert_at_rest(0.5, "nobody asked for motion")
 
 
 @case("ports-open", "ports that are taken are waited for, then stay open", "R18")
 def _ports_open(bench: Bench) -> None:
     """Ports that are taken at the start are tried again each second, then stay open."""
     network, ports = bench.controller.network, bench.group.ports
-    wanted = [port for port in (ports.motion, ports.control, ports.state) if port]
+    expected = [port for port in (ports.motion, ports.control, ports.state) if port]
     bench.run(1)
     last = bench.last_event
     network.address = "192.0.2.17"
     for action in ("power-loss", "pp-to-main"):
         bench.controller.perform(action)
-    taken = [network.bind("", port) for port in wanted]
+    accepted = [network.bind("", port) for port in expected]
     bench.start_again()
     scheduler = bench.controller.scheduler
     idle, since = scheduler.idle, scheduler.now
@@ -77,17 +77,19 @@ def _ports_open(bench: Bench) -> None:
     share = 1 - (scheduler.idle - idle) / (scheduler.now - since)
     if share > 0.1 * len(bench.config.groups):
         raise CheckFailed(f"while ports are taken the driver takes {share:.0%} of the processor")
-    for port in wanted:
+    for port in expected:
         title = f"ROS: port {port} cannot be opened"
-        said = [e for e in bench.controller.log.since(last) if e.title == title]
-        if len(said) != 1:
-            raise CheckFailed(f"port {port} is taken, the event log says so {len(said)} times")
+        log_entries = [e for e in bench.controller.log.since(last) if e.title == title]
+        if len(log_entries) != 1:
+            raise CheckFailed(
+                f"port {port} is taken, the event log says so {len(log_entries)} times"
+            )
     changes: list[float] = []
-    for endpoint in taken:
+    for endpoint in accepted:
         network.close(endpoint)
-    bench.until(lambda: all(p in network.listeners for p in wanted), 1.1, "ports are opened")
+    bench.until(lambda: all(p in network.listeners for p in expected), 1.1, "ports are opened")
     # A virtual controller has no LAN port; an address of the configuration is bound as it is.
-    hosts = {network.listeners[port][0] for port in wanted}
+    hosts = {network.listeners[port][0] for port in expected}
     if bench.config.bind == "lan" and hosts != {"127.0.0.1"}:
         raise CheckFailed(f"the virtual controller listens at {hosts}")
     network.listening.add(lambda: changes.append(bench.now))

@@ -45,11 +45,11 @@ _MOMENT = 0.05
 
 def straight(bench: Bench, count: int, seconds: float) -> list[Point]:
     """Points on a straight way of the first axis, all as fast."""
-    here, joint = bench.position, bench.group.joints[0]
-    step = inward(joint, here[0], RATE * seconds) - here[0]
+    current, joint = bench.position, bench.group.joints[0]
+    step = inward(joint, current[0], RATE * seconds) - current[0]
     return [
-        (here, 10.0),
-        *((changed(here, 0, here[0] + n * step), seconds) for n in range(1, count)),
+        (current, 10.0),
+        *((changed(current, 0, current[0] + n * step), seconds) for n in range(1, count)),
     ]
 
 
@@ -81,22 +81,22 @@ def as_asked(
     `seconds`: what a move takes at the speed before. `stops`: how often it comes to rest. `rate`:
     of the axis in moves without a time of their own.
     """
-    asked, seen = percent / 100, paces(bench, since, RATE if rate is None else rate)
+    requested, seen = percent / 100, paces(bench, since, RATE if rate is None else rate)
     lag = bench.setting.motion.servo_lag
     ordered = 2 * seconds + bench.setting.motion.planning_lead + _slow(bench) + lag
     acts = rate is not None or (seconds > LONG and bench.setting.motion.refresh_timed)
     # Each move that was ordered may begin as fast as it was ordered, until a timer comes.
     most = _TICK + _slow(bench) + _RAMPS + lag if acts else ordered
-    last = since + (ordered / asked if acts else ordered) + most
+    last = since + (ordered / requested if acts else ordered) + most
     fast = 0.0
     for when, then, pace in seen:
-        fast = fast + then - when if pace > _PEAK * asked else 0.0
+        fast = fast + then - when if pace > _PEAK * requested else 0.0
         if fast > most or (fast > _MOMENT and then > last):
             raise CheckFailed(
                 f"{then - since:.2f} s behind SPEED {percent:g} the robot is at {100 * pace:.0f} % "
                 f"of its speed, for {fast:.2f} s"
             )
-    slow = sum(then - when for when, then, pace in seen if pace < 0.75 * asked)
+    slow = sum(then - when for when, then, pace in seen if pace < 0.75 * requested)
     at_rest = _RAMPS + _slow(bench) + _TICK + bench.setting.motion.settle + lag
     if slow > stops * at_rest:
         raise CheckFailed(f"at SPEED {percent:g} the robot is slower than that for {slow:.2f} s")
@@ -129,12 +129,12 @@ def _kept(bench: Bench) -> None:
     """Long moves and short ones, slower and faster, and at full speed in the next trajectory."""
     control, link, lead = bench.control(), bench.motion(), bench.setting.motion.planning_lead
     short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
-    ways: list[tuple[_Send, int, float]] = [(_download, 8, 0.6), (_download, 24, short)]
+    paths: list[tuple[_Send, int, float]] = [(_download, 8, 0.6), (_download, 24, short)]
     if bench.streams:
-        ways.append((_stream, 24, short))
-    for send, count, seconds in ways:
+        paths.append((_stream, 24, short))
+    for send, count, seconds in paths:
         for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
-            points, begun = straight(bench, count, seconds), bench.now
+            points, started = straight(bench, count, seconds), bench.now
             send(bench, link, points)
             bench.wait_until_moving()
             # Once when no other move is ordered, once when one is.
@@ -153,7 +153,7 @@ def _kept(bench: Bench) -> None:
                 else:
                     bench.run(0.3)
                 before = percent / 100
-            bench.executed(points, begun)
+            bench.executed(points, started)
             bench.wait_until_standing()
         points, since = straight(bench, count, seconds), bench.now
         send(bench, link, points)
@@ -166,8 +166,8 @@ def _kept(bench: Bench) -> None:
 def _in_pause(bench: Bench) -> None:
     """SpeedRefresh may do nothing while the robot stands."""
     control, link = bench.control(), bench.motion()
-    points, begun = straight(bench, 6, 0.8), bench.now
-    bench.sets_off(link, points, 1.0)
+    points, started = straight(bench, 6, 0.8), bench.now
+    bench.start_motion(link, points, 1.0)
     done(control.ask(messages.RawPause(1)), "PAUSE")
     bench.wait_until_standing(3)
     done(control.ask(messages.RawSpeed(40)), "SPEED")
@@ -175,7 +175,7 @@ def _in_pause(bench: Bench) -> None:
     since = bench.now
     done(control.ask(messages.RawPause(0)), "the end of a pause")
     bench.wait_until_moving()
-    bench.arrives(points, begun, 60)
+    bench.arrives(points, started, 60)
     as_asked(bench, since, 40, 0.8, 3)
 
 
@@ -183,12 +183,12 @@ def _in_pause(bench: Bench) -> None:
 def _at_the_end(bench: Bench) -> None:
     """SpeedRefresh may last, and may do nothing while the robot stands."""
     control, link = bench.control(), bench.motion()
-    bench.sets_off(link, straight(bench, 2, 1.0), 0.2)
+    bench.start_motion(link, straight(bench, 2, 1.0), 0.2)
     done(control.ask(messages.RawSpeed(50)), "SPEED")
     bench.wait_until_standing()
     bench.run(2)
     points, since = straight(bench, 4, 1.0), bench.now
-    bench.sets_off(link, points)
+    bench.start_motion(link, points)
     bench.arrives(points, since, 20)
     as_asked(bench, since, 100, 1.0)
 
@@ -198,10 +198,10 @@ def _speed(bench: Bench) -> None:
     """Half the speed for this trajectory, and the full one again for the next."""
     control, link = bench.control(), bench.motion()
     not_done(control.ask(messages.RawSpeed(50)), RawReason.IDLE, "SPEED of nothing")
-    taken = []
+    accepted = []
     for percent in (100.0, 50.0, 0.0):
         points, since = bench.wave(12), bench.now
-        bench.sets_off(link, points)
+        bench.start_motion(link, points)
         if percent:
             done(control.ask(messages.RawSpeed(80)), "SPEED 80")
             done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
@@ -209,15 +209,18 @@ def _speed(bench: Bench) -> None:
             not_done(control.ask(messages.RawSpeed(wrong)), RawReason.BAD_VALUE, f"SPEED {wrong:g}")
         bench.wait_until_at(points[-1][0], 60)
         bench.followed([p for p, _ in points], since=since)
-        taken.append(bench.now - since)
+        accepted.append(bench.now - since)
         bench.run(0.5)
-    if not 1.5 * taken[0] < taken[1] < 2.5 * taken[0] or abs(taken[2] - taken[0]) > 0.5:
-        raise CheckFailed(f"at 100, 50 and again 100 % a trajectory took {taken} s")
-    bench.sets_off(link, bench.wave(12))
+    if (
+        not 1.5 * accepted[0] < accepted[1] < 2.5 * accepted[0]
+        or abs(accepted[2] - accepted[0]) > 0.5
+    ):
+        raise CheckFailed(f"at 100, 50 and again 100 % a trajectory took {accepted} s")
+    bench.start_motion(link, bench.wave(12))
     done(control.ask(messages.RawSpeed(1)), "the smallest SPEED")
     link.stop()
-    bench.rests(3, 1, "it was stopped")
-    bench.moves_through(link, bench.wave(3))
+    bench.wait_until_at_rest(3, 1, "it was stopped")
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("speed-at-start", "a speed that comes at the beginning of a trajectory")
@@ -236,15 +239,15 @@ def _at_the_start(bench: Bench) -> None:
     bench.wait_until_standing(3 * unit)
     at_call(bench, "ROS_motion", "MoveAbsJ", 1, ask)
     points = bench.wave(3, duration=unit)
-    bench.sets_off(link, points)
-    begun = bench.now
+    bench.start_motion(link, points)
+    started = bench.now
     told = control.reply(messages.SPEED, soon(bench))
     if told != messages.RawAcknowledged():
         raise CheckFailed(f"SPEED at the beginning of a trajectory is answered by {told}")
     bench.wait_until_at(points[2][0], 10 * unit)
-    if bench.now - begun < 3.0 * unit:
+    if bench.now - started < 3.0 * unit:
         raise CheckFailed(
-            f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s"
+            f"{2 * unit:.2f} s of motion at half the speed took {bench.now - started:.2f} s"
         )
 
 
@@ -261,7 +264,7 @@ def _program(bench: Bench) -> None:
     rate = max(rates[-len(rates) // 4 :])
     seconds = step / rate
     for percents in ((50.0,), (60.0, 20.0), (20.0, 60.0)):
-        program, begun = straight_moves(bench, count, step), bench.position
+        program, started = straight_moves(bench, count, step), bench.position
         client.takes("a program", program)
         bench.wait_until_moving()
         bench.run(seconds * (0.5 if percents[-1] > 50 else 1.5))
@@ -276,7 +279,7 @@ def _program(bench: Bench) -> None:
             else:
                 bench.run(0.3)
             before = percent / 100
-        bench.followed([begun, *(order.joints for order in program)], since=since)
+        bench.followed([started, *(order.joints for order in program)], since=since)
         bench.wait_until_standing()
     program, since = straight_moves(bench, count, step), bench.now
     client.takes("a program", program)
@@ -299,7 +302,7 @@ def _circle(bench: Bench) -> None:
     circle = replace(last, kind=RawInstruction.MOVE_C, pose=pose, via=via)
     circle = replace(circle, speed=0.03, zone=0.002)
     back = RawMove(RawInstruction.MOVE_ABSJ, first.joints, None, zone=None)
-    ways: list[list[Position]] = []
+    paths: list[list[Position]] = []
     seconds = 0.0
     for share in (None, 0.3, 0.6):
         client.takes("a circle", [circle, back])
@@ -309,34 +312,34 @@ def _circle(bench: Bench) -> None:
             bench.run(share * seconds)
             done(control.ask(messages.RawSpeed(30.0)), "SPEED on a circle")
         bench.until(lambda: distance(bench.position, last.joints) < 0.01, 60, "the circle ends")
-        taken = bench.now - since
-        seconds = seconds or taken
+        accepted = bench.now - since
+        seconds = seconds or accepted
         # What is left of it takes more than three times as long; but it may be short.
-        if share is not None and seconds > 1 and taken < (1 + (1 - share)) * seconds:
+        if share is not None and seconds > 1 and accepted < (1 + (1 - share)) * seconds:
             raise CheckFailed(
-                f"a circle of {seconds:.1f} s, {share:.0%} on the way SPEED 30: {taken:.1f} s"
+                f"a circle of {seconds:.1f} s, {share:.0%} on the way SPEED 30: {accepted:.1f} s"
             )
-        ways.append([place for at, place in bench.track if at >= since])
+        paths.append([place for at, place in bench.track if at >= since])
         bench.wait_until_at(first.joints, 60)
         bench.run(0.3)
-    for way in ways[1:]:
-        if (far := farthest(points(bench, way), points(bench, ways[0]))) > 0.004:
+    for path in paths[1:]:
+        if (far := farthest(points(bench, path), points(bench, paths[0]))) > 0.004:
             raise CheckFailed(f"a circle that was slowed down is left by {far * 1000:.1f} mm")
 
 
 def aside(one: Pose, other: Pose, share: float = 0.2) -> Pose:
     """Beside the middle between two places, by a share of the way: 0.2 for an arc of 80 degrees."""
-    way = np.subtract(other[0], one[0])
-    side = np.cross(way, np.eye(3)[np.argmin(np.abs(way))])
+    path = np.subtract(other[0], one[0])
+    side = np.cross(path, np.eye(3)[np.argmin(np.abs(path))])
     x, y, z = (np.add(one[0], other[0]) / 2 + share * side).tolist()
     return (x, y, z), slerp(one[1], other[1], 0.5)
 
 
 def straight_moves(bench: Bench, count: int, step: float) -> list[RawMove]:
     """Moves on a straight way of the first axis, each in about 0.6 s, the last a stop point."""
-    here, joint = bench.position, bench.group.joints[0]
-    step = inward(joint, here[0], step) - here[0]
-    places = [changed(here, 0, here[0] + n * step) for n in range(count + 1)]
+    current, joint = bench.position, bench.group.joints[0]
+    step = inward(joint, current[0], step) - current[0]
+    places = [changed(current, 0, current[0] + n * step) for n in range(count + 1)]
     speed = 0.1
     if bench.motion_group.kinematics is not None:
         speed = max(0.02, math.dist(bench.tcp(places[0]), bench.tcp(places[1])) / 0.6)

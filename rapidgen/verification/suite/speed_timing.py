@@ -36,26 +36,26 @@ def _before_the_order(bench: Bench) -> None:
     short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
     for percent in (50.0, 5.0):
         line = straight(bench, 9, short)
-        here, step = line[0][0], line[1][0][0] - line[0][0][0]
+        current, step = line[0][0], line[1][0][0] - line[0][0][0]
         far = changed(line[-1][0], 0, line[-1][0][0] + step * 1.5 / short)
         last = changed(far, 0, far[0] + 4 * step), 4 * short
         points = [*line, (far, 1.5), last]
         since: list[float] = []
 
-        def ask(wanted: float = percent, since: list[float] = since) -> None:
+        def ask(expected: float = percent, since: list[float] = since) -> None:
             since.append(bench.now)
-            control.at_once(messages.encode(messages.RawSpeed(wanted), RawComm.REQUEST))
+            control.at_once(messages.encode(messages.RawSpeed(expected), RawComm.REQUEST))
             bench.rapid_task("ROS_motion").sleep(0.05)
 
         # Interrupts are off at the beginning of a trajectory, and for each move before its order.
         at_call(bench, "ROS_motion", "IDisable", 1 + len(line), ask)
-        begun = bench.now
-        bench.sets_off(link, points)
-        bench.arrives(points, begun, 100)
+        started = bench.now
+        bench.start_motion(link, points)
+        bench.arrives(points, started, 100)
         # A stop between two moves is a move of 0.1 s, and may be slowed down as well.
         as_asked(bench, since[0], percent, 1.5, 2 if percent > 10 else 6)
         bench.run(0.5)
-        bench.moves_through(link, bench.way_to(here))
+        bench.assert_moves_through(link, bench.way_to(current))
         bench.run(0.5)
 
 
@@ -63,19 +63,19 @@ def _before_the_order(bench: Bench) -> None:
 def _between(bench: Bench) -> None:
     """All its moves get their time: that those before it were long counts no more."""
     control, link, group = bench.control(), bench.motion(), bench.motion_group
-    bench.moves_through(link, straight(bench, 2, 1.0))
+    bench.assert_moves_through(link, straight(bench, 2, 1.0))
     bench.run(0.5)
     refreshed: list[float] = []
 
-    def heard(move: Move) -> None:
+    def received(move: Move) -> None:
         refreshed.append(group.refresh)
 
     asks_as_it_begins(bench, control, 50)
-    group.listeners.append(heard)
+    group.listeners.append(received)
     points, since = straight(bench, 4, 1.0), bench.now
-    bench.sets_off(link, points)
+    bench.start_motion(link, points)
     bench.arrives(points, since, 30)
-    group.listeners.remove(heard)
+    group.listeners.remove(received)
     if refreshed != [1.0] * (len(points) - 1):
         raise CheckFailed(
             f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}"
@@ -95,7 +95,7 @@ def _of_short(bench: Bench) -> None:
     line = straight(bench, 26, short)
     # A long one before them counts no more.
     points = [line[0], (line[6][0], 6 * short), *line[7:]]
-    bench.sets_off(link, points, 10 * short)
+    bench.start_motion(link, points, 10 * short)
     done(control.ask(messages.RawSpeed(50)), "SPEED 50")
     since = bench.now
     bench.until(lambda: distance(bench.position, points[-3][0]) < 5e-3, 30, "the last but two")
@@ -109,7 +109,7 @@ def _reached_first(bench: Bench) -> None:
     """It ends in a stop: PROGRESS tells of it in the last move; and not where that stop fails."""
     control, watcher, link = bench.control(), bench.watcher(), bench.motion()
     line = straight(bench, 6, 0.6)
-    here, first, second, last = (line[n][0] for n in (0, 1, 2, 5))
+    current, first, second, last = (line[n][0] for n in (0, 1, 2, 5))
     points = [line[0], (first, 0.6), (second, 0.6), (last, 1.8)]
     moves = [
         replace(straight_moves(bench, 1, RATE * 0.6)[0], joints=p) for p in (first, second, last)
@@ -117,13 +117,13 @@ def _reached_first(bench: Bench) -> None:
     program = [*(replace(move, zone=0.002) for move in moves[:-1]), moves[-1]]
     for what, is_good in product(("a trajectory", "a program"), (True, False)):
         if what == "a trajectory":
-            bench.sets_off(link, points)
+            bench.start_motion(link, points)
         elif bench.streams:
             Programmer(bench, link).takes(what, program)
         else:
             return
         bench.until(
-            lambda: abs(bench.position[0] - here[0]) > 1.4 * abs(first[0] - here[0]), 10, what
+            lambda: abs(bench.position[0] - current[0]) > 1.4 * abs(first[0] - current[0]), 10, what
         )
         done(control.ask(messages.RawSpeed(50)), f"SPEED of {what}")
         count = bench.progress(watcher).planned
@@ -132,34 +132,36 @@ def _reached_first(bench: Bench) -> None:
             bench.run(1)
         else:
             fails(bench, "ROS_motion", "MoveAbsJ", "ERR_COLL_STOP")
-            bench.rests(5, 0.5, f"the end of a slower move of {what} has failed")
-        told = bench.progress(watcher)
-        if (told.planned, told.reached) != ((count + 1, count) if is_good else (count, count - 1)):
+            bench.wait_until_at_rest(5, 0.5, f"the end of a slower move of {what} has failed")
+        reply = bench.progress(watcher)
+        if (reply.planned, reply.reached) != (
+            (count + 1, count) if is_good else (count, count - 1)
+        ):
             raise CheckFailed(
-                f"the end of a slower move of {what}, which {is_good=}, is told as {told}"
+                f"the end of a slower move of {what}, which {is_good=}, is told as {reply}"
             )
         if is_good:
             bench.wait_until_at(last, 20)
         bench.run(0.3)
-        bench.moves_through(link, bench.way_to(here))
+        bench.assert_moves_through(link, bench.way_to(current))
 
 
 @case("speed-is-over", "a speed that comes behind the last move leaves nothing to be ended", "R5")
 def _is_over(bench: Bench) -> None:
     """In a stay at the end nothing is slowed down: what comes next begins where the robot is."""
-    here, said = bench.position, _refreshes(bench)
+    current, log_entries = bench.position, _refreshes(bench)
     link = _asked_in_a_stay(bench, bench.motion())
-    if any(value < 100 for _, value in said) or bench.motion_group.refresh < 1:
-        raise CheckFailed(f"nothing is left to be slowed down, SpeedRefresh: {said}")
+    if any(value < 100 for _, value in log_entries) or bench.motion_group.refresh < 1:
+        raise CheckFailed(f"nothing is left to be slowed down, SpeedRefresh: {log_entries}")
     bench.controller.perform("stop")
     bench.run(0.5)
     # By hand.
-    bench.motion_group.jump(here)
+    bench.motion_group.jump(current)
     bench.start_again()
     link.close(then=1.5)
     link = bench.motion()
-    there = changed(here, 1, inward(bench.group.joints[1], here[1], 0.05))
-    bench.moves_through(link, bench.way_to(there))
+    target = changed(current, 1, inward(bench.group.joints[1], current[1], 0.05))
+    bench.assert_moves_through(link, bench.way_to(target))
     if not bench.streams:
         return
     # Nor is the last instruction of an earlier program executed again.
@@ -169,16 +171,16 @@ def _is_over(bench: Bench) -> None:
     bench.wait_until_at(moves[-1].joints, 60)
     _asked_in_a_stay(bench, link)
     moves, since = straight_moves(bench, 2, RATE * 0.6), bench.now
-    begun = bench.position
+    started = bench.position
     client.takes("a program behind a trajectory", moves)
     bench.wait_until_at(moves[-1].joints, 60)
-    bench.followed([begun, *(move.joints for move in moves)], since=since, corner=0.002)
+    bench.followed([started, *(move.joints for move in moves)], since=since, corner=0.002)
 
 
 def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
     """A trajectory with SPEED in a stay at its end, which is over."""
     control, points = bench.control(), straight(bench, 2, 1.0)
-    bench.sets_off(link, [*points, (points[1][0], 2.0)])
+    bench.start_motion(link, [*points, (points[1][0], 2.0)])
     bench.wait_until_at(points[1][0], 5)
     # Until the motion task knows that the robot stands.
     bench.run(0.3 + 2 * bench.setting.motion.settle)
@@ -191,23 +193,23 @@ def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
 @case("speed-said-enough", "SpeedRefresh is said for as long as it may be lost, and no longer")
 def _said_enough(bench: Bench) -> None:
     """It is said again at the full speed of the next trajectory, and then left alone."""
-    control, link, said = bench.control(), bench.motion(), _refreshes(bench)
+    control, link, log_entries = bench.control(), bench.motion(), _refreshes(bench)
     points = straight(bench, 2, 1.0)
-    bench.sets_off(link, points, 0.3)
+    bench.start_motion(link, points, 0.3)
     done(control.ask(messages.RawSpeed(50)), "SPEED 50")
-    if {value for _, value in said} != {50.0}:
+    if {value for _, value in log_entries} != {50.0}:
         raise CheckFailed(
-            f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {said}"
+            f"SPEED 50 of a move that is under way is confirmed, SpeedRefresh: {log_entries}"
         )
     bench.wait_until_at(points[-1][0], 20)
     bench.run(0.5)
     since, points = bench.now, straight(bench, 5, 1.0)
-    bench.sets_off(link, points, 2.0)
-    if not any(when > since for when, _ in said):
+    bench.start_motion(link, points, 2.0)
+    if not any(when > since for when, _ in log_entries):
         raise CheckFailed("a speed is over, and SpeedRefresh has not said so while the robot moves")
     enough = bench.now
     bench.wait_until_at(points[-1][0], 20)
-    late = [when for when, _ in said if enough < when < bench.now - 0.5]
+    late = [when for when, _ in log_entries if enough < when < bench.now - 0.5]
     if late:
         raise CheckFailed(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
 
@@ -223,13 +225,13 @@ def _keeps_own(bench: Bench) -> None:
         for percent in (50.0, 100.0):
             points = straight(other, 2, 1.0)
             since = other.now
-            other.sets_off(link, points, 0.3)
+            other.start_motion(link, points, 0.3)
             done(control.ask(messages.RawSpeed(percent)), "SPEED")
             if abs(group.refresh - 0.5 * percent / 100) > 1e-3:
                 raise CheckFailed(f"SPEED {percent}, SpeedRefresh was 0.5 and is {group.refresh}")
             other.arrives(points, since, 100)
             other.run(1)
-            other.sets_off(link, straight(other, 2, 0.5), 0.6)
+            other.start_motion(link, straight(other, 2, 0.5), 0.6)
             other.wait_until_standing(30)
             if (round(group.refresh, 3), group.override) != (0.5, 0.8):
                 raise CheckFailed(
@@ -239,14 +241,14 @@ def _keeps_own(bench: Bench) -> None:
 
 def _refreshes(bench: Bench) -> list[tuple[float, float]]:
     """From now on, when the motion task says which SpeedRefresh."""
-    said: list[tuple[float, float]] = []
+    log_entries: list[tuple[float, float]] = []
 
     def noted(as_before: Instruction) -> Instruction:
         def noting(task: Task, percent: float) -> object:
-            said.append((bench.now, percent))
+            log_entries.append((bench.now, percent))
             return as_before(task, percent)
 
         return noting
 
     wrapped(bench.rapid_task("ROS_motion"), "SpeedRefresh", noted)
-    return said
+    return log_entries

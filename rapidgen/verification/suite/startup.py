@@ -23,14 +23,14 @@ def _one_other(bench: Bench) -> None:
         watcher, link = other.watcher(), other.motion()
         other.run(0.3)
         events = [" ".join(e.texts) for e in other.controller.log if "different builds" in str(e)]
-        wanted = [f"Task {t.name}," for t in tasks if any(m.path == path for m in t.modules)]
-        if len(events) != len(wanted) or not all(any(w in e for e in events) for w in wanted):
+        expected = [f"Task {t.name}," for t in tasks if any(m.path == path for m in t.modules)]
+        if len(events) != len(expected) or not all(any(w in e for e in events) for w in expected):
             raise CheckFailed(f"{path} is of another build, the event log says {events}")
         link.send(raw_point(-1, other.position, 1.0))
         other.run(0.3)
-        told = other.progress(watcher)
-        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
-            raise CheckFailed(f"{path} is of another build, PROGRESS says {told}")
+        reply = other.progress(watcher)
+        if (reply.state, reply.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
+            raise CheckFailed(f"{path} is of another build, PROGRESS says {reply}")
         if other.status(watcher).motion_possible:
             raise CheckFailed("modules of several builds: STATUS says that motion is possible")
 
@@ -48,20 +48,20 @@ def _power_returns(bench: Bench) -> None:
         bench.run(0.2)
         number = bench.progress(watcher).trajectory
         bench.controller.perform("power-loss")
-        bench.stays(0.2, "the power has failed")
+        bench.assert_at_rest(0.2, "the power has failed")
         bench.start_again()
-        bench.stays(0.8, "the power came back")
+        bench.assert_at_rest(0.8, "the power came back")
         watcher, link = bench.watcher(), bench.motion()
-        told, status = bench.progress(watcher), bench.status(watcher)
-        if told.trajectory != number or told.state in (
+        reply, status = bench.progress(watcher), bench.status(watcher)
+        if reply.trajectory != number or reply.state in (
             RawTrajectoryState.RECEIVING,
             RawTrajectoryState.MOVING,
         ):
-            raise CheckFailed(f"trajectory {number} was there when the power failed: {told}")
+            raise CheckFailed(f"trajectory {number} was there when the power failed: {reply}")
         if status.motion_possible != 1 or status.in_motion:
             raise CheckFailed(f"the power came back, STATUS says {status}")
         link.send(bench.download(bench.wave(5))[3 * (POINT_BYTES) :])
-        bench.stays(0.5, "half of it came before the power failed")
-        bench.moves_through(link, bench.wave(2))
+        bench.assert_at_rest(0.5, "half of it came before the power failed")
+        bench.assert_moves_through(link, bench.wave(2))
         link.close()
         watcher.close(then=0.1)

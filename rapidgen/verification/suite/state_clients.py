@@ -114,13 +114,13 @@ def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
     if bench.setting.dialect.send_attends and not least <= held < 0.35:
         raise CheckFailed(f"a client that does not read has held up others for {held:.3f} s")
     bench.run(1)
-    found = rounds(reader, since)
-    gaps = [b.time - a.time for a, b in pairwise(found)]
+    result = rounds(reader, since)
+    gaps = [b.time - a.time for a, b in pairwise(result)]
     if any(a + b < 0.8 * bench.config.state_period for a, b in pairwise(gaps)):
         raise CheckFailed("what could not be sent in time comes in a burst")
-    on_turn(bench, found[1:], "behind a client that did not read")
+    on_turn(bench, result[1:], "behind a client that did not read")
     link.read_on()
-    link.wait_until_lost(5, "a client that does not read is dropped")
+    link.wait_disconnected(5, "a client that does not read is dropped")
 
 
 @case(
@@ -166,7 +166,7 @@ def _does_not_read(bench: Bench) -> None:
 def _fails_to_send(bench: Bench, reader: RawLink) -> None:
     """Nothing is known of what a send that failed has sent: its client is dropped."""
     recovers = fails(bench, "ROS_stateServer", "SocketSend", "ERR_SOCK_CLOSED", _CLIENTS)
-    reader.wait_until_lost(0.3, "a client is dropped when a send to it fails")
+    reader.wait_disconnected(0.3, "a client is dropped when a send to it fails")
     recovers()
     bench.status(bench.state(), 1)
 
@@ -195,22 +195,22 @@ def _feedback(bench: Bench) -> None:
     bench.wait_until_at(points[-1][0])
     bench.run(1)
     for one in (first, link):
-        told = one.told(messages.RawJointFeedback)
-        if len(told) < 20:
-            raise CheckFailed(f"{len(told)} JOINT_FEEDBACK came")
-        _is_motion(bench, told[2:])
-    seen = {told.joints for _, told in link.told(messages.RawJointPosition)}
-    if any(told.positions not in seen for _, told in link.told(messages.RawJointFeedback)):
+        reply = one.told(messages.RawJointFeedback)
+        if len(reply) < 20:
+            raise CheckFailed(f"{len(reply)} JOINT_FEEDBACK came")
+        _is_motion(bench, reply[2:])
+    seen = {reply.joints for _, reply in link.told(messages.RawJointPosition)}
+    if any(reply.positions not in seen for _, reply in link.told(messages.RawJointFeedback)):
         raise CheckFailed("JOINT_FEEDBACK tells other joints than JOINT")
     if bench.state().told(messages.RawJointFeedback):
         raise CheckFailed("JOINT_FEEDBACK comes to a client that did not ask for it")
 
 
-def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.RawJointFeedback]]) -> None:
+def _is_motion(bench: Bench, reply: Sequence[tuple[float, messages.RawJointFeedback]]) -> None:
     """Positions, times and velocities belong together."""
     count = len(bench.position)
     moved = False
-    for (_, before), (when, now) in pairwise(told):
+    for (_, before), (when, now) in pairwise(reply):
         seconds = now.time - before.time
         if abs(seconds - bench.config.state_period) > 0.5 * bench.config.state_period:
             raise CheckFailed(
@@ -245,14 +245,14 @@ def _write(
     bench.controller.log.write(code, kind, title, *texts, task=task)
 
 
-def _are_told(link: RawLink, since: float, wanted: Sequence[_Event]) -> None:
+def _are_told(link: RawLink, since: float, expected: Sequence[_Event]) -> None:
     """Broken unless just these events were told, in order, no more than ten a second."""
-    found = link.told(messages.RawEvent, since)
-    told = [(e.domain, e.number, e.type, e.title.rstrip(), e.first, e.second) for _, e in found]
-    if told != list(wanted):
-        raise CheckFailed(f"wanted are events {wanted}, EVENT told {told}")
+    result = link.told(messages.RawEvent, since)
+    reply = [(e.domain, e.number, e.type, e.title.rstrip(), e.first, e.second) for _, e in result]
+    if reply != list(expected):
+        raise CheckFailed(f"wanted are events {expected}, EVENT told {reply}")
     # One is late, and the next one in time: nearer than they were sent, but ten take their second.
-    times = [when for when, _ in found]
+    times = [when for when, _ in result]
     near = any(b - a < 0.05 for a, b in pairwise(times))
     if near or any(b - a < 0.95 for a, b in zip(times, times[10:], strict=False)):
         raise CheckFailed(f"events come at {times}")
@@ -264,17 +264,17 @@ def _burst(bench: Bench, link: RawLink, count: int) -> tuple[float, list[_Event]
     before = len(link.told(messages.RawEvent))
     _write(bench, 100, "First")
     bench.until(lambda: len(link.told(messages.RawEvent)) > before, 1, "an event is told")
-    wanted: list[_Event] = [(2, 100, 2, "First", "", "")]
+    expected: list[_Event] = [(2, 100, 2, "First", "", "")]
     for number in range(count):
         # A title has room for 80 characters; one may be empty.
         title = "" if number == 7 else f"Größe {number} " + number % 5 * "of a long row "
         below = ("", f"cell/weld/{number}", "x" * 80)[number % 3], "y" * 80 * (number % 2)
         _write(bench, number, title * (1 + 9 * (number == 9)), kinds[number % 3], *below)
         text = (title * (1 + 9 * (number == 9)))[:80].rstrip()
-        wanted.append((number % 9 + 1, number, number % 3 + 1, text, *below))
+        expected.append((number % 9 + 1, number, number % 3 + 1, text, *below))
     if count > _WAITING:
-        wanted[_WAITING + 1 :] = [(0, count - _WAITING, 2, "Events that were not told", "", "")]
-    return since, wanted
+        expected[_WAITING + 1 :] = [(0, count - _WAITING, 2, "Events that were not told", "", "")]
+    return since, expected
 
 
 @case("events", "EVENT tells the controller's events to those who ask", needs="events")
@@ -286,34 +286,34 @@ def _events(bench: Bench) -> None:
         # The last values of counters come after years.
         server[f"ROS_stateServer:{name}"] = WRAP - 12
     for count in (12, 16, 17, 21):
-        since, wanted = _burst(bench, links[0], count)
-        bench.run(0.12 * (len(wanted) + 2))
+        since, expected = _burst(bench, links[0], count)
+        bench.run(0.12 * (len(expected) + 2))
         for link in (links[0], links[2]):
-            _are_told(link, since, wanted)
+            _are_told(link, since, expected)
         if links[1].told(messages.RawEvent):
             raise CheckFailed("EVENT comes to a client that did not ask for it")
     # Nobody wants those that still wait, nor the number of the others.
-    since, wanted = _burst(bench, links[0], 20)
+    since, expected = _burst(bench, links[0], 20)
     subscribe(bench, RawFeature.PROGRESS, links[2])
     subscribe(bench, RawFeature.PROGRESS, links[0])
     bench.run(0.3)
-    seen, begun = len(links[0].told(messages.RawEvent, since)), since
+    seen, started = len(links[0].told(messages.RawEvent, since)), since
     for number in range(100):
         _write(bench, number, "Nobody listens")
     bench.run(0.5)
-    bench.healthy()
+    bench.assert_healthy()
     since = bench.now
     subscribe(bench, RawFeature.EVENTS, links[2])
     bench.run(0.5)
     if (
         seen > 8
-        or len(links[0].told(messages.RawEvent, begun)) > seen
+        or len(links[0].told(messages.RawEvent, started)) > seen
         or links[2].told(messages.RawEvent, since)
     ):
         raise CheckFailed("events from before HELLO are told")
-    since, wanted = _burst(bench, links[2], 2)
+    since, expected = _burst(bench, links[2], 2)
     bench.run(0.5)
-    _are_told(links[2], since, wanted)
+    _are_told(links[2], since, expected)
     links[2].close(then=0.5)
     for number in range(100):
         _write(bench, number, "Who listened has left")
@@ -335,26 +335,26 @@ def _limits_of_the_controller(bench: Bench) -> None:
     )
     with bench.beside(bench.system, robots) as other:
         link = other.state()
-        told = other.says_hello(link)
-        if abs(told.lower[0] - narrow.lower) + abs(told.upper[0] - narrow.upper) > 1e-4:
+        reply = other.send_hello(link)
+        if abs(reply.lower[0] - narrow.lower) + abs(reply.upper[0] - narrow.upper) > 1e-4:
             raise CheckFailed(
                 f"joint 1 may move from {narrow.lower:.4f} to {narrow.upper:.4f}, HELLO says "
-                f"{told.lower[0]:.4f} to {told.upper[0]:.4f}"
+                f"{reply.lower[0]:.4f} to {reply.upper[0]:.4f}"
             )
-        said = [e for e in other.controller.log if "joint 1 are narrower" in str(e)]
-        if len(said) != 1:
+        log_entries = [e for e in other.controller.log if "joint 1 are narrower" in str(e)]
+        if len(log_entries) != 1:
             raise CheckFailed(
-                f"limits differ from the controller's, the event log says {len(said)}"
+                f"limits differ from the controller's, the event log says {len(log_entries)}"
             )
         for value in (narrow.lower - 0.05 * half, narrow.upper + 0.05 * half):
             points = [(p, 60.0) for p, _ in other.wave(4)]
             points[2] = ((value, *points[2][0][1:]), 60.0)
             refused(other, other.download(points), [RawReason.JOINT_LIMIT], 1, 2)
         for value in (narrow.lower, narrow.upper):
-            here = other.position
-            target = (value, *here[1:])
+            current = other.position
+            target = (value, *current[1:])
             seconds = other.seconds_to(target)
             motion = other.motion()
-            motion.send(other.download([(here, 10.0), (target, seconds), (target, 0.5)]))
+            motion.send(other.download([(current, 10.0), (target, seconds), (target, 0.5)]))
             other.wait_until_at(target, 20 + 4 * seconds)
             motion.close(then=1.5)

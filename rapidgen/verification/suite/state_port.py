@@ -43,29 +43,29 @@ class Round(NamedTuple):
 
 def content(one: Round, kind: type[C]) -> C:
     """The first message of a kind in a round."""
-    found = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
-    if found is None:
+    match = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
+    if match is None:
         raise CheckFailed(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
-    return found
+    return match
 
 
 def rounds(link: RawLink, since: float) -> list[Round]:
     """What a client was told since a time, by rounds. Each begins with JOINT; replies are none."""
-    found: list[Round] = []
+    failures: list[Round] = []
     for when, frame in link.frames:
         if when < since or frame.comm == RawComm.REPLY:
             continue
-        if frame.number == messages.JOINT_POSITION or not found:
-            found.append(Round(when, []))
-        found[-1].frames.append(frame)
-    return found
+        if frame.number == messages.JOINT_POSITION or not failures:
+            failures.append(Round(when, []))
+        failures[-1].frames.append(frame)
+    return failures
 
 
 def subscribe(bench: Bench, features: RawFeature, link: RawLink | None = None) -> RawLink:
     """A client, new or not, that says HELLO to just these features."""
     client = link if link is not None else bench.state()
     client.read()
-    bench.says_hello(client, int(features))
+    bench.send_hello(client, int(features))
     return client
 
 
@@ -74,12 +74,12 @@ def _late(bench: Bench) -> float:
     return 0.005 * bench.setting.slowness
 
 
-def on_turn(bench: Bench, found: Sequence[Round], what: str) -> None:
+def on_turn(bench: Bench, result: Sequence[Round], what: str) -> None:
     """Broken unless rounds came a period apart, none missed, whatever each of them took."""
     period = bench.config.state_period
-    if len(found) < 3:
-        raise CheckFailed(f"{what}: {len(found)} rounds")
-    offs = [r.time - found[0].time - n * period for n, r in enumerate(found)]
+    if len(result) < 3:
+        raise CheckFailed(f"{what}: {len(result)} rounds")
+    offs = [r.time - result[0].time - n * period for n, r in enumerate(result)]
     if max(offs) - min(offs) > 2 * _late(bench):
         raise CheckFailed(
             f"{what}: rounds are {min(offs):.4f} to {max(offs):.4f} s off their turns"
@@ -105,18 +105,18 @@ def _all_alike(
     bench: Bench, clients: Sequence[tuple[RawLink, RawFeature]], since: float
 ) -> list[Round]:
     """The rounds of the first client; Broken unless each gets what it asked for, and the same."""
-    told = [rounds(link, since) for link, _ in clients]
-    for (_, features), own in zip(clients, told, strict=True):
+    reply = [rounds(link, since) for link, _ in clients]
+    for (_, features), own in zip(clients, reply, strict=True):
         on_turn(bench, own, f"a client of {features!r}")
-        wanted = [*PLAIN, *(n for f, n in _FOLLOW.items() if f in features)]
+        expected = [*PLAIN, *(n for f, n in _FOLLOW.items() if f in features)]
         for one in own:
-            if one.numbers != wanted:
+            if one.numbers != expected:
                 raise CheckFailed(f"who asked for {features!r} is told messages {one.numbers}")
-    counts = [len(own) for own in told]
+    counts = [len(own) for own in reply]
     if max(counts) - min(counts) > 1:
         raise CheckFailed(f"clients of one server are told {counts} rounds")
     # The last round may be under way to the others.
-    for moment in zip(*told, strict=False):
+    for moment in zip(*reply, strict=False):
         seen: dict[int, messages.RawFrame] = {}
         for one in moment:
             for frame in one.frames:
@@ -124,23 +124,23 @@ def _all_alike(
                     raise CheckFailed(
                         f"at {one.time:.3f} s clients are told different {frame.number}"
                     )
-    return told[0]
+    return reply[0]
 
 
-def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
+def _is_true(bench: Bench, reply: Sequence[Round]) -> set[int]:
     """Broken unless joints, STATUS and PROGRESS of each round fit each other; the states seen."""
     seen: set[int] = set()
-    before, stood = bench.track_at(told[0].time), 0
+    before, stood = bench.track_at(reply[0].time), 0
     motion = bench.setting.motion
     late = (motion.settle + motion.servo_lag) / bench.config.state_period
     # What STATUS says of the motion is read behind PROGRESS: something else may be true by then.
     slow = bench.setting.random_schedule or bench.setting.slowness > 1
-    for one, following in zip_longest(told, told[1:]):
+    for one, following in zip_longest(reply, reply[1:]):
         joints, status = content(one, messages.RawJointPosition), content(one, messages.RawStatus)
         progress = content(one, messages.RawProgress)
-        count, here = len(before), bench.track_at(one.time)
-        if distance(joints.joints[:count], here) > 0.03 or any(joints.joints[count:]):
-            raise CheckFailed(f"at {one.time:.3f} s the robot is at {here}, {joints}")
+        count, current = len(before), bench.track_at(one.time)
+        if distance(joints.joints[:count], current) > 0.03 or any(joints.joints[count:]):
+            raise CheckFailed(f"at {one.time:.3f} s the robot is at {current}, {joints}")
         seen.add(progress.state)
         wrong = progress.state in (RawTrajectoryState.REFUSED, RawTrajectoryState.FAILED)
         code = progress.reason + 100 * progress.joint if wrong else 0
@@ -150,13 +150,13 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
         if slow and following is not None and status.in_motion != moving:
             then = content(following, messages.RawProgress)
             moving = then.state == RawTrajectoryState.MOVING
-        stood = stood + 1 if here == before else 0
+        stood = stood + 1 if current == before else 0
         if status.in_motion != moving and (moving or stood > late):
             raise CheckFailed(f"{progress} is told with {status}")
         plain = (status.drives_powered, status.e_stopped, status.mode, status.motion_possible)
         if plain != (1, 0, RawMode.AUTO, 1):
             raise CheckFailed(f"all is well, STATUS says {status}")
-        before = here
+        before = current
     return seen
 
 
@@ -166,8 +166,8 @@ def _each_round(bench: Bench) -> None:
     some, everything = RawFeature.PROGRESS, RawFeature.PROGRESS | RawFeature.FEEDBACK
     links = [subscribe(bench, everything), subscribe(bench, _NONE), subscribe(bench, some)]
     motion, joints, period = bench.motion(), bench.group.joints, bench.config.state_period
-    for wishes in ((everything, _NONE, some), (some, _NONE, some)):
-        subscribe(bench, wishes[0], links[0])
+    for options in ((everything, _NONE, some), (some, _NONE, some)):
+        subscribe(bench, options[0], links[0])
         number = bench.progress(links[0]).trajectory
         since = _pause(bench, links[0])
         points = bench.wave(5)
@@ -182,11 +182,11 @@ def _each_round(bench: Bench) -> None:
         bench.run(3 * period)
         motion.send(STOP)
         bench.run(3 * period)
-        told = _all_alike(bench, list(zip(links, wishes, strict=True)), since)
-        states = _is_true(bench, told)
+        reply = _all_alike(bench, list(zip(links, options, strict=True)), since)
+        states = _is_true(bench, reply)
         if not states >= {2, 3, 4, 6}:
             raise CheckFailed(f"a trajectory, a refusal and a STOP: PROGRESS tells states {states}")
-        progress = [content(one, messages.RawProgress) for one in told]
+        progress = [content(one, messages.RawProgress) for one in reply]
         numbers = list(dict.fromkeys(p.trajectory for p in progress))
         if numbers[-2:] != [number + 1, number + 2] or not number <= numbers[0]:
             raise CheckFailed(f"two trajectories came after {number}, PROGRESS tells of {numbers}")
@@ -204,14 +204,14 @@ _WRAP = 1000
 """s: where the time stamp of JOINT_FEEDBACK begins anew, as docs/use/driver.md promises."""
 
 
-def _stamps(told: Sequence[Round]) -> list[float]:
-    return [content(one, messages.RawJointFeedback).time for one in told]
+def _stamps(reply: Sequence[Round]) -> list[float]:
+    return [content(one, messages.RawJointFeedback).time for one in reply]
 
 
-def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
+def _is_measured(bench: Bench, reply: Sequence[Round], what: str) -> None:
     """Broken unless stamps of JOINT_FEEDBACK tell the time of the rounds, and velocities theirs."""
     period, count = bench.config.state_period, len(bench.position)
-    for before, now in pairwise(content(one, messages.RawJointFeedback) for one in told):
+    for before, now in pairwise(content(one, messages.RawJointFeedback) for one in reply):
         if not (0 <= now.time < _WRAP and now.valid_fields == 0b111):
             raise CheckFailed(f"{what}: {now}")
         seconds = (now.time - before.time) % _WRAP
@@ -261,12 +261,12 @@ def _over_the_ends(bench: Bench) -> None:
             motion.send(bench.download(points))
         # The round that was waited for, and at once the next one, which has come too late.
         bench.run(max(left, 0.0) + 2)
-        found = rounds(link, since)[1:]
-        on_turn(bench, found, what)
-        _is_true(bench, found)
-        _is_measured(bench, found, what)
-        stamps = _stamps(found)
-        lost = found[-1].time - found[0].time - (stamps[-1] - stamps[0]) % _WRAP
+        result = rounds(link, since)[1:]
+        on_turn(bench, result, what)
+        _is_true(bench, result)
+        _is_measured(bench, result, what)
+        stamps = _stamps(result)
+        lost = result[-1].time - result[0].time - (stamps[-1] - stamps[0]) % _WRAP
         if abs(lost) > _late(bench):
             raise CheckFailed(f"{what}: the stamps have lost {lost:.4f} s")
     _late_by_half(bench, link)
@@ -279,8 +279,8 @@ def _late_by_half(bench: Bench, link: RawLink) -> None:
     bench.run(5 * period)
     times = [one.time for one in rounds(link, since)]
     gaps = [b - a for a, b in pairwise(times)]
-    wanted = (0.0, 0.5 * period, period)
-    if any(abs(gap - w) > 2 * _late(bench) for gap, w in zip(gaps, wanted, strict=False)):
+    expected = (0.0, 0.5 * period, period)
+    if any(abs(gap - w) > 2 * _late(bench) for gap, w in zip(gaps, expected, strict=False)):
         raise CheckFailed(f"a round was late by half a period, rounds came at {times}")
 
 
@@ -299,7 +299,7 @@ def _not_over_yet(bench: Bench) -> None:
         ("STOP", RawTrajectoryState.STOPPED, RawReason.STOPPED),
         ("leaves", RawTrajectoryState.FAILED, RawReason.CLIENT_LOST),
     ):
-        bench.sets_off(motion, bench.wave(8), 0.6)
+        bench.start_motion(motion, bench.wave(8), 0.6)
         end = fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 999)
         if ending == "STOP":
             motion.send(STOP)
@@ -310,10 +310,10 @@ def _not_over_yet(bench: Bench) -> None:
         since = _pause(bench, link)
         bench.run(3 * period)
         for one in rounds(link, since):
-            status, told = content(one, messages.RawStatus), content(one, messages.RawProgress)
-            if (told.state, told.reason, told.point) != (state, reason, told.reached):
+            status, reply = content(one, messages.RawStatus), content(one, messages.RawProgress)
+            if (reply.state, reply.reason, reply.point) != (state, reason, reply.reached):
                 raise CheckFailed(
-                    f"{ending} came, its path is not cleared yet, PROGRESS says {told}"
+                    f"{ending} came, its path is not cleared yet, PROGRESS says {reply}"
                 )
             if (status.in_motion, status.motion_possible) != (0, 0):
                 raise CheckFailed(
@@ -336,42 +336,42 @@ def _first_of_all(bench: Bench) -> None:
     """Who comes to a server without clients is told at once, and time begins anew for him."""
     period, motion = bench.config.state_period, bench.motion()
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
-    error, standing, stop = (names[n] for n in ("controller_error", "standing", "emergency_stop"))
+    error, at_rest, stop = (names[n] for n in ("controller_error", "standing", "emergency_stop"))
     for visit in range(3):
         came = bench.now
         bench.controller.signals[error] = visit % 2
         link = bench.state()
         bench.until(lambda: bool(link.frames), 0.1, "the first client is told")  # noqa: B023
         bench.run(4 * period)
-        found = rounds(link, came)
-        on_turn(bench, found, f"visit {visit + 1}")
-        first = content(found[0], messages.RawStatus)
+        result = rounds(link, came)
+        on_turn(bench, result, f"visit {visit + 1}")
+        first = content(result[0], messages.RawStatus)
         if first.in_motion:
             raise CheckFailed(
                 f"the robot has moved while nobody looked, the first STATUS is {first}"
             )
         if first.in_error != visit % 2:
             raise CheckFailed(f"signal {error} is {visit % 2}, the first STATUS is {first}")
-        for name, value in ((standing, 0), (stop, 1), (standing, 1), (stop, 0)):
+        for name, value in ((at_rest, 0), (stop, 1), (at_rest, 1), (stop, 0)):
             bench.controller.signals[name] = value
             since = _pause(bench, link)
             bench.run(2 * period)
             status = content(rounds(link, since)[-1], messages.RawStatus)
-            wanted = tuple(bench.controller.signals[n] for n in (standing, stop))
-            if (1 - status.in_motion, status.e_stopped) != wanted:
-                raise CheckFailed(f"signals {standing}, {stop} are {wanted}, STATUS says {status}")
+            expected = tuple(bench.controller.signals[n] for n in (at_rest, stop))
+            if (1 - status.in_motion, status.e_stopped) != expected:
+                raise CheckFailed(f"signals {at_rest}, {stop} are {expected}, STATUS says {status}")
         subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS, link)
         _pause(bench, link)
         _advance(bench, 0.3)
         since = _pause(bench, link)
         bench.run(2 * period)
         stamp = _stamps(rounds(link, since))[-1]
-        if abs(stamp - (bench.now - found[0].time) - 0.3) > period:
+        if abs(stamp - (bench.now - result[0].time) - 0.3) > period:
             raise CheckFailed(
                 f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}"
             )
         link.close(abort=visit == 1, then=2 * period + 0.1)
-        bench.moves_through(motion, bench.wave(3, duration=0.2))
+        bench.assert_moves_through(motion, bench.wave(3, duration=0.2))
         # Its last hair's breadth belongs to the motion.
         bench.wait_until_standing(3)
         bench.run(2 * bench.setting.motion.settle)
@@ -386,12 +386,16 @@ def _moved_by_others(bench: Bench, link: RawLink) -> None:
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
         for size, times in ((0.2, 1), (0.03, 0)):
-            here, since = bench.position, _pause(bench, link)
-            step = size * unit * (1 if joint.upper - here[axis] > here[axis] - joint.lower else -1)
-            group.jump((*here[:axis], here[axis] + step, *here[axis + 1 :]))
+            current, since = bench.position, _pause(bench, link)
+            step = (
+                size
+                * unit
+                * (1 if joint.upper - current[axis] > current[axis] - joint.lower else -1)
+            )
+            group.jump((*current[:axis], current[axis] + step, *current[axis + 1 :]))
             bench.run(3 * period)
-            told = [content(one, messages.RawStatus) for one in rounds(link, since)]
-            seen = sum(status.in_motion == 1 for status in told)
+            reply = [content(one, messages.RawStatus) for one in rounds(link, since)]
+            seen = sum(status.in_motion == 1 for status in reply)
             if seen != times:
                 raise CheckFailed(
                     f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so"

@@ -17,27 +17,27 @@ def _stops_on_the_path(bench: Bench) -> None:
     for delay in (0.02, 0.3, 0.55, 1.1):
         points = bench.wave(10)
         since = bench.now
-        bench.sets_off(link, points, delay)
+        bench.start_motion(link, points, delay)
         link.send(STOP)
-        asked = bench.now
+        requested = bench.now
         link.expect_reply(1, "STOP is answered while the robot moves")
         bench.wait_until_standing(5)
-        if bench.now - asked > 1.5:
-            raise CheckFailed(f"the robot stood {bench.now - asked:.2f} s after STOP")
+        if bench.now - requested > 1.5:
+            raise CheckFailed(f"the robot stood {bench.now - requested:.2f} s after STOP")
         bench.followed([p for p, _ in points], since=since)
-        bench.stays(3, "it was stopped")
+        bench.assert_at_rest(3, "it was stopped")
 
 
 @case("again-after-stop", "a new trajectory moves after a STOP, again and again", "R5, R6")
 def _moves_again_after_stop(bench: Bench) -> None:
     link = bench.motion()
     for _ in range(4):
-        bench.sets_off(link, bench.wave(10), 0.4)
+        bench.start_motion(link, bench.wave(10), 0.4)
         link.stop(1)
         if bench.setting.motion.servo_lag:
             # Where it is now is too far from where it comes to rest to be a start.
             bench.wait_until_standing(2)
-        bench.moves_through(link, bench.wave(3))
+        bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("stop-any-moment", "STOP at every moment of the hand-over", "R7b")
@@ -49,8 +49,8 @@ def _stop_at_every_moment(bench: Bench) -> None:
         link.send(bench.download(points))
         bench.run(step * 0.005)
         link.stop(2, f"STOP {step * 5} ms behind a trajectory is answered")
-        bench.rests(5, 0.5, "it was stopped")
-    bench.moves_through(link, bench.wave(4))
+        bench.wait_until_at_rest(5, 0.5, "it was stopped")
+    bench.assert_moves_through(link, bench.wave(4))
 
 
 @case("stop-in-download", "STOP in a download: what follows belongs to nothing")
@@ -59,28 +59,28 @@ def _stop_in_a_download(bench: Bench) -> None:
     frames = bench.download(bench.wave(8))
     link.send(frames[: 68 * 4] + STOP)
     link.expect_reply(1, "STOP in a download is answered")
-    bench.stays(2, "the download was stopped")
+    bench.assert_at_rest(2, "the download was stopped")
     link.send(frames[68 * 4 :])
-    bench.stays(2, "points behind a STOP belong to no trajectory")
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_at_rest(2, "points behind a STOP belong to no trajectory")
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("stop-thrice", "several STOPs at once are all answered")
 def _twice_stopped(bench: Bench) -> None:
     link = bench.motion()
-    bench.sets_off(link, bench.wave(10))
+    bench.start_motion(link, bench.wave(10))
     link.send(STOP + STOP + STOP)
     for _ in range(3):
         link.expect_reply(2, "each of three STOPs is answered")
     bench.wait_until_standing(5)
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("superseded", "a new trajectory ends the one under way", "R5")
 def _new_trajectory_while_moving(bench: Bench) -> None:
     link = bench.motion()
     first = bench.wave(10)
-    bench.sets_off(link, first, 0.6)
+    bench.start_motion(link, first, 0.6)
     # It begins where the old one began: too far away by now, or just in reach. Either way the
     # old one is over and nothing of it is executed any more.
     second = bench.wave(4)
@@ -95,16 +95,16 @@ def _new_trajectory_while_moving(bench: Bench) -> None:
         raise CheckFailed("the old trajectory went on after a new one was sent")
     if reached:
         bench.followed([bench.track_at(since), *(p for p, _ in second)], since=since, corner=0.1)
-    bench.stays(2, "nothing is left to execute")
-    bench.moves_through(link, bench.wave(3))
+    bench.assert_at_rest(2, "nothing is left to execute")
+    bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("ends-once", "a finished trajectory is not executed again")
 def _ends_once(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(5)
-    bench.moves_through(link, points)
-    bench.stays(30, "the trajectory is done")
+    bench.assert_moves_through(link, points)
+    bench.assert_at_rest(30, "the trajectory is done")
 
 
 @case("ring-is-empty", "a stopped long trajectory leaves nothing behind")
@@ -112,18 +112,18 @@ def _short_way_to_stop(bench: Bench) -> None:
     """Nothing of an old ring is executed when a long trajectory was stopped early."""
     link = bench.motion()
     count = min(bench.config.trajectory.capacity, 400)
-    bench.sets_off(link, bench.wave(count, duration=0.2, size=0.01), 0.2)
+    bench.start_motion(link, bench.wave(count, duration=0.2, size=0.01), 0.2)
     link.stop(3, "STOP behind a long trajectory is answered")
     bench.wait_until_standing(5)
     points = bench.wave(4)
-    bench.moves_through(link, points)
-    bench.stays(2, "the old points are gone")
+    bench.assert_moves_through(link, points)
+    bench.assert_at_rest(2, "the old points are gone")
 
 
 @case("stop-in-status", "STATUS after a STOP")
 def _state_tells_of_the_stop(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
-    bench.sets_off(link, bench.wave(10))
+    bench.start_motion(link, bench.wave(10))
     link.stop(1)
     bench.wait_until_standing(5)
     bench.run(1)

@@ -49,35 +49,41 @@ class _Streams:
 
     def taken(self, count: int, what: str) -> messages.RawPointsAccepted:
         """The last reply; Broken unless all is well with so many points."""
-        told = self.stream.accepted(what)
-        if told[:3] != (self.stream.number, self.trajectory, count):
-            raise CheckFailed(f"{what}: {count} points of {self.trajectory}, the reply is {told}")
-        return told
+        reply = self.stream.accepted(what)
+        if reply[:3] != (self.stream.number, self.trajectory, count):
+            raise CheckFailed(f"{what}: {count} points of {self.trajectory}, the reply is {reply}")
+        return reply
 
     def refused(
-        self, reason: RawReason, taken: int, what: str, *, point: int | None = None, joint: int = 0
+        self,
+        reason: RawReason,
+        accepted: int,
+        what: str,
+        *,
+        point: int | None = None,
+        joint: int = 0,
     ) -> None:
         """Broken unless the last reply is that refusal; it blames the first point not taken."""
-        at = taken if point is None else point
-        wanted = messages.RawPointsRefused(
-            self.stream.number, self.trajectory, taken, reason, at, joint
+        at = accepted if point is None else point
+        expected = messages.RawPointsRefused(
+            self.stream.number, self.trajectory, accepted, reason, at, joint
         )
-        if self.stream.last != wanted:
-            raise CheckFailed(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
+        if self.stream.last != expected:
+            raise CheckFailed(f"{what}: wanted {expected}, the reply is {self.stream.last}")
 
     def strange(self, number: int, reason: RawReason, what: str) -> None:
         """Broken unless the last reply refuses a batch that is of no stream."""
-        wanted = messages.RawPointsRefused(number, 0, 0, reason, -1, 0)
-        if self.stream.last != wanted:
-            raise CheckFailed(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
+        expected = messages.RawPointsRefused(number, 0, 0, reason, -1, 0)
+        if self.stream.last != expected:
+            raise CheckFailed(f"{what}: wanted {expected}, the reply is {self.stream.last}")
 
     def alone(self, sequence: int, what: str) -> None:
         """A point that comes alone, which is refused for that."""
         self.trajectory += 1
         self.link.send(raw_point(sequence, self._bench.position, 1.0, RawComm.REQUEST))
-        told = messages.decode(self.link.expect_reply(2, "a point alone is answered"))
-        if told != messages.RawRefused(RawReason.NO_START, 0, 0):
-            raise CheckFailed(f"{what}: a point alone is answered by {told}")
+        reply = messages.decode(self.link.expect_reply(2, "a point alone is answered"))
+        if reply != messages.RawRefused(RawReason.NO_START, 0, 0):
+            raise CheckFailed(f"{what}: a point alone is answered by {reply}")
 
     def stop(self) -> None:
         """STOP, and its reply."""
@@ -86,37 +92,37 @@ class _Streams:
     def shows(self, state: RawTrajectoryState, counts: tuple[int, ...], reason: int) -> None:
         """Broken unless PROGRESS says so; `counts`: received, and planned and reached if given."""
         self._bench.run(2 * self._bench.config.state_period + 2 * self._bench.setting.motion.settle)
-        told = self._bench.progress(self.watcher)
-        if (told.trajectory, told.state, told.reason) != (self.trajectory, state, reason) or (
-            told[2 : 2 + len(counts)] != counts
+        reply = self._bench.progress(self.watcher)
+        if (reply.trajectory, reply.state, reply.reason) != (self.trajectory, state, reason) or (
+            reply[2 : 2 + len(counts)] != counts
         ):
             raise CheckFailed(
                 f"trajectory {self.trajectory}, {state.name} with {counts} points for "
-                f"{reason}: PROGRESS says {told}"
+                f"{reason}: PROGRESS says {reply}"
             )
 
 
 @case("stream-values", "each value of a stream's points at its bounds and beyond", "R10, R11")
 def _each_value(bench: Bench) -> None:
     """Limits and speeds of each joint, durations: the reply tells which point and joint."""
-    streams, here, policy = _Streams(bench), bench.position, bench.config.trajectory
+    streams, current, policy = _Streams(bench), bench.position, bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
         near = bench.start_tolerance(joint)
         if near > 0:
-            start = changed(here, axis, inward(joint, here[axis], 1.03 * near))
-            streams.begin([(start, 1.0), (here, 1.0)])
+            start = changed(current, axis, inward(joint, current[axis], 1.03 * near))
+            streams.begin([(start, 1.0), (current, 1.0)])
             streams.refused(RawReason.START_TOO_FAR, 0, f"a start at {start}", joint=axis + 1)
         for value in (joint.lower - 0.0015 * unit, joint.upper + 0.0015 * unit):
-            streams.begin([(changed(here, axis, value), 1.0), (here, _SLOW)])
+            streams.begin([(changed(current, axis, value), 1.0), (current, _SLOW)])
             streams.refused(
                 RawReason.JOINT_LIMIT, 0, f"{value} of joint {axis + 1}", joint=axis + 1
             )
     for seconds in (0.0, -1e-6, -2.0):
-        streams.begin([(here, 1.0), (here, 1.0), (here, seconds)])
+        streams.begin([(current, 1.0), (current, 1.0), (current, seconds)])
         streams.refused(RawReason.BAD_DURATION, 2, f"a duration of {seconds} s")
         # What the first one's is, nobody asks; but it is no less than nothing.
-        streams.begin([(here, seconds), (here, 1.0)])
+        streams.begin([(current, seconds), (current, 1.0)])
         if seconds < 0:
             streams.refused(RawReason.BAD_DURATION, 0, f"a first duration of {seconds} s")
         else:
@@ -126,38 +132,38 @@ def _each_value(bench: Bench) -> None:
     short = policy.min_segment - 1e-4
     if short > 0.005:
         for flags in (_NONE, END):
-            streams.begin([(here, 1.0), (here, short), (here, 1.0)], flags)
+            streams.begin([(current, 1.0), (current, short), (current, 1.0)], flags)
             streams.refused(RawReason.SEGMENT_TOO_SHORT, 1, "a short segment in between")
-        streams.begin([(here, 1.0), (here, policy.min_segment), (here, short)])
+        streams.begin([(current, 1.0), (current, policy.min_segment), (current, short)])
         streams.refused(
             RawReason.SEGMENT_TOO_SHORT, 2, "a short segment that is not said to be last"
         )
-        streams.begin([(here, 1.0), (here, policy.min_segment), (here, short)], END)
+        streams.begin([(current, 1.0), (current, policy.min_segment), (current, short)], END)
         streams.taken(3, "a short last segment")
     if bench.group.tcp_speed_limit >= 5:
         _speeds(bench, streams)
 
 
 def _speeds(bench: Bench, streams: _Streams) -> None:
-    here, seconds = bench.position, max(0.1, bench.config.trajectory.min_segment)
-    allowed: list[Point] = [(here, 1.0)]
+    current, seconds = bench.position, max(0.1, bench.config.trajectory.min_segment)
+    allowed: list[Point] = [(current, 1.0)]
     for axis, joint in enumerate(bench.group.joints):
         for share in (0.999, 1.01):
             ends = fast_ends(joint, seconds, share)
             if ends is None:
                 continue
-            one, other = (changed(here, axis, value) for value in ends)
+            one, other = (changed(current, axis, value) for value in ends)
             # A slow beginning: nothing of what is asked is reached before it is over.
             if share < 1:
-                allowed += [(one, _SLOW), (other, seconds), (one, seconds), (here, _SLOW)]
+                allowed += [(one, _SLOW), (other, seconds), (one, seconds), (current, _SLOW)]
             else:
-                streams.begin([(here, 1.0), (other, _SLOW), (one, seconds)])
+                streams.begin([(current, 1.0), (other, _SLOW), (one, seconds)])
                 what = f"joint {axis + 1} from {other} to {one} in {seconds} s"
                 streams.refused(RawReason.TOO_FAST, 2, what, joint=axis + 1)
     streams.begin(allowed)
     streams.taken(len(allowed), "each joint at its speed")
     streams.stop()
-    bench.rests(2, 0.1, "the last stream was stopped")
+    bench.wait_until_at_rest(2, 0.1, "the last stream was stopped")
 
 
 def _said(bench: Bench, reason: RawReason) -> None:
@@ -200,13 +206,13 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
 def _odd_batches(bench: Bench) -> None:
     """A stream is cut by what is wrong of its own, and by nothing else; what was taken is done."""
     streams = _Streams(bench)
-    words = 1 + len(bench.position)
+    values = 1 + len(bench.position)
     for number, (what, first, unreadable) in enumerate(
         (
             ("a damaged batch", 12, None),
             ("a damaged batch behind a hole", 13, None),
-            ("a checksum that cannot be read", 12, _HEAD + 4 + 2 * words),
-            ("a point that cannot be read", 12, _HEAD + 4 + words),
+            ("a checksum that cannot be read", 12, _HEAD + 4 + 2 * values),
+            ("a point that cannot be read", 12, _HEAD + 4 + values),
         )
     ):
         points, since = way(bench, 14), bench.now
@@ -248,41 +254,41 @@ def _odd_batches(bench: Bench) -> None:
 @case("early-ends", "streams that end before they move", "R5")
 def _early_ends(bench: Bench) -> None:
     """Streams that end before they begin to move, and the one with the number 1 among them."""
-    streams, here = _Streams(bench), bench.position
-    far = changed(here, 0, bench.group.joints[0].upper + 1)
-    streams.begin([(here, 1.0)], END)
+    streams, current = _Streams(bench), bench.position
+    far = changed(current, 0, bench.group.joints[0].upper + 1)
+    streams.begin([(current, 1.0)], END)
     streams.taken(1, "a single point")
     bench.run(0.3)
     streams.shows(RawTrajectoryState.DONE, (1, 1, 1), 0)
     streams.stream.put(())
     if streams.taken(1, "a question behind the end").state != RawTrajectoryState.DONE:
         raise CheckFailed(f"a stream is done, the reply is {streams.stream.last}")
-    streams.stream.put([(here, 1.0)])
+    streams.stream.put([(current, 1.0)])
     streams.refused(RawReason.SEQUENCE_GAP, 1, "a single point behind the end")
     streams.begin((), END)
     streams.refused(RawReason.SEQUENCE_GAP, 0, "an end without a point")
-    streams.begin([(here, 1.0), (here, 1.0), (far, _SLOW)])
+    streams.begin([(current, 1.0), (current, 1.0), (far, _SLOW)])
     streams.refused(RawReason.JOINT_LIMIT, 2, "a third point that is too far", joint=1)
     # Nothing of the refusal before is told of the next stream.
     streams.begin()
     before = streams.trajectory
-    streams.link.send(raw_point(-1, here, 1.0))
-    streams.stream.put([(here, 1.0)])
+    streams.link.send(raw_point(-1, current, 1.0))
+    streams.stream.put([(current, 1.0)])
     streams.refused(RawReason.SUPERSEDED, 0, "a point behind a download", point=-1)
     streams.trajectory = before + 1
     # What was being received before a stream begins is forgotten, and what was skipped, too.
     streams.begin()
     streams.alone(1, "a download was under way, then a stream began")
-    for joints in (far, here):
+    for joints in (far, current):
         streams.trajectory += 1
         streams.link.send(raw_point(-1, joints, 1.0) + raw_point(1, far, 1.0))
         streams.begin()
         streams.alone(2, "a download was refused, then a stream began")
         # A point alone is skipped to its end.
-        streams.link.send(raw_point(int(RawSpecial.END), here, 1.0))
+        streams.link.send(raw_point(int(RawSpecial.END), current, 1.0))
     streams.begin()
     streams.stop()
-    short = bytearray(streams.stream.frame([(here, 1.0)] * 2, _NONE))
+    short = bytearray(streams.stream.frame([(current, 1.0)] * 2, _NONE))
     short[28] = 1
     streams.link.send(bytes(short))
     streams.stream.reply()
@@ -294,12 +300,12 @@ def _early_ends(bench: Bench) -> None:
             streams.stream.put(())
             streams.taken(0, "no points while stopped")
             streams.begin()
-        streams.stream.put([(here, 1.0)])
+        streams.stream.put([(current, 1.0)])
         streams.refused(RawReason.NOT_EXECUTING, 0, "a single point while stopped", point=-1)
         bench.controller.perform("start")
         bench.run(0.3)
     _left(bench)
-    bench.stays(0.2, "no stream was to move")
+    bench.assert_at_rest(0.2, "no stream was to move")
 
 
 def _left(bench: Bench) -> None:
@@ -329,9 +335,9 @@ def _room(bench: Bench) -> None:
     """Just as many points as the reply says that there is room for, over the counters' end."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
-    here, most = bench.position, batches.batch_points(len(bench.position))
-    there = bench.wave(2, size=0.01)[1][0]
-    goal: list[Point] = [(there if n % 2 else here, 9.0) for n in range(ring + 20)]
+    current, most = bench.position, batches.batch_points(len(bench.position))
+    target = bench.wave(2, size=0.01)[1][0]
+    goal: list[Point] = [(target if n % 2 else current, 9.0) for n in range(ring + 20)]
     streams.begin(goal[:3], FLUSH)
     bench.wait_until_moving(1)
     bench.run(0.4)
@@ -383,7 +389,7 @@ def _move_fails(bench: Bench) -> None:
     bench.run(0.5)
     bench.wait_until_standing(3)
     streams.stream.put(points[10:14])
-    told = streams.stream.refused(RawReason.COLLISION, "a batch behind a collision")
-    if told.trajectory != streams.trajectory or told.accepted != 10 or not 0 <= told.point < 10:
-        raise CheckFailed(f"a batch behind a collision is answered by {told}")
-    bench.moves_through(streams.link, bench.way_to(points[0][0]))
+    reply = streams.stream.refused(RawReason.COLLISION, "a batch behind a collision")
+    if reply.trajectory != streams.trajectory or reply.accepted != 10 or not 0 <= reply.point < 10:
+        raise CheckFailed(f"a batch behind a collision is answered by {reply}")
+    bench.assert_moves_through(streams.link, bench.way_to(points[0][0]))

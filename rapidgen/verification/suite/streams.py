@@ -34,17 +34,17 @@ def _whole_stream(bench: Bench) -> None:
     stream = Streamer(bench)
     for size in (1, 7, 20):
         since = bench.now
-        asked = sum(d for _, d in points[1:])
+        requested = sum(d for _, d in points[1:])
         stream.number += 1
         stream.sent, stream.points, stream.room = 0, [], bench.config.trajectory.ring - 1
         stream.all(points, size=size)
-        bench.arrives(points, since, 30 + asked)
-        if bench.now - since > 1.3 * asked + 3:
-            raise CheckFailed(f"{asked:.1f} s of a stream took {bench.now - since:.1f} s")
-        told = _progress(bench, watcher)
+        bench.arrives(points, since, 30 + requested)
+        if bench.now - since > 1.3 * requested + 3:
+            raise CheckFailed(f"{requested:.1f} s of a stream took {bench.now - since:.1f} s")
+        reply = _progress(bench, watcher)
         count = len(points)
-        if told[1:] != (RawTrajectoryState.DONE, count, count, count, 0, -1, 0):
-            raise CheckFailed(f"a stream of {count} points is done, PROGRESS says {told}")
+        if reply[1:] != (RawTrajectoryState.DONE, count, count, count, 0, -1, 0):
+            raise CheckFailed(f"a stream of {count} points is done, PROGRESS says {reply}")
         points = [*reversed(points)]
 
 
@@ -60,7 +60,7 @@ def _preload(bench: Bench) -> None:
         stream = Streamer(bench)
         own = [(p, points[1][1]) for p, _ in way(bench, 40, 0.2)]
         stream.takes("the first points", own[:few], BEGIN)
-        bench.stays(3, f"{few} points are less than it wants to have")
+        bench.assert_at_rest(3, f"{few} points are less than it wants to have")
         if flags:
             stream.put((), flags)
         else:
@@ -80,24 +80,24 @@ def _starves(bench: Bench) -> None:
     stream = Streamer(bench)
     stream.takes("the first points", points[:15], BEGIN)
     bench.wait_until_at(points[14][0], 20)
-    bench.stays(2, "the stream has starved")
-    told = _progress(bench, watcher)
-    if (told.state, told.reached, told.reason) != (RawTrajectoryState.STARVED, 15, 0):
-        raise CheckFailed(f"a stream has starved behind 15 points, PROGRESS says {told}")
+    bench.assert_at_rest(2, "the stream has starved")
+    reply = _progress(bench, watcher)
+    if (reply.state, reply.reached, reply.reason) != (RawTrajectoryState.STARVED, 15, 0):
+        raise CheckFailed(f"a stream has starved behind 15 points, PROGRESS says {reply}")
     status = bench.status(watcher)
     if (status.in_motion, status.in_error) != (0, 0):
         raise CheckFailed(f"a stream has starved, STATUS says {status}")
     stream.put(points[15:17])
     if bench.config.trajectory.preload > 3 * points[1][1]:
-        bench.stays(2, "two points are too few to go on with")
+        bench.assert_at_rest(2, "two points are too few to go on with")
     stream.put(points[17:30])
     bench.wait_until_at(points[29][0], 20)
     bench.run(1)
     stream.put(points[30:], END)
     bench.arrives(points, since, 20)
-    told = _progress(bench, watcher)
-    if (told.state, told.reached) != (RawTrajectoryState.DONE, 45):
-        raise CheckFailed(f"a stream that starved twice is done, PROGRESS says {told}")
+    reply = _progress(bench, watcher)
+    if (reply.state, reply.reached) != (RawTrajectoryState.DONE, 45):
+        raise CheckFailed(f"a stream that starved twice is done, PROGRESS says {reply}")
 
 
 def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0) -> None:
@@ -108,16 +108,16 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
     stream.takes("the first points", points[:20], BEGIN)
     bench.wait_until_moving()
     stream.say(data)
-    told = stream.refused(reason, what)
-    if told.accepted != 20 + taken:
-        raise CheckFailed(f"{what}: {20 + taken} points are right, the reply is {told}")
+    reply = stream.refused(reason, what)
+    if reply.accepted != 20 + taken:
+        raise CheckFailed(f"{what}: {20 + taken} points are right, the reply is {reply}")
     stream.sent = 20
     stream.refuses(reason, f"a batch behind {what}", points[20:24])
     bench.wait_until_standing(20)
     bench.executed(points[: 20 + taken], since)
     if not taken and distance(bench.position, points[19][0]) > 1e-3:
         raise CheckFailed(f"{what}: the points before it are not executed")
-    bench.stays(2, what)
+    bench.assert_at_rest(2, what)
     progress, status = _progress(bench, watcher), bench.status(watcher)
     if (progress.state, progress.reason) != (RawTrajectoryState.FAILED, reason):
         raise CheckFailed(f"{what}: PROGRESS says {progress}")
@@ -162,19 +162,21 @@ def _wrong_size(bench: Bench) -> None:
 
 @case("stream-point", "points before a wrong one are executed", "R10")
 def _wrong_point(bench: Bench) -> None:
-    here, joints = bench.position, bench.group.joints
+    current, joints = bench.position, bench.group.joints
     wrong: list[tuple[RawReason, Point]] = [
-        (RawReason.JOINT_LIMIT, ((*here[:1], joints[1].upper + 0.1, *here[2:]), 30.0)),
-        (RawReason.BAD_DURATION, (here, 0.0)),
-        (RawReason.BAD_DURATION, (here, -1.0)),
+        (RawReason.JOINT_LIMIT, ((*current[:1], joints[1].upper + 0.1, *current[2:]), 30.0)),
+        (RawReason.BAD_DURATION, (current, 0.0)),
+        (RawReason.BAD_DURATION, (current, -1.0)),
     ]
     if bench.config.trajectory.too_fast == "refuse":
-        wrong.append((RawReason.SEGMENT_TOO_SHORT, (here, bench.config.trajectory.min_segment / 2)))
+        wrong.append(
+            (RawReason.SEGMENT_TOO_SHORT, (current, bench.config.trajectory.min_segment / 2))
+        )
     for reason, point in wrong:
         if reason is RawReason.SEGMENT_TOO_SHORT and bench.config.trajectory.min_segment < 0.005:
             continue
         good = way(bench, 4)
-        if point[0] == here:
+        if point[0] == current:
             point = (good[1][0], point[1])
         points = [*[(p, 1.0) for p, _ in good[:2]], point, good[3]]
         data = _maker(bench).frame(points, _NONE)
@@ -187,23 +189,23 @@ def _names_the_point(bench: Bench) -> None:
     points = [(p, 30.0) for p, _ in way(bench, 6)]
     points[4] = ((points[4][0][0], bench.group.joints[1].lower - 0.1, *points[4][0][2:]), 30.0)
     stream.put(points, BEGIN | END)
-    told = stream.refused(RawReason.JOINT_LIMIT, "joint 2 of point 4 is outside its limits")
-    if (told.accepted, told.point, told.joint) != (4, 4, 2):
-        raise CheckFailed(f"joint 2 of point 4 is outside its limits, the reply is {told}")
+    reply = stream.refused(RawReason.JOINT_LIMIT, "joint 2 of point 4 is outside its limits")
+    if (reply.accepted, reply.point, reply.joint) != (4, 4, 2):
+        raise CheckFailed(f"joint 2 of point 4 is outside its limits, the reply is {reply}")
 
 
 @case("stream-begins-wrong", "a wrong beginning moves nothing", "R8")
 def _first_batch_is_wrong(bench: Bench) -> None:
     """Nothing moves for a stream whose beginning is wrong."""
     far = [(bench.group.joints[0].upper + 1, *bench.position[1:])]
-    joint, here = bench.group.joints[0], bench.position
-    step = 0.2 if joint.upper - here[0] > here[0] - joint.lower else -0.2
-    away = [(here[0] + step, *here[1:])]
+    joint, current = bench.group.joints[0], bench.position
+    step = 0.2 if joint.upper - current[0] > current[0] - joint.lower else -0.2
+    away = [(current[0] + step, *current[1:])]
     for reason, joints in ((RawReason.JOINT_LIMIT, far), (RawReason.START_TOO_FAR, away)):
         stream = Streamer(bench)
         stream.refuses(reason, "a first point that is wrong", [(p, 1.0) for p in joints], BEGIN)
         stream.refuses(reason, "a batch behind a first point that is wrong", way(bench, 10))
-        bench.stays(3, "the first point of the stream is wrong")
+        bench.assert_at_rest(3, "the first point of the stream is wrong")
         stream.link.close(then=1.5)
     stream = Streamer(bench, number=9)
     for flags in (_NONE, END, FLUSH):
@@ -214,7 +216,7 @@ def _first_batch_is_wrong(bench: Bench) -> None:
     stream.say(bytes(data))
     stream.refused(RawReason.CHECKSUM, "a damaged beginning")
     stream.refuses(RawReason.SEQUENCE_GAP, "an end without a point", (), BEGIN | END)
-    bench.stays(3, "no stream has begun")
+    bench.assert_at_rest(3, "no stream has begun")
     stream.number, stream.sent = 10, 0
     stream.all(way(bench, 10))
     bench.wait_until_at(stream.points[-1][0], 20)
@@ -252,7 +254,7 @@ def _behind_the_end(bench: Bench) -> None:
     stream.all(points)
     stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
     bench.wait_until_at(points[-1][0], 20)
-    bench.stays(2, "the stream has ended")
+    bench.assert_at_rest(2, "the stream has ended")
 
 
 @case("stream-ended", "stops end a stream, and batches are told why", "R5, R7a", background=True)
@@ -285,26 +287,26 @@ def _early_end(bench: Bench) -> None:
         bench.run(0.3)
         if action != "stream":
             stream.put(points[25:30])
-            told = stream.last
-            if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
-                raise CheckFailed(f"a stream was ended by {action}, a batch is answered by {told}")
-        bench.stays(2, f"the stream was ended by {action}")
+            reply = stream.last
+            if not isinstance(reply, messages.RawPointsRefused) or reply.reason not in reasons:
+                raise CheckFailed(f"a stream was ended by {action}, a batch is answered by {reply}")
+        bench.assert_at_rest(2, f"the stream was ended by {action}")
         bench.start_again()
-        bench.stays(3, f"the stream was ended by {action}, then the program was started")
+        bench.assert_at_rest(3, f"the stream was ended by {action}, then the program was started")
         stream.link.close(then=1.5)
-        bench.moves_through(bench.motion(), bench.wave(3))
+        bench.assert_moves_through(bench.motion(), bench.wave(3))
         bench.run(1.5)
 
 
 @case("stream-client-lost", "a stream ends with its client")
 def _client_lost(bench: Bench) -> None:
-    for begun, starved in ((True, False), (True, True), (False, False)):
+    for started, starved in ((True, False), (True, True), (False, False)):
         for abort in (False, True):
             watcher = bench.watcher()
             points = way(bench, 40)
             stream = Streamer(bench)
-            stream.put(points[: 25 if begun else 2], BEGIN)
-            if begun:
+            stream.put(points[: 25 if started else 2], BEGIN)
+            if started:
                 bench.wait_until_moving()
                 bench.run(0.5)
             if starved:
@@ -314,15 +316,17 @@ def _client_lost(bench: Bench) -> None:
             bench.wait_until_standing(5)
             if not starved and distance(bench.position, points[24][0]) < 1e-4:
                 raise CheckFailed("a stream went on to its last point for a client that had left")
-            bench.stays(3, "the client of the stream has left")
-            told = _progress(bench, watcher)
+            bench.assert_at_rest(3, "the client of the stream has left")
+            reply = _progress(bench, watcher)
             reasons = (
-                [RawReason.CLIENT_LOST] if begun else [RawReason.CLIENT_LOST, RawReason.INCOMPLETE]
+                [RawReason.CLIENT_LOST]
+                if started
+                else [RawReason.CLIENT_LOST, RawReason.INCOMPLETE]
             )
-            if told.reason not in reasons:
-                raise CheckFailed(f"the client of a stream has left, PROGRESS says {told}")
+            if reply.reason not in reasons:
+                raise CheckFailed(f"the client of a stream has left, PROGRESS says {reply}")
             watcher.close()
-            bench.moves_through(bench.motion(), bench.wave(3))
+            bench.assert_moves_through(bench.motion(), bench.wave(3))
             bench.run(1.5)
 
 
@@ -335,4 +339,4 @@ def _taken_over(bench: Bench) -> None:
     link = bench.motion()
     bench.run(3)
     bench.wait_until_standing(10)
-    bench.moves_through(link, bench.wave(4))
+    bench.assert_moves_through(link, bench.wave(4))

@@ -28,8 +28,8 @@ def _at_once(bench: Bench) -> float:
     return bench.setting.latest_interrupt + 0.025 * bench.setting.slowness
 
 
-def _prompt(bench: Bench, asked: float, what: str) -> None:
-    late = bench.now - asked
+def _prompt(bench: Bench, requested: float, what: str) -> None:
+    late = bench.now - requested
     # Some controllers let a program go on behind StopMove only when the robot stands.
     if late > _at_once(bench) + (0.3 if bench.setting.motion.stop_waits else 0):
         raise CheckFailed(f"{what} is answered after {late:.3f} s")
@@ -52,18 +52,18 @@ def _answers_soon(bench: Bench) -> None:
         # Not at the same moment of the supervisor's round each time.
         bench.run(0.3 + 0.021 * phase)
         link.send(end_as_request(bench, 5, unit))
-        asked = bench.now
+        requested = bench.now
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawAccepted):
             raise CheckFailed(f"a good trajectory is answered by {content}")
-        _prompt(bench, asked, "the end frame of a trajectory")
-        begins_soon(bench, asked)
+        _prompt(bench, requested, "the end frame of a trajectory")
+        begins_soon(bench, requested)
         if control is not None:
             for paused in (1, 0):
-                asked = bench.now
+                requested = bench.now
                 if control.ask(messages.RawPause(paused)) != messages.RawAcknowledged():
                     raise CheckFailed(f"PAUSE {paused} is refused")
-                _prompt(bench, asked, f"PAUSE {paused}")
+                _prompt(bench, requested, f"PAUSE {paused}")
                 bench.run(0.1)
         # The reply comes just before a STATUS, which then tells of the stop.
         bench.status(watcher)
@@ -73,22 +73,22 @@ def _answers_soon(bench: Bench) -> None:
             port = control
         port.read()
         port.send(STOP)
-        asked = bench.now
+        requested = bench.now
         if port.reply(_TRAJ) != messages.RawAcknowledged():
             raise CheckFailed("STOP is not confirmed")
-        _prompt(bench, asked, "STOP")
+        _prompt(bench, requested, "STOP")
         # One that was measured before is on its way for no longer than this.
         bench.run(0.01)
         status = bench.status(watcher)
-        if bench.now - asked < 0.06 and status.motion_possible:
-            raise CheckFailed(f"STOP came {bench.now - asked:.3f} s ago, STATUS says {status}")
+        if bench.now - requested < 0.06 and status.motion_possible:
+            raise CheckFailed(f"STOP came {bench.now - requested:.3f} s ago, STATUS says {status}")
         bench.wait_until_standing(0.3)
         for other in (link, control):
             if other is not None:
                 bench.run(0.2 + 0.021 * phase)
-                asked = bench.now
+                requested = bench.now
                 other.stop()
-                _prompt(bench, asked, "STOP at a standstill")
+                _prompt(bench, requested, "STOP at a standstill")
         # What comes right behind a stop of the program is refused.
         bench.run(0.4)
         bench.controller.perform("stop")
@@ -133,18 +133,18 @@ def _why_it_ended(bench: Bench) -> None:
             bench.controller.perform(action)
         bench.wait_until_standing(3)
         bench.run(patience(bench))
-        told, seen = bench.progress(watcher), bench.status(watcher)
-        if told != (number, failed, 5, 3, 1, reason, 1, 0):
-            raise CheckFailed(f"{action} came between points 1 and 2, PROGRESS says {told}")
+        reply, seen = bench.progress(watcher), bench.status(watcher)
+        if reply != (number, failed, 5, 3, 1, reason, 1, 0):
+            raise CheckFailed(f"{action} came between points 1 and 2, PROGRESS says {reply}")
         powered, e_stopped, mode = status
         possible = int(action == "leaves")
-        wanted = messages.RawStatus(powered, e_stopped, reason, 1, 0, mode, possible)
+        expected = messages.RawStatus(powered, e_stopped, reason, 1, 0, mode, possible)
         # An emergency stop is an error of the controller's own, too.
-        if seen != wanted:
-            raise CheckFailed(f"after {action} STATUS says {seen}, wanted {wanted}")
-        said = [e.texts[0] for e in _warnings(bench, last)]
-        if said != ([messages.text_of(reason)] if action == "leaves" else []):
-            raise CheckFailed(f"after {action} the event log says {said}")
+        if seen != expected:
+            raise CheckFailed(f"after {action} STATUS says {seen}, wanted {expected}")
+        log_entries = [e.texts[0] for e in _warnings(bench, last)]
+        if log_entries != ([messages.text_of(reason)] if action == "leaves" else []):
+            raise CheckFailed(f"after {action} the event log says {log_entries}")
         if action == "leaves":
             bench.run(0.3)
             link = bench.motion()
@@ -160,7 +160,7 @@ def _why_it_ended(bench: Bench) -> None:
         number += 1
         bench.run(0.3)
         bench.start_again()
-        bench.stays(patience(bench), f"the program was started again after {action}")
+        bench.assert_at_rest(patience(bench), f"the program was started again after {action}")
         if bench.status(watcher).motion_possible != 1:
             raise CheckFailed(f"after {action} and a start of the program no motion is possible")
         link.send(frames[68:])
@@ -176,17 +176,17 @@ def _why_it_ended(bench: Bench) -> None:
 def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> None:
     bench.wait_until_standing(0.1 + soon(bench) + bench.setting.motion.servo_lag)
     bench.run(soon(bench) + 2 * bench.config.state_period)
-    told, status = bench.progress(watcher), bench.status(watcher)
-    if (told.state, told.planned, told.reached, told.reason) != (
+    reply, status = bench.progress(watcher), bench.status(watcher)
+    if (reply.state, reply.planned, reply.reached, reply.reason) != (
         RawTrajectoryState.PAUSED,
         planned,
         reached,
         0,
     ):
-        raise CheckFailed(f"a trajectory is paused, PROGRESS says {told}")
+        raise CheckFailed(f"a trajectory is paused, PROGRESS says {reply}")
     if status != (1, 0, 0, 0, 0, RawMode.AUTO, 0):
         raise CheckFailed(f"a trajectory is paused, STATUS says {status}")
-    bench.stays(0.3, "it is paused")
+    bench.assert_at_rest(0.3, "it is paused")
 
 
 @case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends", needs="control")
@@ -195,9 +195,9 @@ def _pause_by_step(bench: Bench) -> None:
     control, watcher, link, unit = bench.control(), bench.watcher(), bench.motion(), unit_of(bench)
 
     def ask(paused: int, reason: RawReason = RawReason.NONE) -> None:
-        told = control.ask(messages.RawPause(paused))
-        if told != (messages.RawNotDone(reason) if reason else messages.RawAcknowledged()):
-            raise CheckFailed(f"PAUSE {paused} is answered by {told}")
+        reply = control.ask(messages.RawPause(paused))
+        if reply != (messages.RawNotDone(reason) if reason else messages.RawAcknowledged()):
+            raise CheckFailed(f"PAUSE {paused} is answered by {reply}")
 
     def goes_on() -> None:
         ask(0)
@@ -205,8 +205,8 @@ def _pause_by_step(bench: Bench) -> None:
 
     for paused in (1, 0):
         ask(paused, RawReason.IDLE)
-    way = bench.wave(4, duration=unit)
-    begun = begins(bench, link, [*way, (way[3][0], 3 * unit)])
+    path = bench.wave(4, duration=unit)
+    started = begins(bench, link, [*path, (path[3][0], 3 * unit)])
     bench.run(1.15 * unit)
     ask(1)
     _is_paused(bench, watcher, 3, 1)
@@ -221,16 +221,16 @@ def _pause_by_step(bench: Bench) -> None:
     bench.run(soon(bench) + 2 * bench.config.state_period)
     if bench.standing or bench.status(watcher)[3:] != (0, 1, RawMode.AUTO, 1):
         raise CheckFailed("a pause that was refused, and the end of none, stop the robot")
-    bench.wait_until_at(way[3][0], 5)
-    bench.followed([p for p, _ in way], since=begun)
+    bench.wait_until_at(path[3][0], 5)
+    bench.followed([p for p, _ in path], since=started)
     # The stay at its end goes on in a pause, and then there is nothing left to be paused.
     bench.run(0.5 * unit)
     ask(1)
     _is_paused(bench, watcher, 5, 4)
     bench.run(3 * unit)
-    told, status = bench.progress(watcher), bench.status(watcher)
-    if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
-        raise CheckFailed(f"a paused trajectory has come to its end: {told}, {status}")
+    reply, status = bench.progress(watcher), bench.status(watcher)
+    if (reply.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
+        raise CheckFailed(f"a paused trajectory has come to its end: {reply}, {status}")
     ask(0, RawReason.IDLE)
     for stopped in (True, False):
         begins(bench, link, bench.wave(3, duration=unit))
@@ -264,7 +264,7 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
         bench.wait_until_standing(1)
         at_call(bench, "ROS_supervisor", "StartMove", 1, stop)
         control.send(messages.encode(messages.RawPause(0), RawComm.REQUEST))
-        bench.stays(patience(bench), "STOP came at the end of a pause")
+        bench.assert_at_rest(patience(bench), "STOP came at the end of a pause")
         if link.reply(_TRAJ) != messages.RawAcknowledged():
             raise CheckFailed("STOP at the end of a pause is not confirmed")
 
@@ -274,16 +274,16 @@ def _builds_differ(bench: Bench) -> None:
     """A task that shows another build: said once after two seconds, and nothing is taken."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     task = bench.controller.task(bench.task("ROS_supervisor"))
-    shown, last = datum(bench, "ros_shown_state"), bench.last_event
-    good = task[shown]
+    displayed, last = datum(bench, "ros_shown_state"), bench.last_event
+    good = task[displayed]
 
     def mix() -> None:
-        task[shown] = "0123456789ab"
+        task[displayed] = "0123456789ab"
 
     for seconds, times in ((1.5, 0), (1.5, 0), (3.0, 1), (2.5, 2)):
         # Just behind a look of the supervisor.
         at_call(bench, "ROS_supervisor", "WaitTime", 1, mix)
-        bench.until(lambda: task[shown] != good, 0.2, "the supervisor looks")
+        bench.until(lambda: task[displayed] != good, 0.2, "the supervisor looks")
         mixed = bench.now
         link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
@@ -292,15 +292,17 @@ def _builds_differ(bench: Bench) -> None:
         bench.run(seconds)
         if bench.status(watcher).motion_possible:
             raise CheckFailed("tasks show different builds, STATUS says that motion is possible")
-        task[shown] = good
+        task[displayed] = good
         bench.run(patience(bench))
         if not bench.status(watcher).motion_possible:
             raise CheckFailed("tasks show one build again, STATUS says that no motion is possible")
-        said = [e for e in _warnings(bench, last) if "different builds" in e.title]
-        if len(said) != times or (said and not 1.95 < said[-1].time - mixed < 2.08):
+        log_entries = [e for e in _warnings(bench, last) if "different builds" in e.title]
+        if len(log_entries) != times or (
+            log_entries and not 1.95 < log_entries[-1].time - mixed < 2.08
+        ):
             raise CheckFailed(
                 f"builds differed for {seconds} s from {mixed:.3f} s on, the event log says "
-                f"{[str(e) for e in said]}"
+                f"{[str(e) for e in log_entries]}"
             )
     stream = Streamer(bench, link)
     for number, role in enumerate(("motion_server", "supervisor", "control"), 1):
@@ -320,7 +322,7 @@ def _builds_differ(bench: Bench) -> None:
             stream.refused(RawReason.BUILD_MISMATCH, f"the {role} shows another build")
         task[other] = good
     # What the motion task shows counts from when its program runs.
-    shown = datum(bench, "ros_shown_motion")
+    displayed = datum(bench, "ros_shown_motion")
     for text, stopped, reason in (
         ("", False, RawReason.NOT_EXECUTING),
         ("mixed", True, RawReason.NOT_EXECUTING),
@@ -328,14 +330,14 @@ def _builds_differ(bench: Bench) -> None:
     ):
         if stopped:
             bench.controller.perform("stop")
-        task[shown] = text
+        task[displayed] = text
         link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawRefused) or content.reason != reason:
             raise CheckFailed(
                 f"the motion task shows {text!r}, a trajectory is answered by {content}"
             )
-        task[shown] = good
+        task[displayed] = good
         if stopped:
             bench.controller.perform("start")
         bench.run(0.3)

@@ -32,15 +32,15 @@ def _stepped(bench: Bench) -> Iterator[Bench]:
     with bench.beside(bench.system, setting=replace(bench.setting, coverage=True)) as other:
         yield other
         other.run(1.5)
-        other.moves_through(other.motion(), other.wave(4))
-        other.healthy()
+        other.assert_moves_through(other.motion(), other.wave(4))
+        other.assert_healthy()
 
 
 def _lines(bench: Bench, module: str, *routines: str) -> list[int]:
     """Where the statements of some routines begin."""
     data = next(m.data for t in bench.system.tasks for m in t.modules if m.name == module)
     tree = parse(data)
-    found: set[int] = set()
+    result: set[int] = set()
 
     def look_into(node: Node) -> None:
         for field in fields(node):
@@ -48,13 +48,13 @@ def _lines(bench: Bench, module: str, *routines: str) -> list[int]:
             for one in value if isinstance(value, list) else [value]:
                 if isinstance(one, Node):
                     if field.name in ("body", "otherwise"):
-                        found.add(tree.source.line(one.first))
+                        result.add(tree.source.line(one.first))
                     look_into(one)
 
     for routine in tree.routines:
         if routine.name in routines:
             look_into(routine)
-    return sorted(found)
+    return sorted(result)
 
 
 def _once_at(
@@ -82,7 +82,7 @@ def _stopped_at_every_statement(bench: Bench) -> None:
     """A program stop, then Start or PP to main and Start, at each statement of the motion task."""
     with _stepped(bench) as other:
         link = other.motion()
-        other.moves_through(link, other.wave(4))
+        other.assert_moves_through(link, other.wave(4))
         reached = other.lines()
         modules = next(t for t in other.system.tasks if t.name == other.group.task).modules
         places = [
@@ -107,7 +107,7 @@ def _stopped_at_every_statement(bench: Bench) -> None:
                 other.controller.perform(action)
                 other.run(0.05)
             other.start_again()
-            other.stays(1.5, f"the program was stopped at {place} and started again")
+            other.assert_at_rest(1.5, f"the program was stopped at {place} and started again")
             link.close()
 
 
@@ -153,7 +153,7 @@ def _stream_stopped_at_every_statement(bench: Bench) -> None:
                 other.start_again()
             elif came[0] != came[-1]:
                 other.until(lambda: _is_answered(link), 2, f"STOP at line {line}")  # noqa: B023
-            other.stays(1.5, f"it was stopped at line {line} of the motion task")
+            other.assert_at_rest(1.5, f"it was stopped at line {line} of the motion task")
             link.close()
 
 
@@ -193,7 +193,7 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
                     other.run(0.2)
                 if came:
                     done(control.reply(JOINT_TRAJ_PT), f"STOP at line {line} of {module}")
-                    other.rests(1, 1, f"STOP came at line {line} of {module}")
+                    other.wait_until_at_rest(1, 1, f"STOP came at line {line} of {module}")
                 else:
                     link.send(STOP)
                     other.wait_until_standing(2)
@@ -213,7 +213,7 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
         control, link = other.control(), other.motion()
         other.run(0.5)
         for line in _lines(other, "ROS_supervisor", "go_on"):
-            other.sets_off(link, other.wave(12), 0.3)
+            other.start_motion(link, other.wave(12), 0.3)
             control.ask(messages.RawPause(1))
             other.wait_until_standing(2)
             came = _once_at(
@@ -224,7 +224,9 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
                 came.append(other.now)
                 link.send(STOP)
             link.reply(JOINT_TRAJ_PT)
-            other.rests(2, 1, f"STOP came at line {line} of the supervisor, which ended a pause")
+            other.wait_until_at_rest(
+                2, 1, f"STOP came at line {line} of the supervisor, which ended a pause"
+            )
             other.run(patience(other))
 
 
@@ -260,7 +262,7 @@ def _held_at(
 ) -> None:
     """A good trajectory, then another one that is good or not, while a task is held somewhere."""
     module, home, line = place
-    here = bench.position
+    current = bench.position
     link.send(bench.download(bench.wave(3, duration=0.2)))
     bench.wait_until_moving(2)
     bench.wait_until_standing(5)
@@ -269,9 +271,9 @@ def _held_at(
     before = bench.progress(watcher)
     if before[1:] != (RawTrajectoryState.DONE, 3, 3, 3, 0, -1, 0):
         raise CheckFailed(f"three points are executed, PROGRESS says {before}")
-    there = bench.position
-    beyond = [] if far is None else [((far, *here[1:]), 0.5)]
-    second = bench.download([(there, 9.0), (here, 0.5), *beyond])
+    target = bench.position
+    beyond = [] if far is None else [((far, *current[1:]), 0.5)]
+    second = bench.download([(target, 9.0), (current, 0.5), *beyond])
     task, now = bench.rapid_task(module), bench.now
 
     def held() -> None:
@@ -291,18 +293,18 @@ def _held_at(
     bench.wait_until_standing(3)
     bench.run(3 * bench.config.state_period)
     number = before.trajectory + 1
-    told = [
+    reply = [
         content
         for one in rounds(watcher, now)
         for frame in one.frames
         if isinstance(content := decode(frame), messages.RawProgress)
     ]
     where = f"{module} was held at {home}:{line}"
-    _fits(told, before, number, where, refused=far is not None)
+    _fits(reply, before, number, where, refused=far is not None)
 
 
 def _fits(
-    told: Sequence[messages.RawProgress],
+    reply: Sequence[messages.RawProgress],
     before: messages.RawProgress,
     number: int,
     where: str,
@@ -312,9 +314,9 @@ def _fits(
     last = (number, RawTrajectoryState.DONE, 2, 2, 2, 0, -1, 0)
     if refused:
         last = (number, RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
-    if not told or told[-1] != last:
-        raise CheckFailed(f"{where}: wanted {last}, PROGRESS says {told[-1:]}")
-    for one in told:
+    if not reply or reply[-1] != last:
+        raise CheckFailed(f"{where}: wanted {last}, PROGRESS says {reply[-1:]}")
+    for one in reply:
         if one in (before, last):
             continue
         good = (

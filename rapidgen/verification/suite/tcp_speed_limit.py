@@ -35,11 +35,11 @@ def _tcp_too_fast(bench: Bench) -> None:
         raise NotApplicable("the TCP has no ceiling of its own")
     seconds = max(0.2, bench.config.trajectory.min_segment)
     step = 0.5 * seconds * bench.group.joints[0].speed
-    here = bench.position
-    away = changed(here, 0, here[0] + step)
-    if bench.tcp_seconds(here, away) < 1.2 * seconds:
+    current = bench.position
+    away = changed(current, 0, current[0] + step)
+    if bench.tcp_seconds(current, away) < 1.2 * seconds:
         raise NotApplicable("no axis can make the TCP too fast")
-    points = [(here, 1.0), (away, seconds), (here, 9.0)]
+    points = [(current, 1.0), (away, seconds), (current, 9.0)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
     if not bench.streams:
         return
@@ -48,32 +48,32 @@ def _tcp_too_fast(bench: Bench) -> None:
     stream.takes("the first points", good, BEGIN)
     end = good[-1][0]
     stream.put([(changed(end, 0, end[0] + step), seconds)], END)
-    told = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
-    if (told.accepted, told.point, told.joint) != (8, 8, 0):
-        raise CheckFailed(f"eight points were right, the reply is {told}")
+    reply = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
+    if (reply.accepted, reply.point, reply.joint) != (8, 8, 0):
+        raise CheckFailed(f"eight points were right, the reply is {reply}")
     bench.wait_until_at(end, 20)
 
 
 @case("tcp-arc", "a long turn between two places that are near each other", "R10")
 def _long_turn(bench: Bench) -> None:
     """The TCP goes along its arc, whatever the distance between its ends."""
-    joint, here = bench.group.joints[0], bench.position
-    low, high = (changed(here, 0, v) for v in (joint.lower + 0.01, joint.upper - 0.01))
+    joint, current = bench.group.joints[0], bench.position
+    low, high = (changed(current, 0, v) for v in (joint.lower + 0.01, joint.upper - 0.01))
     seconds = 0.5 * bench.tcp_seconds(low, high)
     if not _asked(bench) or seconds < 1.1 * (joint.upper - joint.lower) / joint.speed:
         raise NotApplicable("axis 1 can make no TCP too fast")
-    bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
+    bench.assert_moves_through(bench.motion(), [(current, 1.0), (low, bench.seconds_to(low))])
     points = [(low, 1.0), (high, seconds)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
     if not bench.streams:
         return
-    here = bench.position
-    bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
+    current = bench.position
+    bench.assert_moves_through(bench.motion(), [(current, 1.0), (low, bench.seconds_to(low))])
     stream = Streamer(bench)
     stream.put(points, BEGIN | END)
-    told = stream.refused(RawReason.TCP_TOO_FAST, "a long turn that is too fast")
-    if told.point != 1:
-        raise CheckFailed(f"the first point was right, the reply is {told}")
+    reply = stream.refused(RawReason.TCP_TOO_FAST, "a long turn that is too fast")
+    if reply.point != 1:
+        raise CheckFailed(f"the first point was right, the reply is {reply}")
 
 
 def random_way(bench: Bench, chance: random.Random, margin: float) -> list[Point]:
@@ -116,16 +116,16 @@ def is_taken(bench: Bench, points: list[Point], *, streaming: bool) -> bool:
     link, end = bench.motion(), points[-1][0]
     if streaming:
         stream = Streamer(bench, link)
-        taken = isinstance(stream.put(points, BEGIN | END), RawPointsAccepted)
+        accepted = isinstance(stream.put(points, BEGIN | END), RawPointsAccepted)
     else:
         link.send(bench.download(points))
         bench.run(0.5 + 0.01 * len(points))
-        taken = not bench.status(bench.state()).in_error
-    if taken:
+        accepted = not bench.status(bench.state()).in_error
+    if accepted:
         bench.wait_until_at(end, 10 + 2 * sum(seconds for _, seconds in points))
     bench.wait_until_standing(60)
     link.close(then=0.3)
-    return taken
+    return accepted
 
 
 @case("tcp-turns", "the TCP keeps its ceiling between corners that slow it down", "R10")
@@ -133,16 +133,18 @@ def _turns(bench: Bench) -> None:
     """There and back on axis 1, where the robot has to turn round, at once and after a while."""
     if not _asked(bench):
         raise NotApplicable("the TCP has no ceiling of its own")
-    joint, here, limit = bench.group.joints[0], bench.position, bench.group.tcp_speed_limit
+    joint, current, limit = bench.group.joints[0], bench.position, bench.group.tcp_speed_limit
     for seconds in (0.2, 0.3, 0.5):
-        wanted = max(seconds, 1.2 * bench.config.trajectory.min_segment)
-        step = min(0.3, wanted * joint.speed / 1.05)
+        expected = max(seconds, 1.2 * bench.config.trajectory.min_segment)
+        step = min(0.3, expected * joint.speed / 1.05)
         step *= min(
-            1.0, wanted / (_MARGIN * bench.tcp_seconds(here, changed(here, 0, here[0] + step)))
+            1.0,
+            expected
+            / (_MARGIN * bench.tcp_seconds(current, changed(current, 0, current[0] + step))),
         )
-        there = changed(here, 0, here[0] + step)
-        since, way = bench.now, [here, *[there, here] * 3]
-        points = [(place, wanted) for place in way]
+        target = changed(current, 0, current[0] + step)
+        since, path = bench.now, [current, *[target, current] * 3]
+        points = [(place, expected) for place in path]
         if not is_taken(bench, points, streaming=False):
             raise CheckFailed(f"{points} is refused, its ways have {_MARGIN} of the time they need")
         speed = fastest(bench, since)

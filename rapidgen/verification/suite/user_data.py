@@ -39,26 +39,26 @@ def _data(bench: Bench) -> None:
     listed = bench.group.data
     control = bench.control()
     for index in (-1, len(listed), 99, 2**31 - 1, -(2**31)):
-        told = _asks(control, index)
+        reply = _asks(control, index)
         if listed:
-            not_done(told, RawReason.NO_DATUM, f"datum {index} of {len(listed)}")
-        elif not isinstance(told, messages.RawFailure):
+            not_done(reply, RawReason.NO_DATUM, f"datum {index} of {len(listed)}")
+        elif not isinstance(reply, messages.RawFailure):
             raise CheckFailed("a driver without data answers DATA")
     for index in range(len(listed)):
-        told = _asks(control, index)
-        not_done(told, RawReason.NO_DATUM, f"datum {index} is not in the robot's program")
+        reply = _asks(control, index)
+        not_done(reply, RawReason.NO_DATUM, f"datum {index} is not in the robot's program")
     if not listed:
         return
     with bench.beside(_with(bench, listed)) as other:
         control = other.control()
         if not bench.setting.dialect.data_of_tasks:
             for index in range(len(listed)):
-                told = _asks(control, index)
-                not_done(told, RawReason.NO_DATUM, f"datum {index} of a task that is not reached")
+                reply = _asks(control, index)
+                not_done(reply, RawReason.NO_DATUM, f"datum {index} of a task that is not reached")
             return
         for index, datum in enumerate(listed):
             _one(control, index, datum)
-        other.stays(0.5, "data were read and written")
+        other.assert_at_rest(0.5, "data were read and written")
     for missing, datum in enumerate(listed):
         others = tuple(d for d in listed if d != datum)
         with bench.beside(_with(bench, others)) as other:
@@ -74,8 +74,8 @@ def _data(bench: Bench) -> None:
     with bench.beside(_with(bench, elsewhere)) as other:
         control = other.control()
         for index in range(len(listed)):
-            told = _asks(control, index)
-            not_done(told, RawReason.NO_DATUM, f"datum {index} is in another module")
+            reply = _asks(control, index)
+            not_done(reply, RawReason.NO_DATUM, f"datum {index} is in another module")
 
 
 @case("data-reading-fails", "a request for a datum that cannot be read changes nothing", once=True)
@@ -93,14 +93,14 @@ def _reading_fails(bench: Bench) -> None:
                 first = _FIRST["string"]
                 _says(_asks(control, texts[0]), messages.RawDatumReply(texts[0], *first))
                 ends = fails(other, "ROS_control", name, "ERR_ARGVALERR", after=after)
-                asked = messages.RawDatum(texts[0], 1, 0.0, "ab")
-                control.send(messages.encode(asked, RawComm.REQUEST))
+                requested = messages.RawDatum(texts[0], 1, 0.0, "ab")
+                control.send(messages.encode(requested, RawComm.REQUEST))
                 other.run(1)
                 ends()
                 control.close(then=1)
                 control = other.control()
                 _says(_asks(control, texts[0]), messages.RawDatumReply(texts[0], *first))
-                other.healthy()
+                other.assert_healthy()
 
 
 def _one(control: RawLink, index: int, datum: UserDatum) -> None:
@@ -126,14 +126,14 @@ def _asks(
     control: RawLink, index: int, write: int = 0, value: float = 7.0, text: str = "7"
 ) -> RawContent:
     """The reply; a refusal whole is one, too."""
-    asked = messages.RawDatum(index, write, value, text)
-    control.send(messages.encode(asked, RawComm.REQUEST))
+    requested = messages.RawDatum(index, write, value, text)
+    control.send(messages.encode(requested, RawComm.REQUEST))
     return control.reply(messages.DATA)
 
 
-def _says(told: RawContent, wanted: messages.RawDatumReply) -> None:
-    if told != wanted:
-        raise CheckFailed(f"DATA is answered by {told}, not {wanted}")
+def _says(reply: RawContent, expected: messages.RawDatumReply) -> None:
+    if reply != expected:
+        raise CheckFailed(f"DATA is answered by {reply}, not {expected}")
 
 
 def _with(bench: Bench, listed: tuple[UserDatum, ...]) -> System:

@@ -83,9 +83,9 @@ def _served(bench: Bench, link: RawLink) -> RawLink:
 
 def _refused(bench: Bench, link: RawLink, when: str) -> None:
     link.send(end_as_request(bench, 3, 0.5))
-    told = messages.decode(link.expect_reply(3, "the end frame is answered"))
-    if told != messages.RawRefused(RawReason.NOT_SERVING, -1, 0):
-        raise CheckFailed(f"{when} a trajectory is answered by {told}")
+    reply = messages.decode(link.expect_reply(3, "the end frame is answered"))
+    if reply != messages.RawRefused(RawReason.NOT_SERVING, -1, 0):
+        raise CheckFailed(f"{when} a trajectory is answered by {reply}")
 
 
 @case("own-main", "ROS_run returns to a program that moves by itself, and main starts once", "R7b")
@@ -95,18 +95,18 @@ def _own_main(bench: Bench) -> None:
         view = other.controller.task(other.group.task)
         link, state = other.motion(), other.state()
         for _ in range(3):
-            other.sets_off(link, other.wave(8), 0.4)
+            other.start_motion(link, other.wave(8), 0.4)
             link.stop()
             other.run(patience(other) + 0.3)
-        other.sets_off(link, other.wave(8), 0.4)
+        other.start_motion(link, other.wave(8), 0.4)
         other.controller.perform("e-stop")
         other.wait_until_standing(3)
         other.start_again()
-        other.stays(patience(other), "it was stopped, and nobody asked for motion")
+        other.assert_at_rest(patience(other), "it was stopped, and nobody asked for motion")
         link = _served(other, link)
         for _ in range(2):
             points, since = other.wave(5), other.now
-            other.sets_off(link, points, 0.4)
+            other.start_motion(link, points, 0.4)
             view["cell:leave"] = True
             other.wait_until_at(points[-1][0], 10)
             other.executed(points, since)
@@ -115,11 +115,11 @@ def _own_main(bench: Bench) -> None:
             _moves_by_itself(other, link, state)
             view["cell:leave"] = False
             other.run(patience(other) + 0.3)
-            other.moves_through(link, other.wave(3))
+            other.assert_moves_through(link, other.wave(3))
         if view["cell:starts"] != 1:
             raise CheckFailed(f"the customer's main was started {view['cell:starts']} times")
         _begun_anew(other, link)
-        other.healthy()
+        other.assert_healthy()
 
 
 def _moves_by_itself(bench: Bench, link: RawLink, state: RawLink) -> None:
@@ -133,9 +133,11 @@ def _moves_by_itself(bench: Bench, link: RawLink, state: RawLink) -> None:
         port.stop()
     if bench.standing or bench.motion_group.stop_reasons:
         raise CheckFailed(f"the program's own move is held: {bench.motion_group.stop_reasons}")
-    said = [e for e in bench.controller.log.since(last) if e.title == _OUTSIDE]
-    if len(said) != len(ports):
-        raise CheckFailed(f"{len(ports)} STOPs for a program of its own: the event log says {said}")
+    log_entries = [e for e in bench.controller.log.since(last) if e.title == _OUTSIDE]
+    if len(log_entries) != len(ports):
+        raise CheckFailed(
+            f"{len(ports)} STOPs for a program of its own: the event log says {log_entries}"
+        )
     if bench.status(state).motion_possible:
         raise CheckFailed("the program moves by itself, STATUS says that a trajectory may come")
     for port in ports[1:]:
@@ -159,7 +161,7 @@ def _until_a_signal(bench: Bench) -> None:
             if view["cell:stage"] != 1:
                 raise CheckFailed("ROS_run returns at a signal whose unit is not there")
             points, since = other.wave(6), other.now
-            other.sets_off(link, points, 0.4)
+            other.start_motion(link, points, 0.4)
             if control is not None:
                 done(control.ask(messages.RawSpeed(50)), "SPEED")
             other.run(0.8)
@@ -175,13 +177,13 @@ def _until_a_signal(bench: Bench) -> None:
                 )
             other.controller.signals["diLeave"] = 0
             other.until(lambda: view["cell:stage"] == 1, 2, "the program serves again")
-        other.healthy()
+        other.assert_healthy()
 
 
 def _begun_anew(bench: Bench, link: RawLink) -> None:
     """Stop in a trajectory, then another beginning, without ROS_run at first: nothing holds it."""
     view = bench.controller.task(bench.group.task)
-    bench.sets_off(link, bench.wave(8), 0.4)
+    bench.start_motion(link, bench.wave(8), 0.4)
     bench.controller.perform("stop")
     bench.wait_until_standing(3)
     bench.run(0.3)
@@ -197,7 +199,7 @@ def _begun_anew(bench: Bench, link: RawLink) -> None:
         raise CheckFailed(f"begun {view['cell:starts']} times, {bench.motion_group.stop_reasons}")
     view["cell:leave"] = False
     bench.run(patience(bench) + 0.3)
-    bench.moves_through(_served(bench, link), bench.wave(3))
+    bench.assert_moves_through(_served(bench, link), bench.wave(3))
 
 
 _FOREIGN = b"""MODULE foreign
@@ -256,7 +258,7 @@ def _another_program(bench: Bench) -> None:
             _turns(other)
             if own.signals:
                 _refused(other, other.motion(), "in another program")
-            other.healthy()
+            other.assert_healthy()
 
 
 def _goes(module: ModuleFile) -> bool:
@@ -268,8 +270,8 @@ def _goes(module: ModuleFile) -> bool:
 def _replaced(bench: Bench) -> None:
     """It is begun at its main while the driver's stops are in force: they do not hold it."""
     link, state = bench.motion(), bench.state()
-    bench.moves_through(link, bench.wave(3))
-    bench.sets_off(link, bench.wave(8), 0.4)
+    bench.assert_moves_through(link, bench.wave(3))
+    bench.start_motion(link, bench.wave(8), 0.4)
     bench.controller.perform("stop")
     bench.wait_until_standing(3)
     bench.run(0.3)
@@ -295,9 +297,9 @@ def _told_of_stop(bench: Bench, link: RawLink, times: int) -> None:
     """STOP, which is not for a program of its own: the event log says so while that runs."""
     last = bench.last_event
     link.stop()
-    said = [e for e in bench.controller.log.since(last) if e.title == _OUTSIDE]
-    if len(said) != times:
-        raise CheckFailed(f"STOP comes to another program, the event log says {said}")
+    log_entries = [e for e in bench.controller.log.since(last) if e.title == _OUTSIDE]
+    if len(log_entries) != times:
+        raise CheckFailed(f"STOP comes to another program, the event log says {log_entries}")
 
 
 def _turns(bench: Bench) -> None:

@@ -92,18 +92,18 @@ def _absent(bench: Bench) -> None:
     """At once and whole, with its index; a driver without routines has no CALL."""
     client = Programmer(bench)
     if not bench.group.routines:
-        told = _calls(client, LONG)
-        client.refused(told, RawReason.NO_INSTRUCTION, 0, "a driver without routines")
+        reply = _calls(client, LONG)
+        client.refused(reply, RawReason.NO_INSTRUCTION, 0, "a driver without routines")
         return
     for number, routine in enumerate(bench.group.routines):
         poses = any(p.type == "robtarget" for p in routine.parameters)
         if ":" in routine.call and not routine.returns and (computes(bench) or not poses):
-            told = _calls(client, number, _zeros(bench, routine))
-            client.refused(told, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
+            reply = _calls(client, number, _zeros(bench, routine))
+            client.refused(reply, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
     if knows_these(bench) and not bench.setting.dialect.modules_told:
         with bench.beside(_with_module(bench)) as other:
-            told = _calls(Programmer(other), WELD, weld_words(1.0))
-            client.refused(told, RawReason.NO_ROUTINE, 0, "a module of which nobody is told")
+            reply = _calls(Programmer(other), WELD, weld_words(1.0))
+            client.refused(reply, RawReason.NO_ROUTINE, 0, "a module of which nobody is told")
     if not _has_these(bench):
         return
     with bench.beside(_with_module(bench)) as other:
@@ -111,17 +111,17 @@ def _absent(bench: Bench) -> None:
         for number in (ABSENT, 4, -1):
             client.refused(_calls(client, number), RawReason.NO_ROUTINE, 0, f"routine {number}")
         for seconds in (-1.0, 2001.0):
-            told = _calls(client, LONG, seconds=seconds)
-            client.refused(told, RawReason.BAD_VALUE, 0, f"a routine that may take {seconds} s")
-        told = _calls(client, WELD, weld_words(1.0, dry=2))
-        client.refused(told, RawReason.BAD_VALUE, 0, "a bool that is 2")
-        told = _calls(client, WELD, [2143289344, *weld_words(1.0)[1:]])
-        client.refused(told, RawReason.NOT_FINITE, 0, "a num that is none")
+            reply = _calls(client, LONG, seconds=seconds)
+            client.refused(reply, RawReason.BAD_VALUE, 0, f"a routine that may take {seconds} s")
+        reply = _calls(client, WELD, weld_words(1.0, dry=2))
+        client.refused(reply, RawReason.BAD_VALUE, 0, "a bool that is 2")
+        reply = _calls(client, WELD, [2143289344, *weld_words(1.0)[1:]])
+        client.refused(reply, RawReason.NOT_FINITE, 0, "a num that is none")
         for length in (-1.0, 2.5, 81.0):
-            words = [*weld_words(1.0)[:3], *millionths([length]), *[0] * 21]
-            told = _calls(client, WELD, words)
-            client.refused(told, RawReason.BAD_VALUE, 0, f"a text of {length} characters")
-        other.stays(0.5, "no routine was called")
+            values = [*weld_words(1.0)[:3], *millionths([length]), *[0] * 21]
+            reply = _calls(client, WELD, values)
+            client.refused(reply, RawReason.BAD_VALUE, 0, f"a text of {length} characters")
+        other.assert_at_rest(0.5, "no routine was called")
 
 
 @case("routine-missing", "a procedure that its module does not have ends the program in its turn")
@@ -136,10 +136,10 @@ def _missing(bench: Bench) -> None:
         wait = [RawInstruction.WAIT, *millionths([0.1])]
         words = [*millionths(other.position), *wait, _CALL, *millionths([ABSENT, 0.0]), *wait]
         _taken(client.say(words, 3, ALL))
-        other.stays(1, "there is no such procedure")
+        other.assert_at_rest(1, "there is no such procedure")
         seen = other.progress(watcher)
-        wanted = (RawTrajectoryState.FAILED, RawReason.NO_ROUTINE, 1)
-        if (seen.state, seen.reason, seen.reached) != wanted:
+        expected = (RawTrajectoryState.FAILED, RawReason.NO_ROUTINE, 1)
+        if (seen.state, seen.reason, seen.reached) != expected:
             raise CheckFailed(f"a procedure is missing, PROGRESS says {seen}")
         _taken(_calls(client, WELD, weld_words(1.0)))
         if _ended(other, client, 4).values[0] != 2:
@@ -151,7 +151,7 @@ def _missing(bench: Bench) -> None:
             if number == TEACH and not computes(other):
                 continue
             _taken(_calls(client, number, _zeros(other, routine)))
-            other.stays(0.5, f"there is no {routine.call}")
+            other.assert_at_rest(0.5, f"there is no {routine.call}")
             seen = other.progress(watcher)
             if (seen.reason, seen.reached) != (RawReason.NO_ROUTINE, 0):
                 raise CheckFailed(f"{routine.call} is missing, PROGRESS says {seen}")
@@ -166,21 +166,21 @@ def _results(bench: Bench) -> None:
         client, watcher = Programmer(other), other.watcher()
         for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
             _taken(_calls(client, WELD, weld_words(seam, dry=dry, good=good)))
-            told = _ended(other, client, 4)
+            reply = _ended(other, client, 4)
             same = float(dry == good)
-            if (told.error, told.values[:3], told.text) != (0, (2 * seam, dry, same), "abab"):
-                raise CheckFailed(f"weld({seam}, {dry}) is told as {told}")
+            if (reply.error, reply.values[:3], reply.text) != (0, (2 * seam, dry, same), "abab"):
+                raise CheckFailed(f"weld({seam}, {dry}) is told as {reply}")
             if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
                 raise CheckFailed("a parameter that is no string has a text")
         for text in ("", "x" * 40, "12345"):
             _taken(_calls(client, WELD, weld_words(1.0, text=text)))
-            told = _ended(other, client, 4)
-            if (told.values[0], told.text) != (2.0, 2 * text):
-                raise CheckFailed(f"a text is to come back twice: {told}")
+            reply = _ended(other, client, 4)
+            if (reply.values[0], reply.text) != (2.0, 2 * text):
+                raise CheckFailed(f"a text is to come back twice: {reply}")
         _taken(_calls(client, WELD, weld_words(-1.0)))
-        told = _ended(other, client, 0)
-        if told.error == 0 or told.text != "weld_failed":
-            raise CheckFailed(f"weld has raised weld_failed, RESULT says {told}")
+        reply = _ended(other, client, 0)
+        if reply.error == 0 or reply.text != "weld_failed":
+            raise CheckFailed(f"weld has raised weld_failed, RESULT says {reply}")
         other.run(0.5)
         seen = other.progress(watcher)
         if (seen.state, seen.reason) != (RawTrajectoryState.FAILED, RawReason.ROUTINE):
@@ -199,15 +199,15 @@ def _alone(bench: Bench) -> None:
         own = other.controller.task(other.group.task)
         trajectory = _taken(_calls(client, LONG))
         other.run(0.5)
-        told = _calls(client, LONG)
-        client.refused(told, RawReason.MOVING, -1, "a program into a routine")
-        told = other.control().ask(messages.RawSpeed(50.0))
-        not_done(told, RawReason.IN_ROUTINE, "SPEED of a routine")
+        reply = _calls(client, LONG)
+        client.refused(reply, RawReason.MOVING, -1, "a program into a routine")
+        reply = other.control().ask(messages.RawSpeed(50.0))
+        not_done(reply, RawReason.IN_ROUTINE, "SPEED of a routine")
         points = other.wave(4)
         client.link.send(other.download(points))
         newer = RawLink(other, other.group.ports.motion)
         newer.send(other.download(points))
-        newer.wait_until_lost(3, "a newer client's motion into a routine")
+        newer.wait_disconnected(3, "a newer client's motion into a routine")
         seen = other.progress(watcher)
         if (seen.trajectory, seen.state) != (trajectory, RawTrajectoryState.MOVING):
             raise CheckFailed(f"a routine runs, PROGRESS says {seen}")
@@ -215,7 +215,7 @@ def _alone(bench: Bench) -> None:
         other.run(0.5)
         if own["cell:undone"] or other.progress(watcher).state != RawTrajectoryState.DONE:
             raise CheckFailed("the routine did not end by itself")
-        other.stays(1, "a trajectory was turned away")
+        other.assert_at_rest(1, "a trajectory was turned away")
         for reason, seconds in ((RawReason.OVERTIME, 1.0), (RawReason.STOPPED, 0.0)):
             _taken(_calls(client, LONG, seconds=seconds))
             other.run(2)
@@ -227,7 +227,7 @@ def _alone(bench: Bench) -> None:
                 raise CheckFailed(f"{reason.name} of a routine: PROGRESS says {seen}")
         # The way that was turned away is taken now. At its second corner the looks of the state and
         # the control server for clients fall together: where tasks run by lot it may be a stop.
-        other.moves_through(client.link, points)
+        other.assert_moves_through(client.link, points)
         program = orders(other, 2, random.Random(28))
         client.takes("a program behind a routine", program)
         other.wait_until_at(program[-1].joints, 60)
@@ -264,7 +264,7 @@ def _displaced(bench: Bench) -> None:
             if move is joints:
                 other.wait_until_at(move.joints, 60)
                 return
-            other.stays(7, "a routine has displaced the poses behind it")
+            other.assert_at_rest(7, "a routine has displaced the poses behind it")
             seen = other.progress(watcher)
             if (seen.reason, seen.reached) != (RawReason.POSE_MISMATCH, 1):
                 raise CheckFailed(f"poses are displaced, PROGRESS says {seen}")
@@ -280,10 +280,10 @@ def _displaced_before(bench: Bench) -> None:
     move = replace(last, kind=RawInstruction.MOVE_J, pose=reached(bench, last.joints), zone=None)
     for displacement in _DISPLACEMENTS:
         modal.displacement = displacement
-        told = client.send([move])
-        if isinstance(told, messages.RawPointsRefused):
-            client.refused(told, RawReason.POSE_MISMATCH, 0, "poses that are displaced")
-        bench.stays(1, "the customer's program has displaced the poses")
+        reply = client.send([move])
+        if isinstance(reply, messages.RawPointsRefused):
+            client.refused(reply, RawReason.POSE_MISMATCH, 0, "poses that are displaced")
+        bench.assert_at_rest(1, "the customer's program has displaced the poses")
     client.takes("joints, which no displacement takes elsewhere", [last])
     bench.wait_until_at(last.joints, 60)
     client.takes("the way back", [first])
@@ -303,50 +303,50 @@ def _targets(bench: Bench) -> None:
         first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
         (x, y, z), turn = reached(other, first)
         away = millionths([x + 0.1, y, z, *turn, *first, *first, *second])
-        told = _calls(client, TEACH, away)
-        client.refused(told, RawReason.POSE_MISMATCH, 0, "joints that reach another pose")
-        words = millionths([x, y, z, *turn, *first, *first, *second])
-        _taken(_calls(client, TEACH, words))
+        reply = _calls(client, TEACH, away)
+        client.refused(reply, RawReason.POSE_MISMATCH, 0, "joints that reach another pose")
+        values = millionths([x, y, z, *turn, *first, *first, *second])
+        _taken(_calls(client, TEACH, values))
         _ended(other, client, 0)
-        told = _asks_target(client, 0, 1)
-        _near("robtarget", (*told.position, *told.orientation), (x + 0.25, y, z, *turn))
-        _near("configuration", told.configuration, (-1, 2, -3, 4))
+        reply = _asks_target(client, 0, 1)
+        _near("robtarget", (*reply.position, *reply.orientation), (x + 0.25, y, z, *turn))
+        _near("configuration", reply.configuration, (-1, 2, -3, 4))
         for number, joints in ((1, second), (2, first)):
-            told = _asks_target(client, 1, number)
-            _near(f"jointtarget {number}", told.joints[: len(joints)], joints)
-            if any(told.joints[len(joints) :]) or any(told.position) or any(told.orientation):
-                raise CheckFailed(f"TARGET of a jointtarget is answered by {told}")
+            reply = _asks_target(client, 1, number)
+            _near(f"jointtarget {number}", reply.joints[: len(joints)], joints)
+            if any(reply.joints[len(joints) :]) or any(reply.position) or any(reply.orientation):
+                raise CheckFailed(f"TARGET of a jointtarget is answered by {reply}")
         for kind, number in ((0, 0), (0, 2), (1, 0), (1, 3), (2, 1), (-1, 1), (1, -1)):
-            asked = messages.RawTarget(kind, number)
-            if not isinstance(client.link.ask(asked), messages.RawFailure):
-                raise CheckFailed(f"a routine has no target {asked}")
+            requested = messages.RawTarget(kind, number)
+            if not isinstance(client.link.ask(requested), messages.RawFailure):
+                raise CheckFailed(f"a routine has no target {requested}")
 
 
 def _asks_target(client: Programmer, joints: int, parameter: int) -> messages.RawTargetReply:
-    told = client.link.ask(messages.RawTarget(joints, parameter))
-    if not isinstance(told, messages.RawTargetReply):
-        raise CheckFailed(f"TARGET is answered by {told}")
-    return told
+    reply = client.link.ask(messages.RawTarget(joints, parameter))
+    if not isinstance(reply, messages.RawTargetReply):
+        raise CheckFailed(f"TARGET is answered by {reply}")
+    return reply
 
 
-def _near(what: str, told: Sequence[float], wanted: Sequence[float]) -> None:
+def _near(what: str, reply: Sequence[float], expected: Sequence[float]) -> None:
     """Broken unless numbers are those that were sent, as far as the wire tells them."""
-    if not all(abs(a - b) < 1e-5 for a, b in zip(told, wanted, strict=True)):
-        raise CheckFailed(f"the {what} has come back as {told}, not {wanted}")
+    if not all(abs(a - b) < 1e-5 for a, b in zip(reply, expected, strict=True)):
+        raise CheckFailed(f"the {what} has come back as {reply}, not {expected}")
 
 
 def _zeros(bench: Bench, routine: UserRoutine) -> list[int]:
     """Words of arguments that any routine takes: nothing, and where the robot is."""
-    here = bench.position
+    current = bench.position
     values: dict[str, list[float]] = {
         "num": [0.0],
         "bool": [0.0],
         "string": [0.0],
-        "jointtarget": list(here),
+        "jointtarget": list(current),
     }
     if any(p.type == "robtarget" for p in routine.parameters):
-        (x, y, z), turn = reached(bench, here)
-        values["robtarget"] = [x, y, z, *turn, *here]
+        (x, y, z), turn = reached(bench, current)
+        values["robtarget"] = [x, y, z, *turn, *current]
     return [w for p in routine.parameters for w in millionths(values[p.type])]
 
 
@@ -366,30 +366,30 @@ def _calls(
 ) -> messages.RawContent:
     """A program of one call; its reply."""
     client.number += 1
-    words = [*millionths(client.bench.position), int(_CALL), *millionths([number, seconds])]
-    return client.say([*words, *arguments], 1, ALL)
+    values = [*millionths(client.bench.position), int(_CALL), *millionths([number, seconds])]
+    return client.say([*values, *arguments], 1, ALL)
 
 
-def _taken(told: messages.RawContent) -> int:
-    if not isinstance(told, messages.RawPointsAccepted):
-        raise CheckFailed(f"a call is right, the reply is {told}")
-    return told.trajectory
+def _taken(reply: messages.RawContent) -> int:
+    if not isinstance(reply, messages.RawPointsAccepted):
+        raise CheckFailed(f"a call is right, the reply is {reply}")
+    return reply.trajectory
 
 
 def _asks(client: Programmer, parameter: int) -> messages.RawResultReply:
-    told = client.link.ask(messages.RawResult(parameter))
-    if not isinstance(told, messages.RawResultReply):
-        raise CheckFailed(f"RESULT is answered by {told}")
-    return told
+    reply = client.link.ask(messages.RawResult(parameter))
+    if not isinstance(reply, messages.RawResultReply):
+        raise CheckFailed(f"RESULT is answered by {reply}")
+    return reply
 
 
 def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResultReply:
     """What RESULT says when the newest call has ended."""
     newest = bench.progress(bench.watcher()).trajectory
     for _ in range(100):
-        told = _asks(client, parameter)
-        if told.trajectory == newest:
-            return told
+        reply = _asks(client, parameter)
+        if reply.trajectory == newest:
+            return reply
         bench.run(0.02)
     raise CheckFailed("RESULT does not tell the newest call")
 

@@ -36,10 +36,10 @@ class PageHook(BuildHookInterface[BuilderConfig]):
 
 def build() -> None:
     """Install the locked packages and build. SystemExit: it cannot be done."""
-    found = _node()
-    if found is None:
+    result = _node()
+    if result is None:
         sys.exit("the page needs Node.js to be built: `pip install --group build`, or the system's")
-    npm, environment = found
+    npm, environment = result
     for words in ("ci --ignore-scripts", "run --silent check", "run --silent build"):
         if subprocess.run(
             [*npm, *words.split()], cwd=HERE, env=environment, check=False

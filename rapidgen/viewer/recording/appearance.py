@@ -49,31 +49,31 @@ def carried(look: Appearance, most: int = MOST) -> Appearance:
             files[name] = data
     if not left:
         return look
-    told = (
+    text = (
         f"{len(left)} of {len(look.files)} meshes ({sum(left) / 1e6:.1f} MB) are not in the "
         f"recording: it carries {most / 1e6:.0f} MB of them"
     )
-    return replace(_with(look, files), faults=(*look.faults, told))
+    return replace(_with(look, files), faults=(*look.faults, text))
 
 
 def written(look: Appearance) -> bytes:
     """All but the meshes, JSON."""
-    found = RecordedAppearance(
+    result = RecordedAppearance(
         drawings=dict(look.drawings), things=look.things, bases=dict(look.bases), faults=look.faults
     )
-    return found.model_dump_json().encode()
+    return result.model_dump_json().encode()
 
 
 def read(data: bytes, meshes: Mapping[str, bytes], groups: Iterable[GroupConfig]) -> Appearance:
     """What was written. ValueError: it cannot be read."""
     try:
-        found = RecordedAppearance.model_validate_json(data)
+        result = RecordedAppearance.model_validate_json(data)
     except ValidationError as error:
         fault = error.errors(include_url=False, include_input=False)[0]
         raise ValueError(fault["msg"]) from error
-    drawings, faults = {}, list(found.faults)
+    drawings, faults = {}, list(result.faults)
     for group in groups:
-        drawing = found.drawings.get(group.name)
+        drawing = result.drawings.get(group.name)
         if drawing is not None and (why := _misfit(drawing, group)):
             faults.append(f"the drawing of {group.name} is not its own: {why}")
         elif drawing is not None:
@@ -81,7 +81,7 @@ def read(data: bytes, meshes: Mapping[str, bytes], groups: Iterable[GroupConfig]
     files = {name: mesh for name, mesh in meshes.items() if _is_mesh(name, mesh)}
     if len(files) < len(meshes):
         faults.append(f"{len(meshes) - len(files)} meshes are damaged")
-    look = Appearance(drawings, {}, tuple(faults), found.things, found.bases)
+    look = Appearance(drawings, {}, tuple(faults), result.things, result.bases)
     return _with(look, files)
 
 
@@ -111,7 +111,7 @@ def _misfit(drawing: Drawing, group: GroupConfig) -> str:
 
 
 def _is_mesh(name: str, data: bytes) -> bool:
-    told = _MESH.fullmatch(name)
-    if told is None or hashlib.sha256(data).hexdigest()[:20] != told[1]:
+    text = _MESH.fullmatch(name)
+    if text is None or hashlib.sha256(data).hexdigest()[:20] != text[1]:
         return False
-    return told[2] != ".dae" or not xml_fault(data)
+    return text[2] != ".dae" or not xml_fault(data)

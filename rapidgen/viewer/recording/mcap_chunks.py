@@ -96,19 +96,19 @@ def _indexed(stream: BinaryIO, size: int) -> Contents:
     summary = SeekingReader(stream, record_size_limit=LARGEST_SUMMARY).get_summary()
     if summary is None:
         raise RecordingDamaged("there is no index")
-    found = Contents()
+    result = Contents()
     for index in summary.chunk_indexes:
         offset = index.chunk_start_offset
         if not 0 < offset < size:
             raise RecordingDamaged("a chunk is not in the file")
-        found.pieces.append(StoredChunk(offset, index.message_start_time, index.message_end_time))
-    found.channels = {number: channel.topic for number, channel in summary.channels.items()}
+        result.pieces.append(StoredChunk(offset, index.message_start_time, index.message_end_time))
+    result.channels = {number: channel.topic for number, channel in summary.channels.items()}
     for place in summary.attachment_indexes:
-        _take_attachment(found, _body(stream, place.offset, Opcode.ATTACHMENT, LARGEST_ATTACHMENT))
+        _take_attachment(result, _body(stream, place.offset, Opcode.ATTACHMENT, LARGEST_ATTACHMENT))
     for entry in summary.metadata_indexes:
-        _take_metadata(found, _body(stream, entry.offset, Opcode.METADATA, LARGEST_METADATA))
-    found.pieces.sort(key=lambda piece: (piece.begin, piece.offset))
-    return found
+        _take_metadata(result, _body(stream, entry.offset, Opcode.METADATA, LARGEST_METADATA))
+    result.pieces.sort(key=lambda piece: (piece.begin, piece.offset))
+    return result
 
 
 def _check_summary(stream: BinaryIO, size: int) -> None:
@@ -142,18 +142,18 @@ def _body(stream: BinaryIO, offset: int, expected: Opcode, limit: int) -> bytes:
     return data
 
 
-def _take_attachment(found: Contents, body: bytes) -> None:
+def _take_attachment(result: Contents, body: bytes) -> None:
     if zlib.crc32(body[:-4]) != int.from_bytes(body[-4:], "little"):
         raise RecordingDamaged("an attachment has been changed: its checksum is wrong")
     one = Attachment.read(_stream(body))
-    found.attachments.append((one.name, one.log_time, one.data))
-    if sum(len(data) for _, _, data in found.attachments) > MOST_ATTACHED:
+    result.attachments.append((one.name, one.log_time, one.data))
+    if sum(len(data) for _, _, data in result.attachments) > MOST_ATTACHED:
         raise RecordingDamaged(f"attachments of more than {MOST_ATTACHED:,} bytes")
 
 
-def _take_metadata(found: Contents, body: bytes) -> None:
+def _take_metadata(result: Contents, body: bytes) -> None:
     one = Metadata.read(_stream(body))
-    found.metadata[one.name] = one.metadata
+    result.metadata[one.name] = one.metadata
 
 
 def _stream(body: bytes) -> ReadDataStream:
@@ -165,33 +165,33 @@ def _scanned(stream: BinaryIO, size: int) -> Contents:
 
     Only what a checksum covers is believed: times and channels are those inside the chunks.
     """
-    found = Contents(cut=True)
+    result = Contents(cut=True)
     at = len(_MAGIC)
     while at + _RECORD.size <= size:
         stream.seek(at)
         opcode, length = _RECORD.unpack(stream.read(_RECORD.size))
-        behind = at + _RECORD.size + length
-        if behind > size:
+        after = at + _RECORD.size + length
+        if after > size:
             break
         try:
-            if not _take(found, stream, opcode, at, length):
+            if not _take(result, stream, opcode, at, length):
                 break
         except (*BROKEN, RecordingDamaged):
             break
-        at = behind
-    found.pieces.sort(key=lambda piece: (piece.begin, piece.offset))
-    return found
+        at = after
+    result.pieces.sort(key=lambda piece: (piece.begin, piece.offset))
+    return result
 
 
-def _take(found: Contents, stream: BinaryIO, opcode: int, at: int, length: int) -> bool:
+def _take(result: Contents, stream: BinaryIO, opcode: int, at: int, length: int) -> bool:
     """Add what a record has; False: no such record is among the data. Damaged."""
     match opcode:
         case Opcode.CHUNK:
-            _take_chunk(found, stream, at)
+            _take_chunk(result, stream, at)
         case Opcode.ATTACHMENT:
-            _take_attachment(found, _body(stream, at, Opcode.ATTACHMENT, LARGEST_ATTACHMENT))
+            _take_attachment(result, _body(stream, at, Opcode.ATTACHMENT, LARGEST_ATTACHMENT))
         case Opcode.METADATA:
-            _take_metadata(found, _body(stream, at, Opcode.METADATA, LARGEST_METADATA))
+            _take_metadata(result, _body(stream, at, Opcode.METADATA, LARGEST_METADATA))
         case Opcode.MESSAGE_INDEX:
             # A chunk whose opcode has been changed is not passed over.
             _, listed = _INDEX_HEAD.unpack(stream.read(_INDEX_HEAD.size))
@@ -203,17 +203,17 @@ def _take(found: Contents, stream: BinaryIO, opcode: int, at: int, length: int) 
     return True
 
 
-def _take_chunk(found: Contents, stream: BinaryIO, at: int) -> None:
+def _take_chunk(result: Contents, stream: BinaryIO, at: int) -> None:
     data = _unpacked(stream, StoredChunk(at, 0, 0))
     times = []
     for opcode, begin, _ in _records(data):
         if opcode == Opcode.CHANNEL:
             number, _, length = struct.unpack_from("<HHI", data, begin)
-            found.channels[number] = data[begin + 8 : begin + 8 + length].decode()
+            result.channels[number] = data[begin + 8 : begin + 8 + length].decode()
         elif opcode == Opcode.MESSAGE:
             times.append(_MESSAGE.unpack_from(data, begin)[2])
     if times:
-        found.pieces.append(StoredChunk(at, min(times), max(times)))
+        result.pieces.append(StoredChunk(at, min(times), max(times)))
 
 
 def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
@@ -226,8 +226,8 @@ def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
         case "":
             data: bytes = chunk.data
         case "zstd":
-            told = zstandard.frame_content_size(chunk.data)
-            if told != size:
+            text = zstandard.frame_content_size(chunk.data)
+            if text != size:
                 raise RecordingDamaged("a chunk is not as large as it says")
             data = zstandard.ZstdDecompressor().decompress(chunk.data, max_output_size=size)
         case other:
@@ -268,26 +268,26 @@ class Chunks:
 
     def messages(self, piece: StoredChunk) -> tuple[StoredMessage, ...]:
         """In the order of their times. Damaged: the piece cannot be read."""
-        found = self._kept.get(piece.offset)
-        if found is None:
+        match = self._kept.get(piece.offset)
+        if match is None:
             try:
-                found = self._read(piece)
+                match = self._read(piece)
             except BROKEN as error:
                 raise RecordingDamaged(str(error) or type(error).__name__) from error
-            self._kept[piece.offset] = found
+            self._kept[piece.offset] = match
             if len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
         else:
             self._kept.move_to_end(piece.offset)
-        return found
+        return match
 
     def _read(self, piece: StoredChunk) -> tuple[StoredMessage, ...]:
         data = _unpacked(self._stream, piece)
-        found = []
+        result = []
         for opcode, begin, end in _records(data):
             if opcode == Opcode.MESSAGE:
                 channel, _, time, _ = _MESSAGE.unpack_from(data, begin)
                 body = data[begin + _MESSAGE.size : end]
-                found.append(StoredMessage(time, channel, (piece.offset, begin), body))
-        found.sort(key=lambda message: (message.time, message.order))
-        return tuple(found)
+                result.append(StoredMessage(time, channel, (piece.offset, begin), body))
+        result.sort(key=lambda message: (message.time, message.order))
+        return tuple(result)

@@ -59,11 +59,11 @@ class _Seen:
     def place(self, moment: Moment) -> v.RobotPlace:
         """Where it was."""
         joints = moment.joints.get(self.config.name)
-        rest = (0.0,) * len(self.config.joints)
-        actual = joints.actual if joints else rest
-        commanded = joints.commanded if joints else rest
-        told = moment.carried.get(self.config.name)
-        carried = _carried(told) if told is not None else ToolAndWorkObject.configured(self.config)
+        remaining = (0.0,) * len(self.config.joints)
+        actual = joints.actual if joints else remaining
+        commanded = joints.commanded if joints else remaining
+        text = moment.carried.get(self.config.name)
+        carried = _carried(text) if text is not None else ToolAndWorkObject.configured(self.config)
         tcp = carried.tcp(self._kinematics, actual)
         return v.RobotPlace(
             joints=self.drawing.values(self._map.to_urdf(actual)),
@@ -73,7 +73,7 @@ class _Seen:
             tool=pose_of(carried.tool),
             tool_held=carried.held,
             work_object=pose_of(carried.object),
-            standing=told is None or told.standing,
+            standing=text is None or text.standing,
         )
 
 
@@ -161,15 +161,15 @@ class RecordedProvider:
 
     def _conversation(self, moment: Moment) -> n.Conversation:
         """What was said just before, where somebody wants to know."""
-        heard: deque[SocketPiece] = deque(maxlen=_PIECES)
+        received: deque[SocketPiece] = deque(maxlen=_PIECES)
         if self._listening:
             begin = max(self._file.begin, moment.time - _BACK)
             for at, frame in self._file.frames(begin, moment.time):
                 ends = (frame.task, frame.local, frame.peer)
                 data = base64.b64decode(frame.data)
-                heard.append(SocketPiece(at, frame.change, *ends, data))
+                received.append(SocketPiece(at, frame.change, *ends, data))
         interpreter = Interpreter()
-        lines = tuple(line for piece in heard for line in interpreter.lines(piece))
+        lines = tuple(line for piece in received for line in interpreter.lines(piece))
         return n.Conversation(listening=self._listening, lines=lines, fresh=True)
 
     def _panel(self, moment: Moment, panel: m.RecordedPanel) -> v.PanelState:
@@ -240,10 +240,10 @@ class RecordedProvider:
 
     def _source(self, request: Request) -> str:
         assert isinstance(request, p.ReadSource)
-        found = next((t for t, number in self._sources.items() if number == request.number), None)
-        if found is None:
+        match = next((t for t, number in self._sources.items() if number == request.number), None)
+        if match is None:
             raise RequestRejected("it is not in the recording")
-        return found
+        return match
 
     def _curves(self, request: Request) -> str:
         """The reply's text is what the page's plots take (PlotData of plot.ts)."""
@@ -284,10 +284,10 @@ def _read(handler: Handler) -> Handler:
     return carried_out
 
 
-def _carried(told: m.CarriedFrames) -> ToolAndWorkObject:
-    tool, placed = told.tool, told.work_object
+def _carried(text: m.CarriedFrames) -> ToolAndWorkObject:
+    tool, placed = text.tool, text.work_object
     return ToolAndWorkObject(
-        (tool.position, tool.orientation), told.held, (placed.position, placed.orientation)
+        (tool.position, tool.orientation), text.held, (placed.position, placed.orientation)
     )
 
 

@@ -114,8 +114,8 @@ class RecordingFile:
         for name, _, data in self._contents.attachments:
             if name == m.ROBOTS:
                 try:
-                    found = json.loads(data)
-                    return tuple(group_from_manifest(one, self.path) for one in found)
+                    result = json.loads(data)
+                    return tuple(group_from_manifest(one, self.path) for one in result)
                 except (ValueError, TypeError, RecursionError) as error:
                     raise self._refused(f"its robots cannot be read: {error}") from error
         raise self._refused("it tells of no robots")
@@ -131,11 +131,13 @@ class RecordingFile:
         return otherwise
 
     def _look(self) -> Appearance:
-        kept = self._contents.attachments
+        saved = self._contents.attachments
         meshes = {
-            name.removeprefix(m.MESHES): data for name, _, data in kept if name.startswith(m.MESHES)
+            name.removeprefix(m.MESHES): data
+            for name, _, data in saved
+            if name.startswith(m.MESHES)
         }
-        for name, _, data in kept:
+        for name, _, data in saved:
             if name == m.LOOK:
                 try:
                     return appearance.read(data, meshes, self.robots)
@@ -145,13 +147,13 @@ class RecordingFile:
 
     def sources(self, time: float) -> dict[tuple[str, str], str]:
         """By task and module: the text that was loaded at a time."""
-        found = {}
+        result = {}
         for name, at, data in self._contents.attachments:
             task, slash, module = name.removeprefix(m.SOURCES).partition("/")
             # What is loaded is noticed up to a second later.
             if name.startswith(m.SOURCES) and slash and at <= time * _NS + m.SNAPSHOT_EVERY_NS:
-                found[task, module] = data.decode(errors="replace")
-        return found
+                result[task, module] = data.decode(errors="replace")
+        return result
 
     # -- a moment --------------------------------------------------------------------------------
 
@@ -199,12 +201,12 @@ class RecordingFile:
                 value = self._decoded(m.WatchedValue, message)
                 moment.watch[value.task, value.expression] = value
             case "snapshot":
-                whole = self._decoded(m.Snapshot, message)
-                moment.joints, moment.carried = dict(whole.joints), dict(whole.carried)
-                moment.tasks, moment.panel = dict(whole.tasks), whole.panel
-                moment.signals = dict(whole.signals)
-                moment.watch = {(v.task, v.expression): v for v in whole.watch}
-                moment.connections, moment.log = list(whole.connections), list(whole.log)
+                complete = self._decoded(m.Snapshot, message)
+                moment.joints, moment.carried = dict(complete.joints), dict(complete.carried)
+                moment.tasks, moment.panel = dict(complete.tasks), complete.panel
+                moment.signals = dict(complete.signals)
+                moment.watch = {(v.task, v.expression): v for v in complete.watch}
+                moment.connections, moment.log = list(complete.connections), list(complete.log)
 
     # -- ranges ----------------------------------------------------------------------------------
 
@@ -215,8 +217,8 @@ class RecordingFile:
 
     def log(self, begin: float, end: float) -> list[m.LogLine]:
         """Events between two times, s."""
-        found = self._messages(round(begin * _NS), round(end * _NS), "log")
-        return [self._decoded(m.LogLine, message) for message in found]
+        result = self._messages(round(begin * _NS), round(end * _NS), "log")
+        return [self._decoded(m.LogLine, message) for message in result]
 
     def joints(
         self, robot: str, begin: float, end: float, most: int = 2000
@@ -230,19 +232,19 @@ class RecordingFile:
             rows = [row for row in self._overview[robot] if begin <= row[0] <= end]
             step = max(1, len(rows) // most)
             return [(at, m.Joints(commanded=c, actual=a)) for at, c, a in rows[::step]]
-        found = list(self._messages(first, last, f"joints/{robot}"))
-        step = max(1, len(found) // most)
-        chosen = [*found[::step], *found[-1:]]
+        result = list(self._messages(first, last, f"joints/{robot}"))
+        step = max(1, len(result) // most)
+        chosen = [*result[::step], *result[-1:]]
         return [(x.time / _NS, self._decoded(m.Joints, x)) for x in chosen]
 
     def signal(self, name: str, begin: float, end: float) -> list[tuple[float, float]]:
         """Times and values of a signal: at the beginning, and each change until the end, s."""
-        found = [(begin, self.at(begin).signals[name])] if name in self.at(begin).signals else []
+        result = [(begin, self.at(begin).signals[name])] if name in self.at(begin).signals else []
         for message in self._messages(round(begin * _NS) + 1, round(end * _NS), "signals"):
             values = self._decoded(m.RecordedSignals, message).values
             if name in values:
-                found.append((message.time / _NS, values[name]))
-        return found
+                result.append((message.time / _NS, values[name]))
+        return result
 
     def write_csv(self, path: Path | str, robot: str = "") -> None:
         """Positions of a robot (the first by default), one row a sample. KeyError."""

@@ -14,8 +14,8 @@ from rapidgen._json import Json, Members, items, members, text
 
 def plain_schema(kind: type[BaseModel], signals: Iterable[str] = ()) -> Members:
     """The schema of a message; `values` of signals have their names."""
-    whole: Members = kind.model_json_schema()
-    made = _plain(whole, members(whole.get("$defs", {})))
+    complete: Members = kind.model_json_schema()
+    made = _plain(complete, members(complete.get("$defs", {})))
     if "values" in members(made["properties"]):
         numbers: Members = {name: {"type": "number"} for name in signals}
         members(made["properties"])["values"] = {"type": "object", "properties": numbers}

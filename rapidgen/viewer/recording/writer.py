@@ -121,8 +121,8 @@ class RecordingWriter:
         self._events.append(line)
         self._write("log", line)
 
-    def _socket(self, news: SocketNews) -> None:
-        self._write("sockets", _frame(news))
+    def _socket(self, events: SocketNews) -> None:
+        self._write("sockets", _frame(events))
 
     # -- what is looked at -----------------------------------------------------------------------
 
@@ -141,7 +141,7 @@ class RecordingWriter:
             self._new_sources()
             self._write_snapshot()
             self._next_snapshot = self._scheduler.now + m.SNAPSHOT_EVERY_NS
-        self._scheduler.look_after(TICK_NS, self._tick)
+        self._scheduler.call_later_readonly(TICK_NS, self._tick)
 
     def _samples(self) -> None:
         """Positions since the last look."""
@@ -150,14 +150,14 @@ class RecordingWriter:
         self._next_sample = first + len(times) * m.JOINTS_PERIOD_NS
         for name, recorder in self._recorders.items():
             topic = f"joints/{name}"
-            told = self._stood.get(topic)
+            text = self._stood.get(topic)
             for time, sample in zip(times, recorder.postures(times), strict=True):
-                if sample == told:
+                if sample == text:
                     self._held[topic] = time
                     continue
-                if told is not None and (held := self._held.pop(topic, None)) is not None:
-                    self._put(topic, _joints(told), held)
-                told = self._stood[topic] = sample
+                if text is not None and (held := self._held.pop(topic, None)) is not None:
+                    self._put(topic, _joints(text), held)
+                text = self._stood[topic] = sample
                 self._put(topic, _joints(sample), time)
             recorder.forget(self._next_sample)
 
@@ -188,16 +188,16 @@ class RecordingWriter:
             kind, text = "", "(there is no program)"
             if task is not None and frame is not None:
                 try:
-                    shown = evaluate(task.program, frame, expression)
-                    kind, text = shown.type, shown.text
+                    displayed = evaluate(task.program, frame, expression)
+                    kind, text = displayed.type, displayed.text
                 except NotPaused as reason:
                     text = f"({reason})"
             yield m.WatchedValue(task=name, expression=expression, type=kind, text=text)
 
     def _write_snapshot(self) -> None:
-        found = self._snapshot()
-        self._write("snapshot", found)
-        for name, joints in found.joints.items():
+        result = self._snapshot()
+        self._write("snapshot", result)
+        for name, joints in result.joints.items():
             row = (self._controller.now, joints.commanded, joints.actual)
             self._overview.setdefault(name, []).append(row)
 
@@ -334,13 +334,13 @@ def _line(event: Event) -> m.LogLine:
     )
 
 
-def _frame(news: SocketNews) -> m.SocketFrame:
+def _frame(events: SocketNews) -> m.SocketFrame:
     return m.SocketFrame.model_construct(
-        change=news.change,
-        task=news.task,
-        local="{}:{}".format(*news.local),
-        peer="{}:{}".format(*news.peer) if news.peer is not None else "",
-        data=b64encode(news.data).decode(),
+        change=events.change,
+        task=events.task,
+        local="{}:{}".format(*events.local),
+        peer="{}:{}".format(*events.peer) if events.peer is not None else "",
+        data=b64encode(events.data).decode(),
     )
 
 

@@ -39,9 +39,9 @@ RULES: Mapping[Ailment, NetworkRule] = {
 class ConnectionsProvider:
     """Sockets in use, what they say while somebody listens, and cables that are pulled."""
 
-    def __init__(self, cabinet: ControllerRunner) -> None:
-        self._controller = cabinet.controller
-        self._sockets = cabinet.controller.sockets
+    def __init__(self, runner: ControllerRunner) -> None:
+        self._controller = runner.controller
+        self._sockets = runner.controller.sockets
         self._told: tuple[ShownSocket, ...] = ()
         self._ailments: dict[SocketDevice, Ailment] = {}
         self._interpreter: Interpreter | None = None
@@ -53,7 +53,7 @@ class ConnectionsProvider:
     def whole(self) -> Iterable[ToPage]:
         """All of them, and the latest that was said."""
         yield Connections(sockets=self._now())
-        lines = [line for said in self._latest for line in said.lines][-_TOLD:]
+        lines = [line for message in self._latest for line in message.lines][-_TOLD:]
         listening = self._interpreter is not None
         yield Conversation(listening=listening, lines=tuple(lines), fresh=True)
 
@@ -66,14 +66,14 @@ class ConnectionsProvider:
         listening = self._interpreter is not None
         if self._count or listening != self._listened:
             self._listened = listening
-            said = self._said()
-            self._latest.append(said)
-            yield said
+            message = self._said()
+            self._latest.append(message)
+            yield message
 
     def _said(self) -> Conversation:
-        heard, self._heard = self._heard, deque(maxlen=_KEPT)
-        missed, self._count = self._count - len(heard), 0
-        lines = [line for piece in heard for line in self._lines(piece)]
+        received, self._heard = self._heard, deque(maxlen=_KEPT)
+        missed, self._count = self._count - len(received), 0
+        lines = [line for piece in received for line in self._lines(piece)]
         return Conversation(
             listening=self._interpreter is not None, lines=tuple(lines), missed=missed
         )
@@ -110,7 +110,7 @@ class ConnectionsProvider:
             raise RequestRejected("this connection cannot be made worse")
         if self._ailments.get(device) in ("silent", "half-open") and request.ailment != "silent":
             raise RequestRejected("what was lost does not come again: cut it")
-        network.afflict(device.endpoint, RULES[request.ailment])
+        network.inject_fault(device.endpoint, RULES[request.ailment])
         self._ailments = {d: a for d, a in self._ailments.items() if d in self._sockets.in_use}
         self._ailments[device] = request.ailment
         return ""
@@ -127,12 +127,17 @@ class ConnectionsProvider:
             self._latest.clear()
         return ""
 
-    def _hear(self, news: SocketNews) -> None:
-        peer = "" if news.peer is None else _text(news.peer)
+    def _hear(self, events: SocketNews) -> None:
+        peer = "" if events.peer is None else _text(events.peer)
         self._count += 1
         self._heard.append(
             SocketPiece(
-                self._controller.now, news.change, news.task, _text(news.local), peer, news.data
+                self._controller.now,
+                events.change,
+                events.task,
+                _text(events.local),
+                peer,
+                events.data,
             )
         )
 

@@ -20,10 +20,10 @@ from rapidgen.viewer.robots import ToolAndWorkObject, pose_of, side_by_side
 class MotionProvider:
     """The scene, positions, and the robots put elsewhere by hand."""
 
-    def __init__(self, cabinet: ControllerRunner, look: Appearance = PLAIN) -> None:
-        self._controller = cabinet.controller
+    def __init__(self, runner: ControllerRunner, look: Appearance = PLAIN) -> None:
+        self._controller = runner.controller
         self._look = look
-        self._scheduler = cabinet.controller.scheduler
+        self._scheduler = runner.controller.scheduler
         self._groups = tuple(self._controller.motion.groups.values())
         self._drawings = tuple(look.of(group.config) for group in self._groups)
         self._told: tuple[RobotPlace, ...] = ()
@@ -97,10 +97,10 @@ class MotionProvider:
         joints = group.config.joints
         if len(request.axes) != len(joints):
             raise RequestRejected(f"{group.name} has {len(joints)} axes")
-        here = group.positions()
+        current = group.positions()
         axes = tuple(
             now if own is None else now + own if request.relative else own
-            for own, now in zip(request.axes, here, strict=True)
+            for own, now in zip(request.axes, current, strict=True)
         )
         self._put(group, axes)
         return ""
@@ -119,10 +119,10 @@ class MotionProvider:
             own if own is not None else at for own, at in zip(request.position, now[0], strict=True)
         )
         flange = frames.compose(((x, y, z), frames.normalise(turned)), frames.invert(carried.tool))
-        found = kinematics.follow(flange, group.positions())
-        if found is None:
+        result = kinematics.follow(flange, group.positions())
+        if result is None:
             raise RequestRejected("the TCP does not reach that place as the arm is bent now")
-        self._put(group, found)
+        self._put(group, result)
         return ""
 
     def _put(self, group: MotionGroup, axes: Posture) -> None:

@@ -27,10 +27,10 @@ _KINDS: dict[EventType, Literal["info", "warning", "error"]] = {
 class OperatorOutputProvider:
     """Log, screen and dialogs."""
 
-    def __init__(self, cabinet: ControllerRunner) -> None:
-        self._controller = cabinet.controller
+    def __init__(self, runner: ControllerRunner) -> None:
+        self._controller = runner.controller
         # Whoever opens the page can answer: dialogs wait for that.
-        cabinet.controller.operator.attach()
+        runner.controller.operator.attach()
         self._sequence = 0
         self._rows: tuple[str, ...] = ()
         self._waiting: tuple[Dialog, ...] = ()

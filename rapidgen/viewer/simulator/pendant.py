@@ -21,8 +21,8 @@ _EVERY = 0.5
 class PendantProvider:
     """PanelState, and what changes it."""
 
-    def __init__(self, cabinet: ControllerRunner) -> None:
-        self._controller = cabinet.controller
+    def __init__(self, runner: ControllerRunner) -> None:
+        self._controller = runner.controller
         self._told: PanelState | None = None
 
     def whole(self) -> Iterable[ToPage]:
@@ -31,9 +31,9 @@ class PendantProvider:
 
     def changes(self) -> Iterable[ToPage]:
         """The status, where it differs or its time is old."""
-        now, told = self._status(), self._told
-        same = told is not None and now.model_copy(update={"time": told.time}) == told
-        if told is None or not same or now.time >= told.time + _EVERY:
+        now, text = self._status(), self._told
+        same = text is not None and now.model_copy(update={"time": text.time}) == text
+        if text is None or not same or now.time >= text.time + _EVERY:
             self._told = now
             yield now
 

@@ -28,11 +28,11 @@ _COVERED_EVERY = 1.0
 class ProgramProvider:
     """What is executed, and what stops it. Breakpoints stay over a restart."""
 
-    def __init__(self, cabinet: ControllerRunner) -> None:
-        self._controller = cabinet.controller
-        self._tasks = cabinet.controller.rapid_tasks
-        self._debugger = Debugger(cabinet.controller, cabinet.breakpoints)
-        self._asked = cabinet.breakpoints
+    def __init__(self, runner: ControllerRunner) -> None:
+        self._controller = runner.controller
+        self._tasks = runner.controller.rapid_tasks
+        self._debugger = Debugger(runner.controller, runner.breakpoints)
+        self._asked = runner.breakpoints
         self._texts: dict[str, int] = {}
         self._task = next(iter(self._tasks), "")
         self._level = -1
@@ -134,11 +134,11 @@ class ProgramProvider:
         if self._coverage is None or now < self._counted + _COVERED_EVERY:
             return
         self._counted = now
-        found = self._coverage.lines()
+        result = self._coverage.lines()
         for task in self._tasks.values():
             for module in task.program.modules.values():
                 lines, number = (
-                    found.get(module.file.path, {}),
+                    result.get(module.file.path, {}),
                     self._texts.get(module.tree.source.text),
                 )
                 if number is not None and self._covered.get(number) != lines:
@@ -149,7 +149,7 @@ class ProgramProvider:
 
     def handlers(self) -> Mapping[type, Handler]:
         """Everything that the debugger does."""
-        found: dict[type, Handler] = {
+        result: dict[type, Handler] = {
             p.ReadSource: self._source,
             p.ReadOrigin: self._origin,
             p.SetBreakpoint: self._break,
@@ -164,14 +164,14 @@ class ProgramProvider:
             p.SetWatch: self._set_watch,
             p.CountLines: self._cover,
         }
-        return {kind: _told(handler) for kind, handler in found.items()}
+        return {kind: _told(handler) for kind, handler in result.items()}
 
     def _source(self, request: Request) -> str:
         assert isinstance(request, p.ReadSource)
-        found = next((t for t, number in self._texts.items() if number == request.number), None)
-        if found is None:
+        match = next((t for t, number in self._texts.items() if number == request.number), None)
+        if match is None:
             raise RequestRejected("it is not loaded any more")
-        return found
+        return match
 
     def _origin(self, request: Request) -> str:
         assert isinstance(request, p.ReadOrigin)
@@ -179,14 +179,14 @@ class ProgramProvider:
             for module in task.program.modules.values():
                 text = module.tree.source.text
                 if self._texts.get(text) == request.number and module.file.origin:
-                    found = origin_of(text, module.file.origin)
-                    told = p.SourceOrigin(lines=found.lines, templates=dict(found.templates))
+                    result = origin_of(text, module.file.origin)
+                    told = p.SourceOrigin(lines=result.lines, templates=dict(result.templates))
                     return told.model_dump_json()
         raise RequestRejected("no template made it")
 
     def _break(self, request: Request) -> str:
         assert isinstance(request, p.SetBreakpoint)
-        asked = Breakpoint(
+        requested = Breakpoint(
             request.module,
             request.line,
             request.task,
@@ -196,10 +196,10 @@ class ProgramProvider:
         )
         try:
             if request.number:
-                self._debugger.change(request.number, asked)
+                self._debugger.change(request.number, requested)
                 self._keep()
                 return str(request.number)
-            placed = self._debugger.add(asked)
+            placed = self._debugger.add(requested)
         except KeyError as error:
             raise RequestRejected("that breakpoint has been taken away") from error
         except ValueError as error:
@@ -255,13 +255,13 @@ class ProgramProvider:
 
     def _evaluate(self, request: Request) -> str:
         assert isinstance(request, p.Evaluate)
-        found = self._debugger.evaluate(self._task, request.expression, self._here())
-        return f"{found.text}  ({found.type})"
+        result = self._debugger.evaluate(self._task, request.expression, self._here())
+        return f"{result.text}  ({result.type})"
 
     def _assign(self, request: Request) -> str:
         assert isinstance(request, p.Assign)
-        here = self._here()
-        return self._debugger.assign(self._task, request.target, request.value, here).text
+        current = self._here()
+        return self._debugger.assign(self._task, request.target, request.value, current).text
 
     def _here(self) -> int:
         return min(self._level, len(self._debugger.frames(self._task)) - 1)
@@ -316,19 +316,21 @@ def _halt(halt: PauseReason, time: float) -> p.SeenHalt:
 
 
 def _breakpoint(placed: PlacedBreakpoint) -> p.SeenBreakpoint:
-    asked = placed.asked
+    requested = placed.asked
     return p.SeenBreakpoint(
         number=placed.number,
-        task=asked.task,
-        module=asked.module,
+        task=requested.task,
+        module=requested.module,
         line=placed.line,
-        condition=asked.condition,
-        hits=asked.hits,
-        log=asked.log,
+        condition=requested.condition,
+        hits=requested.hits,
+        log=requested.log,
         count=placed.count,
         doubt=placed.doubt,
     )
 
 
-def _value(shown: DisplayedValue) -> p.SeenValue:
-    return p.SeenValue(name=shown.name, kind=shown.type, text=shown.text, settable=shown.settable)
+def _value(displayed: DisplayedValue) -> p.SeenValue:
+    return p.SeenValue(
+        name=displayed.name, kind=displayed.type, text=displayed.text, settable=displayed.settable
+    )

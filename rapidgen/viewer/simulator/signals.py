@@ -19,8 +19,8 @@ from rapidgen.viewer.provider import Handler, RequestRejected
 class SignalsProvider:
     """All signals, then those that have changed."""
 
-    def __init__(self, cabinet: ControllerRunner) -> None:
-        self._io = cabinet.controller.io
+    def __init__(self, runner: ControllerRunner) -> None:
+        self._io = runner.controller.io
         self._told: dict[Signal, float] = {}
 
     def whole(self) -> Iterable[ToPage]:
@@ -29,10 +29,10 @@ class SignalsProvider:
 
     def changes(self) -> Iterable[ToPage]:
         """The values that are new."""
-        told = self._told
-        new = [s for s in self._io.signals.values() if told.get(s) != s.value]
+        text = self._told
+        new = [s for s in self._io.signals.values() if text.get(s) != s.value]
         if new:
-            told.update((signal, signal.value) for signal in new)
+            text.update((signal, signal.value) for signal in new)
             yield SignalValues(values={signal.name: signal.value for signal in new})
 
     def handlers(self) -> Mapping[type, Handler]:

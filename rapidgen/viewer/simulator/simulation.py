@@ -29,15 +29,15 @@ ASPECTS: tuple[Callable[[ControllerRunner], StateProvider], ...] = (
 class Simulation:
     """What the server watches: `serve_page(Simulation(cabinet))`."""
 
-    def __init__(self, cabinet: ControllerRunner, look: Appearance = PLAIN) -> None:
-        self._cabinet = cabinet
+    def __init__(self, runner: ControllerRunner, look: Appearance = PLAIN) -> None:
+        self._runner = runner
         self._look = look
 
     def post(self, function: Callable[[], None]) -> bool:
         """Run a function on the controller's thread; False while it restarts."""
-        return self._cabinet.post(function)
+        return self._runner.post(function)
 
     def aspects(self) -> tuple[StateProvider, ...]:
         """Topics of the controller that runs now."""
-        scene = MotionProvider(self._cabinet, self._look)
-        return (scene, *(make(self._cabinet) for make in ASPECTS))
+        scene = MotionProvider(self._runner, self._look)
+        return (scene, *(make(self._runner) for make in ASPECTS))

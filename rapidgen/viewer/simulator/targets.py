@@ -18,9 +18,9 @@ _MOST = 400
 class TargetsProvider:
     """The targets that programs declare, anew when modules have been loaded."""
 
-    def __init__(self, cabinet: ControllerRunner) -> None:
-        self._tasks = cabinet.controller.rapid_tasks
-        self._groups = {g.config.task: g for g in cabinet.controller.motion.groups.values()}
+    def __init__(self, runner: ControllerRunner) -> None:
+        self._tasks = runner.controller.rapid_tasks
+        self._groups = {g.config.task: g for g in runner.controller.motion.groups.values()}
         self._known: tuple[LoadedModule, ...] = ()
         self._now = Targets(targets=())
 
@@ -34,10 +34,10 @@ class TargetsProvider:
         modules = tuple(self._modules())
         if modules != self._known:
             self._known = modules
-            found = Targets(targets=tuple(self._targets())[:_MOST])
-            if found != self._now:
-                self._now = found
-                yield found
+            result = Targets(targets=tuple(self._targets())[:_MOST])
+            if result != self._now:
+                self._now = result
+                yield result
 
     def handlers(self) -> Mapping[type, Handler]:
         """Nothing is asked."""

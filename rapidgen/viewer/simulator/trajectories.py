@@ -41,9 +41,9 @@ _ANY = TrajectoryPolicy(capacity=1_000_000)
 class TrajectoryProvider:
     """The trajectory that lies on the page; all viewers see the same one."""
 
-    def __init__(self, cabinet: ControllerRunner) -> None:
-        self._cabinet = cabinet
-        self._controller = cabinet.controller
+    def __init__(self, runner: ControllerRunner) -> None:
+        self._runner = runner
+        self._controller = runner.controller
         self._shown = self._told = UploadedTrajectory()
         self._checked: CheckedTrajectory | None = None
 
@@ -78,13 +78,13 @@ class TrajectoryProvider:
         try:
             trajectory = _read(request)
             start = [*group.positions(), *[0.0] * _AXES][:_AXES]
-            wanted = Group(group.name, group.map, _ANY)
-            self._checked = check_trajectory(trajectory, wanted, start=start)
+            expected = Group(group.name, group.map, _ANY)
+            self._checked = check_trajectory(trajectory, expected, start=start)
         except InvalidTrajectory as wrong:
             self._shown = UploadedTrajectory(
                 group=group.name,
                 file=name,
-                findings=tuple(_finding(found, ()) for found in wrong.diagnostics),
+                findings=tuple(_finding(result, ()) for result in wrong.diagnostics),
                 state="refused",
             )
             return ""
@@ -107,7 +107,7 @@ class TrajectoryProvider:
             way=way,
             pace=(0.0, *(distance(a, b) / s for a, b, s in legs)) if way else (),
             steps=steps,
-            findings=tuple(_finding(found, lines) for found in checked.warnings),
+            findings=tuple(_finding(result, lines) for result in checked.warnings),
         )
 
     # -- executing ----------------------------------------------------------------------------
@@ -131,18 +131,18 @@ class TrajectoryProvider:
 
     def _execute(self, address: str, trajectory: Trajectory) -> None:
         """On a thread of its own, as a client: the controller's has to answer meanwhile."""
-        told = ""
+        text = ""
         try:
             with Robot(address) as robot:
                 robot.execute(trajectory).result()
         except RobotError as error:
-            told = "; ".join(found.message for found in error.diagnostics)
+            text = "; ".join(found.message for found in error.diagnostics)
 
         def end() -> None:
-            state = "failed" if told else "done"
-            self._shown = self._shown.model_copy(update={"state": state, "told": told})
+            state = "failed" if text else "done"
+            self._shown = self._shown.model_copy(update={"state": state, "told": text})
 
-        self._cabinet.post(end)
+        self._runner.post(end)
 
     def _forget(self, _request: Request) -> str:
         self._rests()
@@ -179,13 +179,13 @@ def _way(group: MotionGroup, wire: Iterable[Posture]) -> Iterable[tuple[float, f
             yield tcp[0]
 
 
-def _finding(found: Diagnostic, lines: tuple[int, ...]) -> TrajectoryFinding:
-    line = found.span.line if found.span is not None else None
+def _finding(findings: Diagnostic, lines: tuple[int, ...]) -> TrajectoryFinding:
+    line = findings.span.line if findings.span is not None else None
     return TrajectoryFinding(
-        code=found.code,
-        severity=found.severity.name.lower(),
-        message=found.message,
-        help=found.help,
+        code=findings.code,
+        severity=findings.severity.name.lower(),
+        message=findings.message,
+        help=findings.help,
         line=line,
         point=lines.index(line) if line in lines else None,
     )

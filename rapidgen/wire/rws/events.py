@@ -27,10 +27,10 @@ class WantedResource:
     priority: int = 1
 
 
-def write_wanted(wanted: Sequence[WantedResource]) -> list[tuple[str, str]]:
+def write_wanted(expected: Sequence[WantedResource]) -> list[tuple[str, str]]:
     """The form that asks for a subscription."""
     fields: list[tuple[str, str]] = []
-    for i, one in enumerate(wanted, 1):
+    for i, one in enumerate(expected, 1):
         fields += [("resources", str(i)), (str(i), one.resource), (f"{i}-p", str(one.priority))]
     return fields
 
@@ -40,17 +40,17 @@ def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[WantedResource]:
 
     ValueError: nothing is asked for, or at no priority.
     """
-    found = dict(pairs)
-    numbers = sorted(int(key) for key in found if key.isdecimal())
-    wanted = []
+    result = dict(pairs)
+    numbers = sorted(int(key) for key in result if key.isdecimal())
+    expected = []
     for number in numbers:
-        priority = found.get(f"{number}-p", "1")
+        priority = result.get(f"{number}-p", "1")
         if priority not in ("0", "1", "2"):
             raise ValueError(f"priority {priority}")
-        wanted.append(WantedResource(found[str(number)], int(priority)))
-    if not wanted:
+        expected.append(WantedResource(result[str(number)], int(priority)))
+    if not expected:
         raise ValueError("no resources")
-    return wanted
+    return expected
 
 
 def write_opened(number: int, poll: str, items: Iterable[Item]) -> bytes:
@@ -91,7 +91,7 @@ def read_opened(body: Body, location: str) -> tuple[str, str]:
 
     Only paths are taken: a controller's idea of its own address is not followed.
     """
-    found = re.search(r"/poll/([\w-]{1,64})$", location or body.here)
-    if found is None:
+    match = re.search(r"/poll/([\w-]{1,64})$", location or body.here)
+    if match is None:
         raise ValueError("no subscription")
-    return found[1], found[0]
+    return match[1], match[0]

@@ -33,13 +33,13 @@ def write_hal(body: Body) -> bytes:
     if body.fault is not None:
         status: _Object = {"code": body.fault.code, "msg": body.fault.message}
         return json.dumps({"_links": {"base": links.get("base", {})}, "status": status}).encode()
-    whole: _Object = {"_links": links, "status": {"code": OK}}
+    complete: _Object = {"_links": links, "status": {"code": OK}}
     items = [_item(item) for item in body.items]
     if body.collection:
-        whole["_embedded"] = {"resources": items}
+        complete["_embedded"] = {"resources": items}
     else:
-        whole["state"] = items
-    return json.dumps(whole).encode()
+        complete["state"] = items
+    return json.dumps(complete).encode()
 
 
 def _links(body: Body) -> dict[str, object]:
@@ -49,13 +49,13 @@ def _links(body: Body) -> dict[str, object]:
 
 
 def _item(item: Item) -> _Object:
-    told: _Object = {}
+    report: _Object = {}
     if item.links:
-        told["_links"] = {rel: {"href": to} for rel, to in item.links.items()}
-    told |= {"_type": item.kind, "_title": item.title, **item.fields}
+        report["_links"] = {rel: {"href": to} for rel, to in item.links.items()}
+    report |= {"_type": item.kind, "_title": item.title, **item.fields}
     if item.within:
-        told[_WITHIN.get(item.kind, "attrib")] = [_item(one) for one in item.within]
-    return told
+        report[_WITHIN.get(item.kind, "attrib")] = [_item(one) for one in item.within]
+    return report
 
 
 def read(data: bytes) -> Body:
@@ -63,33 +63,33 @@ def read(data: bytes) -> Body:
     if len(data) > LARGEST:
         raise Unreadable(f"{len(data)} bytes")
     try:
-        whole = json.loads(data)
+        complete = json.loads(data)
     except (ValueError, RecursionError) as error:
         raise Unreadable(f"no JSON: {error}") from error
-    if not isinstance(whole, dict):
+    if not isinstance(complete, dict):
         raise Unreadable("no object")
-    embedded = _object(whole.get("_embedded"))
+    embedded = _object(complete.get("_embedded"))
     # Some resources of RWS 1.0 have their state at the top [VC 6.16].
-    lists = (whole.get("state"), embedded.get("_state"), embedded.get("resources"))
-    items = [_read_item(one, 0) for found in lists for one in _objects(found)]
-    links = _hrefs(whole.get("_links"))
-    base, here, following = (links.pop(rel, "") for rel in ("base", "self", "next"))
+    lists = (complete.get("state"), embedded.get("_state"), embedded.get("resources"))
+    items = [_read_item(one, 0) for result in lists for one in _objects(result)]
+    links = _hrefs(complete.get("_links"))
+    base, current, following = (links.pop(rel, "") for rel in ("base", "self", "next"))
     return Body(
-        tuple(items), "", base, here, following, links=links,
+        tuple(items), "", base, current, following, links=links,
         collection="resources" in embedded,
-        fault=_fault(whole.get("status") or embedded.get("status")),
+        fault=_fault(complete.get("status") or embedded.get("status")),
     )  # fmt: skip
 
 
 def _fault(status: object) -> Fault | None:
-    told = _object(status)
-    if not told:
+    report = _object(status)
+    if not report:
         return None
     try:
-        code = int(str(told.get("code", "")))
+        code = int(str(report.get("code", "")))
     except ValueError as error:
         raise Unreadable("a refusal without a code") from error
-    return Fault(code, _text(told.get("msg", ""))) if code < 0 else None
+    return Fault(code, _text(report.get("msg", ""))) if code < 0 else None
 
 
 def _object(data: object) -> Mapping[str, object]:

@@ -33,15 +33,15 @@ def challenge(nonce: str, *, stale: bool = False) -> str:
 
 def parse(header: str) -> Digest | None:
     """An Authorization header; None: it is no digest with qop=auth."""
-    scheme, _, rest = header.partition(" ")
-    found = {key.lower(): quoted or bare for key, quoted, bare in _PART.findall(rest)}
-    if scheme.lower() != "digest" or found.get("qop") != "auth" or found.get("realm") != REALM:
+    scheme, _, remaining = header.partition(" ")
+    result = {key.lower(): quoted or bare for key, quoted, bare in _PART.findall(remaining)}
+    if scheme.lower() != "digest" or result.get("qop") != "auth" or result.get("realm") != REALM:
         return None
     try:
         return Digest(
             # A quoted string escapes quotes and backslashes, and nothing else.
-            re.sub(r"\\(.)", r"\1", found["username"]), found["nonce"], found["uri"],
-            found["nc"], found["cnonce"], found["response"],
+            re.sub(r"\\(.)", r"\1", result["username"]), result["nonce"], result["uri"],
+            result["nc"], result["cnonce"], result["response"],
         )  # fmt: skip
     except KeyError:
         return None
@@ -51,8 +51,8 @@ def is_right(sent: Digest, method: str, password: str) -> bool:
     """Whether the response is that of this password. The user goes into it as it is."""
     ha1 = _md5(f"{sent.user}:{REALM}:{password}")
     ha2 = _md5(f"{method}:{sent.uri}")
-    wanted = _md5(f"{ha1}:{sent.nonce}:{sent.nc}:{sent.cnonce}:auth:{ha2}")
-    return hmac.compare_digest(wanted, sent.response.lower())
+    expected = _md5(f"{ha1}:{sent.nonce}:{sent.nc}:{sent.cnonce}:auth:{ha2}")
+    return hmac.compare_digest(expected, sent.response.lower())
 
 
 def _md5(text: str) -> str:
@@ -61,11 +61,11 @@ def _md5(text: str) -> str:
 
 def basic_user(header: str, users: Mapping[str, str]) -> str | None:
     """Who an `Authorization: Basic` header names with the right password; None: nobody."""
-    scheme, _, rest = header.partition(" ")
+    scheme, _, remaining = header.partition(" ")
     if scheme.lower() != "basic":
         return None
     try:
-        user, colon, password = base64.b64decode(rest, validate=True).decode().partition(":")
+        user, colon, password = base64.b64decode(remaining, validate=True).decode().partition(":")
     except ValueError:
         return None
     known = users.get(user)

@@ -36,8 +36,8 @@ def wanted(generation: Generation, accept: str, query: dict[str, str]) -> Syntax
     """The syntax of the answer; None is 406."""
     if generation is Generation.ONE:
         return "json" if query.get("json") == "1" else "xhtml"
-    for asked in map(plain, accept.split(",")):
-        name, _, version = asked.partition(";v=")
+    for requested in map(plain, accept.split(",")):
+        name, _, version = requested.partition(";v=")
         if version.split(";")[0] in ("2.0", "2.1"):
             if name == "application/hal+json":
                 return "hal"

@@ -92,8 +92,8 @@ def read(data: bytes) -> Body:
             links.setdefault(element.get("rel", ""), element.get("href", ""))
         elif tag == "li":
             items.append(_read_item(element, 0))
-    here, following = links.pop("self", ""), links.pop("next", "")
-    return Body(tuple(items), title, base, here, following, links=links, fault=fault)
+    current, following = links.pop("self", ""), links.pop("next", "")
+    return Body(tuple(items), title, base, current, following, links=links, fault=fault)
 
 
 def _walk(root: Element) -> Iterator[tuple[Element, str]]:

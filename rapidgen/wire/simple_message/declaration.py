@@ -137,5 +137,5 @@ class MessageType(_Data):
 
     def reply(self, code: ReplyCode) -> Reply:
         """The reply with this code, of which there is one."""
-        (found,) = (reply for reply in self.replies if reply.code is code)
-        return found
+        (result,) = (reply for reply in self.replies if reply.code is code)
+        return result

@@ -65,8 +65,8 @@ class FrameSplitter:
 
     def feed(self, data: bytes) -> None:
         """Add received bytes."""
-        rest = self._buffer[self._at :]
-        self._buffer = rest + data if rest else data
+        remaining = self._buffer[self._at :]
+        self._buffer = remaining + data if remaining else data
         self._at = 0
 
     def next(self) -> Frame | None:

@@ -113,8 +113,8 @@ def checksums(words: Words) -> list[int]:
     width = words.shape[1]
     high = (shifted @ _POWERS_HIGH[-width:]) % CHECKSUM_MODULUS
     low = shifted @ _POWERS_LOW[-width:]
-    found: list[int] = (((high << _HALF) + low) % CHECKSUM_MODULUS).tolist()
-    return found
+    result: list[int] = (((high << _HALF) + low) % CHECKSUM_MODULUS).tolist()
+    return result
 
 
 def pack_points(durations: npt.ArrayLike, joints: npt.ArrayLike) -> Words:
@@ -200,13 +200,13 @@ def _batch(number: int, comm: int, head: tuple[int, int, int, int], words: Words
 
 def _sealed(frames: Rows[bytes]) -> list[bytes]:
     """Frames with their checksums; only the last one may be of another length."""
-    found = []
+    result = []
     for same in (frames[:-1], frames[-1:]):
         if same:
             words = np.frombuffer(b"".join(same), dtype=_WORD).reshape(len(same), -1)
             pairs = zip(same, checksums(words[:, _HEAD:]), strict=True)
-            found += [frame + _CHECKSUM.pack(checksum) for frame, checksum in pairs]
-    return found
+            result += [frame + _CHECKSUM.pack(checksum) for frame, checksum in pairs]
+    return result
 
 
 def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
@@ -215,21 +215,21 @@ def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
     Raises ContentError for one that a driver would refuse as a whole: another type or length, a
     wrong checksum.
     """
-    found: list[Batch] = []
+    result: list[Batch] = []
     for length, same in groupby(data, len):
         block = list(same)
         if length < _WORD.itemsize * (_VALUES + 1) or length % _WORD.itemsize:
             raise ContentError(f"a frame of {length} bytes is no POINTS")
         frames = np.frombuffer(b"".join(block), dtype=_WORD).reshape(len(block), -1)
-        found += _batches(frames, axes)
-    return found
+        result += _batches(frames, axes)
+    return result
 
 
 def _batches(frames: Words, axes: int) -> list[Batch]:
     width = messages.point_values(axes)
-    count, rest = divmod(frames.shape[1] - _VALUES - 1, width)
+    count, remaining = divmod(frames.shape[1] - _VALUES - 1, width)
     length = messages.points_length(count, axes)
-    if rest or np.any(frames[:, :2] != (length, messages.POINTS.number)):
+    if remaining or np.any(frames[:, :2] != (length, messages.POINTS.number)):
         raise ContentError(f"no POINTS of {axes} joints")
     if np.any(frames[:, _VALUES - 1] != count):
         raise ContentError("the count does not fit the length")

@@ -18,7 +18,7 @@ class RapidConstant:
 
 def rapid_constants() -> tuple[RapidConstant, ...]:
     """Every number of the wire under the name that the generated modules use (`ROS_...`)."""
-    found = [
+    result = [
         RapidConstant("ROS_HEADER_BYTES", spec.HEADER_BYTES, "bytes of a header"),
         RapidConstant("ROS_MAX_LENGTH", spec.MAX_LENGTH, "largest length field"),
         RapidConstant("ROS_MAX_JOINTS", spec.MAX_JOINTS, "joints of a message"),
@@ -29,24 +29,24 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
     ]
     for message in messages.MESSAGES:
         name = message.name
-        found.append(RapidConstant(f"ROS_MSG_{name}", message.number, "message type"))
-        found.append(RapidConstant(f"ROS_LEN_{name}", message.length, "its length field"))
-    found += [RapidConstant(f"ROS_COMM_{c.name}", c, "comm_type") for c in spec.Comm]
-    found += [RapidConstant(f"ROS_REPLY_{r.name}", r, "reply_code") for r in spec.ReplyCode]
-    found += [RapidConstant(f"ROS_SEQ_{s.name}", s, "special sequence") for s in spec.Sequence]
-    found += [RapidConstant(f"ROS_TRI_{t.name}", t, "tri-state") for t in spec.TriState]
-    found += [RapidConstant(f"ROS_MODE_{m.name}", m, "operating mode") for m in spec.Mode]
-    found += [RapidConstant(f"ROS_VALID_{v.name}", v, "bit of valid_fields") for v in spec.Valid]
-    found += [RapidConstant(f"ROS_FEATURE_{f.name}", f, "bit in HELLO") for f in spec.Feature]
-    found += [
+        result.append(RapidConstant(f"ROS_MSG_{name}", message.number, "message type"))
+        result.append(RapidConstant(f"ROS_LEN_{name}", message.length, "its length field"))
+    result += [RapidConstant(f"ROS_COMM_{c.name}", c, "comm_type") for c in spec.Comm]
+    result += [RapidConstant(f"ROS_REPLY_{r.name}", r, "reply_code") for r in spec.ReplyCode]
+    result += [RapidConstant(f"ROS_SEQ_{s.name}", s, "special sequence") for s in spec.Sequence]
+    result += [RapidConstant(f"ROS_TRI_{t.name}", t, "tri-state") for t in spec.TriState]
+    result += [RapidConstant(f"ROS_MODE_{m.name}", m, "operating mode") for m in spec.Mode]
+    result += [RapidConstant(f"ROS_VALID_{v.name}", v, "bit of valid_fields") for v in spec.Valid]
+    result += [RapidConstant(f"ROS_FEATURE_{f.name}", f, "bit in HELLO") for f in spec.Feature]
+    result += [
         RapidConstant(f"ROS_TRAJ_{s.name}", s, "trajectory state") for s in spec.TrajectoryState
     ]
-    found += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
-    found += [RapidConstant(f"ROS_DO_{i.name}", i, "instruction") for i in spec.Instruction]
-    found += [
+    result += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
+    result += [RapidConstant(f"ROS_DO_{i.name}", i, "instruction") for i in spec.Instruction]
+    result += [
         RapidConstant(f"ROS_MARK_{m.name}", m, "where a signal is set") for m in spec.MarkPlace
     ]
-    found += [RapidConstant(f"ROS_SET_{m.name}", m, "before operands") for m in spec.Modal]
-    found += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]
-    found += [RapidConstant(f"ROS_REASON_{r.name}", r, r.text) for r in spec.Reason]
-    return tuple(RapidConstant(c.name, int(c.value), c.text, c.type) for c in found)
+    result += [RapidConstant(f"ROS_SET_{m.name}", m, "before operands") for m in spec.Modal]
+    result += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]
+    result += [RapidConstant(f"ROS_REASON_{r.name}", r, r.text) for r in spec.Reason]
+    return tuple(RapidConstant(c.name, int(c.value), c.text, c.type) for c in result)

@@ -20,7 +20,7 @@ class Served:
     """A cabinet, its service and what a client needs to reach it."""
 
     def __init__(self, cabinet, service, generation, folder):
-        self.cabinet = cabinet
+        self.runner = cabinet
         self.service = service
         self.generation = generation
         self.pins = folder / "known"
@@ -42,10 +42,10 @@ class Served:
         """The outcome of a function on the controller's thread."""
         import threading
 
-        done, found = threading.Event(), []
-        assert self.cabinet.post(lambda: (found.append(function()), done.set()))
+        done, result = threading.Event(), []
+        assert self.runner.post(lambda: (result.append(function()), done.set()))
         assert done.wait(60)
-        return found[0]
+        return result[0]
 
 
 @pytest.fixture(params=list(Generation), ids=lambda g: f"rws{g.value}")

@@ -52,7 +52,7 @@ def test_a_controller_is_read_and_driven(served):
         assert not controller.execution().running
         assert controller.module_text("T_ROB1", "MainModule").startswith("MODULE MainModule")
         assert controller.log(count=1)[0].title == "Program stopped"
-    assert served.on_controller(lambda: served.cabinet.controller.signals["do x;1"]) == 1
+    assert served.on_controller(lambda: served.runner.controller.signals["do x;1"]) == 1
 
 
 def test_the_log_tells_what_was_asked_for_and_no_secret(served, caplog):
@@ -251,9 +251,9 @@ def test_a_task_that_is_left_out_is_not_started(served):
             controller.start()  # agreed to, and nothing runs
         controller.select_task("T_ROB1", True)
         controller.start()
-        with pytest.raises(RwsError) as found:
+        with pytest.raises(RwsError) as result:
             controller.select_task("T_ROB1", False)
-        assert found.value.symbol == "E_EXEC_STATE"
+        assert result.value.symbol == "E_EXEC_STATE"
 
 
 def test_where_the_robot_stands(served):
@@ -271,11 +271,11 @@ def test_where_the_robot_stands(served):
 def test_external_axes_of_a_target_have_two_spellings(served, monkeypatch, spelled):
     """rpi's client reads eaxa, RWS4YuMi eax_a: both ran on real controllers."""
     axes = {spelled.format(letter): str(i) for i, letter in enumerate("abcdef")}
-    whole = motion._rob_target
+    complete = motion._rob_target
     monkeypatch.setattr(
         motion,
         "_rob_target",
-        lambda value: {k: v for k, v in whole(value).items() if k[:3] != "eax"} | axes,
+        lambda value: {k: v for k, v in complete(value).items() if k[:3] != "eax"} | axes,
     )
     with Controller(served.address, **served.keywords) as controller:
         assert controller.rob_target().extax == (0, 1, 2, 3, 4, 5)
@@ -309,7 +309,7 @@ def test_a_wrong_password_is_tried_once(served):
     with pytest.raises(LoginFailed) as caught:
         Controller(served.address, **{**served.keywords, "password": "SECRET"}).connect()
     assert "SECRET" not in str(caught.value)
-    assert served.on_controller(lambda: served.cabinet.now) > 0
+    assert served.on_controller(lambda: served.runner.now) > 0
 
 
 def test_a_certificate_is_agreed_to_before_a_password_is_sent(served_two, tmp_path):
@@ -354,11 +354,11 @@ def test_a_controller_with_a_known_certificate_is_not_talked_to_in_the_clear(tmp
 def test_who_is_no_controller_gets_no_password(tmp_path):
     import http.server
 
-    asked = []
+    requested = []
 
     class Handler(http.server.BaseHTTPRequestHandler):
         def do_GET(self):
-            asked.append(dict(self.headers))
+            requested.append(dict(self.headers))
             self.send_response(401)
             self.send_header("WWW-Authenticate", self.server.challenge)
             self.send_header("Content-Length", "0")
@@ -378,8 +378,8 @@ def test_who_is_no_controller_gets_no_password(tmp_path):
                     pin_file=tmp_path / "p",
                 ).connect()
         server.shutdown()
-    assert asked
-    assert not any("Authorization" in headers for headers in asked)
+    assert requested
+    assert not any("Authorization" in headers for headers in requested)
 
 
 def test_proxies_of_the_environment_are_ignored(served, monkeypatch):

@@ -12,9 +12,9 @@ from rapidgen.client.rws.errors import NotConfirmed
 def test_a_program_is_answered_and_answers(asking):
     with Controller(asking.address, **asking.keywords) as controller:
         assert controller.dialog() is None
-        with pytest.raises(RwsError) as found:
+        with pytest.raises(RwsError) as result:
             controller.answer_dialog(1)
-        assert found.value.status == 404
+        assert result.value.status == 404
         with controller.subscribe(topics.dialogs()) as events:
             controller.start(cycle="once")
             event = events.next(30)
@@ -65,7 +65,7 @@ def test_an_answer_that_is_agreed_to_and_not_taken_is_told(asking):
         controller.start(cycle="once")
         while controller.dialog() is None:
             pass
-        operator = asking.cabinet.controller.operator
+        operator = asking.runner.controller.operator
         asking.on_controller(lambda: setattr(operator, "answer", lambda *_: None))
         with pytest.raises(NotConfirmed):
             controller.answer_dialog(1)
@@ -84,7 +84,7 @@ def test_a_backup_is_restored(served):
 
 
 def test_a_restart_that_is_agreed_to_and_does_not_come_is_told(served):
-    served.on_controller(lambda: setattr(served.cabinet, "ask_restart", lambda: None))
+    served.on_controller(lambda: setattr(served.runner, "ask_restart", lambda: None))
     with Controller(served.address, **served.keywords) as controller:
         with pytest.raises(NotConfirmed):
             controller.restart(wait=0.1)

@@ -20,10 +20,10 @@ CHOSEN = (
 
 def until(events, wanted):
     """Events up to one of (resource, value)."""
-    heard = []
-    while (heard[-1].resource, heard[-1].value) != wanted if heard else True:
-        heard.append(events.next(60))
-    return [(event.resource, event.value) for event in heard]
+    received = []
+    while (received[-1].resource, received[-1].value) != wanted if received else True:
+        received.append(events.next(60))
+    return [(event.resource, event.value) for event in received]
 
 
 def test_events_come_as_things_change_and_go_on_over_a_restart(served):
@@ -40,13 +40,13 @@ def test_events_come_as_things_change_and_go_on_over_a_restart(served):
         ]
         for value in (1, 0, 1):
             controller.set_signal("do x;1", value)
-        heard = [events.next(60).value for _ in range(3)]
-        assert heard == ["1", "0", "1"]
+        received = [events.next(60).value for _ in range(3)]
+        assert received == ["1", "0", "1"]
         controller.set_symbol("T_ROB1/x", 5)
         until(events, ("T_ROB1/MainModule/x", "5"))
         controller.start()
-        heard = until(events, ("execution", "running"))
-        assert any(name == "log 0" for name, _ in heard)
+        received = until(events, ("execution", "running"))
+        assert any(name == "log 0" for name, _ in received)
         controller.restart()
         assert ("execution", "stopped") in until(events, ("ctrlstate", "motoroff"))
         until(events, ("T_ROB1/MainModule/x", "5"))

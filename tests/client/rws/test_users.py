@@ -14,11 +14,11 @@ def test_grants_are_told_by_uas_name(served):
 
 
 def manual(served):
-    served.on_controller(lambda: served.cabinet.controller.set_mode("manual_reduced"))
+    served.on_controller(lambda: served.runner.controller.set_mode("manual_reduced"))
 
 
 def operator(served):
-    return served.cabinet.controller.operator
+    return served.runner.controller.operator
 
 
 def answered(served, text):
@@ -37,9 +37,9 @@ def answered(served, text):
 def test_manual_mode_is_written_in_when_the_pendant_grants_it(served):
     manual(served)
     with Controller(served.address, **served.keywords) as controller:
-        with pytest.raises(RwsError) as found:
+        with pytest.raises(RwsError) as result:
             controller.set_symbol("T_ROB1/x", 2)
-        assert found.value.symbol == "E_MODE_REJECT"
+        assert result.value.symbol == "E_MODE_REJECT"
         if served.generation is Generation.EIGHT:
             with pytest.raises(NotSupported):
                 controller.ask_rmmp()
@@ -58,9 +58,9 @@ def test_what_the_pendant_denies_is_told(served):
         pytest.skip("RobotWare 8 has none that works")
     answered(served, "Deny")
     with Controller(served.address, **served.keywords) as controller:
-        with pytest.raises(NotReady) as found:
+        with pytest.raises(NotReady) as result:
             controller.ask_rmmp("exec")
-        assert found.value.diagnostics[0].code == "RG661"
+        assert result.value.diagnostics[0].code == "RG661"
 
 
 def test_automatic_mode_needs_no_grant(served):

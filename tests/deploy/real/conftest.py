@@ -54,10 +54,10 @@ def program(name: str, *places: str) -> str:
     """Path of a server; skips, or fails under CI, when there is none."""
     search = os.pathsep.join([os.environ.get("PATH", ""), "/usr/sbin", *places])
     search += f"{os.pathsep}{UNPACKED}/usr/sbin{os.pathsep}{UNPACKED}/usr/bin"
-    found = shutil.which(name, path=search)
-    if found is None:
+    result = shutil.which(name, path=search)
+    if result is None:
         absent(f"{name}: run .ci/servers, or install it")
-    return str(found)
+    return str(result)
 
 
 def absent(what: str) -> NoReturn:
@@ -92,10 +92,10 @@ def start(command: list[str], host: str, port: int, folder: Path) -> subprocess.
                 greeted = bool(probe.recv(1))
         except OSError:
             greeted = False
-        ended = process.poll() is not None
-        if greeted and not ended:
+        finished = process.poll() is not None
+        if greeted and not finished:
             return process
-        if ended or time.monotonic() > end:
+        if finished or time.monotonic() > end:
             process.kill()
             process.wait()
             text = (folder / "log").read_text(errors="replace")

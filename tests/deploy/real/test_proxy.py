@@ -110,8 +110,8 @@ class Proxy:
                 if self.ftp and (passive := re.search(rb"227 [^(]*\(([\d,]+)\)", block)):
                     numbers = [int(n) for n in passive[1].split(b",")]
                     port = self._data(numbers[4] * 256 + numbers[5])
-                    told = [*self.host.split("."), str(port // 256), str(port % 256)]
-                    block = block.replace(passive[1], ",".join(told).encode())
+                    text = [*self.host.split("."), str(port // 256), str(port % 256)]
+                    block = block.replace(passive[1], ",".join(text).encode())
                 client.sendall(block)
         self._finish(client)
 
@@ -234,9 +234,9 @@ def test_cut_at_every_command(kit, server, tmp_path):
                     _alias_host_key(server, proxy.port)
                 codes = run(kit, server, proxy, new)
             place = f"{server.kind}: {how} command {number} {log[number - 1]}"
-            found = kit.verdict(server.home, old, new)
-            seen.add(found)
-            assert found in ("set 0", "set 1", "refuses"), place
+            result = kit.verdict(server.home, old, new)
+            seen.add(result)
+            assert result in ("set 0", "set 1", "refuses"), place
             if codes:
                 assert set(codes) <= {"RG501", "RG502", "RG504", "RG505", "RG527"}, (place, codes)
             transport = server.connect()

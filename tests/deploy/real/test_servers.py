@@ -69,9 +69,9 @@ def test_wrong_login_is_refused_and_says_no_password(server, monkeypatch):
     if server.kind == "sshd":
         monkeypatch.setenv("HOME", str(server.home))  # no keys there
         monkeypatch.delenv("SSH_AUTH_SOCK", raising=False)
-    (found,) = refusal(connect, parse_target(url), access).diagnostics
-    assert found.code == "RG502"
-    assert "wr0ng-pass" not in found.message + found.help + str(found.notes)
+    (result,) = refusal(connect, parse_target(url), access).diagnostics
+    assert result.code == "RG502"
+    assert "wr0ng-pass" not in result.message + result.help + str(result.notes)
 
 
 @pytest.mark.parametrize("server", ["paramiko", "sshd"], indirect=True)
@@ -86,10 +86,10 @@ def test_host_keys_must_be_known_and_the_same(server, tmp_path):
     empty.write_text("")
     with pytest.raises(DiagnosticError, match="is not known") as caught:
         connect(server.target, replace(server.access, known_hosts=str(empty)))
-    (found,) = caught.value.diagnostics
-    assert found.code == "RG503"
+    (result,) = caught.value.diagnostics
+    assert result.code == "RG503"
     # What the help says to add makes the connection work.
-    empty.write_text(found.help.splitlines()[-1] + "\n")
+    empty.write_text(result.help.splitlines()[-1] + "\n")
     connect(server.target, replace(server.access, known_hosts=str(empty))).close()
     words = empty.read_text().split()
     other = paramiko.ECDSAKey.generate()

@@ -33,7 +33,7 @@ class Line:
     def __init__(
         self, cabinet, generation, *, strict=True, on_thread=False, cut=lambda number, got: None
     ):
-        self.cabinet, self.generation = cabinet, generation
+        self.runner, self.generation = cabinet, generation
         accounts = Accounts({"Default User": PASSWORD})
         self.desk = RwsApplication(cabinet, generation, accounts, strict=strict)
         self.on_thread, self.cut = on_thread, cut
@@ -53,21 +53,21 @@ class Line:
 
     def handle(self, got):
         if not self.on_thread:
-            pass_time(self.cabinet, 0.06)  # 20 requests a second are let through
+            pass_time(self.runner, 0.06)  # 20 requests a second are let through
             return self.desk.handle(got)
-        done, found, restarts = threading.Event(), [], self.cabinet.restarts
-        if not self.cabinet.post(lambda: (found.append(self.desk.handle(got)), done.set())):
+        done, result, restarts = threading.Event(), [], self.runner.restarts
+        if not self.runner.post(lambda: (result.append(self.desk.handle(got)), done.set())):
             return HttpResponse(503)
         while not done.wait(0.05):
-            if self.cabinet.restarts > restarts:
+            if self.runner.restarts > restarts:
                 return HttpResponse(503)  # nobody will answer any more
-        return found[0]
+        return result[0]
 
     def pause(self, seconds):
         if self.on_thread:
-            threading.Event().wait(seconds / self.cabinet.controller.scheduler.speed)
+            threading.Event().wait(seconds / self.runner.controller.scheduler.speed)
         else:
-            pass_time(self.cabinet, seconds)
+            pass_time(self.runner, seconds)
 
 
 def _lost():
@@ -138,12 +138,12 @@ class AtDesk:
         )
         for name, value in reply.headers:
             if name == "Set-Cookie":
-                key, _, rest = value.partition("=")
-                self.cookies[key] = rest.partition(";")[0]
+                key, _, remaining = value.partition("=")
+                self.cookies[key] = remaining.partition(";")[0]
         if reply.status == 401:
             self.cookies.pop(SESSION, None)
-        told = {name.lower(): value for name, value in reply.headers}
-        return Response(reply.status, told, reply.body)
+        text = {name.lower(): value for name, value in reply.headers}
+        return Response(reply.status, text, reply.body)
 
     def close(self):
         pass
@@ -160,9 +160,9 @@ def connect(line) -> RwsTransport:
         "rws://cell",
         password=PASSWORD,
         fingerprint=fingerprint,
-        pin_file=line.cabinet.folder / "known_controllers",
+        pin_file=line.runner.folder / "known_controllers",
     )
     if not line.on_thread:
-        controller._core.clock = lambda: line.cabinet.now
+        controller._core.clock = lambda: line.runner.now
     controller.connect()
     return RwsTransport(controller, "rws://cell")

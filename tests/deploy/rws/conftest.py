@@ -70,10 +70,10 @@ def cfg_of(cabinet):
     return [write_cfg(text) for text in texts]
 
 
-def run(transport, wanted, verb="deploy", *, overwrite=True, said=None, restart=True, **live):
+def run(transport, wanted, verb="deploy", *, overwrite=True, message=None, restart=True, **live):
     """Plan and carry out; the plan."""
     plan = make_plan(transport, wanted, verb=verb)
-    say = (said if said is not None else []).append
+    say = (message if message is not None else []).append
     apply(transport, plan, overwrite=overwrite, live=OnlineOptions(restart, **live), say=say)
     return plan
 

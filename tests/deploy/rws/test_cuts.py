@@ -25,14 +25,14 @@ FAILED = "failed.txt"
 
 def kinds(log):
     """Numbers of the requests to cut at: of each kind of change the first, and the last ones."""
-    found = {}
+    result = {}
     for number, (method, target) in enumerate(log, 1):
         if method != "GET":
             plain = re.sub(
                 r"(fileservice|instances|tasks|modules)/[^?]*?(/\w+)?(?=\?|$)", r"\1\2", target
             )
-            found.setdefault((method, plain), number)
-    return sorted(found.values())
+            result.setdefault((method, plain), number)
+    return sorted(result.values())
 
 
 def restarted(cabinet, rws):
@@ -81,7 +81,7 @@ class Forks:
 
     def __init__(self, cabinet, wanted):
         """`wanted(number, method, target)`: how a request is cut, in every way of these."""
-        self.cabinet, self.wanted = cabinet, wanted
+        self.runner, self.wanted = cabinet, wanted
         self.cut = None
         """In a copy: where it is cut, and how."""
         self.done, self.failed = 0, []
@@ -94,15 +94,15 @@ class Forks:
 
     def _copy(self, number, how):
         """Whether this is the copy, which is cut."""
-        kept = self.cabinet.folder.with_name(f"{self.cabinet.folder.name}-kept")
-        shutil.copytree(self.cabinet.folder, kept)
+        retained = self.runner.folder.with_name(f"{self.runner.folder.name}-kept")
+        shutil.copytree(self.runner.folder, retained)
         sys.stdout.flush()
         if not (copy := os.fork()):
             self.cut = (number, how)
             return True
         _, status = os.waitpid(copy, 0)
-        shutil.rmtree(self.cabinet.folder)
-        kept.rename(self.cabinet.folder)
+        shutil.rmtree(self.runner.folder)
+        retained.rename(self.runner.folder)
         self.done += 1
         if status:
             self.failed.append((number, how))
@@ -125,7 +125,7 @@ def run_cut(rws, generation, folder, case, wanted=lambda *request: (), again=Non
         forks = Forks(cabinet, wanted)
         line = rws.Line(cabinet, generation, cut=forks)
 
-        def whole():
+        def complete():
             transport = rws.connect(line)
             target = {"first": old, "update": new}.get(case)
             if case == "rollback":
@@ -133,7 +133,7 @@ def run_cut(rws, generation, folder, case, wanted=lambda *request: (), again=Non
             rws.run(transport, target, case if case in ("uninstall", "rollback") else "deploy")
 
         try:
-            error = attempt(whole)
+            error = attempt(complete)
             if error and not forks.cut:
                 raise error
             if forks.cut:
@@ -142,9 +142,9 @@ def run_cut(rws, generation, folder, case, wanted=lambda *request: (), again=Non
         except BaseException:
             if not forks.cut:
                 raise
-            with (folder / FAILED).open("a") as told:
-                print(generation, case, *forks.cut, *line.log[-1], file=told)
-                traceback.print_exc(file=told)
+            with (folder / FAILED).open("a") as text:
+                print(generation, case, *forks.cut, *line.log[-1], file=text)
+                traceback.print_exc(file=text)
             os._exit(1)
         if forks.cut:
             os._exit(0)
@@ -161,8 +161,8 @@ def judge(rws, generation, cabinet, sets, empty, again):
         rws.run(transport, sets[1])
         assert verdict(cabinet, *sets) == "set 1"
         assert rws.run(transport, sets[1]).is_empty
-    found = attempt(rws.run, transport, None, "uninstall")
-    assert found is None or found.diagnostics[0].code == "RG529", found
+    result = attempt(rws.run, transport, None, "uninstall")
+    assert result is None or result.diagnostics[0].code == "RG529", result
     restarted(cabinet, rws)
     assert verdict(cabinet, *sets) == "empty"
     assert (rws.home_of(cabinet), rws.cfg_of(cabinet)) == empty
@@ -189,8 +189,8 @@ def test_cut_at_a_request(rws, generation, case, tmp_path):
         log, done, failed = run_cut(rws, generation, tmp_path, case, lambda *request: HOWS)
         assert done == 2 * len(log)
     else:
-        found = kinds(run_cut(rws, generation, tmp_path, case)[0])
-        some = found[2 :: len(found) // 4]
+        result = kinds(run_cut(rws, generation, tmp_path, case)[0])
+        some = result[2 :: len(result) // 4]
         _, done, failed = run_cut(
             rws, generation, tmp_path, case, lambda number, *_: (how,) if number in some else ()
         )

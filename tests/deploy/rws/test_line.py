@@ -22,15 +22,15 @@ def test_empty_deployed_started_moved(rws, generation, tmp_path):
         transport = rws.connect(rws.Line(cabinet, generation, on_thread=True))
 
         def at(port):
-            found = cabinet.controller.network.listeners.get(port)
-            if found is None:
+            match = cabinet.controller.network.listeners.get(port)
+            if match is None:
                 raise ConnectionRefusedError
-            return found[1]
+            return match[1]
 
-        said = []
+        message = []
         proof = PostRestartCheck(lambda host, port: hello(host, at(port)), "127.0.0.1")
-        rws.run(transport, wanted, proof=proof, said=said)
-        assert said[-1] == "read back: cell has it"  # and every pointer could be set
+        rws.run(transport, wanted, proof=proof, message=message)
+        assert message[-1] == "read back: cell has it"  # and every pointer could be set
         services = transport.services
         services.motors(True)
         services.start()

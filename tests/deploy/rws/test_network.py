@@ -29,14 +29,14 @@ def run(capsys):
         app.command(verb.__name__)(verb)
     command = typer.main.get_command(app)
 
-    def run_(*words):
-        shown = ""
+    def run_(*text):
+        displayed = ""
         try:
-            code = command.main(args=[*words], standalone_mode=False)
+            code = command.main(args=[*text], standalone_mode=False)
         except DiagnosticError as error:
-            code, shown = error.exit_code, render(error.diagnostics)
-        said = capsys.readouterr()
-        return code or 0, said.out, said.err + shown
+            code, displayed = error.exit_code, render(error.diagnostics)
+        message = capsys.readouterr()
+        return code or 0, message.out, message.err + displayed
 
     return run_
 
@@ -59,15 +59,17 @@ def test_plan_and_doctor_on_the_command_line(served, rws, run):
     pin = ("--fingerprint", service.host_key)
     code, _, why = run("plan", "irb120", "--to", url, *SEVEN)
     assert (code, "RG502" in why, "no password was sent" in why) == (1, True, True)
-    code, shown, said = run("plan", "irb120", "--to", url, "--detailed-exitcode", *SEVEN, *pin)
-    assert (code, f"via {url}: cell (virtual, RobotWare 7." in shown) == (2, True), said
+    code, displayed, message = run(
+        "plan", "irb120", "--to", url, "--detailed-exitcode", *SEVEN, *pin
+    )
+    assert (code, f"via {url}: cell (virtual, RobotWare 7." in displayed) == (2, True), message
     code, looked, _ = run("doctor", "irb120", "--to", url, *SEVEN, *pin)
     assert code == 1
     assert f"id {cabinet.id}" in looked
     assert "T_ROB1/MainModule is loaded, and has a main, too" in looked
     assert "the delivered password is not accepted" in looked
     assert not rws.home_of(cabinet)
-    assert WORD not in why + shown + said + looked
+    assert WORD not in why + displayed + message + looked
 
 
 def test_nobody_there_and_somebody_else(served):
@@ -75,12 +77,12 @@ def test_nobody_there_and_somebody_else(served):
     with socket.socket() as deaf:  # bound, so nobody else's, and without listen()
         deaf.bind(("127.0.0.1", 0))
         port = deaf.getsockname()[1]
-        found = refusal(connect, parse_target(f"rws://127.0.0.1:{port}"), Access(timeout=2))
-    assert found.diagnostics[0].code == "RG501"
+        result = refusal(connect, parse_target(f"rws://127.0.0.1:{port}"), Access(timeout=2))
+    assert result.diagnostics[0].code == "RG501"
     target = parse_target(f"rwss://127.0.0.1:{service.port}")
-    found = refusal(connect, target, Access(fingerprint="00" * 32))
-    assert found.diagnostics[0].code == "RG502"
-    assert "certificate" in found.diagnostics[0].message
+    result = refusal(connect, target, Access(fingerprint="00" * 32))
+    assert result.diagnostics[0].code == "RG502"
+    assert "certificate" in result.diagnostics[0].message
     folder = parse_target(f"rws://127.0.0.1:{service.port}/elsewhere")
     assert refusal(connect, folder, Access()).diagnostics[0].code == "RG509"
 

@@ -99,26 +99,26 @@ def test_manual_mode_is_a_persons_step(rws, cell, wanted):
 
 def grants_rmmp(cabinet, answer="Grant"):
     """Whoever holds the pendant answers as soon as it asks; what it asked."""
-    operator, asked = cabinet.controller.operator, []
+    operator, requested = cabinet.controller.operator, []
     operator.attach()
 
     def look():
         for question in operator.questions:
             if not question.answered:
-                asked.append(question.text)
+                requested.append(question.text)
                 operator.answer(question.number, answer)
 
     operator.asked.add(look)
-    return asked
+    return requested
 
 
 def test_manual_mode_is_written_in_when_the_pendant_grants_it(rws, cell, wanted):
     cabinet, transport = cell
     cabinet.controller.set_mode("manual_reduced")
-    asked, said = grants_rmmp(cabinet), []
-    rws.run(transport, wanted, said=said)
-    assert "rapidgen" in asked[0]
-    assert any("Press Grant there within 10 s" in line for line in said)
+    requested, message = grants_rmmp(cabinet), []
+    rws.run(transport, wanted, message=message)
+    assert "rapidgen" in requested[0]
+    assert any("Press Grant there within 10 s" in line for line in message)
     assert rws.home_of(cabinet)
     assert cabinet.restarts == 1
 
@@ -127,8 +127,8 @@ def test_what_the_pendant_denies_changes_nothing(rws, cell, wanted):
     cabinet, transport = cell
     cabinet.controller.set_mode("manual_reduced")
     grants_rmmp(cabinet, "Deny")
-    told = refused(rws.run, transport, wanted)
-    assert "RG542" in told
+    text = refused(rws.run, transport, wanted)
+    assert "RG542" in text
     assert not rws.home_of(cabinet)
 
 
@@ -138,8 +138,8 @@ def test_a_grant_that_is_missing_is_told_before_anything_is_changed(rws, cell, w
     office.login = replace(office.login, denied=frozenset({"UAS_CFG_WRITE"}))
     plan = make_plan(transport, wanted)
     assert "! you: give the user UAS_CFG_WRITE in RobotStudio" in plan_text(plan)
-    told = refused(rws.run, transport, wanted)
-    assert "RG542" in told
+    text = refused(rws.run, transport, wanted)
+    assert "RG542" in text
     assert not rws.home_of(cabinet)
 
 
@@ -147,15 +147,15 @@ def test_an_uninstall_without_a_restart_is_pending_until_one(rws, cell, wanted):
     cabinet, transport = cell
     rws.run(transport, wanted)
     transport.services.stop(everything=True)
-    said = []
-    rws.run(transport, None, "uninstall", restart=False, said=said)
-    assert said[-1].startswith("restart pending")
+    message = []
+    rws.run(transport, None, "uninstall", restart=False, message=message)
+    assert message[-1].startswith("restart pending")
     pending = make_plan(transport, None, verb="uninstall")
     assert pending.is_pending
     assert "restart pending" in plan_text(pending)
     assert "cfg no longer has T_ROS_" in plan_text(make_plan(transport, wanted))
-    found = {(c.area, c.verdict): c.found for c in _contents(transport, wanted, ())}
-    assert "a restart is pending" in found["restart", "warn"]
+    result = {(c.area, c.verdict): c.found for c in _contents(transport, wanted, ())}
+    assert "a restart is pending" in result["restart", "warn"]
     rws.run(transport, None, "uninstall")
     assert cabinet.restarts == 2
     assert "RG529" in refused(make_plan, transport, None, verb="uninstall")
@@ -174,9 +174,9 @@ def test_people_are_waited_for(rws, cell, wanted):
         if acts:
             acts.pop()()
 
-    said = []
-    rws.run(transport, None, "uninstall", wait=30, pause=person, said=said)
-    (waited,) = [line for line in said if line.startswith("waiting")]
+    message = []
+    rws.run(transport, None, "uninstall", wait=30, pause=person, message=message)
+    (waited,) = [line for line in message if line.startswith("waiting")]
     assert "is in mode MANR" in waited
     assert modules(cabinet) == ["MainModule"]
 
@@ -194,9 +194,9 @@ def test_nothing_is_held_and_nobody_is_logged_in_at_the_end(rws, cell, wanted):
 
 def test_a_restart_that_is_pending_is_told_until_it_was(rws, cell, wanted):
     cabinet, transport = cell
-    said = []
-    rws.run(transport, wanted, restart=False, said=said)
-    assert said[-1].startswith("restart pending")
+    message = []
+    rws.run(transport, wanted, restart=False, message=message)
+    assert message[-1].startswith("restart pending")
     plan = make_plan(transport, wanted)
     assert plan.is_pending
     assert plan_json(plan)["restart_pending"]
@@ -249,13 +249,13 @@ def test_normal_tasks_that_stand_are_updated_without_a_restart(rws, generation, 
         restarts = cabinet.restarts
         assert "RG542" in refused(rws.run, transport, new, restart=False)  # the user stops it
         transport.services.stop()
-        said = []
-        plan = rws.run(transport, new, restart=False, said=said)
+        message = []
+        plan = rws.run(transport, new, restart=False, message=message)
         assert not plan.live.restart
         assert not [step for step in plan.steps if "warm start" in step.what]
         assert cabinet.restarts == restarts
         assert make_plan(transport, new).is_empty
-        assert not [line for line in said if line.startswith("!")]  # every pointer is at main
+        assert not [line for line in message if line.startswith("!")]  # every pointer is at main
         transport.services.start()
         assert transport.services.execution().running
 
@@ -321,11 +321,11 @@ def test_success_and_then_a_system_failure(rws, cell, wanted):
         for f in wanted.files
     ]
     broken = replace(wanted, files=tuple(bad))
-    (found,) = refusal(rws.run, transport, broken).diagnostics
-    assert found.code == "RG544"
-    assert "system failure" in found.message
-    assert "`rapidgen uninstall` with --restart" in found.help
-    assert any("ROS_stateServer" in note for note in found.notes)
+    (result,) = refusal(rws.run, transport, broken).diagnostics
+    assert result.code == "RG544"
+    assert "system failure" in result.message
+    assert "`rapidgen uninstall` with --restart" in result.help
+    assert any("ROS_stateServer" in note for note in result.notes)
     rws.run(transport, None, "uninstall")
     assert rws.home_of(cabinet) == home
     assert modules(cabinet) == ["MainModule"]
@@ -344,9 +344,9 @@ def test_rollback_out_of_a_system_failure(rws, generation, tmp_path):
     with rws.empty_cabinet(tmp_path, generation) as cabinet:
         transport = rws.connect(rws.Line(cabinet, generation))
         rws.run(transport, old)
-        (found,) = refusal(rws.run, transport, replace(new, files=tuple(bad))).diagnostics
-        assert found.code == "RG544"
-        assert "`rapidgen rollback` with --restart" in found.help
+        (result,) = refusal(rws.run, transport, replace(new, files=tuple(bad))).diagnostics
+        assert result.code == "RG544"
+        assert "`rapidgen rollback` with --restart" in result.help
         assert transport.services.panel().state == "sysfail"
         rws.run(transport, earlier_set(transport, "", None), "rollback")
         assert transport.services.panel().state != "sysfail"
@@ -355,26 +355,26 @@ def test_rollback_out_of_a_system_failure(rws, generation, tmp_path):
 
 def test_a_port_must_serve_our_build(rws, cell, wanted):
     _, transport = cell
-    asked = []
+    requested = []
 
     def other(host, port):
-        asked.append((host, port))
+        requested.append((host, port))
         return "another-one!"
 
     proof = PostRestartCheck(other, "cell")
-    (found,) = refusal(rws.run, transport, wanted, proof=proof).diagnostics
-    assert (found.code, asked) == ("RG544", [("cell", 11002)])
-    assert "rob1 state cell:11002 serves another-one!" in found.message
+    (result,) = refusal(rws.run, transport, wanted, proof=proof).diagnostics
+    assert (result.code, requested) == ("RG544", [("cell", 11002)])
+    assert "rob1 state cell:11002 serves another-one!" in result.message
 
 
 def test_no_password_in_what_is_said(rws, cell, wanted, tmp_path):
     _, transport = cell
-    said = []
-    plan = rws.run(transport, wanted, said=said)
+    message = []
+    plan = rws.run(transport, wanted, message=message)
     write_plans(tmp_path / "plan.json", [plan])
-    told = [*said, plan_text(plan), (tmp_path / "plan.json").read_text(), repr(plan)]
-    told += [repr(transport.services), repr(transport.services._core), repr(transport)]
-    assert rws.PASSWORD not in "".join(told)
+    text = [*message, plan_text(plan), (tmp_path / "plan.json").read_text(), repr(plan)]
+    text += [repr(transport.services), repr(transport.services._core), repr(transport)]
+    assert rws.PASSWORD not in "".join(text)
 
 
 def background(cabinet):
@@ -404,9 +404,9 @@ def test_a_run_that_was_killed_while_tasks_stand_is_taken_up_again(rws, cell, wa
     newer = rws.build(Generation.ONE, "trajectory.capacity=500")
     transport = killed_after(rws, cabinet, newer, target)
     assert background(cabinet) == {"stopped"}
-    since, said = cabinet.now, []
-    rws.run(transport, newer, said=said, pause=lambda s: rws.pass_time(cabinet, s))
-    held = [text for text in said if text.startswith("waiting for mastership")]
+    since, message = cabinet.now, []
+    rws.run(transport, newer, message=message, pause=lambda s: rws.pass_time(cabinet, s))
+    held = [text for text in message if text.startswith("waiting for mastership")]
     # Whoever is killed while it stops tasks has no mastership.
     assert len(held) == ("loadmod" in target)
     assert (cabinet.now - since > 250) == ("loadmod" in target)
@@ -427,8 +427,8 @@ def test_background_tasks_that_were_left_stopped_are_started_by_a_restart(rws, c
     names = ", ".join(plan.live.silent)
     assert {"T_ROS_RECV", "T_ROS_STATE", "T_ROS_CONTROL"} <= {*plan.live.silent}
     assert f"it starts {names}, which stand" in plan_text(plan)
-    found = {c.area: (c.verdict, c.found) for c in _contents(transport, wanted, ())}
-    assert found["tasks"] == ("fail", f"{names} of the driver stand: its ports do not answer")
+    result = {c.area: (c.verdict, c.found) for c in _contents(transport, wanted, ())}
+    assert result["tasks"] == ("fail", f"{names} of the driver stand: its ports do not answer")
     rws.run(transport, wanted)
     assert background(cabinet) == {"running"}
     assert make_plan(transport, wanted).is_empty
@@ -457,6 +457,6 @@ def test_where_somebody_else_has_mastership_nothing_is_stopped(rws, cell, wanted
         rws.pass_time(cabinet, seconds)
         other.give_mastership(domain)
 
-    rws.run(transport, newer, said=said, wait=30, pause=person)
+    rws.run(transport, newer, message=said, wait=30, pause=person)
     assert any("waiting for a person: mastership of" in text for text in said)
     assert background(cabinet) == {"running"}

@@ -102,16 +102,16 @@ def call(task: Task, name: str, *required: Any, **optional: Any) -> Any:
     assert signature is not None
     assert builtin is not None
     given = {key.lower(): value for key, value in optional.items()}
-    values, rest, group = [], list(required), -1
+    values, remaining, group = [], list(required), -1
     for parameter in signature.parameters:
         if parameter.optional or parameter.name.lower() in given:
             values.append(given.pop(parameter.name.lower(), None))
         elif parameter.group >= 0 and parameter.group == group:
             values.append(None)
         else:
-            values.append(rest.pop(0))
+            values.append(remaining.pop(0))
         group = parameter.group if not parameter.optional else -1
-    assert not rest, f"{name}: too many arguments"
+    assert not remaining, f"{name}: too many arguments"
     assert not given, f"{name} has no {', '.join(given)}"
     return builtin.function(task, *values)
 

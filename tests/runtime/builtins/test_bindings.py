@@ -35,15 +35,15 @@ def test_every_signature_is_bound_compiled_or_left_out():
 
 def _called(name, number):
     """A procedure that calls a routine with what its parameters want, and the data for that."""
-    found = signatures.routine(name)
+    result = signatures.routine(name)
     data, arguments = [], []
-    for k, parameter in enumerate(p for p in found.parameters if not p.optional):
+    for k, parameter in enumerate(p for p in result.parameters if not p.optional):
         datum = f"d{number}_{k}"
         kind = "num" if parameter.type.lower() == "anytype" else parameter.type
         data.append(f"{'PERS' if parameter.mode == 'PERS' else 'VAR'} {kind} {datum};")
         arguments.append(datum)
     given = ",".join(arguments)
-    call = f"{name} {given}" if found.kind == "PROC" else f"TPWrite ValToStr({name}({given}))"
+    call = f"{name} {given}" if result.kind == "PROC" else f"TPWrite ValToStr({name}({given}))"
     return data, f"PROC p{number}()\n{call};\nENDPROC"
 
 

@@ -173,10 +173,10 @@ def test_what_a_fork_made_goes_with_it(tmp_path, monkeypatch):
     def work():
         left = FileSystem()
         left.path("HOME:/a").write_text("x")
-        kept.append(left)
+        saved.append(left)
         return len(os.listdir(tmp_path))
 
-    kept = []
+    saved = []
     assert run_in_fork(work) == 2
     assert os.listdir(tmp_path) == [disks.folder.name]
     assert disks.path("HOME:/parent").is_file()

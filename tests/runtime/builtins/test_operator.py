@@ -85,19 +85,19 @@ def test_an_answer_that_is_none_is_refused_and_the_dialog_waits(make_bench):
 def test_what_a_task_waits_for_can_be_asked(make_bench):
     bench = make_bench(answers=[Answer("1")])
     operator = bench.controller.operator
-    said = []
+    message = []
 
     def ask(task):
         bench.call(task, "TPReadFK", bench.box(0), "which?", "", "Go", "", "", "", MaxTime=3)
 
     def look(task):
         task.sleep(1)
-        said.extend([operator.waits("T1"), operator.waits("T2")])
+        message.extend([operator.waits("T1"), operator.waits("T2")])
 
     with pytest.raises(RapidError):
         bench.run(ask, look)
-    asked = "TPReadFK waits for an answer to 'which?'; answer '1' refused: one of Go is wanted"
-    assert said == [asked, ""]
+    requested = "TPReadFK waits for an answer to 'which?'; answer '1' refused: one of Go is wanted"
+    assert message == [requested, ""]
     assert operator.waits("T1") == ""
 
 
@@ -195,8 +195,8 @@ def test_what_is_no_number_is_refused_and_told_what_is_wanted(make_bench, value)
     bench("UINumEntry", AsInteger=True, InitValue=3, MaxTime=1, BreakFlag=flag, **options)
     assert flag.get() == errnum("ERR_TP_MAXTIME")
     within = " from 1 up to 10" if options else ""
-    told = "".join(bench.controller.operator.rows)
-    assert f"refused: a whole number{within} is wanted" in told
+    report = "".join(bench.controller.operator.rows)
+    assert f"refused: a whole number{within} is wanted" in report
 
 
 @pytest.mark.parametrize(

@@ -111,17 +111,17 @@ def test_unpacking_text(bench):
 @pytest.mark.parametrize(
     ("switch", "found"), [("exact", 64 + (11 << 32)), ("single", 11 << 32), ("error", None)]
 )
-def test_a_ulint_in_all_dialects(bench, switch, found):
+def test_a_ulint_in_all_dialects(bench, switch, result):
     """3HAC16581-1 lists ULINT, and that it needs a dnum; whether it is exact is in no source."""
     bench.controller.dialect = Switches(unpack_ulint=switch)
     target = bench.dnum(5)
     raw = RawBytes(bytes([64, 0, 0, 0, 11, 0, 0, 0]))
-    if found is None:
+    if result is None:
         with pytest.raises(RapidError):
             bench("UnpackRawBytes", raw, 1, target, IntX=ULINT)
     else:
         bench("UnpackRawBytes", raw, 1, target, IntX=ULINT)
-        assert target.get() == found
+        assert target.get() == result
     # Other types are as they are.
     bench("UnpackRawBytes", raw, 5, target, IntX=DINT)
     assert target.get() == 11

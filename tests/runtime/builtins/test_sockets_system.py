@@ -141,9 +141,9 @@ def test_a_peer_that_does_not_read_holds_the_sender_up(real):
         network = real.controller.network
         sent = 0
         while sent < total:
-            taken = network.send(accepted.endpoint, bytes(min(65_536, total - sent)))
-            sent += taken
-            if not taken:
+            in_use = network.send(accepted.endpoint, bytes(min(65_536, total - sent)))
+            sent += in_use
+            if not in_use:
                 blocked.append(sent)
                 gate.set()
                 task.wait_for(

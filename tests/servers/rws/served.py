@@ -54,27 +54,27 @@ class Caller:
     """A session at a desk: no network, the controller's own thread."""
 
     def __init__(self, desk: RwsApplication, user: str = "Default User") -> None:
-        self.desk = desk
+        self.application = desk
         self.session = desk.sessions.begin(user)
         self.accept = media.HAL
 
     @property
     def is_one(self):
         """Whether it speaks RWS 1.0."""
-        return self.desk.generation is Generation.ONE
+        return self.application.generation is Generation.ONE
 
     def send(self, method, target, form=None, body=None, **headers):
         """A request of this session; its HttpReply."""
-        one = self.desk.generation is Generation.ONE
+        one = self.application.generation is Generation.ONE
         sent = {"host": "h", "cookie": f"{SESSION}={self.session.key}"}
         if not one:
             sent["accept"] = self.accept
         if method in ("POST", "DELETE", "PUT"):
-            sent["content-type"] = form_type(self.desk.generation)
+            sent["content-type"] = form_type(self.application.generation)
         data = body if body is not None else write_form(form or {})
         given = {name.replace("_", "-"): value for name, value in headers.items()}
         sent = {k: v for k, v in {**sent, **given}.items() if v is not None}
-        return self.desk.handle(HttpRequest(method, target, sent, data, 1))
+        return self.application.handle(HttpRequest(method, target, sent, data, 1))
 
     def get(self, target, **headers):
         """The items of a GET that succeeds."""

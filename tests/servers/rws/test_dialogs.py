@@ -43,13 +43,13 @@ def answer(caller, name, value):
 
 
 def test_dialogs_are_answered_and_the_program_goes_on(caller):
-    controller = caller.desk.office.cabinet.controller
+    controller = caller.application.context.runner.controller
     (active,) = caller.get("/rw/rapid/uiinstr/active")
     assert active.text("instr") == "TPReadFK"
     stack = active.text("stack").replace("%", "%25")
-    found = caller.get(f"/rw/rapid/uiinstr/active/params/{stack}")
-    told = {item.title: item.text("value") for item in found}
-    assert (told["TPText"], told["TPFK2"], told["TPCompleted"]) == (
+    match = caller.get(f"/rw/rapid/uiinstr/active/params/{stack}")
+    notify = {item.title: item.text("value") for item in match}
+    assert (notify["TPText"], notify["TPFK2"], notify["TPCompleted"]) == (
         '"Which one?"',
         '"Right"',
         "FALSE",
@@ -83,7 +83,7 @@ def test_what_is_no_answer_is_refused_and_the_dialog_stays(caller):
 
 
 def test_of_two_dialogs_the_newer_one_is_active(caller):
-    controller = caller.desk.office.cabinet.controller
+    controller = caller.application.context.runner.controller
     newer = controller.operator.ask("T_OTHER", "TPReadNum", "more?", (), float)
     (active,) = caller.get("/rw/rapid/uiinstr/active")
     assert active.text("stack").startswith("RAPID/T_OTHER/")
@@ -96,7 +96,7 @@ def test_of_two_dialogs_the_newer_one_is_active(caller):
 
 
 def test_an_answer_counts_when_it_is_complete_and_in_automatic_mode(caller):
-    controller = caller.desk.office.cabinet.controller
+    controller = caller.application.context.runner.controller
     assert answer(caller, "TPAnswer", "2") == answer(caller, "TPCompleted", "FALSE") == 204
     controller.run_for(0.5)
     assert controller.tasks["T_ROB1"]["key"] == 0
@@ -106,17 +106,17 @@ def test_an_answer_counts_when_it_is_complete_and_in_automatic_mode(caller):
     controller.run_for(0.5)
     assert controller.tasks["T_ROB1"]["key"] == 0
     # What was chosen for a dialog ends with it.
-    assert caller.desk.office.dialogs
+    assert caller.application.context.dialogs
     controller.start_program()
     controller.run_for(0.1)
     assert answer(caller, "TPCompleted", "TRUE") == 204
-    assert not caller.desk.office.dialogs
+    assert not caller.application.context.dialogs
 
 
 def test_who_subscribes_is_told_of_dialogs_and_texts(caller):
     form = {"resources": "1", "1": "/rw/rapid/uiinstr;uievent", "1-p": "1"}
     assert caller.post("/subscription", form) == 201
-    desk, controller = caller.desk, caller.desk.office.cabinet.controller
+    desk, controller = caller.application, caller.application.context.runner.controller
     events = []
     group = desk.groups.find("1", caller.session)
     desk.groups.listen(group, events.append, lambda: None)
@@ -124,8 +124,8 @@ def test_who_subscribes_is_told_of_dialogs_and_texts(caller):
     assert answer(caller, "TPAnswer", "1") == answer(caller, "TPCompleted", "TRUE") == 204
     controller.run_for(1.0)
     items = [item for event in events for item in media.read(event, "application/xhtml+xml").items]
-    told = [(i.text("instr"), i.text("event"), i.text("msg")) for i in items]
-    assert told == [("TPWrite", "POST", '"hello"'), ("TPReadNum", "SEND", "")]
+    notify = [(i.text("instr"), i.text("event"), i.text("msg")) for i in items]
+    assert notify == [("TPWrite", "POST", '"hello"'), ("TPReadNum", "SEND", "")]
     (waiting,) = controller.operator.questions
     controller.operator.withdraw(waiting)
     (event,) = events[2:]

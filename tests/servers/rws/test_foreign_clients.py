@@ -41,10 +41,10 @@ def test_rwsuis(url, capsys):
         robot.stop_RAPID()
         assert not robot.is_running()
         robot.release_mastership()
-    said = capsys.readouterr().out
-    assert "Could not" not in said
-    assert "Program pointer reset to main" in said
-    assert "RAPID execution started from main" in said
+    message = capsys.readouterr().out
+    assert "Could not" not in message
+    assert "Program pointer reset to main" in message
+    assert "RAPID execution started from main" in message
 
 
 def test_abb_robot_client(url):
@@ -71,11 +71,11 @@ def test_abb_robot_client(url):
     assert robot.try_create_ipc_queue("mine")
     robot.send_ipc_message("mine", "num;1", "mine")
     assert [message.data for message in robot.read_ipc_message("mine")] == ["num;1"]
-    heard, both = [], threading.Event()
+    received, both = [], threading.Event()
 
     def hear(event):
-        heard.append(event)
-        if len(heard) >= 3:
+        received.append(event)
+        if len(received) >= 3:
             both.set()
 
     kinds, priorities = rpi.SubscriptionResourceType, rpi.SubscriptionResourcePriority
@@ -91,7 +91,7 @@ def test_abb_robot_client(url):
     assert both.wait(60)
     subscription.close()
     robot.stop()
-    assert rpi.VariableValue("T_ROB1", "8", "x") in heard
-    assert rpi.Signal("diStart", "0") in heard
-    assert any(isinstance(e, rpi.RAPIDExecutionState) for e in heard)
+    assert rpi.VariableValue("T_ROB1", "8", "x") in received
+    assert rpi.Signal("diStart", "0") in received
+    assert any(isinstance(e, rpi.RAPIDExecutionState) for e in received)
     robot.close()

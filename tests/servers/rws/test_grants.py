@@ -41,10 +41,10 @@ def test_without_its_grant_a_request_is_refused(grant, tmp_path):
     method, target, form = ONE[grant]
     also = {"UAS_FTP_WRITE"} if grant == "UAS_FTP_READ" else set()
     with make_cabinet(tmp_path) as cabinet:
-        desk = make_desk(cabinet, denied=frozenset({grant, *also}))
-        reply = Caller(desk).send(method, target, form)
+        application = make_desk(cabinet, denied=frozenset({grant, *also}))
+        reply = Caller(application).send(method, target, form)
         assert (reply.status, code_of(reply)) == (403, CODES["E_UAS_REJECT"])
-        allowed = Caller(desk, "Admin").send(method, target, form)
+        allowed = Caller(application, "Admin").send(method, target, form)
         assert allowed.status < 400 or code_of(allowed) != CODES["E_UAS_REJECT"]
 
 
@@ -66,10 +66,10 @@ def test_stopping_takes_no_grant_on_robotware_6(tmp_path):
 def test_grants_are_told(tmp_path):
     with make_cabinet(tmp_path, Generation.TWO) as cabinet:
         caller = Caller(make_desk(cabinet, Generation.TWO, denied=frozenset({"UAS_BACKUP"})))
-        told = {item.text("grantname") for item in caller.get("/uas/user/grants")}
-        assert told == set(GRANTS) - {"UAS_BACKUP"}
-        (found,) = caller.get("/users/grant-exists?grant=UAS_BACKUP")
-        assert found.text("status") == "false"
+        notify = {item.text("grantname") for item in caller.get("/uas/user/grants")}
+        assert notify == set(GRANTS) - {"UAS_BACKUP"}
+        (result,) = caller.get("/users/grant-exists?grant=UAS_BACKUP")
+        assert result.text("status") == "false"
 
 
 # -- RMMP -------------------------------------------------------------------------------------
@@ -96,11 +96,11 @@ def polled(caller):
 
 
 def question(caller):
-    return caller.desk.office.controller.operator.questions[0]
+    return caller.application.context.controller.operator.questions[0]
 
 
 def answer(caller, text):
-    operator = caller.desk.office.controller.operator
+    operator = caller.application.context.controller.operator
     operator.answer(question(caller).number, text)
 
 
@@ -116,7 +116,7 @@ def test_granted_at_the_pendant(manual):
     (item,) = manual.get("/users/rmmp")
     assert (item.text("privilege"), item.text("rmmpheldbyme")) == ("modify", "true")
     assert wants(manual) == 204
-    assert not manual.desk.office.controller.operator.questions
+    assert not manual.application.context.controller.operator.questions
     started = {
         "regain": "continue", "execmode": "continue", "cycle": "asis", "condition": "none",
         "stopatbp": "disabled", "alltaskbytsp": "false",
@@ -132,7 +132,7 @@ def test_denied_at_the_pendant(manual):
 
 
 def test_a_question_stands_for_ten_seconds_after_the_last_poll(manual):
-    cabinet = manual.desk.office.cabinet
+    cabinet = manual.application.context.runner
     manual.post("/users/rmmp", {"privilege": "modify"})
     for _ in range(3):
         pass_time(cabinet, 6)
@@ -144,7 +144,7 @@ def test_a_question_stands_for_ten_seconds_after_the_last_poll(manual):
 
 @pytest.mark.parametrize("end", ["cancel", "logout", "mode", "restart"])
 def test_what_was_granted_ends(manual, end):
-    desk, cabinet = manual.desk, manual.desk.office.cabinet
+    desk, cabinet = manual.application, manual.application.context.runner
     manual.post("/users/rmmp", {"privilege": "exec"})
     answer(manual, "Grant")
     assert wants(manual) == 204
@@ -165,7 +165,7 @@ def test_what_was_granted_ends(manual, end):
 
 
 def test_one_session_at_a_time(manual):
-    other = Caller(manual.desk, "Admin")
+    other = Caller(manual.application, "Admin")
     manual.post("/users/rmmp", {"privilege": "modify"})
     assert other.post("/users/rmmp", {"privilege": "modify"}) == 403
     answer(manual, "Grant")

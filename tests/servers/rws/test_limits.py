@@ -34,7 +34,7 @@ def test_a_session_has_two_groups_at_most_and_another_session_its_own(caller):
     assert ask(caller, (SPEED, 1)).status == 201
     refused = ask(caller, (SPEED, 1))
     assert (refused.status, code_of(refused)) == (503, TOO_MANY)
-    assert [ask(Caller(caller.desk), (SPEED, 1)).status for _ in range(2)] == [201, 201]
+    assert [ask(Caller(caller.application), (SPEED, 1)).status for _ in range(2)] == [201, 201]
     assert len(caller.get("/subscription")) == 2
     assert caller.send("DELETE", f"/subscription/{number(first)}").status == 200
     assert ask(caller, (SPEED, 1)).status == 201
@@ -55,10 +55,10 @@ def test_a_group_has_so_many_resources(caller, monkeypatch, limit, priority):
 
 
 def test_so_many_sessions_have_a_websocket(caller):
-    groups = caller.desk.office.groups
+    groups = caller.application.context.groups
     made = []
     for _ in range(subscriptions.MOST_SOCKETS + 1):
-        session = Caller(caller.desk)
+        session = Caller(caller.application)
         made.append(groups.find(number(ask(session, (SPEED, 1))), session.session))
     for group in made[:-1]:
         groups.listen(group, lambda data: None, lambda: None)

@@ -50,12 +50,12 @@ def send(caller, target, data, source="mine"):
 def read(caller, name):
     reply = caller.send("GET", f"/rw/dipc/{name}/{'?action=dipc-read' if caller.is_one else ''}")
     assert reply.status in (200, 204)
-    found = media.read(reply.body, reply.header("content-type")).items if reply.body else ()
-    return [(i.text("dipc-data"), i.text("dipc-cmd"), i.text("dipc-userdef")) for i in found]
+    result = media.read(reply.body, reply.header("content-type")).items if reply.body else ()
+    return [(i.text("dipc-data"), i.text("dipc-cmd"), i.text("dipc-userdef")) for i in result]
 
 
 def test_a_message_reaches_the_program_which_answers(caller):
-    controller = caller.desk.office.cabinet.controller
+    controller = caller.application.context.runner.controller
     assert create(caller, "mine").status == 201
     assert (
         caller.post(
@@ -105,7 +105,7 @@ def test_a_name_is_taken_once_and_ends_with_the_session(caller):
     assert code_of(create(caller, "mine")) == CODES["E_INVALIDARG"]  # [code: abb_robot_client]
     assert create(caller, "RMQ_T_ROB1").status == 400
     caller.send("GET", "/logout")
-    other = Caller(caller.desk)
+    other = Caller(caller.application)
     assert other.get("/rw/dipc") == ()
     assert create(other, "mine").status == 201
 
@@ -116,8 +116,8 @@ def test_an_event_brings_the_message(caller):
     form = {"resources": "1", "1": "/rw/dipc/mine", "1-p": "1"}
     assert caller.post("/subscription", form) == 201
     events = []
-    group = caller.desk.groups.find("1", caller.session)
-    caller.desk.groups.listen(group, events.append, lambda: None)
+    group = caller.application.groups.find("1", caller.session)
+    caller.application.groups.listen(group, events.append, lambda: None)
     assert send(caller, "mine", "hello").status == 204
     (event,) = events
     assert b'href="/rw/dipc/mine"' in event

@@ -147,38 +147,38 @@ def caller(request, tmp_path_factory):
             ("out", "<Program><Module>../a.mod</Module></Program>"),
         ):
             (home / f"{name}.pgf").write_text(text)
-        found = Caller(make_desk(cabinet, request.param))
-        one = found.is_one
+        result = Caller(make_desk(cabinet, request.param))
+        one = result.is_one
         for domain in ("rapid", "cfg", "motion") if one else ("edit", "motion"):
             path = f"/rw/mastership/{domain}{'?action=request' if one else '/request'}"
-            assert found.post(path) == 204
-        yield found
+            assert result.post(path) == 204
+        yield result
 
 
 def state_of(caller):
     """What a request could have changed."""
-    controller = caller.desk.office.controller
+    controller = caller.application.context.controller
     home = controller.files.path("HOME:")
     return (
         sorted(str(path) for path in home.rglob("*")),
         controller.tasks["T_ROB1"]["x"],
         [signal.value for signal in controller.io.signals.values()],
-        [module.name for module in caller.desk.office.cabinet.programs.modules(
+        [module.name for module in caller.application.context.runner.programs.modules(
             controller.rapid_tasks["T_ROB1"])],
-        caller.desk.office.cabinet.cfg,
+        caller.application.context.runner.cfg,
         len(caller.get("/subscription")),
     )  # fmt: skip
 
 
 def refused(caller, method, path, form, status, code):
     # RobotWare 6 takes twenty requests a second.
-    caller.desk.office.cabinet.controller.run_for(1.0)
+    caller.application.context.runner.controller.run_for(1.0)
     before = state_of(caller)
     reply = caller.send(method, path, form)
     fault = media.read(reply.body, reply.header("content-type")).fault
     assert (reply.status, fault.code) == (status, CODES[code])
-    words = re.fullmatch(r"rapidgen\[1\] .*\S code:(-?\d+) icode:(-\d+)", fault.message)
-    assert (int(words[1]), int(words[2]) in REASONS.get(code, {-1, -517})) == (fault.code, True)
+    text = re.fullmatch(r"rapidgen\[1\] .*\S code:(-?\d+) icode:(-\d+)", fault.message)
+    assert (int(text[1]), int(text[2]) in REASONS.get(code, {-1, -517})) == (fault.code, True)
     assert state_of(caller) == before
 
 

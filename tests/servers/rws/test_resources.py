@@ -21,7 +21,7 @@ def caller(request, tmp_path):
 
 
 def edit(caller):
-    assert caller.post(f"/rw/mastership/{EDIT[caller.desk.generation]}") == 204
+    assert caller.post(f"/rw/mastership/{EDIT[caller.application.generation]}") == 204
 
 
 def act(caller, path, name, form=None, two=""):
@@ -31,9 +31,9 @@ def act(caller, path, name, form=None, two=""):
 
 
 def stop(caller):
-    caller.desk.office.cabinet.controller.run_for(0.1)
+    caller.application.context.runner.controller.run_for(0.1)
     assert act(caller, "/rw/rapid/execution", "stop", {"stopmode": "stop"}) == 204
-    caller.desk.office.cabinet.controller.run_for(0.5)
+    caller.application.context.runner.controller.run_for(0.5)
 
 
 # -- positions -----------------------------------------------------------------------------------
@@ -104,7 +104,7 @@ def test_leading_by_hand_takes_a_standing_program(two):
     assert two.get(path)[0].text("status") == "Active"
     assert two.post(path, {"status": "inactive"}) == 204
     assert two.post("/rw/rapid/execution/start", STARTED) == 204
-    two.desk.office.cabinet.controller.run_for(0.1)
+    two.application.context.runner.controller.run_for(0.1)
     assert two.post(path, {"status": "active"}) == 204
     assert two.get(path)[0].text("status") == "Inactive"
 
@@ -112,13 +112,13 @@ def test_leading_by_hand_takes_a_standing_program(two):
 # -- programs ------------------------------------------------------------------------------------
 
 
-def module(caller, rest):
+def module(caller, remaining):
     one, two = "/rw/rapid/modules/MainModule", "/rw/rapid/tasks/T_ROB1/modules/MainModule"
-    return f"{one}?task=T_ROB1&{rest[0]}" if caller.is_one else f"{two}/{rest[1]}"
+    return f"{one}?task=T_ROB1&{remaining[0]}" if caller.is_one else f"{two}/{remaining[1]}"
 
 
 def test_a_text_that_is_written_is_what_runs(caller):
-    controller = caller.desk.office.cabinet.controller
+    controller = caller.application.context.runner.controller
     (read,) = caller.get(module(caller, ("resource=module-text", "text")))
     text = read.text("module-text").replace("WaitTime 0.1", 'name := "new"; WaitTime 0.1')
     target = module(caller, ("action=set-module-text", "text"))
@@ -160,16 +160,16 @@ def test_a_program_is_saved_taken_out_and_loaded(caller):
     assert act(caller, program, "loadprog", form, "load") == 204
     (loaded,) = caller.get(program)
     assert loaded.text("name") == "T_ROB1"
-    assert caller.desk.office.cabinet.controller.tasks["T_ROB1"]["x"] == 1
+    assert caller.application.context.runner.controller.tasks["T_ROB1"]["x"] == 1
     missing = {"progpath": f"{volume}/else.pgf"}
     assert act(caller, program, "loadprog", missing, "load") in (400, 404)
 
 
 def test_a_program_is_loaded_in_place_of_the_rest_or_beside_it(caller):
     """System modules are no part of a program."""
-    programs = caller.desk.office.cabinet.programs
-    task = caller.desk.office.controller.rapid_tasks["T_ROB1"]
-    home = caller.desk.office.controller.files.path("HOME:")
+    programs = caller.application.context.runner.programs
+    task = caller.application.context.controller.rapid_tasks["T_ROB1"]
+    home = caller.application.context.controller.files.path("HOME:")
     edit(caller)
     for name, attributes in (("Own", ""), ("Sys", "(SYSMODULE)")):
         (home / f"{name}.mod").write_text(f"MODULE {name}{attributes}\nENDMODULE\n")
@@ -190,7 +190,7 @@ def test_a_program_is_loaded_in_place_of_the_rest_or_beside_it(caller):
 
 def test_a_pointer_is_not_put_while_the_program_runs(caller):
     assert act(caller, "/rw/rapid/execution", "start", STARTED) == 204
-    caller.desk.office.controller.run_for(0.15)
+    caller.application.context.controller.run_for(0.15)
     edit(caller)
     form = {"module": "MainModule", "routine": "main", "userlevel": "FALSE"}
     where = caller.get("/rw/rapid/tasks/T_ROB1/pcp")
@@ -203,7 +203,7 @@ def test_mastership_is_given_back_by_its_number_alone(two):
     reply = two.send("POST", "/rw/mastership/edit/request-with-id")
     (item,) = media.read(reply.body, reply.header("content-type")).items
     number = item.text("mastership-id")
-    other = Caller(two.desk)
+    other = Caller(two.application)
     release = "/rw/mastership/edit/release-with-id"
     assert other.post(release, {"mastershipid": f"{number}0"}) == 403
     assert two.get("/rw/mastership/edit")[0].text("mastership") == "remote"
@@ -218,11 +218,11 @@ def test_the_stack_and_the_pointer_of_a_stopped_program(caller):
     assert caller.send("GET", path).status == 400, "idle [VC 6.16]"
     assert act(caller, "/rw/rapid/execution", "start", start) == 204
     stop(caller)
-    (found,) = caller.get(path)
-    assert found.text("routine-url") == "RAPID/T_ROB1/MainModule/main"
+    (result,) = caller.get(path)
+    assert result.text("routine-url") == "RAPID/T_ROB1/MainModule/main"
     pointer, motion = caller.get("/rw/rapid/tasks/T_ROB1/pcp")
     assert (pointer.title, motion.title) == ("progpointer", "motionpointer")
-    assert pointer.text("beginposition").partition(",")[0] == found.text("beg-row")
+    assert pointer.text("beginposition").partition(",")[0] == result.text("beg-row")
     edit(caller)
     row = {"line": "10", "column": "1"} if caller.is_one else {"begin-position-row": "10"}
     form = {"module": "MainModule", "routine": "main", **row}
@@ -231,12 +231,14 @@ def test_the_stack_and_the_pointer_of_a_stopped_program(caller):
 
 
 def test_a_step_is_for_manual_mode(caller):
-    controller = caller.desk.office.cabinet.controller
+    controller = caller.application.context.runner.controller
     form = {**STARTED, "execmode": "stepover"}
     assert act(caller, "/rw/rapid/execution", "start", form) == 403
     controller.set_mode("manual_reduced")
     controller.set_motors(True)
-    lenient = Caller(make_desk(caller.desk.office.cabinet, caller.desk.generation, strict=False))
+    lenient = Caller(
+        make_desk(caller.application.context.runner, caller.application.generation, strict=False)
+    )
     for _ in range(2):
         assert act(lenient, "/rw/rapid/execution", "start", form) == 204
         controller.run_for(0.2)
@@ -251,12 +253,12 @@ def test_sessions_are_listed_one_by_one_and_in_two_by_user(caller):
     before = len(caller.get("/users"))
     form = {"username": "me", "application": "app", "location": "here"}
     assert caller.post("/users" if caller.is_one else "/users/register", form) == 201
-    other = Caller(caller.desk)
-    found = other.get("/users")
-    assert len(found) == (before + 1 if caller.is_one else before)
-    assert found[0].text("application") == "app"
-    admin = Caller(caller.desk, "Admin")
-    assert len(caller.get("/users")) == len(found) + 1
+    other = Caller(caller.application)
+    match = other.get("/users")
+    assert len(match) == (before + 1 if caller.is_one else before)
+    assert match[0].text("application") == "app"
+    admin = Caller(caller.application, "Admin")
+    assert len(caller.get("/users")) == len(match) + 1
     admin.send("GET", "/logout")
     other.send("GET", "/logout")
     assert len(caller.get("/users")) == before
@@ -284,8 +286,8 @@ def test_energy_is_told_by_axis(caller):
 
 def test_who_may_less_cannot_be_somebody_who_may_more(tmp_path):
     with make_cabinet(tmp_path, Generation.TWO) as cabinet:
-        desk = make_desk(cabinet, Generation.TWO, denied=frozenset(["UAS_IO_WRITE"]))
-        caller, admin = Caller(desk), Caller(desk, "Admin")
+        application = make_desk(cabinet, Generation.TWO, denied=frozenset(["UAS_IO_WRITE"]))
+        caller, admin = Caller(application), Caller(application, "Admin")
         more = {"uid": str(admin.session.number)}
         assert code_of(caller.send("POST", "/users/impersonate", more)) == CODES["E_UAS_REJECT"]
         assert admin.post("/users/impersonate", {"uid": str(caller.session.number)}) == 204
@@ -301,8 +303,8 @@ def test_networks_and_devices_one_by_one(caller):
         "Local/DRV_1",
         "DRV_1",
     )
-    found = caller.send("POST", "/rw/iosystem/devices?action=search", {"name": "drv"})
-    assert found.status == 200
+    result = caller.send("POST", "/rw/iosystem/devices?action=search", {"name": "drv"})
+    assert result.status == 200
     assert caller.post("/rw/iosystem/devices?action=search", {"network": "Local"}) == 400
     assert caller.send("GET", "/rw/iosystem/networks/Else").status == 404
 
@@ -325,13 +327,13 @@ def test_a_locked_mode_cannot_be_changed(caller):
         ("Replace", "PERS num 3 := 1;"),
     ],
 )
-def test_a_piece_goes_before_behind_or_in_place_of_another(two, mode, found):
+def test_a_piece_goes_before_behind_or_in_place_of_another(two, mode, result):
     base = "/rw/rapid/tasks/T_ROB1/modules/MainModule/text/range"
     edit(two)
     place = {"startrow": "2", "startcol": "14", "endrow": "2", "endcol": "14"}
     assert two.post(base, {**place, "replace-mode": mode, "text": "3"}) == 204
     (row,) = two.get(f"{base}?startrow=2&startcol=5&endrow=2&endcol=-1")
-    assert row.text("text") == found
+    assert row.text("text") == result
     back = {**place, "startrow": "3", "replace-mode": mode, "text": "3"}
     assert two.post(base, back) == 400, "it ends before it begins"
     assert two.post(base, {**place, "replace-mode": "Beside", "text": "3"}) == 400
@@ -354,7 +356,7 @@ def test_jogging_is_refused_with_its_reason(caller):
     jog = "/rw/motionsystem" + ("?action=jog" if caller.is_one else "/jog")
     form = {"jogmode": "AxisGroup1", "mechunit": "ROB_1", "ccount": "0"}
     assert code_of(caller.send("POST", jog, form)) == CODES["E_MODE_REJECT"]
-    caller.desk.office.controller.set_mode("manual_reduced")
+    caller.application.context.controller.set_mode("manual_reduced")
     assert code_of(caller.send("POST", jog, form)) == CODES["E_REJECT"]
     assert caller.post(jog, {"jogmode": "AxisGroup1"}) == 400
 
@@ -371,7 +373,7 @@ def test_a_backup_takes_no_other_ones_place_and_a_broken_one_is_told(caller):
     assert code_of(caller.send("POST", again, form)) == CODES["E_DIR_EXIST"]
     if caller.is_one:
         return
-    folder = caller.desk.office.controller.files.path("BACKUP:/first")
+    folder = caller.application.context.controller.files.path("BACKUP:/first")
     for broken, wanted in ((False, 0), (True, CODES["E_FAIL"])):
         if broken:
             (folder / "SYSPAR" / "SYS.cfg").write_text("nothing\n")
@@ -400,13 +402,13 @@ def test_a_literal_is_judged(caller):
 
 
 def test_a_backup_is_restored_with_modules_and_files(caller):
-    cabinet = caller.desk.office.cabinet
+    cabinet = caller.application.context.runner
     volume = "$BACKUP" if caller.is_one else "BACKUP"
-    kept = cabinet.controller.files.path("HOME:") / "kept.txt"
-    kept.write_text("kept")
+    saved = cabinet.controller.files.path("HOME:") / "kept.txt"
+    saved.write_text("kept")
     form = {"backup": f"/fileservice/{volume}/first"}
     assert act(caller, "/ctrl/backup", "backup", form, "create") == 202
-    kept.unlink()
+    saved.unlink()
     edit(caller)
     assert act(caller, "/rw/rapid/tasks/T_ROB1", "unloadmod", {"module": "MainModule"}) == 204
     assert act(caller, "/ctrl/backup", "restore", {"backup": f"/fileservice/{volume}/no"}) == (
@@ -426,7 +428,7 @@ def test_groups_of_a_session_and_what_they_watch(caller):
     assert caller.post("/subscription", form) == 201
     assert [i.title for i in caller.get("/subscription")] == ["1"]
     assert [i.title for i in caller.get("/subscription/1")] == ["/rw/panel/opmode"]
-    assert Caller(caller.desk).get("/subscription") == ()
+    assert Caller(caller.application).get("/subscription") == ()
 
 
 @pytest.mark.parametrize(
@@ -446,8 +448,8 @@ def test_events_have_the_manuals_fields(caller, resource, kind):
     assert reply.status == 201
     assert kind in reply.body
     events = []
-    group = caller.desk.groups.find("1", caller.session)
-    caller.desk.groups.listen(group, events.append, lambda: None)
+    group = caller.application.groups.find("1", caller.session)
+    caller.application.groups.listen(group, events.append, lambda: None)
     motion = "motion?action=request" if caller.is_one else "motion/request"
     assert caller.post(f"/rw/mastership/{motion}") == 204
     edit(caller)
@@ -476,7 +478,7 @@ def test_what_is_told_of_the_controller(caller, path, name):
 
 def test_the_log_is_saved_and_cleared(caller):
     volume = "$TEMP" if caller.is_one else "TEMP"
-    log = caller.desk.office.controller.log
+    log = caller.application.context.controller.log
     log.info(10_000, "a title of its own")
     assert act(caller, "/rw/elog", "saveraw", {"path": f"/fileservice/{volume}/log.txt"}) == 202
     assert b"a title of its own" in caller.send("GET", f"/fileservice/{volume}/log.txt").body
@@ -525,7 +527,7 @@ DYNAMIC = {
 
 
 @pytest.mark.parametrize(
-    ("asked", "names"),
+    ("request", "names"),
     [
         ("", [*DYNAMIC, *STATIC]),
         ("static", [*STATIC]),
@@ -536,8 +538,8 @@ DYNAMIC = {
         ("is-integrated", ["is-integrated-unit"]),
     ],
 )
-def test_a_robot_for_which_nothing_is_chosen(caller, asked, names):
-    (item,) = caller.get(f"{UNIT}?resource={asked}" if asked else UNIT)
+def test_a_robot_for_which_nothing_is_chosen(caller, request, names):
+    (item,) = caller.get(f"{UNIT}?resource={request}" if request else UNIT)
     assert dict(item.fields) == {name: (DYNAMIC | STATIC)[name] for name in names}
 
 
@@ -566,7 +568,7 @@ def test_each_choice_for_jogging_is_shown_under_its_own_name(caller):
         (Generation.TWO, "ELSE:", None),
     ],
 )
-def test_a_module_is_saved_with_present_values(generation, folder, there, tmp_path):
+def test_a_module_is_saved_with_present_values(generation, folder, target, tmp_path):
     with make_cabinet(tmp_path, generation) as cabinet:
         caller = Caller(make_desk(cabinet, generation))
         home = cabinet.controller.files.path("HOME:")
@@ -575,12 +577,12 @@ def test_a_module_is_saved_with_present_values(generation, folder, there, tmp_pa
         form = {"name": "kept", "path": folder}
         status = caller.post(module(caller, ("action=save", "save")), form)
         saved = [path for path in home.rglob("*") if path.is_file()]
-        if there is None:
+        if target is None:
             assert (status, saved) == (404 if caller.is_one else 400, [])
         else:
             assert (status, saved) == (
                 204,
-                [home / f"{there}kept.mod{'' if caller.is_one else 'x'}"],
+                [home / f"{target}kept.mod{'' if caller.is_one else 'x'}"],
             )
             assert "PERS num x := 7;" in saved[0].read_text()
         missing = module(caller, ("action=save", "save")).replace("MainModule", "Nowhere")

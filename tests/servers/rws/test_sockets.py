@@ -121,8 +121,8 @@ def test_nothing_is_lost_between_the_answer_and_the_upgrade(tmp_path):
             ssl=context, additional_headers={"Cookie": cookies},
             subprotocols=["rws_subscription"], proxy=None,
         ) as socket:  # fmt: skip
-            told = [read_events(socket.recv(60).encode())[0].text("lvalue") for _ in range(3)]
-        assert told == ["1", "0", "1"]
+            notify = [read_events(socket.recv(60).encode())[0].text("lvalue") for _ in range(3)]
+        assert notify == ["1", "0", "1"]
         link.close()
         service.close()
 
@@ -131,7 +131,7 @@ def test_who_leaves_late_takes_nothing_from_who_came_since(one):
     """A poll URL of RWS 1.0 can be opened again while the old websocket is still closing."""
     form = {"resources": "1", "1": "/rw/iosystem/signals/aoSpeed;state", "1-p": "2"}
     assert one.post("/subscription", form) == 201
-    groups, old, new = one.desk.groups, [], []
+    groups, old, new = one.application.groups, [], []
     group = groups.find("1", one.session)
     groups.listen(group, old.append, lambda: None)
     first = group.send

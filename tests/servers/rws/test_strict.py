@@ -16,12 +16,14 @@ from rapidgen.wire.rws.codes import CODES
 
 
 def test_nobody_gets_in_without_a_login(one, two):
-    challenge = one.desk.handle(HttpRequest("GET", "/rw/system"))
+    challenge = one.application.handle(HttpRequest("GET", "/rw/system"))
     assert (challenge.status, challenge.header("www-authenticate")[:6]) == (401, "Digest")
-    challenge = two.desk.handle(HttpRequest("GET", "/rw/system"))
+    challenge = two.application.handle(HttpRequest("GET", "/rw/system"))
     assert (challenge.status, challenge.header("www-authenticate")[:5]) == (401, "Basic")
     wrong = base64.b64encode(b"Default User:wrong").decode()
-    reply = two.desk.handle(HttpRequest("GET", "/rw/system", {"authorization": f"Basic {wrong}"}))
+    reply = two.application.handle(
+        HttpRequest("GET", "/rw/system", {"authorization": f"Basic {wrong}"})
+    )
     assert (reply.status, reply.body) == (401, b"")
 
 
@@ -66,12 +68,12 @@ def test_verbs_of_another_generation_are_refused(one, two):
 
 
 def test_there_are_seventy_sessions_which_end_when_they_are_idle(one):
-    desk = one.desk
+    desk = one.application
     for _ in range(MOST - len(desk.sessions)):
         assert desk.sessions.begin("Admin") is not None
     login = {"authorization": f"Basic {base64.b64encode(b'Admin:robotics').decode()}"}
     assert desk.sessions.begin("Admin") is None
-    desk.office.cabinet.controller.run_for(IDLE + 1)
+    desk.context.runner.controller.run_for(IDLE + 1)
     assert desk.sessions.begin("Admin") is not None
     assert len(desk.sessions) == 1
     assert desk.handle(HttpRequest("GET", "/rw/system", login)).status == 401
@@ -81,7 +83,7 @@ def test_a_session_that_logs_out_is_gone_with_what_it_held(one):
     assert one.post("/rw/mastership/rapid?action=request") == 204
     assert one.send("GET", "/logout").status == 200
     assert one.send("GET", "/rw/system").status == 401
-    other = Caller(one.desk)
+    other = Caller(one.application)
     assert other.get("/rw/mastership/rapid")[0].text("mastership") == "nomaster"
 
 
@@ -90,12 +92,12 @@ def test_twenty_requests_a_second_of_the_controllers_clock_are_the_most(one, two
     assert statuses == [200] * RATE + [503]
     # [RWS 1.0 manual]; public clients of RobotWare 7 ask faster [code: abb-rws-client].
     assert {two.send("GET", "/rw/panel/opmode").status for _ in range(2 * RATE)} == {200}
-    one.desk.office.cabinet.controller.run_for(1.01)
+    one.application.context.runner.controller.run_for(1.01)
     assert one.send("GET", "/rw/panel/opmode").status == 200
 
 
 def test_mastership_belongs_to_one_session(two):
-    other = Caller(two.desk, "Admin")
+    other = Caller(two.application, "Admin")
     pp = "/rw/rapid/execution/resetpp"
     missing = two.send("POST", pp)
     assert (missing.status, code_of(missing)) == (403, CODES["E_MASTER_REJECT"])
@@ -140,18 +142,18 @@ def test_robotware_8_has_write_access_of_a_control_station(eight):
     assert eight.post(start, STARTED) == 204
     # Not given back by a logout: another run of the same station can.
     eight.send("GET", "/logout")
-    again, other = Caller(eight.desk), Caller(eight.desk)
+    again, other = Caller(eight.application), Caller(eight.application)
     stranger = "{11111111-1111-1111-1111-111111111111}"
     other.post(register, {**station, "control-station-id": stranger})
     assert other.post("/rw/controlstation/writeaccess/request") == 403
     assert again.post(register, station) == 204
     assert again.post("/rw/controlstation/writeaccess/release") == 204
     assert other.post("/rw/controlstation/writeaccess/request") == 204
-    assert eight.desk.handle(HttpRequest("GET", "/users/rmmp")).status == 401
+    assert eight.application.handle(HttpRequest("GET", "/users/rmmp")).status == 401
 
 
 def test_modes_and_grants_are_held(one):
-    controller = one.desk.office.controller
+    controller = one.application.context.controller
     controller.set_mode("manual_reduced")
     assert one.post("/rw/panel/ctrlstate?action=setctrlstate", {"ctrl-state": "motoron"}) == 403
     assert one.post("/rw/rapid/execution?action=start", STARTED) == 403
@@ -189,7 +191,7 @@ def test_hostile_requests_are_answered(hostile, method, path, query, body):
     for caller in hostile:
         reply = caller.send(method, f"{path}?{query}" if query else path, body=body)
         assert 200 <= reply.status < 500
-        reply = caller.desk.handle(HttpRequest(method, path, {"authorization": query}, body))
+        reply = caller.application.handle(HttpRequest(method, path, {"authorization": query}, body))
         assert reply.status in (400, 401)
     assert media.read(hostile[0].send("GET", "/rw/system").body, "").items
 
@@ -202,13 +204,13 @@ def hostile(tmp_path_factory):
     ):
         callers = [Caller(make_desk(first)), Caller(make_desk(second, Generation.TWO))]
         for caller in callers:
-            caller.desk.sessions.is_too_fast = lambda: False
+            caller.application.sessions.is_too_fast = lambda: False
         yield callers
 
 
 def test_robotware_6_takes_mastership_for_a_program_pointer_by_itself(one):
     """[code: abb_librws, abb_robot_client]: both set it so, and ask for nothing before."""
-    other = Caller(one.desk, "Admin")
+    other = Caller(one.application, "Admin")
     pp = "/rw/rapid/execution?action=resetpp"
     assert one.post(pp) == 204
     assert other.post("/rw/mastership/rapid?action=request") == 204

@@ -32,18 +32,18 @@ def cfg_types(core: RwsCore, domain: str) -> Flow[tuple[str, ...]]:
 
 def cfg_instances(core: RwsCore, domain: str, type: str) -> Flow[tuple[CfgInstance, ...]]:
     """Instances of a type with their attributes: one request for seventy."""
-    found: list[Item] = []
+    result: list[Item] = []
     query = ""
     for _ in range(_PAGES):
         body, _ = yield from ask(
             core, ops.CFG_INSTANCES, {"domain": domain, "type": type}, query=query
         )
-        found += body.all("cfg-dt-instance-li", "cfg-dt-instance")
+        result += body.all("cfg-dt-instance-li", "cfg-dt-instance")
         start = parse_qs(body.next.partition("?")[2]).get("start", [""])[0]
         if not start.isdecimal():
             break
         query = f"start={start}&limit=70"
-    return tuple(CfgInstance(i.title, {a.title: a.text("value") for a in i.within}) for i in found)
+    return tuple(CfgInstance(i.title, {a.title: a.text("value") for a in i.within}) for i in result)
 
 
 def cfg_set(

@@ -110,21 +110,21 @@ def _reach(core: RwsCore) -> Flow[str]:
 def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
     """Whether this certificate is the right one, before a password is sent."""
     fingerprint = hashlib.sha256(certificate).hexdigest()
-    wanted = known_certificates.plain(core.fingerprint) or known_certificates.known(
+    requested = known_certificates.plain(core.fingerprint) or known_certificates.known(
         core.pins, core.where
     )
     core.certificate = certificate
-    if wanted == fingerprint:
+    if requested == fingerprint:
         if core.fingerprint:
             known_certificates.remember(core.pins, core.where, fingerprint)
         return
-    if wanted:
+    if requested:
         raise LoginFailed.because(
             "RG652",
             f"the certificate of {core.where} is another one than before",
             "was the controller installed anew, or does another machine answer? If it is right, "
             f"say --fingerprint {fingerprint}",
-            f"known: {known_certificates.shown(wanted)}",
+            f"known: {known_certificates.shown(requested)}",
             f"there: {known_certificates.shown(fingerprint)}",
         )
     if core.confirm is None or not core.confirm(core.where, known_certificates.shown(fingerprint)):

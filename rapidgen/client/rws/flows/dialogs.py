@@ -31,8 +31,8 @@ def _waiting(core: RwsCore) -> Flow[Dialog]:
     stack = told[0].text("stack")
     # Some controllers have no reading side of parameters [VC 6.16, VC 7.21].
     names = {"stack": stack}
-    found, _ = yield from ask(core, ops.DIALOG_PARAMETERS, names, accepted=(400, 404))
-    values = {item.title: item.text("value") for item in found.all("rap-uiparams-li")}
+    result, _ = yield from ask(core, ops.DIALOG_PARAMETERS, names, accepted=(400, 404))
+    values = {item.title: item.text("value") for item in result.all("rap-uiparams-li")}
     return Dialog(told[0].text("instr"), stack, values)
 
 

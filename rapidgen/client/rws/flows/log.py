@@ -17,11 +17,11 @@ def log(
     first; at most fifty on RobotWare 7: one request."""
     query = "lang=en" + (f"&elogseqnum={after}" if after else "")
     body, _ = yield from ask(core, ops.ELOG, {"domain": str(domain)}, query=query)
-    found = sorted(
+    result = sorted(
         (_event(item) for item in body.all("elog-message-li", "elog-message")),
         key=lambda event: event.number,
     )
-    return tuple(event for event in found if event.number > after)[-count:]
+    return tuple(event for event in result if event.number > after)[-count:]
 
 
 def _event(item: Item) -> LogEvent:

@@ -112,12 +112,12 @@ def holder(core: RwsCore, domain: str = "rapid") -> Flow[MastershipHolder | None
 def _held_by(core: RwsCore, name: str) -> Flow[MastershipHeld]:
     who = yield from holder(core, name)
     own = who is not None and who.application == APPLICATION
-    mend = "let them give it back or end their session, then try again (`wait=` in Python waits)"
+    help = "let them give it back or end their session, then try again (`wait=` in Python waits)"
     if own:
-        mend = (
+        help = (
             "that is another run of rapidgen: if it was killed, the controller ends its session "
             "after five idle minutes; try again then (`deploy` and `wait=310` in Python wait)"
         )
     return MastershipHeld.because(
-        "RG654", f"mastership of {name} at {core.where} is held by {who}", mend
+        "RG654", f"mastership of {name} at {core.where} is held by {who}", help
     )

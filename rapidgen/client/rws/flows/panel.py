@@ -19,10 +19,10 @@ _LOOK = 0.1
 def one(core: RwsCore, operation: RwsOperation, *kinds: str, **names: str) -> Flow[Item]:
     """The one thing that an operation gives. Raises NotObeyed (RG655) when it is not there."""
     body, _ = yield from ask(core, operation, names)
-    found = body.all(*kinds)
-    if not found:
+    result = body.all(*kinds)
+    if not result:
         raise NotConfirmed.because("RG655", f"{core.where} gives no {kinds[0]}")
-    return found[0]
+    return result[0]
 
 
 def identity(core: RwsCore) -> Flow[Identity]:
@@ -61,17 +61,17 @@ def motors(core: RwsCore, on: bool) -> Flow[None]:
 
     Raises RwsError (RG650), NotObeyed (RG655): the controller agreed, and they are not.
     """
-    wanted = "motoron" if on else "motoroff"
-    yield from ask(core, ops.SET_CTRL_STATE, form={"ctrl-state": wanted})
+    requested = "motoron" if on else "motoroff"
+    yield from ask(core, ops.SET_CTRL_STATE, form={"ctrl-state": requested})
     state = ""
     for _ in range(_LOOKS):
         state = yield from _state(core)
-        if state == wanted:
+        if state == requested:
             return
         yield Pause(_LOOK)
     raise NotConfirmed.because(
         "RG655",
-        f"{core.where} agreed to {wanted}, and is in state {state}",
+        f"{core.where} agreed to {requested}, and is in state {state}",
         "look at the emergency stop and the guard stop; `log()` tells more",
     )
 

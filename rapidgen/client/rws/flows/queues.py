@@ -57,9 +57,9 @@ def receive_message(core: RwsCore, queue: str, *, wait: float = 0.0) -> Flow[Que
     until = core.clock() + wait
     while True:
         body, _ = yield from ask(core, ops.READ_MESSAGE, {"queue": queue})
-        found = body.all("dipc-read-li", "dipc-read")
-        if found:
-            return QueueMessage(found[0].text("dipc-data"), found[0].whole("dipc-userdef"))
+        result = body.all("dipc-read-li", "dipc-read")
+        if result:
+            return QueueMessage(result[0].text("dipc-data"), result[0].whole("dipc-userdef"))
         if core.clock() >= until:
             raise RobotTimeout.because("RG602", f"no message in {queue} within {wait:g} s")
         yield Pause(min(_LOOK, until - core.clock()))

@@ -51,9 +51,9 @@ def modules(core: RwsCore, task: str) -> Flow[tuple[TaskModule, ...]]:
     """Modules of a task."""
     names, query = _of_task(core, task)
     body, _ = yield from ask(core, ops.MODULES, names, query=query)
-    found = body.all("rap-module-info-li")
+    result = body.all("rap-module-info-li")
     return tuple(
-        TaskModule(i.text("name"), i.text("type").lower().startswith("sys")) for i in found
+        TaskModule(i.text("name"), i.text("type").lower().startswith("sys")) for i in result
     )
 
 
@@ -142,8 +142,8 @@ def symbol_text(core: RwsCore, path: str) -> Flow[str]:
     item = body.first("rap-data")
     if item is None or "value" not in item.fields:
         why = "it is too large to be given whole" if item and item.links else "there is no value"
-        mend = "read it by element: NAME{1}"
-        raise NotConfirmed.because("RG655", f"{path} at {core.where}: {why}", mend)
+        help = "read it by element: NAME{1}"
+        raise NotConfirmed.because("RG655", f"{path} at {core.where}: {why}", help)
     return item.text("value")
 
 

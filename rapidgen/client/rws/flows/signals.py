@@ -16,16 +16,16 @@ _PAGES = 200
 
 def signals(core: RwsCore) -> Flow[tuple[SignalState, ...]]:
     """All signals: one request in RWS 1.0, one for a hundred in 2.0."""
-    found: list[Item] = []
+    result: list[Item] = []
     query = ""
     for _ in range(_PAGES):
         body, _ = yield from ask(core, ops.SIGNALS, query=query)
-        found += body.all("ios-signal-li")
+        result += body.all("ios-signal-li")
         start = parse_qs(body.next.partition("?")[2]).get("start", [""])[0]
         if not start.isdecimal():
             break
         query = f"start={start}&limit=100"
-    return tuple(_signal(item) for item in found)
+    return tuple(_signal(item) for item in result)
 
 
 def signal(core: RwsCore, name: str) -> Flow[SignalState]:

@@ -36,8 +36,10 @@ class SubscriptionGroup:
 def subscribe(core: RwsCore, topics: Sequence[Topic]) -> Flow[SubscriptionGroup]:
     """Ask to be told of topics. Raises RwsError (RG650), NotRws (RG653)."""
     yield from connect(core)
-    wanted = [WantedResource(topic.resource(core.generation), topic.priority) for topic in topics]
-    _, response = yield from ask(core, ops.SUBSCRIBE, form=write_wanted(wanted))
+    requested = [
+        WantedResource(topic.resource(core.generation), topic.priority) for topic in topics
+    ]
+    _, response = yield from ask(core, ops.SUBSCRIBE, form=write_wanted(requested))
     try:
         body = xhtml.read(response.body)
         group, path = read_opened(body, response.headers.get("location", ""))
@@ -74,7 +76,7 @@ def events_of(
 def _told(
     core: RwsCore, topics: Sequence[Topic], items: Iterable[Item]
 ) -> Flow[tuple[ResourceEvent, ...]]:
-    found = []
+    result = []
     by_path = {_path(t.resource(core.generation)): t for t in topics}
     for item in items:
         topic = by_path.get(_path(item.links.get("self", "")))
@@ -95,8 +97,8 @@ def _told(
             value = yield from symbol_text(core, topic.name)
         else:
             value = ""
-        found.append(ResourceEvent(name, item.kind, value))
-    return tuple(found)
+        result.append(ResourceEvent(name, item.kind, value))
+    return tuple(result)
 
 
 def _path(text: str) -> str:

@@ -29,30 +29,30 @@ def _equipment(task: Task) -> ArcEquipment:
 
 def _data(task: Task, arc: Value) -> dict[str, float]:
     """arcdata by component. ERR_AO_LIM, ERR_GO_LIM: it does not fit the cell's signals."""
-    found = dict(zip(arc.fields, arc.values(), strict=True))
+    result = dict(zip(arc.fields, arc.values(), strict=True))
     for use, component in REFERENCES.items():
         signal = _equipment(task).signal(use)
         if signal is not None:
-            fitting(signal, found[component])
-    return found
+            fitting(signal, result[component])
+    return result
 
 
 @by_name("ArcLStart", "ArcL", "ArcLEnd", "ArcCStart", "ArcC", "ArcCEnd", cost="move")
 @planned
-def weld(task: Task, name: str, given: Arguments) -> None:
+def weld(task: Task, name: str, arguments: Arguments) -> None:
     """A line or a circle of a seam. ERR_ARGVALERR: weld_speed is 0."""
-    arc, seam = _equipment(task), given["Seam"]
-    data = _data(task, given["Weld"].main_arc)
+    arc, seam = _equipment(task), arguments["Seam"]
+    data = _data(task, arguments["Weld"].main_arc)
     begins, ends = name.endswith("Start"), name.endswith("End")
     welds = not arc.inhibited
-    _tell_what_is_left_out(task, given)
+    _tell_what_is_left_out(task, arguments)
     # A start in a corner is behind the program before it is behind the robot.
     on_seam = data_of(task, moving_group(task)).extra
     if welds and not begins and not on_seam.get(_ON_SEAM):
         _ignite(task, seam, data, 0.0)
     on_seam[_ON_SEAM] = welds and not ends
-    stops = given["Zone"].finep or given["Inpos"] is not None
-    events = list(prepared(task, given, first="T1"))
+    stops = arguments["Zone"].finep or arguments["Inpos"] is not None
+    events = list(prepared(task, arguments, first="T1"))
     opened: list[int] = []
 
     def open_gas() -> None:
@@ -68,8 +68,8 @@ def weld(task: Task, name: str, given: Arguments) -> None:
         if ends and not stops:
             events.append(PathEvent(MeasuredFrom.MIDDLE, 0.0, arc.put_out))
     at_weld_speed = welds and not begins
-    speed = {"V": given["Weld"].weld_speed if at_weld_speed else None, "T": given["Time"]}
-    order(task, {**given, **speed}, cartesian_move, tuple(events))
+    speed = {"V": arguments["Weld"].weld_speed if at_weld_speed else None, "T": arguments["Time"]}
+    order(task, {**arguments, **speed}, cartesian_move, tuple(events))
     if welds and stops and begins:
         since = (task.scheduler.now - opened[0]) / S if opened else 0.0
         _ignite(task, seam, data, since)
@@ -119,15 +119,15 @@ def _stand(task: Task, seconds: float) -> None:
         task.sleep(seconds)
 
 
-def _tell_what_is_left_out(task: Task, given: Arguments) -> None:
-    seam, weave, track = given["Seam"], given["Weave"], given["Track"]
-    for there, text in (
+def _tell_what_is_left_out(task: Task, arguments: Arguments) -> None:
+    seam, weave, track = arguments["Seam"], arguments["Weave"], arguments["Track"]
+    for target, text in (
         (weave is not None and weave.weave_shape != 0, "weaving"),
         (track is not None and track.track_system != 0, "tracking"),
         (seam.heat_speed > 0 and (seam.heat_time > 0 or seam.heat_distance > 0), "heating"),
     ):
         told = f"{text} is not simulated: the tool goes along the seam at its speed"
-        if there and not any(
+        if target and not any(
             e.code == NOT_SIMULATED and told in e.texts and e.task == task.name
             for e in task.controller.log
         ):

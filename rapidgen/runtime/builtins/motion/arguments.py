@@ -24,12 +24,12 @@ STOP_TIME = 2
 
 def speed_of(data: Value, tcp: float | None, modal: ModalSettings) -> MoveSpeed:
     """speeddata with \\V and VelSet: the override scales all parts, the limit only the TCP's."""
-    share = modal.speed_override
+    fraction = modal.speed_override
     return MoveSpeed(
-        tcp=min((data.v_tcp if tcp is None else tcp) * share / 1000, modal.speed_limit),
-        orientation=data.v_ori * share * RAD,
-        linear=data.v_leax * share / 1000,
-        rotary=data.v_reax * share * RAD,
+        tcp=min((data.v_tcp if tcp is None else tcp) * fraction / 1000, modal.speed_limit),
+        orientation=data.v_ori * fraction * RAD,
+        linear=data.v_leax * fraction / 1000,
+        rotary=data.v_reax * fraction * RAD,
     )
 
 
@@ -47,15 +47,15 @@ def zone_of(data: Value, radius: float | None, stop: Value = None) -> Zone:
     if data.finep or stop is not None:
         return Zone(fine=True)
     tcp = data.pzone_tcp if radius is None else radius
-    share = tcp / data.pzone_tcp if radius is not None and data.pzone_tcp > 0 else 1.0
+    fraction = tcp / data.pzone_tcp if radius is not None and data.pzone_tcp > 0 else 1.0
     return Zone(
         fine=False,
         tcp=tcp / 1000,
-        orientation=data.pzone_ori * share / 1000,
-        external=data.pzone_eax * share / 1000,
-        angle=data.zone_ori * share * RAD,
-        linear=data.zone_leax * share / 1000,
-        rotary=data.zone_reax * share * RAD,
+        orientation=data.pzone_ori * fraction / 1000,
+        external=data.pzone_eax * fraction / 1000,
+        angle=data.zone_ori * fraction * RAD,
+        linear=data.zone_leax * fraction / 1000,
+        rotary=data.zone_reax * fraction * RAD,
     )
 
 

@@ -16,20 +16,22 @@ from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Value
 
 
-def common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value]:
+def common(task: Task, group: MotionGroup, arguments: Arguments) -> dict[str, Value]:
     """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
-    tool = given["Tool"].get()
-    work_object = given["WObj"].get() if given["WObj"] is not None else None
+    tool = arguments["Tool"].get()
+    work_object = arguments["WObj"].get() if arguments["WObj"] is not None else None
     carrier = carrier_of(group, tool, work_object)
-    check_loads(task, group, given)
+    check_loads(task, group, arguments)
     data_of(task, group).use(tool, work_object)
     group.planner.tool = carrier.tool
-    stop = given.get("Inpos")
+    stop = arguments.get("Inpos")
     return {
-        "speed": speed_of(given["Speed"], given.get("V"), group.modal),
-        "zone": zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
-        "time": time_of(given["T"], group),
-        "concurrent": bool(given.get("Conc")),
+        "speed": speed_of(arguments["Speed"], arguments.get("V"), group.modal),
+        "zone": zone_of(arguments["Zone"], arguments.get("Z"), stop)
+        if "Zone" in arguments
+        else FINE,
+        "time": time_of(arguments["T"], group),
+        "concurrent": bool(arguments.get("Conc")),
         "dwell": dwell_of(stop),
         "carrier": carrier,
         "place": here(task),
@@ -37,41 +39,41 @@ def common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value]
 
 
 def joint_move(
-    task: Task, given: Arguments, events: tuple[PathEvent, ...] = (), *, checked: bool = True
+    task: Task, arguments: Arguments, events: tuple[PathEvent, ...] = (), *, checked: bool = True
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget with all axes together; not `checked`: in the nearest configuration."""
     group = moving_group(task)
     kinematics = geometry_of(group)
-    shared = common(task, group, given)
-    target = given["ToPoint"]
+    shared = common(task, group, arguments)
+    target = arguments["ToPoint"]
     near = external_posture(group, target.extax, data_of(task, group).external_offset)
     flange = shared["carrier"].at(near).flange(frame(target))
-    wanted = configuration_of(target.robconf) if checked and group.modal.check_joint else None
+    expected = configuration_of(target.robconf) if checked and group.modal.check_joint else None
     check = group.settings.configuration_check
-    posture = joints_for(kinematics, flange, near, wanted, check, group.path_target)
+    posture = joints_for(kinematics, flange, near, expected, check, group.path_target)
     return group, JointMove(target=posture, events=events, **shared)
 
 
 def cartesian_move(
-    task: Task, given: Arguments, events: tuple[PathEvent, ...] = ()
+    task: Task, arguments: Arguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget on a line, or on the circle through `CirPoint`."""
     group = moving_group(task)
     kinematics = geometry_of(group)
-    shared = common(task, group, given)
-    target, via = given["ToPoint"], given.get("CirPoint")
-    wanted = configuration_of(target.robconf) if group.modal.check_linear else None
+    shared = common(task, group, arguments)
+    target, via = arguments["ToPoint"], arguments.get("CirPoint")
+    expected = configuration_of(target.robconf) if group.modal.check_linear else None
     external = external_posture(group, target.extax, data_of(task, group).external_offset)
     if kinematics.seventh >= 0:
         # The seventh axis goes straight to where it is at the end, with the arm angle there.
         flange = shared["carrier"].at(external).flange(frame(target))
         check, ends = group.settings.configuration_check, group.path_target
-        external = joints_for(kinematics, flange, external, wanted, check, ends)
+        external = joints_for(kinematics, flange, external, expected, check, ends)
     return group, CartesianMove(
         target=frame(target),
         external=external,
         via=None if via is None else frame(via),
-        wanted=wanted,
+        wanted=expected,
         singularities=group.modal.singularities,
         circle=group.modal.circle,
         events=events,

@@ -90,48 +90,48 @@ def egm_get_state(_task: Task, identity: EgmIdentity) -> int:
 
 
 @by_name("EGMSetupUC")
-def egm_setup_uc(task: Task, _name: str, given: Arguments) -> None:
+def egm_setup_uc(task: Task, _name: str, arguments: Arguments) -> None:
     """FatalError: there is no such device. Without a mode positions are streamed only, as a public
     program for that alone has it [code: rparak/ABB_EGM_Motion_Mirroring]. How long a silent partner
     is waited for without \\CommTimeout is the switch `egm_patience`."""
-    session = _session(task, given["EGMid"])
-    modes = [mode for mode in get_args(Guidance) if given[mode]]
-    device = task.controller.egm.device(given["UCDevice"])
+    session = _session(task, arguments["EGMid"])
+    modes = [mode for mode in get_args(Guidance) if arguments[mode]]
+    device = task.controller.egm.device(arguments["UCDevice"])
     if device is None:
-        raise _refused(f"there is no UDP device {given['UCDevice']} in the configuration (SIO)")
+        raise _refused(f"there is no UDP device {arguments['UCDevice']} in the configuration (SIO)")
     session.end()
     session.guidance = cast(Guidance, modes[0]) if modes else None
     session.device, session.active = device, None
-    patience = task.controller.dialect.egm_patience
-    session.patience = given["CommTimeout"]
-    if patience == "never":
+    timeout = task.controller.dialect.egm_patience
+    session.patience = arguments["CommTimeout"]
+    if timeout == "never":
         session.patience = None
-    elif session.patience is None and patience == "second":
+    elif session.patience is None and timeout == "second":
         session.patience = 1.0
 
 
 @by_name("EGMActJoint", "EGMActPose")
-def egm_act(task: Task, name: str, given: Arguments) -> None:
+def egm_act(task: Task, name: str, arguments: Arguments) -> None:
     """The last one counts. FatalError: it was set up for something else, its load is undefined."""
-    session = _set_up(task, given["EGMid"])
-    wanted: Guidance = "Joint" if name == "EGMActJoint" else "Pose"
+    session = _set_up(task, arguments["EGMid"])
+    expected: Guidance = "Joint" if name == "EGMActJoint" else "Pose"
     if session.guidance is None:
-        raise _refused(f"EGMSetupUC \\{wanted} comes first")
-    if session.guidance != wanted:
+        raise _refused(f"EGMSetupUC \\{expected} comes first")
+    if session.guidance != expected:
         raise _mismatch(f"{name} behind EGMSetupUC \\{session.guidance}")
-    _check_load(task, name, given)
-    session.active = wanted
-    if given["StreamStart"]:
+    _check_load(task, name, arguments)
+    session.active = expected
+    if arguments["StreamStart"]:
         session.streaming = True
 
 
-def _check_load(task: Task, name: str, given: Arguments) -> None:
+def _check_load(task: Task, name: str, arguments: Arguments) -> None:
     """A load of 0 kg is refused here (ros-industrial/abb_libegm, issue 73)."""
     group = moving_group(task)
-    if given["TLoad"] is not None:
-        require_defined(task, group, given["TLoad"].get(), f"\\TLoad of {name}", zero=False)
-    elif given["Tool"] is not None:
-        require_defined(task, group, given["Tool"].get().tload, f"the tool of {name}")
+    if arguments["TLoad"] is not None:
+        require_defined(task, group, arguments["TLoad"].get(), f"\\TLoad of {name}", zero=False)
+    elif arguments["Tool"] is not None:
+        require_defined(task, group, arguments["Tool"].get().tload, f"the tool of {name}")
 
 
 def _mismatch(text: str) -> FatalError:
@@ -151,26 +151,26 @@ def egm_stream_stop(task: Task, identity: EgmIdentity) -> None:
 
 
 @by_name("EGMRunJoint", "EGMRunPose")
-def egm_run(task: Task, name: str, given: Arguments) -> None:
+def egm_run(task: Task, name: str, arguments: Arguments) -> None:
     """Without the switch of an axis nothing is to move and the program goes on; else it waits for
     a partner who never comes.
 
     ERR_UDPUC_COMM: \\CommTimeout has passed. FatalError: the mode is another, the robot moves, or
     \\CommTimeout has passed behind \\NoWaitCond.
     """
-    session = _set_up(task, given["EGMid"])
-    wanted: Guidance = "Joint" if name == "EGMRunJoint" else "Pose"
+    session = _set_up(task, arguments["EGMid"])
+    expected: Guidance = "Joint" if name == "EGMRunJoint" else "Pose"
     if session.active is None:
         raise _refused(f"{name.replace('Run', 'Act')} comes first")
-    if session.active != wanted:
+    if session.active != expected:
         raise _mismatch(f"{name} behind EGMAct{session.active}")
     if not moving_group(task).is_standing:
         raise _refused(f"{name} begins in a fine point")
-    if not any(given.get(axis) for axis in _AXES):
+    if not any(arguments.get(axis) for axis in _AXES):
         session.end()
         return
     session.guided = True
-    if not given["NoWaitCond"]:
+    if not arguments["NoWaitCond"]:
         _await(task, session, name)
     elif session.patience is not None:
         session.limit = task.scheduler.after(
@@ -181,7 +181,7 @@ def egm_run(task: Task, name: str, given: Arguments) -> None:
 def _await(task: Task, session: EgmSession, name: str) -> None:
     """Until EGMStop in a trap. ERR_UDPUC_COMM."""
     try:
-        ended = task.wait_for(
+        finished = task.wait_for(
             lambda: not session.guided,
             on=(session.changed,),
             timeout=session.patience,
@@ -189,7 +189,7 @@ def _await(task: Task, session: EgmSession, name: str) -> None:
         )
     finally:
         session.end()
-    if not ended:
+    if not finished:
         raise RapidError("ERR_UDPUC_COMM", f"no datagram of {session.partner}")
 
 

@@ -35,20 +35,20 @@ _STOPS = frozenset((NOT_COMPATIBLE, OUT_OF_RANGE, SINGULARITY, CIRCLE_UNCERTAIN)
 
 
 def order(
-    task: Task, given: Arguments, make: Maker, events: tuple[PathEvent, ...] = ()
+    task: Task, arguments: Arguments, make: Maker, events: tuple[PathEvent, ...] = ()
 ) -> MotionGroup:
     """Execute a move instruction; the group that moves. Raises what the planner refuses."""
     try:
-        return _put(task, given, *make(task, given, events))
+        return _put(task, arguments, *make(task, arguments, events))
     except (MotionFault, RapidError, FatalError) as raised:
         fault = in_rapid(raised) if isinstance(raised, MotionFault) else raised
         if task.controller.motion.on_missed is None or not _is_of_place(fault):
             raise fault from raised
     group, how = moving_group(task), "by its axes, in the nearest configuration"
-    if not _goes_by_its_axes(task, given, events):
+    if not _goes_by_its_axes(task, arguments, events):
         how = "not at all"
-        stay = JointMove(target=group.path_target, events=events, **common(task, group, given))
-        _put(task, given, group, stay)
+        stay = JointMove(target=group.path_target, events=events, **common(task, group, arguments))
+        _put(task, arguments, group, stay)
     place = here(task)
     at = place() if place is not None else None
     file = f"{Path(at.span.path).name}:{at.span.line}" if isinstance(at, Location) else task.name
@@ -56,17 +56,17 @@ def order(
     return group
 
 
-def _put(task: Task, given: Arguments, group: MotionGroup, move: Move) -> MotionGroup:
-    group.move(task, together(task, group, move, given.get("ID")))
+def _put(task: Task, arguments: Arguments, group: MotionGroup, move: Move) -> MotionGroup:
+    group.move(task, together(task, group, move, arguments.get("ID")))
     return group
 
 
-def _goes_by_its_axes(task: Task, given: Arguments, events: tuple[PathEvent, ...]) -> bool:
+def _goes_by_its_axes(task: Task, arguments: Arguments, events: tuple[PathEvent, ...]) -> bool:
     """Whether a target is reached that way; one of axes is not."""
-    if "ToPoint" not in given:
+    if "ToPoint" not in arguments:
         return False
     try:
-        _put(task, given, *joint_move(task, given, events, checked=False))
+        _put(task, arguments, *joint_move(task, arguments, events, checked=False))
     except (MotionFault, RapidError, FatalError):
         return False
     return True
@@ -87,5 +87,5 @@ def bind(
     """Bind a move instruction to what makes its move and its events on the path."""
 
     @by_name(name, cost="move")
-    def execute(task: Task, _name: str, given: Arguments) -> None:
-        order(task, given, make, events_of(task, given))
+    def execute(task: Task, _name: str, arguments: Arguments) -> None:
+        order(task, arguments, make, events_of(task, arguments))

@@ -46,12 +46,12 @@ def fit_sphere(
     if len(used) > _MOST:
         raise RapidError("ERR_FIT_TOO_MANY_POINTS", f"{len(used)} of {_MOST}")
     try:
-        found = fitting.sphere([(p.x, p.y, p.z) for p in used])
+        result = fitting.sphere([(p.x, p.y, p.z) for p in used])
     except NoFit as fault:
         raise RapidError("ERR_FIT_POINTS_IN_LINE") from fault
-    centre.set(_pos(found.centre))
-    radius.set(found.radius)
-    for where, value in ((rms, found.rms), (largest, found.largest), (worst, found.worst + 1)):
+    centre.set(_pos(result.centre))
+    radius.set(result.radius)
+    for where, value in ((rms, result.rms), (largest, result.largest), (worst, result.worst + 1)):
         if where is not None:
             where.set(value)
 
@@ -75,13 +75,13 @@ def fit_circle(
     if len(used) > _MOST:
         raise RapidError("ERR_FIT_TOO_MANY_POINTS", f"{len(used)} of {_MOST}")
     try:
-        found = fitting.circle([(p.x, p.y, p.z) for p in used])
+        result = fitting.circle([(p.x, p.y, p.z) for p in used])
     except NoFit as fault:
         raise RapidError("ERR_FIT_POINTS_IN_LINE") from fault
-    centre.set(_pos(found.centre))
-    radius.set(found.radius)
-    normal.set(_pos(found.normal))
-    for where, value in ((rms, found.rms), (largest, found.largest), (worst, found.worst + 1)):
+    centre.set(_pos(result.centre))
+    radius.set(result.radius)
+    normal.set(_pos(result.normal))
+    for where, value in ((rms, result.rms), (largest, result.largest), (worst, result.worst + 1)):
         if where is not None:
             where.set(value)
 

@@ -25,23 +25,23 @@ _UNCALIBRATED: Final = 50_323
 
 def _sensor(task: Task) -> ForceSensor:
     """FatalError: nothing tells what the sensor measures."""
-    found = task.controller.force.of(group_of(task).name)
-    if found.measured.readings is None:
+    result = task.controller.force.of(group_of(task).name)
+    if result.measured.readings is None:
         raise FatalError(
             NOT_SIMULATED,
             "Nothing to measure",
             "say what the force sensor measures under `force:` in the description of the cell",
         )
-    return found
+    return result
 
 
 def _calibrated(task: Task) -> ForceSensor:
-    found = _sensor(task)
-    if not found.calibrated:
+    result = _sensor(task)
+    if not result.calibrated:
         raise FatalError(
             _UNCALIBRATED, "Force sensor not calibrated", "FCCalib takes the load of the tool off"
         )
-    return found
+    return result
 
 
 @builtin("FCCalib")
@@ -63,11 +63,11 @@ def fc_load_id(
 ) -> Value:
     """The load of the description; axes 5 and 6, which a robot would turn for it, stand."""
     group_of(task).wait_standing(task)
-    found = _sensor(task).measured
+    result = _sensor(task).measured
     if error is not None:
         error.set(0.0)
     load = LoadData()
-    load.mass, load.cog = found.mass, Pos(*found.center)
+    load.mass, load.cog = result.mass, Pos(*result.center)
     return load
 
 
@@ -105,7 +105,7 @@ def fc_is_force_mode(task: Task) -> bool:
 
 @by_name("FCPress1LStart", "FCPressL", "FCPressC", "FCPressEnd", cost="move")
 @planned
-def press(task: Task, name: str, given: Arguments) -> None:
+def press(task: Task, name: str, arguments: Arguments) -> None:
     """A line or a circle of a path with a process force, as programmed. FatalError: FCPressL and
     its kin without a start."""
     sensor = _calibrated(task)
@@ -114,8 +114,8 @@ def press(task: Task, name: str, given: Arguments) -> None:
             NOT_SIMULATED, "No process force", f"{name} goes on from FCPress1LStart, which was not"
         )
     sensor.controls = sensor.pressing = True
-    if not given.get("DeactOnly"):
-        order(task, {**given, "T": None}, cartesian_move)
+    if not arguments.get("DeactOnly"):
+        order(task, {**arguments, "T": None}, cartesian_move)
     if name == "FCPressEnd":
         group_of(task).wait_standing(task)
         sensor.controls = sensor.pressing = False

@@ -116,8 +116,8 @@ def o_rob_t(
     moved = point.copy()
     if not in_displacement:
         (x, y, z), q = group.modal.displacement
-        shown = frames.compose(((x * 1000, y * 1000, z * 1000), q), _frame(point))
-        moved.trans, moved.rot = _pos(shown[0]), _orient(shown[1])
+        displayed = frames.compose(((x * 1000, y * 1000, z * 1000), q), _frame(point))
+        moved.trans, moved.rot = _pos(displayed[0]), _orient(displayed[1])
     if not in_offsets:
         offsets = data_of(task, group).external_offset
         moved.extax = ExtJoint(
@@ -144,8 +144,8 @@ def def_frame(_task: Task, p1: Value, p2: Value, p3: Value, origin: float | None
         first = second
     elif origin == 3:
         x = frames.unit(frames.subtract(second, first))
-        share = frames.dot(frames.subtract(third, first), x)
-        first = frames.add(first, frames.scale(x, share))
+        fraction = frames.dot(frames.subtract(third, first), x)
+        first = frames.add(first, frames.scale(x, fraction))
     return _pose((first, turned))
 
 
@@ -176,12 +176,12 @@ def def_acc_frame(
         raise RapidError("ERR_FRAME", f"{count:g} points")
     old, new = ([_vector(d[i].trans) for i in range(1, number + 1)] for d in (first, second))
     try:
-        found, largest, average = fitting.displacement(old, new)
+        result, largest, average = fitting.displacement(old, new)
     except NoFit as fault:
         raise RapidError("ERR_FRAME", str(fault)) from fault
     worst.set(largest)
     mean.set(average)
-    return _pose(found)
+    return _pose(result)
 
 
 # -- orientations and vectors -----------------------------------------------------------------

@@ -46,17 +46,17 @@ def require_defined(
     task.controller.log.warning(_UNDEFINED, title, text, task=task.name)
 
 
-def check_loads(task: Task, group: MotionGroup, given: Arguments) -> None:
+def check_loads(task: Task, group: MotionGroup, arguments: Arguments) -> None:
     """What a move carries; more than the robot's payload is reported once for each change.
 
     FatalError: a load is undefined. With \\TLoad that is all of it, unless it is load0
     (3HAC050917, MoveL).
     """
-    total = given["TLoad"].get() if given.get("TLoad") is not None else None
+    total = arguments["TLoad"].get() if arguments.get("TLoad") is not None else None
     if total is not None and total != load0():
         loads = [("\\TLoad", total)]
     else:
-        loads = [("the load of the tool", given["Tool"].get().tload)]
+        loads = [("the load of the tool", arguments["Tool"].get().tload)]
         payload = payload_of(task, group)
         loads += [("the payload", payload)] if payload is not None else []
     for what, load in loads:

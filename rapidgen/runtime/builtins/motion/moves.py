@@ -46,71 +46,71 @@ from rapidgen.runtime.task.task import Task
 
 
 @by_name("MoveAbsJ", cost="move")
-def move_abs_j(task: Task, _name: str, given: Arguments) -> None:
+def move_abs_j(task: Task, _name: str, arguments: Arguments) -> None:
     """All axes to where a jointtarget says."""
-    order(task, given, absolute_move)
+    order(task, arguments, absolute_move)
 
 
 def absolute_move(
-    task: Task, given: Arguments, _events: tuple[PathEvent, ...] = ()
+    task: Task, arguments: Arguments, _events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """Displacement does not count here, offsets of external axes do (S4 datasys 2-MoveAbsJ-3)."""
     group = moving_group(task)
     modal, data = group.modal, data_of(task, group)
-    offsets = NO_OFFSETS if given["NoEOffs"] else data.external_offset
-    tool = given["Tool"].get()
-    work_object = given["WObj"].get() if given["WObj"] is not None else None
+    offsets = NO_OFFSETS if arguments["NoEOffs"] else data.external_offset
+    tool = arguments["Tool"].get()
+    work_object = arguments["WObj"].get() if arguments["WObj"] is not None else None
     carrier = MoveFrames()
     if group.kinematics is not None:
         carrier = carrier_of(group, tool, work_object)
-    check_loads(task, group, given)
+    check_loads(task, group, arguments)
     data.use(tool, work_object)
     group.planner.tool = carrier.tool
-    target = target_of(given["ToJointPos"], group.map, group.path_target, offsets)
-    speed = speed_of(given["Speed"], given["V"], modal)
-    return group, _joint_move(task, group, given, group.with_active(target), speed, carrier)
+    target = target_of(arguments["ToJointPos"], group.map, group.path_target, offsets)
+    speed = speed_of(arguments["Speed"], arguments["V"], modal)
+    return group, _joint_move(task, group, arguments, group.with_active(target), speed, carrier)
 
 
 @by_name("MoveExtJ", cost="move")
 @planned
-def move_ext_j(task: Task, _name: str, given: Arguments) -> None:
+def move_ext_j(task: Task, _name: str, arguments: Arguments) -> None:
     """Robot axes stay where the path ends, and only the speeds of external axes count."""
-    group, move, _ = external_move(task, given)
-    group.move(task, together(task, group, move, given["ID"]))
+    group, move, _ = external_move(task, arguments)
+    group.move(task, together(task, group, move, arguments["ID"]))
 
 
-def external_move(task: Task, given: Arguments) -> tuple[MotionGroup, JointMove, Offsets]:
+def external_move(task: Task, arguments: Arguments) -> tuple[MotionGroup, JointMove, Offsets]:
     """A move of external axes alone, and the offsets that it heeds."""
     group = moving_group(task)
     ends = group.path_target
-    offsets = data_of(task, group).external_offset if given["UseEOffs"] else NO_OFFSETS
-    target = target_of(given["ToJointPos"], group.map, ends, offsets)
+    offsets = data_of(task, group).external_offset if arguments["UseEOffs"] else NO_OFFSETS
+    target = target_of(arguments["ToJointPos"], group.map, ends, offsets)
     target = group.with_active(
         tuple(
             new if joint.axis.startswith("eax") else old
             for joint, new, old in zip(group.config.joints, target, ends, strict=True)
         )
     )
-    speed = replace(speed_of(given["Speed"], None, group.modal), tcp=inf, orientation=inf)
-    return group, _joint_move(task, group, given, target, speed, MoveFrames()), offsets
+    speed = replace(speed_of(arguments["Speed"], None, group.modal), tcp=inf, orientation=inf)
+    return group, _joint_move(task, group, arguments, target, speed, MoveFrames()), offsets
 
 
 def _joint_move(
     task: Task,
     group: MotionGroup,
-    given: Arguments,
+    arguments: Arguments,
     target: Posture,
     speed: MoveSpeed,
     carrier: MoveFrames,
 ) -> JointMove:
     """Without a `Zone` (searches) it ends in a stop point."""
-    stop = given.get("Inpos")
+    stop = arguments.get("Inpos")
     return JointMove(
         target=target,
         speed=speed,
-        zone=zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
-        time=time_of(given["T"], group),
-        concurrent=bool(given.get("Conc")),
+        zone=zone_of(arguments["Zone"], arguments.get("Z"), stop) if "Zone" in arguments else FINE,
+        time=time_of(arguments["T"], group),
+        concurrent=bool(arguments.get("Conc")),
         dwell=dwell_of(stop),
         carrier=carrier,
         place=here(task),
@@ -120,24 +120,24 @@ def _joint_move(
 # -- with a signal, or a procedure, in the middle of the corner ---------------------------------
 
 
-def _setting(task: Task, given: Arguments) -> tuple[PathEvent]:
+def _setting(task: Task, arguments: Arguments) -> tuple[PathEvent]:
     """The output changes in the middle of the corner, at a stop point on arrival."""
-    signal, value = given["Signal"].signal, given["Value"]
-    wanted = fitting(signal, given["Dvalue"] if value is None else value)
+    signal, value = arguments["Signal"].signal, arguments["Value"]
+    expected = fitting(signal, arguments["Dvalue"] if value is None else value)
     io = task.controller.io
-    return (PathEvent(MeasuredFrom.MIDDLE, 0.0, lambda: io.set(signal, wanted)),)
+    return (PathEvent(MeasuredFrom.MIDDLE, 0.0, lambda: io.set(signal, expected)),)
 
 
-def _calling(task: Task, given: Arguments) -> tuple[PathEvent]:
+def _calling(task: Task, arguments: Arguments) -> tuple[PathEvent]:
     """The procedure runs when the task next attends, as a trap would; not inside a trap."""
-    name = given["ProcName"]
+    name = arguments["ProcName"]
     routine = task.program.find_routine(None, name.lower())
     if not isinstance(routine, Routine) or routine.kind != "PROC":
         raise RapidError("ERR_REFUNKPRC", name)
 
     def call() -> None:
         task.interrupts.queue.append((Interrupt(0, routine), None))
-        task.kick()
+        task.wake_at_next_statement()
 
     return (PathEvent(MeasuredFrom.MIDDLE, 0.0, call),)
 

@@ -53,9 +53,9 @@ def start_move(task: Task, all_tasks: bool | None) -> None:
     """
     groups = tuple(_groups(task, all_tasks))
     for group in groups:
-        way, turn = group.off_path
-        if way > group.settings.path_distance or turn > group.settings.path_angle:
-            raise RapidError("ERR_PATHDIST", f"{group.name}: {way * 1000:.1f} mm off the path")
+        path, turn = group.off_path
+        if path > group.settings.path_distance or turn > group.settings.path_angle:
+            raise RapidError("ERR_PATHDIST", f"{group.name}: {path * 1000:.1f} mm off the path")
     for group in groups:
         group.start(reason_of(task))
 

@@ -126,19 +126,19 @@ def calc_joint_t(
     here = group.positions()
     offsets = data_of(task, group).external_offset
     external = external_values(target.extax, offsets)
-    asked = group.map.from_rapid((0.0,) * 6, external, here)
+    requested = group.map.from_rapid((0.0,) * 6, external, here)
     near = tuple(
         new if joint.axis.startswith("eax") else old
-        for joint, new, old in zip(group.config.joints, asked, here, strict=True)
+        for joint, new, old in zip(group.config.joints, requested, here, strict=True)
     )
-    wanted = configuration_of(target.robconf) if group.modal.check_joint else None
+    expected = configuration_of(target.robconf) if group.modal.check_joint else None
     # \UseCurWObjPos: where the object's unit is now, not where the target wants it.
     placed = _carrier(group, tool, work_object).at(here if current else near)
     flange = placed.flange(frame(target))
     try:
         check = group.settings.configuration_check
         try:
-            posture = joints_for(geometry_of(group), flange, near, wanted, check, here)
+            posture = joints_for(geometry_of(group), flange, near, expected, check, here)
         except NoConfiguration as fault:
             name = _CONFIGURATION_ERRORS[task.controller.dialect.no_configuration]
             if not name:

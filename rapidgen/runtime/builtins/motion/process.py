@@ -44,8 +44,8 @@ def procerr_recovery(
 def _owner(group: MotionGroup) -> tuple[str, str]:
     """Module and routine of the move that made the path; empty when there is no path."""
     place = group.legs[0].move.place if group.legs else None
-    found = place() if place is not None else None
-    return (found.module, found.routine) if isinstance(found, Location) else ("", "")
+    result = place() if place is not None else None
+    return (result.module, result.routine) if isinstance(result, Location) else ("", "")
 
 
 def _axis(group: MotionGroup, number: float) -> int:

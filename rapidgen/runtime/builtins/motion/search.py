@@ -77,8 +77,8 @@ _EDGES = {
 }
 
 
-def _edges(given: Arguments) -> _Edges:
-    chosen = next((name for name in _EDGES if given[name]), None)
+def _edges(arguments: Arguments) -> _Edges:
+    chosen = next((name for name in _EDGES if arguments[name]), None)
     return _Edges(True, False, supervised=True) if chosen is None else _EDGES[chosen]
 
 
@@ -95,29 +95,29 @@ def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callab
 
 @by_name("SearchL", "SearchC", cost="move")
 @planned
-def search(task: Task, _name: str, given: Arguments) -> None:
+def search(task: Task, _name: str, arguments: Arguments) -> None:
     """Moves, and keeps where the TCP was at the hit. ERR_WHLSEARCH: none, ERR_SIGSUPSEARCH."""
-    group, move = cartesian_move(task, given)
-    place = _first_hit(task, group, move, given)
+    group, move = cartesian_move(task, arguments)
+    place = _first_hit(task, group, move, arguments)
     offsets = data_of(task, group).external_offset
-    given["SearchPoint"].set(rob_target(group, place, move.carrier, offsets))
+    arguments["SearchPoint"].set(rob_target(group, place, move.carrier, offsets))
 
 
 @by_name("SearchExtJ", cost="move")
 @planned
-def search_ext_j(task: Task, _name: str, given: Arguments) -> None:
+def search_ext_j(task: Task, _name: str, arguments: Arguments) -> None:
     """The same with external axes alone; keeps where all axes were."""
-    group, move, offsets = external_move(task, given)
-    place = _first_hit(task, group, move, given)
-    given["SearchJointPos"].set(joint_target(group.map, place, offsets))
+    group, move, offsets = external_move(task, arguments)
+    place = _first_hit(task, group, move, arguments)
+    arguments["SearchJointPos"].set(joint_target(group.map, place, offsets))
 
 
-def _first_hit(task: Task, group: MotionGroup, wanted: Move, given: Arguments) -> Posture:
+def _first_hit(task: Task, group: MotionGroup, expected: Move, arguments: Arguments) -> Posture:
     """Make the move, and stop it as is asked for; where the axes were at the first hit."""
-    move = together(task, group, wanted, given["ID"])
-    edges, hard = _edges(given), bool(given["Stop"])
-    change, read = _source(given["Signal"], given["PersBool"])
-    halting = bool(hard or given["PStop"] or given["SStop"])
+    move = together(task, group, expected, arguments["ID"])
+    edges, hard = _edges(arguments), bool(arguments["Stop"])
+    change, read = _source(arguments["Signal"], arguments["PersBool"])
+    halting = bool(hard or arguments["PStop"] or arguments["SStop"])
     hits = _Hits(
         group,
         edges,
@@ -146,7 +146,7 @@ def _first_hit(task: Task, group: MotionGroup, wanted: Move, given: Arguments) -
         if halting and hits.found:
             group.clear_path()
         group.start(_REASON)
-    if not hits.found or (given["Sup"] and len(hits.found) > 1):
+    if not hits.found or (arguments["Sup"] and len(hits.found) > 1):
         if task.stepping:
             raise FatalError(_NO_HIT, "Search was not successful", f"{len(hits.found)} hits")
         raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")

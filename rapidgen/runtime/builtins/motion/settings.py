@@ -66,8 +66,8 @@ def speed_refresh(task: Task, override: float) -> None:
 def c_speed_override(task: Task, own: bool | None) -> float:
     """Percent: the controller's override, \\CTask: with the program's own."""
     group = group_of(task)
-    share = group.override * (group.refresh if own else 1.0)
-    return single(round(share * 100, 3))
+    fraction = group.override * (group.refresh if own else 1.0)
+    return single(round(fraction * 100, 3))
 
 
 @builtin("SingArea")
@@ -93,13 +93,13 @@ def path_acc_lim(
 
     ERR_ARGVALERR: a limit without a value of at least 0.1 (switch `argument_error`).
     """
-    found = []
-    for wanted, value in ((limits_rise, rise), (limits_fall, fall)):
-        if wanted:
+    result = []
+    for expected, value in ((limits_rise, rise), (limits_fall, fall)):
+        if expected:
             if value is None or value < _LEAST_ACCELERATION:
                 raise RapidError("ERR_ARGVALERR", "PathAccLim")
-            found.append(value)
-    group_of(task).modal.path_acceleration = min(found, default=inf)
+            result.append(value)
+    group_of(task).modal.path_acceleration = min(result, default=inf)
 
 
 @builtin("WorldAccLim")
@@ -225,7 +225,7 @@ def _offset(task: Task, values: Offsets) -> None:
 
 def _modal(name: str, value: Callable[..., object]) -> Callable[..., None]:
     """Sets a modal setting to what its arguments mean."""
-    return lambda task, *given: setattr(group_of(task).modal, name, value(*given))
+    return lambda task, *arguments: setattr(group_of(task).modal, name, value(*arguments))
 
 
 _PLAIN: dict[str, Callable[..., Value]] = {

@@ -61,26 +61,26 @@ def _unit(group: MotionGroup, work_object: Value) -> MovingFrame:
             "Work object contradicts",
             f"it is held by the robot and by {work_object.ufmec!r}",
         )
-    found = group.moving_frame(work_object.ufmec)
-    if found is None:
+    result = group.moving_frame(work_object.ufmec)
+    if result is None:
         raise FatalError(
             NO_GEOMETRY,
             "No geometry",
             f"{group.name}: where {work_object.ufmec!r} holds its work object is not known",
             "give its chain as `positioners:` in the robot's configuration",
         )
-    return found
+    return result
 
 
 def external_posture(group: MotionGroup, data: Value, offsets: Offsets) -> Posture:
     """The path's end with the external axes of an extjoint (deactivated ones as they are)."""
     ends = group.path_target
     values = external_values(data, offsets)
-    asked = group.map.from_rapid((0.0,) * 6, values, ends)
+    requested = group.map.from_rapid((0.0,) * 6, values, ends)
     return group.with_active(
         tuple(
             new if joint.axis.startswith("eax") else old
-            for joint, new, old in zip(group.config.joints, asked, ends, strict=True)
+            for joint, new, old in zip(group.config.joints, requested, ends, strict=True)
         )
     )
 
@@ -98,9 +98,9 @@ def joints_for(
     kinematics: Kinematics,
     flange: Pose,
     near: Posture,
-    wanted: AxisConfiguration | None,
+    expected: AxisConfiguration | None,
     check: ConfigurationCheck,
-    here: Posture,
+    current: Posture,
 ) -> Posture:
     """The posture for a flange pose: that of the wanted configuration, or the closest one.
 
@@ -110,27 +110,27 @@ def joints_for(
     """
     place = kinematics.seventh
     arm_angle = None
-    if place >= 0 and near[place] != here[place]:
+    if place >= 0 and near[place] != current[place]:
         arm_angle = near[place]
-        started = (*near[:place], here[place], *near[place + 1 :])
-        found = []
+        started = (*near[:place], current[place], *near[place + 1 :])
+        result = []
         for one in kinematics.at_arm_angle(flange, arm_angle, started):
-            found.append(one)
-            if wanted is None or kinematics.misfit(one, wanted) == 0.0:
+            result.append(one)
+            if expected is None or kinematics.misfit(one, expected) == 0.0:
                 return one
         near = started
     else:
-        found = kinematics.solutions(flange, near, wanted)
-    if not found:
+        result = kinematics.solutions(flange, near, expected)
+    if not result:
         reached, why = unreached(kinematics, flange, near, arm_angle)
         raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH", why)
-    if wanted is None:
-        return found[0]
-    posture = kinematics.fitting(found, wanted, check)
+    if expected is None:
+        return result[0]
+    posture = kinematics.fitting(result, expected, check)
     if posture is not None:
         return posture
-    others = ", ".join(str(list(kinematics.configuration(p))) for p in found[:4])
-    raise NoConfiguration(f"no posture with configuration {list(wanted)}; there are {others}")
+    others = ", ".join(str(list(kinematics.configuration(p))) for p in result[:4])
+    raise NoConfiguration(f"no posture with configuration {list(expected)}; there are {others}")
 
 
 def with_arm_angle(kinematics: Kinematics, posture: Posture) -> Posture:

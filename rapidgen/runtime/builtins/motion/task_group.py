@@ -61,15 +61,15 @@ def named_group(task: Task, reference: Value, name: str | None) -> MotionGroup:
     ERR_TASKNAME: no such task, which in a guessed cell is the own one; ERR_NOT_MOVETASK: it moves
     nothing.
     """
-    wanted = name if reference is None else reference.value
-    if wanted is None:
+    expected = name if reference is None else reference.value
+    if expected is None:
         return group_of(task)
-    if wanted.lower() not in (known.lower() for known in task.controller.tasks):
+    if expected.lower() not in (known.lower() for known in task.controller.tasks):
         if task.controller.meetings.any_task:
             return group_of(task)
-        raise RapidError("ERR_TASKNAME", wanted)
+        raise RapidError("ERR_TASKNAME", expected)
     motion = task.controller.motion
-    group = motion.of_task(wanted)
-    if group is None or not motion.is_motion_task(wanted):
-        raise RapidError("ERR_NOT_MOVETASK", wanted)
+    group = motion.of_task(expected)
+    if group is None or not motion.is_motion_task(expected):
+        raise RapidError("ERR_NOT_MOVETASK", expected)
     return group

@@ -25,19 +25,19 @@ _CONTACT = "contact"
 
 @by_name("ContactL", cost="move")
 @planned
-def contact_l(task: Task, _name: str, given: Arguments) -> None:
+def contact_l(task: Task, _name: str, arguments: Arguments) -> None:
     """On a line until the robot touches something; what is left of the line goes.
 
     ERR_CONTACTL: it has come to the end without, and \\DesiredTorque is given [mem].
     """
-    group, move = cartesian_move(task, _without_zone(given))
+    group, move = cartesian_move(task, _without_zone(arguments))
     touched: list[bool] = []
 
     def touch() -> None:
         touched.append(True)
         group.stop(_CONTACT, quick=True)
 
-    leg = group.enqueue(together(task, group, move, given["ID"]))
+    leg = group.enqueue(together(task, group, move, arguments["ID"]))
     group.contacts.add(touch)
     try:
         if leg is not None:
@@ -47,13 +47,13 @@ def contact_l(task: Task, _name: str, given: Arguments) -> None:
         if touched:
             group.clear_path()
             group.start(_CONTACT)
-    if not touched and given["DesiredTorque"] is not None:
+    if not touched and arguments["DesiredTorque"] is not None:
         raise RapidError("ERR_CONTACTL", "nothing was touched on the way")
 
 
-def _without_zone(given: Arguments) -> dict[str, Value]:
+def _without_zone(arguments: Arguments) -> dict[str, Value]:
     """It ends in a stop point: the program has to know whether there was contact."""
-    return {name: value for name, value in given.items() if name != "Zone"}
+    return {name: value for name, value in arguments.items() if name != "Zone"}
 
 
 @builtin("SetLeadThrough")
@@ -98,10 +98,10 @@ def get_joint_data(
     """Place and speed of an axis now, deg or mm and per s; its torques, 0 Nm. ERR_AXIS_PAR."""
     group, joint = unit_axis(task, unit, axis)
     now = task.scheduler.now
-    here, before = (_axis(group, joint.axis, time) for time in (now, now - MS))
+    current, before = (_axis(group, joint.axis, time) for time in (now, now - MS))
     for where, value in (
-        (position, here),
-        (speed, (here - before) * S / MS if now < group.motion.end else 0.0),
+        (position, current),
+        (speed, (current - before) * S / MS if now < group.motion.end else 0.0),
         (torque, 0.0),
         (outer_torque, 0.0),
     ):

@@ -44,114 +44,114 @@ _RELATIONS = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
 """opnum [mem]"""
 
 
-def _where(given: Arguments) -> tuple[MeasuredFrom, float]:
+def _where(arguments: Arguments) -> tuple[MeasuredFrom, float]:
     """The place, and m from there or (\\Time) s. ERR_ARGVALERR: negative."""
-    distance = given["Distance"]
+    distance = arguments["Distance"]
     if distance < 0:
         raise RapidError("ERR_ARGVALERR", f"Distance {distance:g}")
-    if given.get("Time"):
+    if arguments.get("Time"):
         return MeasuredFrom.BEFORE_END, distance
-    return (MeasuredFrom.START if given["Start"] else MeasuredFrom.END), distance / 1000
+    return (MeasuredFrom.START if arguments["Start"] else MeasuredFrom.END), distance / 1000
 
 
-def _inhibited(given: Arguments) -> bool:
-    inhibit = given["Inhib"]
+def _inhibited(arguments: Arguments) -> bool:
+    inhibit = arguments["Inhib"]
     return inhibit is not None and bool(inhibit.get())
 
 
-def _first(given: Arguments, *names: str) -> Value:
+def _first(arguments: Arguments, *names: str) -> Value:
     """The argument that there is of several alternatives."""
-    return next((given[name] for name in names if given[name] is not None), None)
+    return next((arguments[name] for name in names if arguments[name] is not None), None)
 
 
-def _output(task: Task, given: Arguments) -> Callable[[], None]:
+def _output(task: Task, arguments: Arguments) -> Callable[[], None]:
     """Sets an output; inhibited, 0 or the given value is written (S4 datasys 2-TriggIO-4).
 
     ERR_AO_LIM, ERR_GO_LIM: the value does not fit the signal.
     """
-    chosen = _first(given, "DOp", "GOp", "AOp")
-    value = _first(given, "SetValue", "SetDvalue") or 0.0
+    chosen = _first(arguments, "DOp", "GOp", "AOp")
+    value = _first(arguments, "SetValue", "SetDvalue") or 0.0
     if chosen is None:
         raise FatalError(NOT_SIMULATED, "Process events are not simulated", "\\ProcID")
-    signal, instead = chosen.signal, given["InhibSetValue"]
+    signal, instead = chosen.signal, arguments["InhibSetValue"]
     fitting(signal, value)
-    io, delay = task.controller.io, given.get("DODelay") or 0.0
+    io, delay = task.controller.io, arguments.get("DODelay") or 0.0
 
     def act() -> None:
-        wanted = value
-        if _inhibited(given):
-            wanted = instead.get() if instead is not None else 0.0
-        io.set(signal, wanted, delay=delay)
+        expected = value
+        if _inhibited(arguments):
+            expected = instead.get() if instead is not None else 0.0
+        io.set(signal, expected, delay=delay)
 
     return act
 
 
 @by_name("TriggIO")
-def trigg_io(task: Task, _name: str, given: Arguments) -> None:
+def trigg_io(task: Task, _name: str, arguments: Arguments) -> None:
     """An output at a place."""
-    where = _where(given)
-    given["TriggData"].set(*where, _output(task, given))
+    where = _where(arguments)
+    arguments["TriggData"].set(*where, _output(task, arguments))
 
 
 @by_name("TriggEquip")
-def trigg_equip(task: Task, _name: str, given: Arguments) -> None:
+def trigg_equip(task: Task, _name: str, arguments: Arguments) -> None:
     """An output at a place, earlier by the equipment's lag (negative: later)."""
-    where = _where(given)
-    given["TriggData"].set(*where, _output(task, given), given["EquipLag"])
+    where = _where(arguments)
+    arguments["TriggData"].set(*where, _output(task, arguments), arguments["EquipLag"])
 
 
 @by_name("TriggInt")
-def trigg_int(task: Task, _name: str, given: Arguments) -> None:
+def trigg_int(task: Task, _name: str, arguments: Arguments) -> None:
     """An interrupt at a place. ERR_UNKINO: not connected."""
-    where = _where(given)
-    ordered = task.interrupts.find(given["Interrupt"].get())
+    where = _where(arguments)
+    ordered = task.interrupts.find(arguments["Interrupt"].get())
 
     def act() -> None:
-        if not _inhibited(given):
+        if not _inhibited(arguments):
             task.interrupts.happen(ordered)
 
-    given["TriggData"].set(*where, act)
+    arguments["TriggData"].set(*where, act)
 
 
 @by_name("TriggCheckIO")
-def trigg_check_io(task: Task, _name: str, given: Arguments) -> None:
+def trigg_check_io(task: Task, _name: str, arguments: Arguments) -> None:
     """Looks at a signal at a place; when the relation does not hold, an interrupt (and a stop)."""
-    where = _where(given)
-    ordered = task.interrupts.find(given["Interrupt"].get())
-    relation, signal = given["Relation"], given["Signal"]
+    where = _where(arguments)
+    ordered = task.interrupts.find(arguments["Interrupt"].get())
+    relation, signal = arguments["Relation"], arguments["Signal"]
     compare = _RELATIONS.get(int(relation))
     if compare is None:
         raise RapidError("ERR_ARGVALERR", f"relation {relation:g}")
-    wanted = _first(given, "CheckValue", "CheckDvalue") or 0.0
+    expected = _first(arguments, "CheckValue", "CheckDvalue") or 0.0
     watched = signal.get() if isinstance(signal, Ref) else signal
     group = group_of(task)
 
     def act() -> None:
-        if _inhibited(given) or compare(watched.value, wanted):
+        if _inhibited(arguments) or compare(watched.value, expected):
             return
-        if given["StopMove"]:
+        if arguments["StopMove"]:
             group.stop(MOVE_TASK)
         task.interrupts.happen(ordered)
 
-    given["TriggData"].set(*where, act)
+    arguments["TriggData"].set(*where, act)
 
 
-def prepared(_task: Task, given: Arguments, first: str = "Trigg_1") -> tuple[PathEvent, ...]:
+def prepared(_task: Task, arguments: Arguments, first: str = "Trigg_1") -> tuple[PathEvent, ...]:
     """The events that an instruction names. FatalError: a triggdata without one."""
-    array = given.get("TriggArray")
+    array = arguments.get("TriggArray")
     if array is not None:
         held = array.get() if isinstance(array, Ref) else array
         data = list(held.values())
     else:
-        data = [given.get(name) for name in (first, *(f"T{k}" for k in range(2, 9)))]
-    found = []
+        data = [arguments.get(name) for name in (first, *(f"T{k}" for k in range(2, 9)))]
+    result = []
     for one in data:
         if one is None:
             continue
         if one.event is None:
             raise FatalError(NOT_ALLOWED, "triggdata is not defined")
-        found.append(one.event)
-    return tuple(found)
+        result.append(one.event)
+    return tuple(result)
 
 
 _DATA: dict[str, Callable[..., Value]] = {

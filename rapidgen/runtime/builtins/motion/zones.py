@@ -46,10 +46,10 @@ def _metres(data: Value) -> tuple[float, float, float]:
     return data.x / 1000, data.y / 1000, data.z / 1000
 
 
-def _put(shape: ShapeData, inside: bool | None, outside: bool | None, found: Shape) -> None:
+def _put(shape: ShapeData, inside: bool | None, outside: bool | None, result: Shape) -> None:
     if not inside and not outside:
         raise _refused("\\Inside or \\Outside has to be given")
-    shape.zone = WorldZone(found, outside=bool(outside))
+    shape.zone = WorldZone(result, outside=bool(outside))
 
 
 @builtin("WZBoxDef")
@@ -131,15 +131,15 @@ def home_joints(
 ) -> None:
     """Axes within a distance of a posture; 9E9 in one of both: the axis is not supervised."""
     low, high = [], []
-    for value, way in zip(_axes(middle), _axes(delta), strict=True):
-        if _unused(value) or _unused(way):
+    for value, path in zip(_axes(middle), _axes(delta), strict=True):
+        if _unused(value) or _unused(path):
             low.append(-inf)
             high.append(inf)
-        elif way <= 0:
+        elif path <= 0:
             raise _refused("each part of DeltaJointVal has to be larger than 0")
         else:
-            low.append(value - way)
-            high.append(value + way)
+            low.append(value - path)
+            high.append(value + path)
     _put(shape, inside, outside, _space(group_of(task), low, high))
 
 
@@ -196,7 +196,7 @@ def _define(
         geometry_of(group)
     changed = datum.get().copy()
     changed.wz = zones.add(
-        group, zone, act, ahead=ahead, stationary=bool(stationary), wanted=number
+        group, zone, act, ahead=ahead, stationary=bool(stationary), expected=number
     )
     datum.set(changed)
 
@@ -217,10 +217,10 @@ def set_output(
     any more, too), and the opposite one elsewhere."""
     if not inside and not before:
         raise _refused("\\Inside or \\Before has to be given")
-    wanted, io, target = dionum(task, value), task.controller.io, signal.signal
+    expected, io, target = dionum(task, value), task.controller.io, signal.signal
 
     def act(reached: bool) -> None:
-        io.set(target, wanted if reached else 1 - wanted)
+        io.set(target, expected if reached else 1 - expected)
 
     _define(task, temporary, stationary, datum, shape, act, ahead=bool(before))
 

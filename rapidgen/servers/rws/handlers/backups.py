@@ -16,59 +16,59 @@ if TYPE_CHECKING:
 
 
 @serves(ops.BACKUP)
-def back_up_now(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def back_up_now(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A backup into a new folder: done when it is answered."""
-    words = asked.field("backup")
-    if not words.startswith("/fileservice/"):
-        raise RequestDenied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
-    path, cabinet = disk_path(office, words, asked), office.cabinet
+    text = request.field("backup")
+    if not text.startswith("/fileservice/"):
+        raise RequestDenied(400, "E_INVALID_PATH", f"{text}: /fileservice/... is wanted")
+    path, cabinet = disk_path(context, text, request), context.runner
     if path.exists():
-        raise RequestDenied(400, "E_DIR_EXIST", words)
+        raise RequestDenied(400, "E_DIR_EXIST", text)
     try:
         back_up(cabinet.controller, cabinet.programs, cabinet.cfg, path)
     except OSError as error:
-        raise RequestDenied(400, "E_DIR_NOT_EXIST", words) from error
-    office.controller.log.info(10_230, "Backup finished", words)
-    return office.started("")
+        raise RequestDenied(400, "E_DIR_NOT_EXIST", text) from error
+    context.controller.log.info(10_230, "Backup finished", text)
+    return context.started("")
 
 
 @serves(ops.BACKUP_STATE)
-def backup_state(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def backup_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether a backup is under way: never, here."""
     return show(Item("ctrl-backup", "state", {"state": "0", "backup-state": "idle"}))
 
 
 @serves(ops.BACKUPS)
-def backups(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def backups(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What there is about backups: none is under way."""
     return show(Item("ctrl-backup-info-li", "backup", {"state": "0"}, {"self": "state"}))
 
 
 @serves(ops.CHECK_RESTORE)
-def check_restore(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def check_restore(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether a folder is a backup that could be restored."""
-    path = disk_path(office, asked.field("backup"), asked)
+    path = disk_path(context, request.field("backup"), request)
     if not is_backup(path):
-        return office.started("E_DIR_NOT_EXIST")
+        return context.started("E_DIR_NOT_EXIST")
     try:
         read_backup(path, notes=[])
     except DiagnosticError:
-        return office.started("E_FAIL")
-    return office.started("")
+        return context.started("E_FAIL")
+    return context.started("")
 
 
 @serves(ops.RESTORE)
-def restore(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def restore(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Restart with what a backup holds: modules, cfg, HOME. Everybody is logged out."""
-    office.masters.need(asked, "cfg")
-    words = asked.field("backup")
-    if not words.startswith("/fileservice/"):
-        raise RequestDenied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
-    path = disk_path(office, words, asked)
+    context.masters.need(request, "cfg")
+    text = request.field("backup")
+    if not text.startswith("/fileservice/"):
+        raise RequestDenied(400, "E_INVALID_PATH", f"{text}: /fileservice/... is wanted")
+    path = disk_path(context, text, request)
     if not is_backup(path):
-        raise RequestDenied(400, "E_DIR_NOT_EXIST", f"{words} is no backup")
+        raise RequestDenied(400, "E_DIR_NOT_EXIST", f"{text} is no backup")
     try:
-        office.cabinet.ask_restore(path)
+        context.runner.ask_restore(path)
     except DiagnosticError as error:
         raise RequestDenied(400, "E_FAIL", str(error)) from error
-    return office.started("")
+    return context.started("")

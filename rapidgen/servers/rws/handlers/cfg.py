@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from rapidgen.servers.rws.context import RwsContext
 
 
-def _domain(office: "RwsContext", asked: RwsRequest) -> CfgText:
-    name = asked.names["domain"].upper()
-    for text in office.cabinet.cfg.domains:
+def _domain(context: "RwsContext", request: RwsRequest) -> CfgText:
+    name = request.names["domain"].upper()
+    for text in context.runner.cfg.domains:
         if text.domain == name:
             return text
     if name in DOMAINS:
-        return CfgText(name, office.cabinet.cfg.domains[0].version, ())
-    raise RequestDenied(400 if asked.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
+        return CfgText(name, context.runner.cfg.domains[0].version, ())
+    raise RequestDenied(400 if request.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
 
 
 def _title(section: str, instance: Instance) -> str:
@@ -37,7 +37,7 @@ def _title(section: str, instance: Instance) -> str:
 
 
 @serves(ops.CFG)
-def get_domains(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The domains."""
     return show(
         *(Item("cfg-domain-li", name) for name in DOMAINS),
@@ -46,52 +46,52 @@ def get_domains(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.CFG_DOMAIN)
-def get_types(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_types(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Types of a domain."""
-    text = _domain(office, asked)
+    text = _domain(context, request)
     names = dict.fromkeys(section.name for section in text.sections)
-    names |= dict.fromkeys(kind for domain, kind in built_in(office) if domain == text.domain)
+    names |= dict.fromkeys(kind for domain, kind in built_in(context) if domain == text.domain)
     return show(*(Item("cfg-dt-li", name) for name in names), collection=True)
 
 
 @serves(ops.CFG_INSTANCES)
-def get_instances(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_instances(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Instances of a type with their attributes: by seventy in RWS 2.0 [VC 7.21]."""
-    found = [_item(asked, i) for i in _instances(office, asked)]
-    return page(asked, found, 70, "instances", always=True)
+    result = [_item(request, i) for i in _instances(context, request)]
+    return page(request, result, 70, "instances", always=True)
 
 
 @serves(ops.CFG_INSTANCE)
-def get_instance(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One instance."""
-    return show(_item(asked, _one(office, asked)))
+    return show(_item(request, _one(context, request)))
 
 
-def _instances(office: "RwsContext", asked: RwsRequest) -> Iterator[Instance]:
+def _instances(context: "RwsContext", request: RwsRequest) -> Iterator[Instance]:
     """Instances of the database; where it has none of a type, those that are built in."""
-    text, kind = _domain(office, asked), asked.names["type"]
-    found = tuple(text.instances(kind))
-    return iter(found or built_in(office).get((text.domain, kind.upper()), ()))
+    text, kind = _domain(context, request), request.names["type"]
+    result = tuple(text.instances(kind))
+    return iter(result or built_in(context).get((text.domain, kind.upper()), ()))
 
 
-def _is_built_in(office: "RwsContext", text: CfgText, kind: str) -> bool:
-    return (text.domain, kind.upper()) in built_in(office)
+def _is_built_in(context: "RwsContext", text: CfgText, kind: str) -> bool:
+    return (text.domain, kind.upper()) in built_in(context)
 
 
-def _one(office: "RwsContext", asked: RwsRequest) -> Instance:
-    name, section = asked.names["instance"], asked.names["type"]
-    for instance in _instances(office, asked):
+def _one(context: "RwsContext", request: RwsRequest) -> Instance:
+    name, section = request.names["instance"], request.names["type"]
+    for instance in _instances(context, request):
         if _title(section, instance).casefold() == name.casefold():
             return instance
-    raise RequestDenied(400 if asked.is_one else 404, "E_CFG_INSTANCE_INVALID", name)
+    raise RequestDenied(400 if request.is_one else 404, "E_CFG_INSTANCE_INVALID", name)
 
 
-def _item(asked: RwsRequest, instance: Instance) -> Item:
-    kind = asked.kind("cfg-ia-t-li", "cfg-ia-t")
+def _item(request: RwsRequest, instance: Instance) -> Item:
+    kind = request.kind("cfg-ia-t-li", "cfg-ia-t")
     within = tuple(
         Item(kind, a.name, {"value": _value(a), "rdonly": "false"}) for a in instance.attributes
     )
-    title = _title(asked.names["type"], instance)
+    title = _title(request.names["type"], instance)
     return Item("cfg-dt-instance-li", title, {"rdonly": "false"}, within=within)
 
 
@@ -101,20 +101,22 @@ def _value(attribute: Attribute) -> str:
 
 
 @serves(ops.CFG_ATTRIBUTES)
-def get_attributes(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_attributes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Attributes that instances of a type have."""
-    names = dict.fromkeys(a.name for i in _instances(office, asked) for a in i.attributes)
-    found = (Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names)
-    return show(*found, collection=True)
+    names = dict.fromkeys(a.name for i in _instances(context, request) for a in i.attributes)
+    result = (
+        Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names
+    )
+    return show(*result, collection=True)
 
 
 # -- single instances ----------------------------------------------------------------------------
 
 
-def _with(office: "RwsContext", asked: RwsRequest, instances: tuple[Instance, ...]) -> None:
+def _with(context: "RwsContext", request: RwsRequest, instances: tuple[Instance, ...]) -> None:
     """The database with these instances of a type, in place of those that it has."""
-    text, name = _domain(office, asked), asked.names["type"]
-    if not any(True for _ in text.instances(name)) and _is_built_in(office, text, name):
+    text, name = _domain(context, request), request.names["type"]
+    if not any(True for _ in text.instances(name)) and _is_built_in(context, text, name):
         raise RequestDenied(403, "E_REJECT", f"{name} is read only", -2)
     at = [i for i, s in enumerate(text.sections) if s.name.casefold() == name.casefold()]
     sections = [None if i in at else s for i, s in enumerate(text.sections)]
@@ -123,11 +125,11 @@ def _with(office: "RwsContext", asked: RwsRequest, instances: tuple[Instance, ..
     elif instances:
         sections[at[0]] = Section(text.sections[at[0]].name, instances)
     changed = replace(text, sections=tuple(s for s in sections if s is not None))
-    cfg = office.cabinet.cfg
+    cfg = context.runner.cfg
     domains = tuple(changed if d.domain == text.domain else d for d in cfg.domains)
     if changed not in domains:
         domains = (*domains, changed)
-    office.cabinet.cfg = replace(cfg, domains=domains)
+    context.runner.cfg = replace(cfg, domains=domains)
 
 
 def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
@@ -142,64 +144,64 @@ def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
 
 
 @serves(ops.CFG_SET)
-def set_instance(office: "RwsContext", asked: RwsRequest) -> None:
+def set_instance(context: "RwsContext", request: RwsRequest) -> None:
     """Give attributes of an instance new values."""
-    if not asked.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
-        office.masters.need(asked, "cfg")
-    old = _one(office, asked)
+    if not request.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
+        context.masters.need(request, "cfg")
+    old = _one(context, request)
     attributes = {a.name.casefold(): a for a in old.attributes}
-    for name, value in asked.pairs:
-        made = _attribute(name, value, is_one=asked.is_one)
+    for name, value in request.pairs:
+        made = _attribute(name, value, is_one=request.is_one)
         attributes.pop(name.casefold(), None)
         if made is not None:
             attributes[name.casefold()] = made
     new = replace(old, attributes=tuple(attributes.values()))
-    _with(office, asked, tuple(new if i is old else i for i in _instances(office, asked)))
+    _with(context, request, tuple(new if i is old else i for i in _instances(context, request)))
 
 
 @serves(ops.CFG_CREATE)
-def create_instance(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def create_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A new instance with a name and nothing else."""
-    if not asked.is_one:
-        office.masters.need(asked, "cfg")
-    name, section = asked.field("name"), asked.names["type"]
-    present = tuple(_instances(office, asked))
+    if not request.is_one:
+        context.masters.need(request, "cfg")
+    name, section = request.field("name"), request.names["type"]
+    present = tuple(_instances(context, request))
     if any(_title(section, i).casefold() == name.casefold() for i in present):
         raise RequestDenied(400, "E_CFG_NAME_EXIST", name)
-    _with(office, asked, (*present, Instance((Attribute("Name", (name,)),))))
+    _with(context, request, (*present, Instance((Attribute("Name", (name,)),))))
     return RwsResponse(201)
 
 
 @serves(ops.CFG_DELETE)
-def delete_instance(office: "RwsContext", asked: RwsRequest) -> None:
+def delete_instance(context: "RwsContext", request: RwsRequest) -> None:
     """Take an instance out."""
-    if not asked.is_one:
-        office.masters.need(asked, "cfg")
-    old = _one(office, asked)
-    _with(office, asked, tuple(i for i in _instances(office, asked) if i is not old))
+    if not request.is_one:
+        context.masters.need(request, "cfg")
+    old = _one(context, request)
+    _with(context, request, tuple(i for i in _instances(context, request) if i is not old))
 
 
 # -- whole files ---------------------------------------------------------------------------------
 
 
-def _load(office: "RwsContext", asked: RwsRequest) -> LoadResult:
+def _load(context: "RwsContext", request: RwsRequest) -> LoadResult:
     """The database with a file loaded; with `add` any conflict refuses it whole. Denied."""
-    mode = asked.field("action-type", ("add", "replace", "add-with-reset"))
-    words = asked.field("filepath")
+    mode = request.field("action-type", ("add", "replace", "add-with-reset"))
+    words = request.field("filepath")
     if words.startswith("/fileservice"):
         raise RequestDenied(400, "E_INVALID_PATH", f"{words}: a bare path is wanted")
-    path = disk_path(office, words, asked)
+    path = disk_path(context, words, request)
     try:
         data = read_foreign(path, MAX_FILE)
         text = parse_cfg(data, path=words)
     except OSError as error:
-        raise RequestDenied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
+        raise RequestDenied(400 if request.is_one else 404, "E_FILE_NOT_FOUND", words) from error
     except DiagnosticError as error:
         raise RequestDenied(400, "E_CFG_DATA_INCORRECT", str(error)) from error
-    base = office.cabinet.cfg
+    base = context.runner.cfg
     if mode == "add-with-reset":
-        kept = tuple(d for d in base.domains if d.domain != text.domain)
-        base = replace(base, domains=(*kept, CfgText(text.domain, text.version, ())))
+        saved = tuple(d for d in base.domains if d.domain != text.domain)
+        base = replace(base, domains=(*saved, CfgText(text.domain, text.version, ())))
     addition = CfgFileLoad(text, replace=mode == "replace", ascii=data.isascii())
     return add(base, [addition], open_words=True)
 
@@ -211,35 +213,35 @@ def _why(loaded: LoadResult) -> tuple[str, str]:
 
 
 @serves(ops.CFG_LOAD)
-def load(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
+def load(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
     """Load a file; RWS 2.0 says where the job's end is told."""
-    office.masters.need(asked, "cfg")
-    loaded = _load(office, asked)
+    context.masters.need(request, "cfg")
+    loaded = _load(context, request)
     if loaded.faults:
         for fault in loaded.faults:
-            office.controller.log.error(120_003, "Configuration file not loaded", fault.message)
+            context.controller.log.error(120_003, "Configuration file not loaded", fault.message)
         name, why = _why(loaded)
-        if asked.is_one:
+        if request.is_one:
             raise RequestDenied(400, name, why)
-        return office.started(name)
-    office.cabinet.cfg = loaded.cfg
-    return None if asked.is_one else office.started("")
+        return context.started(name)
+    context.runner.cfg = loaded.cfg
+    return None if request.is_one else context.started("")
 
 
 @serves(ops.CFG_VALIDATE)
-def validate(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def validate(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What a load would say; nothing is changed."""
-    loaded = _load(office, asked)
+    loaded = _load(context, request)
     if loaded.faults:
         raise RequestDenied(400, *_why(loaded))
     return show(Item("cfg-validate", "validate", {"code": str(OK)}))
 
 
 @serves(ops.CFG_SAVE)
-def save(office: "RwsContext", asked: RwsRequest) -> None:
+def save(context: "RwsContext", request: RwsRequest) -> None:
     """Write a domain to a file, whose path begins with /fileservice."""
-    words = asked.field("filepath")
-    if not words.startswith("/fileservice/"):
-        raise RequestDenied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
-    data = write_cfg(_domain(office, asked)).encode()
-    office.write_file(disk_path(office, words, asked), data)
+    text = request.field("filepath")
+    if not text.startswith("/fileservice/"):
+        raise RequestDenied(400, "E_INVALID_PATH", f"{text}: /fileservice/... is wanted")
+    data = write_cfg(_domain(context, request)).encode()
+    context.write_file(disk_path(context, text, request), data)

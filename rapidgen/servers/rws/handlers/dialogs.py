@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from rapidgen.servers.rws.context import RwsContext
 
 
-def active(office: "RwsContext") -> Question | None:
+def active(context: "RwsContext") -> Question | None:
     """The dialog of a task that waits on the pendant, the newest; None: there is none."""
-    found = [q for q in office.controller.operator.questions if q.task]
-    return found[-1] if found else None
+    result = [q for q in context.controller.operator.questions if q.task]
+    return result[-1] if result else None
 
 
 def stack_of(question: Question) -> str:
@@ -38,18 +38,18 @@ def told(question: Question, event: str = "SEND") -> dict[str, str]:
 
 
 @serves(ops.DIALOG)
-def get_dialog(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_dialog(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The dialog that waits; 404 while none does [VC 6.16]."""
-    question = active(office)
+    question = active(context)
     if question is None:
         raise RequestDenied(404, "E_NO_DATA", "no active UI instruction")
     links = {"params": f"active/params/{stack_of(question)}".replace("%", "%25")}
     return show(Item("rap-uiactive-li", question.dialog, told(question), links))
 
 
-def _asked_for(office: "RwsContext", asked: RwsRequest) -> Question:
-    stack = asked.names["stack"].lower()
-    for question in office.controller.operator.questions:
+def _asked_for(context: "RwsContext", request: RwsRequest) -> Question:
+    stack = request.names["stack"].lower()
+    for question in context.controller.operator.questions:
         if question.task and stack_of(question).lower() in (stack, stack.replace("/$", "/%$")):
             return question
     raise RequestDenied(404, "E_NO_DATA", f"no UI instruction {stack}")
@@ -59,67 +59,67 @@ def _quoted(text: str) -> str:
     return '"' + text.replace('"', '""') + '"'
 
 
-def _parameters(office: "RwsContext", question: Question) -> dict[str, str]:
+def _parameters(context: "RwsContext", question: Question) -> dict[str, str]:
     """Values by name, as RAPID literals."""
-    chosen = office.dialogs.get(question.number, "")
+    chosen = context.dialogs.get(question.number, "")
     if question.dialog.startswith("TP"):
         keys = {f"TPFK{i}": _quoted(text) for i, text in enumerate(question.choices, 1)}
         first = {"TPAnswer": chosen or "0", "TPText": _quoted(question.text)}
         return {**first, **keys, "TPCompleted": "FALSE"}
-    header, _, rest = question.text.partition("\n")
-    lines = ",".join(map(_quoted, rest.split("\n"))) if rest else ""
-    found = {"Header": _quoted(header), "MsgArray": f"[{lines}]"}
+    header, _, remaining = question.text.partition("\n")
+    lines = ",".join(map(_quoted, remaining.split("\n"))) if remaining else ""
+    result = {"Header": _quoted(header), "MsgArray": f"[{lines}]"}
     if question.choices:
         name = "ListItems" if question.dialog == "UIListView" else "BtnArray"
-        found[name] = f"[{','.join(map(_quoted, question.choices))}]"
+        result[name] = f"[{','.join(map(_quoted, question.choices))}]"
     if question.proposed:
-        found["InitValue"] = question.proposed
-    return {**found, "Result": chosen or "0"}
+        result["InitValue"] = question.proposed
+    return {**result, "Result": chosen or "0"}
 
 
 @serves(ops.DIALOG_PARAMETERS)
-def get_parameters(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_parameters(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """All parameters of a dialog."""
-    found = _parameters(office, _asked_for(office, asked)).items()
-    items = (Item("rap-uiparams-li", name, {"value": value}) for name, value in found)
+    result = _parameters(context, _asked_for(context, request)).items()
+    items = (Item("rap-uiparams-li", name, {"value": value}) for name, value in result)
     return show(*items, collection=True)
 
 
 @serves(ops.DIALOG_PARAMETER)
-def get_parameter(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_parameter(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One parameter of a dialog."""
-    question, name = _asked_for(office, asked), asked.names["parameter"]
-    found = {k.lower(): v for k, v in _parameters(office, question).items()}.get(name.lower())
-    if found is None:
+    question, name = _asked_for(context, request), request.names["parameter"]
+    match = {k.lower(): v for k, v in _parameters(context, question).items()}.get(name.lower())
+    if match is None:
         raise RequestDenied(404, "E_NO_DATA", f"no parameter {name}")
-    return show(Item("rap-uiparam", f"{stack_of(question)}/{name}", {"value": found}))
+    return show(Item("rap-uiparam", f"{stack_of(question)}/{name}", {"value": match}))
 
 
 @serves(ops.SET_DIALOG_PARAMETER)
-def set_parameter(office: "RwsContext", asked: RwsRequest) -> None:
+def set_parameter(context: "RwsContext", request: RwsRequest) -> None:
     """Answer: the dialog is gone when it is complete, and the program goes on."""
-    office.masters.need_mode(asked.session)
-    question, name = _asked_for(office, asked), asked.names["parameter"].lower()
-    value = asked.field("value").strip()
+    context.masters.need_mode(request.session)
+    question, name = _asked_for(context, request), request.names["parameter"].lower()
+    value = request.field("value").strip()
     if name == "tpcompleted":
         if value.upper() == "TRUE":
-            _answer(office, question, office.dialogs.get(question.number, ""))
+            _answer(context, question, context.dialogs.get(question.number, ""))
     elif name in ("tpanswer", "result"):
-        office.dialogs[question.number] = value
+        context.dialogs[question.number] = value
         if name == "result":
-            _answer(office, question, value)
-    elif name not in {k.lower() for k in _parameters(office, question)}:
+            _answer(context, question, value)
+    elif name not in {k.lower() for k in _parameters(context, question)}:
         raise RequestDenied(404, "E_NO_DATA", f"no parameter {name}")
     else:
         raise RequestDenied(400, "E_INVALIDARG", f"{name} is no answer")
 
 
-def _answer(office: "RwsContext", question: Question, value: str) -> None:
+def _answer(context: "RwsContext", question: Question, value: str) -> None:
     text = value
     if len(value) > 1 and value[0] == value[-1] == '"':
         text = value[1:-1].replace('""', '"')
     try:
-        office.controller.operator.answer(question.number, text)
+        context.controller.operator.answer(question.number, text)
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", str(error)) from error
-    office.dialogs.pop(question.number, None)
+    context.dialogs.pop(question.number, None)

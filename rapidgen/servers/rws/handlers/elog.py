@@ -20,59 +20,59 @@ _ALL = "0"
 """Domain 0 has the entries of all."""
 
 
-def _events(office: "RwsContext", domain: str) -> list[Event]:
+def _events(context: "RwsContext", domain: str) -> list[Event]:
     known = {str(int(d)) for d in Domain}
     if domain not in known:
         raise RequestDenied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
-    return [e for e in office.controller.log if domain in (_ALL, str(int(e.domain)))]
+    return [e for e in context.controller.log if domain in (_ALL, str(int(e.domain)))]
 
 
 @serves(ops.ELOGS)
-def get_domains(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The domains, and how many entries each has."""
-    found = []
+    result = []
     for domain in Domain:
         number = str(int(domain))
-        count = str(len(_events(office, number)))
-        told = {"domain-name": domain.name.title(), "numevts": count, "buffsize": "1000"}
-        found.append(Item("elog-domain-li", number, told))
-    return show(*found, collection=True)
+        count = str(len(_events(context, number)))
+        notify = {"domain-name": domain.name.title(), "numevts": count, "buffsize": "1000"}
+        result.append(Item("elog-domain-li", number, notify))
+    return show(*result, collection=True)
 
 
 @serves(ops.ELOG)
-def get_events(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_events(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Entries of a domain, newest first: by the fifty in RWS 2.0."""
-    domain = asked.names["domain"]
-    events = _events(office, domain)[::-1]
-    if asked.query.get("resource") in ("info", "count"):
-        told = {"numevts": str(len(events)), "buffsize": "1000"}
-        return show(Item("elog-domain", domain, told))
-    after = asked.query.get("elogseqnum", "")
+    domain = request.names["domain"]
+    events = _events(context, domain)[::-1]
+    if request.query.get("resource") in ("info", "count"):
+        notify = {"numevts": str(len(events)), "buffsize": "1000"}
+        return show(Item("elog-domain", domain, notify))
+    after = request.query.get("elogseqnum", "")
     if after:
         newest = whole("elogseqnum", after)
         events = [e for e in events if e.sequence > newest]
-    return page(asked, [_item(office, domain, e) for e in events], 50, domain)
+    return page(request, [_item(context, domain, e) for e in events], 50, domain)
 
 
 @serves(ops.ELOG_EVENT)
-def get_event(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_event(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One entry."""
-    domain, number = asked.names["domain"], asked.names["number"]
-    for event in _events(office, domain):
+    domain, number = request.names["domain"], request.names["number"]
+    for event in _events(context, domain):
         if str(event.sequence) == number:
-            item = _item(office, domain, event)
+            item = _item(context, domain, event)
             return show(Item("elog-message", item.title, item.fields, within=item.within))
     raise RequestDenied(404, "E_UNRESOLVED_URL", f"no entry {number}")
 
 
-def _item(office: "RwsContext", domain: str, event: Event) -> Item:
-    scheduler = office.controller.scheduler
+def _item(context: "RwsContext", domain: str, event: Event) -> Item:
+    scheduler = context.controller.scheduler
     ago = timedelta(seconds=scheduler.now * 1e-9 - event.time)
     texts = [text for text in (event.task, *event.texts) if text]
-    told = {
+    notify = {
         "msgtype": str(int(event.type)),
         "code": str(event.code),
-        "src-name": office.controller.system.name,
+        "src-name": context.controller.system.name,
         "tstamp": (date_time(scheduler) - ago).strftime("%Y-%m-%d T %H:%M:%S"),
         "title": event.title,
         "desc": " ".join([event.title, *texts]),
@@ -85,37 +85,37 @@ def _item(office: "RwsContext", domain: str, event: Event) -> Item:
         Item("elog-arg", f"arg{i}", {"type": "STRING", "value": text})
         for i, text in enumerate(texts, 1)
     )
-    return Item("elog-message-li", f"/rw/elog/{domain}/{event.sequence}", told, within=within)
+    return Item("elog-message-li", f"/rw/elog/{domain}/{event.sequence}", notify, within=within)
 
 
 @serves(ops.CLEAR_ELOG)
-def clear(office: "RwsContext", asked: RwsRequest) -> None:
+def clear(context: "RwsContext", request: RwsRequest) -> None:
     """Forget all entries; here of all domains."""
-    _events(office, asked.names["domain"])
-    office.controller.log.clear()
+    _events(context, request.names["domain"])
+    context.controller.log.clear()
 
 
 @serves(ops.CLEAR_ELOGS)
-def clear_all(office: "RwsContext", asked: RwsRequest) -> None:
+def clear_all(context: "RwsContext", request: RwsRequest) -> None:
     """Forget all entries of all domains."""
-    office.controller.log.clear()
+    context.controller.log.clear()
 
 
 @serves(ops.ELOG_NUMBER)
-def get_by_number(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
+def get_by_number(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
     """One entry, whatever its domain."""
-    return get_event(office, replace(asked, names={"domain": _ALL, **asked.names}))
+    return get_event(context, replace(request, names={"domain": _ALL, **request.names}))
 
 
 @serves(ops.SAVE_ELOG)
-def save(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def save(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Write all entries to a file, whose path begins with /fileservice."""
-    words = asked.field("path")
-    if not words.startswith("/fileservice/"):
-        raise RequestDenied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
+    text = request.field("path")
+    if not text.startswith("/fileservice/"):
+        raise RequestDenied(400, "E_INVALID_PATH", f"{text}: /fileservice/... is wanted")
     rows = [
         "\t".join((i.title, *(i.fields[k] for k in ("tstamp", "msgtype", "code", "desc"))))
-        for i in (_item(office, _ALL, e) for e in _events(office, _ALL))
+        for i in (_item(context, _ALL, e) for e in _events(context, _ALL))
     ]
-    office.write_file(disk_path(office, words, asked), "\n".join([*rows, ""]).encode())
-    return office.started("")
+    context.write_file(disk_path(context, text, request), "\n".join([*rows, ""]).encode())
+    return context.started("")

@@ -31,47 +31,47 @@ def execution(controller: "VirtualController") -> str:
 
 
 @serves(ops.EXECUTION)
-def get_execution(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_execution(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether the program runs, and whether it begins again at its end."""
-    state = {"ctrlexecstate": execution(office.controller), "cycle": office.controller.cycle}
+    state = {"ctrlexecstate": execution(context.controller), "cycle": context.controller.cycle}
     return show(Item("rap-execution", "execution", state))
 
 
 @serves(ops.START)
-def start(office: "RwsContext", asked: RwsRequest) -> None:
+def start(context: "RwsContext", request: RwsRequest) -> None:
     """Start the program. The success says that it was asked for: it may not run [real 7.21]."""
-    told = {name: asked.field(name, words) for name, words in _START.items()}
-    controller = office.controller
-    office.masters.need_start(asked)
-    office.masters.need_mode(asked.session, "exec")
-    if told["execmode"] != "continue":
-        _step(office, told["execmode"])
+    notify = {name: request.field(name, text) for name, text in _START.items()}
+    controller = context.controller
+    context.masters.need_start(request)
+    context.masters.need_mode(request.session, "exec")
+    if notify["execmode"] != "continue":
+        _step(context, notify["execmode"])
         return
-    _may_start(office, asked)
-    if told["cycle"] != "asis":
-        controller.cycle = "once" if told["cycle"] == "once" else "forever"
+    _may_start(context, request)
+    if notify["cycle"] != "asis":
+        controller.cycle = "once" if notify["cycle"] == "once" else "forever"
     controller.start_program()
 
 
-def _may_start(office: "RwsContext", asked: RwsRequest) -> None:
-    if office.masters.is_editing and office.strict:
+def _may_start(context: "RwsContext", request: RwsRequest) -> None:
+    if context.masters.is_editing and context.strict:
         # Whoever holds mastership keeps RAPID from taking it [real 7.21].
         raise RequestDenied(
             403, "E_RESOURCE_HELD", "start is blocked while mastership is held", -13
         )
-    if any(office.cabinet.programs.faults(t) for t in office.controller.rapid_tasks.values()):
-        raise RequestDenied((asked.is_one and 400) or 403, "E_NO_PP", "errors in the program")
+    if any(context.runner.programs.faults(t) for t in context.controller.rapid_tasks.values()):
+        raise RequestDenied((request.is_one and 400) or 403, "E_NO_PP", "errors in the program")
 
 
-def _step(office: "RwsContext", mode: str) -> None:
+def _step(context: "RwsContext", mode: str) -> None:
     """One statement of each selected task: in manual mode only [VC 7.21]."""
-    controller = office.controller
+    controller = context.controller
     if controller.mode == "auto":
         raise RequestDenied(403, "E_MODE_REJECT", "steps are for manual mode", -2)
     if mode not in ("stepin", "stepover", "stepback"):
         raise RequestDenied(403, "E_REJECT", f"{mode} is not offered here", -2)
     for task in controller.rapid_tasks.values():
-        if task.spec.type != "NORMAL" or task.name in controller.operation.left_out:
+        if task.spec.type != "NORMAL" or task.name in controller.operation.omitted:
             continue
         try:
             controller.tasks[task.name].step(back=mode == "stepback", over=mode == "stepover")
@@ -80,23 +80,23 @@ def _step(office: "RwsContext", mode: str) -> None:
 
 
 @serves(ops.START_ENTRY)
-def start_entry(office: "RwsContext", asked: RwsRequest) -> None:
+def start_entry(context: "RwsContext", request: RwsRequest) -> None:
     """Start at the entry routine: the program pointer goes to main first."""
-    office.masters.need_start(asked)
-    office.masters.need_mode(asked.session, "exec")
-    _may_start(office, asked)
-    reset_pp(office, asked)
-    office.controller.start_program()
+    context.masters.need_start(request)
+    context.masters.need_mode(request.session, "exec")
+    _may_start(context, request)
+    reset_pp(context, request)
+    context.controller.start_program()
 
 
 @serves(ops.STOP)
-def stop(office: "RwsContext", asked: RwsRequest) -> None:
+def stop(context: "RwsContext", request: RwsRequest) -> None:
     """Stop the program; `alltsk` stops background tasks, too [real 7.21]."""
-    mode = asked.field("stopmode", ("cycle", "instr", "stop", "qstop"))
-    tasks = asked.form.get("usetsp", "normal")
+    mode = request.field("stopmode", ("cycle", "instr", "stop", "qstop"))
+    tasks = request.form.get("usetsp", "normal")
     if tasks not in ("normal", "alltsk", "alltask"):
         raise RequestDenied(400, "E_INVALIDARG", f"usetsp {tasks}")
-    controller = office.controller
+    controller = context.controller
     if mode == "cycle":
         controller.cycle = "once"
         return
@@ -107,24 +107,26 @@ def stop(office: "RwsContext", asked: RwsRequest) -> None:
 
 
 @serves(ops.RESET_PP)
-def reset_pp(office: "RwsContext", asked: RwsRequest) -> None:
+def reset_pp(context: "RwsContext", request: RwsRequest) -> None:
     """Program pointers of all tasks to main."""
     # RobotWare 6 takes mastership by itself [code: abb_librws, abb_robot_client].
-    office.masters.need(asked, "rapid", by_itself=asked.is_one)
-    controller = office.controller
+    context.masters.need(request, "rapid", by_itself=request.is_one)
+    controller = context.controller
     if execution(controller) == "running":
-        raise RequestDenied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
-    faults = [d for t in controller.rapid_tasks.values() for d in office.cabinet.programs.faults(t)]
+        raise RequestDenied(
+            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
+        )
+    faults = [d for t in controller.rapid_tasks.values() for d in context.runner.programs.faults(t)]
     if faults:
         syntax = any(d.code.startswith("RG2") for d in faults)
         name = "E_RAPID_SYNTAX_ERROR" if syntax else "E_RAPID_SEMANTIC_ERROR"
-        raise RequestDenied(400 if asked.is_one else 403, name, faults[0].message, -507)
+        raise RequestDenied(400 if request.is_one else 403, name, faults[0].message, -507)
     controller.pp_to_main()
 
 
 @serves(ops.SET_CYCLE)
-def set_cycle(office: "RwsContext", asked: RwsRequest) -> None:
+def set_cycle(context: "RwsContext", request: RwsRequest) -> None:
     """Whether the program begins again at its end."""
-    cycle = asked.field("cycle", ("forever", "asis", "once"))
+    cycle = request.field("cycle", ("forever", "asis", "once"))
     if cycle != "asis":
-        office.controller.cycle = "once" if cycle == "once" else "forever"
+        context.controller.cycle = "once" if cycle == "once" else "forever"

@@ -18,62 +18,62 @@ if TYPE_CHECKING:
 
 
 @serves(ops.VOLUMES)
-def volumes(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def volumes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Volumes: variables with a `$` in RWS 1.0 [VC 6.16]."""
-    kind, sign = asked.kind("fs-device", "fs-dir"), asked.kind("$", "")
+    kind, sign = request.kind("fs-device", "fs-dir"), request.kind("$", "")
     return show(*(Item(kind, f"{sign}{name}") for name in VOLUMES), collection=True)
 
 
-def _path(office: "RwsContext", asked: RwsRequest) -> Path:
-    return disk_path(office, asked.names["path"], asked)
+def _path(context: "RwsContext", request: RwsRequest) -> Path:
+    return disk_path(context, request.names["path"], request)
 
 
-def _missing(asked: RwsRequest, what: str) -> RequestDenied:
-    if asked.is_one:
+def _missing(request: RwsRequest, what: str) -> RequestDenied:
+    if request.is_one:
         return RequestDenied(404, "E_FAIL", f"no file {what}")
     return RequestDenied(404, "E_DIR_NOT_EXIST", f"no file {what}")
 
 
 @serves(ops.READ_FILE)
-def read(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def read(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A file as it is, or what lies in a folder."""
-    path = _path(office, asked)
+    path = _path(context, request)
     if path.is_dir():
         entries = sorted(path.iterdir(), key=lambda p: p.name.lower())
         return show(*(_entry(p) for p in entries if not p.is_symlink()), collection=True)
     try:
         return RwsResponse(200, data=read_foreign(path, CAPACITY))
     except OSError as error:
-        raise _missing(asked, asked.names["path"]) from error
+        raise _missing(request, request.names["path"]) from error
 
 
 def _entry(path: Path) -> Item:
     status = path.stat()
     changed = datetime.fromtimestamp(status.st_mtime, timezone.utc).strftime("%Y-%m-%d T %H:%M:%S")
-    told = {"fs-cdate": changed, "fs-mdate": changed}
+    notify = {"fs-cdate": changed, "fs-mdate": changed}
     if path.is_dir():
-        return Item("fs-dir", path.name, told)
+        return Item("fs-dir", path.name, notify)
     return Item(
-        "fs-file", path.name, {**told, "fs-size": str(status.st_size), "fs-readonly": "false"}
+        "fs-file", path.name, {**notify, "fs-size": str(status.st_size), "fs-readonly": "false"}
     )
 
 
 @serves(ops.WRITE_FILE)
-def write(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def write(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Write a file: 201 for a new one, 200 for another [VC 6.16, VC 7.21]."""
-    path = _path(office, asked)
+    path = _path(context, request)
     if path.is_dir():
-        raise RequestDenied(400, "E_DIR_EXIST", asked.names["path"])
+        raise RequestDenied(400, "E_DIR_EXIST", request.names["path"])
     if not path.parent.is_dir():
-        raise _missing(asked, asked.names["path"])
-    return RwsResponse(201 if office.write_file(path, asked.body) else 200)
+        raise _missing(request, request.names["path"])
+    return RwsResponse(201 if context.write_file(path, request.body) else 200)
 
 
 @serves(ops.DELETE_FILE)
-def delete(office: "RwsContext", asked: RwsRequest) -> None:
+def delete(context: "RwsContext", request: RwsRequest) -> None:
     """Delete a file, or a folder with all that is in it."""
-    path = _path(office, asked)
-    if _is_volume(office, path):
+    path = _path(context, request)
+    if _is_volume(context, path):
         raise RequestDenied(403, "E_REJECT", "a volume cannot be deleted", -2)
     try:
         if path.is_dir():
@@ -81,71 +81,71 @@ def delete(office: "RwsContext", asked: RwsRequest) -> None:
         else:
             path.unlink()
     except OSError as error:
-        raise _missing(asked, asked.names["path"]) from error
+        raise _missing(request, request.names["path"]) from error
 
 
-def _is_volume(office: "RwsContext", path: Path) -> bool:
+def _is_volume(context: "RwsContext", path: Path) -> bool:
     """Whether it is a disk itself, however it was spelled: `HOME/.`, `HOME/a/..`."""
-    return path.parent == office.controller.files.folder
+    return path.parent == context.controller.files.folder
 
 
 @serves(ops.FILE_ACTION)
-def act(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
+def act(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
     """RWS 1.0: `fs-action` says what; it must stand in the body."""
-    action = asked.field("fs-action", ("create", "copy", "rename"))
-    return {"create": create, "copy": copy, "rename": rename}[action](office, asked)
+    action = request.field("fs-action", ("create", "copy", "rename"))
+    return {"create": create, "copy": copy, "rename": rename}[action](context, request)
 
 
 @serves(ops.CREATE_FOLDER)
-def create(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def create(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A new folder."""
-    path = _new(office, asked, _path(office, asked), asked.names["path"])
+    path = _new(context, request, _path(context, request), request.names["path"])
     try:
         path.mkdir()
     except FileExistsError as error:
         raise RequestDenied(400, "E_DIR_EXIST", path.name) from error
     except OSError as error:
-        raise _missing(asked, asked.names["path"]) from error
+        raise _missing(request, request.names["path"]) from error
     return RwsResponse(201)
 
 
 @serves(ops.COPY_FILE)
-def copy(office: "RwsContext", asked: RwsRequest) -> None:
+def copy(context: "RwsContext", request: RwsRequest) -> None:
     """Copy a file; a bare name stays in the folder [VC 7.21]."""
-    path, target = _two(office, asked)
-    if target.exists() and asked.form.get("fs-overwrite", "false").lower() != "true":
+    path, target = _two(context, request)
+    if target.exists() and request.form.get("fs-overwrite", "false").lower() != "true":
         raise RequestDenied(403, "E_ALREADY_EXISTS", target.name)
     if not path.is_file():
-        raise _missing(asked, asked.names["path"])
-    office.write_file(target, read_foreign(path, CAPACITY))
+        raise _missing(request, request.names["path"])
+    context.write_file(target, read_foreign(path, CAPACITY))
 
 
 @serves(ops.RENAME_FILE)
-def rename(office: "RwsContext", asked: RwsRequest) -> None:
+def rename(context: "RwsContext", request: RwsRequest) -> None:
     """Give a file or a folder another name."""
-    path, target = _two(office, asked)
+    path, target = _two(context, request)
     if target.exists():
         raise RequestDenied(403, "E_ALREADY_EXISTS", target.name)
     try:
         path.rename(target)
     except OSError as error:
-        raise _missing(asked, asked.names["path"]) from error
+        raise _missing(request, request.names["path"]) from error
 
 
-def _two(office: "RwsContext", asked: RwsRequest) -> tuple[Path, Path]:
-    here, path = asked.names["path"], _path(office, asked)
-    if _is_volume(office, path):
+def _two(context: "RwsContext", request: RwsRequest) -> tuple[Path, Path]:
+    current, path = request.names["path"], _path(context, request)
+    if _is_volume(context, path):
         raise RequestDenied(403, "E_REJECT", "a volume stays what it is", -2)
-    return path, _new(office, asked, None, here.rpartition("/")[0])
+    return path, _new(context, request, None, current.rpartition("/")[0])
 
 
-def _new(office: "RwsContext", asked: RwsRequest, folder: Path | None, words: str) -> Path:
+def _new(context: "RwsContext", request: RwsRequest, folder: Path | None, text: str) -> Path:
     """The place that `fs-newname` names: in a folder, or a whole `/fileservice/...`."""
-    name = asked.field("fs-newname")
+    name = request.field("fs-newname")
     if name.startswith("/fileservice/"):
-        return disk_path(office, name, asked)
+        return disk_path(context, name, request)
     if not name or "/" in name or "\\" in name or name in (".", ".."):
         raise RequestDenied(400, "E_INVALID_PATH", name)
     if folder is not None and not folder.is_dir():
-        raise _missing(asked, words)
-    return disk_path(office, f"{words}/{name}", asked)
+        raise _missing(request, text)
+    return disk_path(context, f"{text}/{name}", request)

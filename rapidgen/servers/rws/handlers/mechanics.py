@@ -23,63 +23,63 @@ _PARTS = ("checkchangecount", "mechunits", "errorstate", "nonmotionexecution")
 
 
 @serves(ops.MOTION_SYSTEM)
-def get_system(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The motion system: its count of changes, its first unit."""
-    units = [g.config.mechanical_unit for g in office.controller.motion.groups.values()]
-    told = {
-        "change-count": str(office.cabinet.restarts),
+    units = [g.config.mechanical_unit for g in context.controller.motion.groups.values()]
+    notify = {
+        "change-count": str(context.runner.restarts),
         "mechunit-name": units[0] if units else "",
         "poll-rate": "60",
         "modal-payload-mode": "ON",
         "absacc-active": "OFF",
     }
-    only = asked.query.get("resource", "")
+    only = request.query.get("resource", "")
     if only:
-        if only not in told:
+        if only not in notify:
             raise RequestDenied(400, "E_INVALIDARG", f"resource {only}")
-        told = {only: told[only]}
+        notify = {only: notify[only]}
     links = [Item(f"ms-{p}-li", p, {}, {"self": f"motionsystem/{p}"}) for p in _PARTS]
-    return show(Item("ms", "motionsystem", told), *(links if not only else ()))
+    return show(Item("ms", "motionsystem", notify), *(links if not only else ()))
 
 
 @serves(ops.CHECK_COUNT)
-def check_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def check_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether the motion system has changed since a count."""
-    count = asked.names.get("count") or asked.query.get("changecount", "")
-    changed = "FALSE" if whole("changecount", count) == office.cabinet.restarts else "TRUE"
-    name = asked.kind("changestate", "change-state")
-    kind = asked.kind("checkchangecount", "check-changecount")
+    count = request.names.get("count") or request.query.get("changecount", "")
+    changed = "FALSE" if whole("changecount", count) == context.runner.restarts else "TRUE"
+    name = request.kind("changestate", "change-state")
+    kind = request.kind("checkchangecount", "check-changecount")
     return show(Item(kind, "changecount", {name: changed}))
 
 
 @serves(ops.ERROR_STATE)
-def error_state(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def error_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Errors of the motion system; collisions are none here."""
     return show(Item("ms-errorstate", "errorstate", {"err-state": "HPJ_OK", "err-count": "0"}))
 
 
 @serves(ops.BASE_FRAME)
-def base_frame(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def base_frame(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Where a robot stands in the world: at its origin, here."""
-    find_group(office, asked)
+    find_group(context, request)
     names = ("x", "y", "z", "q1", "q2", "q3", "q4")
-    told = {name: "1" if name == "q1" else "0" for name in names}
-    return show(Item("ms-mechunit-baseframe", "baseframe", told))
+    notify = {name: "1" if name == "q1" else "0" for name in names}
+    return show(Item("ms-mechunit-baseframe", "baseframe", notify))
 
 
 @serves(ops.AXES)
-def axes(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def axes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """How many axes a unit has."""
-    count = len(find_group(office, asked).config.joints)
+    count = len(find_group(context, request).config.joints)
     numbers = map(str, range(1, count + 1))
     links = (Item("ms-mechunit-axis-li", n, {}, {"self": f"axes/{n}"}) for n in numbers)
     return show(Item("ms-mechunit-axes", "axes", {"axes": str(count)}), *links)
 
 
 @serves(ops.AXIS)
-def axis(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def axis(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One axis, from 1 on; all are calibrated here."""
-    number, count = asked.names["axis"], len(find_group(office, asked).config.joints)
+    number, count = request.names["axis"], len(find_group(context, request).config.joints)
     whole("axis", number, 1, count)
     return show(
         Item("ms-mechunit-axisstatus", "axisstatus", {"axis-status": "Synchronized"}),
@@ -88,24 +88,24 @@ def axis(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.SET_MECHUNIT)
-def choose(office: "RwsContext", asked: RwsRequest) -> None:
+def choose(context: "RwsContext", request: RwsRequest) -> None:
     """Choose tool, work object, ... for jogging."""
-    office.masters.need(asked, "motion", by_itself=not asked.is_one)
-    group = find_group(office, asked)
-    told = asked.form
-    if not told or any(name not in _CHOICES for name in told):
+    context.masters.need(request, "motion", by_itself=not request.is_one)
+    group = find_group(context, request)
+    notify = request.form
+    if not notify or any(name not in _CHOICES for name in notify):
         raise RequestDenied(400, "E_INVALIDARG", f"one of {', '.join(_CHOICES)} is wanted")
     for name, kind in (("tool", "tooldata"), ("wobj", "wobjdata")):
-        if name in told:
-            _must_be(office, group, told[name], kind)
-    office.chosen.setdefault(group.config.mechanical_unit, {}).update(told)
+        if name in notify:
+            _must_be(context, group, notify[name], kind)
+    context.chosen.setdefault(group.config.mechanical_unit, {}).update(notify)
 
 
-def _must_be(office: "RwsContext", group: MotionGroup, name: str, kind: str) -> None:
+def _must_be(context: "RwsContext", group: MotionGroup, name: str, kind: str) -> None:
     if name in ("tool0", "wobj0"):
         return
     try:
-        if office.controller.tasks[group.config.task].type_of(name)[0].name == kind:
+        if context.controller.tasks[group.config.task].type_of(name)[0].name == kind:
             return
     except KeyError:
         pass
@@ -113,30 +113,30 @@ def _must_be(office: "RwsContext", group: MotionGroup, name: str, kind: str) -> 
 
 
 @serves(ops.LEAD_THROUGH)
-def lead_through(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def lead_through(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether a robot is led by hand."""
-    unit = find_group(office, asked).config.mechanical_unit
-    told = {"status": "Active" if unit in office.led else "Inactive"}
-    return show(Item("ms-mechunit-lead-through", "lead-through", told))
+    unit = find_group(context, request).config.mechanical_unit
+    notify = {"status": "Active" if unit in context.led else "Inactive"}
+    return show(Item("ms-mechunit-lead-through", "lead-through", notify))
 
 
 @serves(ops.SET_LEAD_THROUGH)
-def lead(office: "RwsContext", asked: RwsRequest) -> None:
+def lead(context: "RwsContext", request: RwsRequest) -> None:
     """Lead by hand, or no more. With motors off or a running program nothing comes of it, though
     it is agreed to [real 7.21]."""
-    unit = find_group(office, asked).config.mechanical_unit
-    wanted = asked.field("status", ("active", "inactive"))
-    if wanted == "inactive":
-        office.led.discard(unit)
-    elif office.controller.motors_on and execution(office.controller) == "stopped":
-        office.led.add(unit)
+    unit = find_group(context, request).config.mechanical_unit
+    requested = request.field("status", ("active", "inactive"))
+    if requested == "inactive":
+        context.led.discard(unit)
+    elif context.controller.motors_on and execution(context.controller) == "stopped":
+        context.led.add(unit)
 
 
 @serves(ops.SET_POSITION)
-def set_position(office: "RwsContext", asked: RwsRequest) -> None:
+def set_position(context: "RwsContext", request: RwsRequest) -> None:
     """Put the standing robot elsewhere, degrees and mm: virtual controllers only [VC 7.21]."""
-    group = find_group(office, asked)
-    arm, external = _numbers(asked, "rob_joint"), _numbers(asked, "ext_joint")
+    group = find_group(context, request)
+    arm, external = _numbers(request, "rob_joint"), _numbers(request, "ext_joint")
     if len(arm) != 6:
         raise RequestDenied(400, "E_INVALIDARG", "rob_joint has six numbers")
     external += [ABSENT] * (6 - len(external))
@@ -150,22 +150,22 @@ def set_position(office: "RwsContext", asked: RwsRequest) -> None:
         raise RequestDenied(403, "E_EXEC_STATE", str(error)) from error
 
 
-def _numbers(asked: RwsRequest, name: str) -> list[float]:
-    text = asked.field(name)
+def _numbers(request: RwsRequest, name: str) -> list[float]:
+    text = request.field(name)
     try:
-        found = [float(part) for part in text.strip("[] ").split(",")]
+        result = [float(part) for part in text.strip("[] ").split(",")]
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", f"{name}: {text}") from error
-    if len(found) > 6 or not all(map(isfinite, found)):
+    if len(result) > 6 or not all(map(isfinite, result)):
         raise RequestDenied(400, "E_INVALIDARG", f"{name}: {text}")
-    return found
+    return result
 
 
 @serves(ops.JOG)
-def jog(office: "RwsContext", asked: RwsRequest) -> None:
+def jog(context: "RwsContext", request: RwsRequest) -> None:
     """Jogging wants an enabling device: virtual controllers refuse it [VC 6.16, VC 7.21]."""
     for name in ("jogmode", "mechunit", "ccount"):
-        asked.field(name)
-    if office.controller.mode == "auto":
+        request.field(name)
+    if context.controller.mode == "auto":
         raise RequestDenied(403, "E_MODE_REJECT", "jogging is for manual mode", -2)
     raise RequestDenied(403, "E_REJECT", "no enabling device is pressed", -2)

@@ -23,36 +23,36 @@ _AXES = ("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6")
 _EXTERNAL = "abcdef"
 
 
-def find_group(office: "RwsContext", asked: RwsRequest) -> MotionGroup:
+def find_group(context: "RwsContext", request: RwsRequest) -> MotionGroup:
     """The robot of a request. Denied: there is none of that name."""
-    name = asked.names["unit"]
-    for group in office.controller.motion.groups.values():
+    name = request.names["unit"]
+    for group in context.controller.motion.groups.values():
         if group.config.mechanical_unit.lower() == name.lower():
             return group
     raise RequestDenied(404, "E_NO_SUCH_MECHUNIT", name)
 
 
 @serves(ops.MECHUNITS)
-def get_units(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_units(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Robots; units of their own are not listed."""
-    groups = office.controller.motion.groups.values()
+    groups = context.controller.motion.groups.values()
     names = [group.config.mechanical_unit for group in groups]
-    found = (Item("ms-mechunit-li", n, {"mode": "Activated"}) for n in names if n)
-    return show(*found, collection=True)
+    result = (Item("ms-mechunit-li", n, {"mode": "Activated"}) for n in names if n)
+    return show(*result, collection=True)
 
 
 _STATIC = ("type", "task-name", "axes", "axes-total", "is-integrated-unit", "has-integrated-unit")
 
 
 @serves(ops.MECHUNIT)
-def get_unit(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_unit(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One robot, with what has been chosen for jogging; `resource` asks for parts of it."""
-    group = find_group(office, asked)
+    group = find_group(context, request)
     count, chosen = (
         str(len(group.config.joints)),
-        office.chosen.get(group.config.mechanical_unit, {}),
+        context.chosen.get(group.config.mechanical_unit, {}),
     )
-    told = {
+    notify = {
         "tool-name": chosen.get("tool", "tool0"),
         "wobj-name": chosen.get("wobj", "wobj0"),
         "payload-name": chosen.get("payload", "load0"),
@@ -68,10 +68,12 @@ def get_unit(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
         "is-integrated-unit": "NoIntegratedUnit",
         "has-integrated-unit": "NoIntegratedUnit",
     }
-    parts = {p for p in (asked.query.get("resource", ""), asked.suffix) for p in p.split(";") if p}
+    parts = {
+        p for p in (request.query.get("resource", ""), request.suffix) for p in p.split(";") if p
+    }
     if parts:
-        told = {name: value for name, value in told.items() if _is_asked(name, parts)}
-    return show(Item("ms-mechunit", group.config.mechanical_unit, told))
+        notify = {name: value for name, value in notify.items() if _is_asked(name, parts)}
+    return show(Item("ms-mechunit", group.config.mechanical_unit, notify))
 
 
 def _is_asked(name: str, parts: set[str]) -> bool:
@@ -80,31 +82,31 @@ def _is_asked(name: str, parts: set[str]) -> bool:
 
 
 @serves(ops.JOINT_TARGET)
-def get_joints(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_joints(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Where the joints are."""
-    group = find_group(office, asked)
+    group = find_group(context, request)
     value = joint_target(group.map, group.positions())
-    told = dict(zip(_AXES, map(str, value.robax.values()), strict=True))
+    notify = dict(zip(_AXES, map(str, value.robax.values()), strict=True))
     external = zip(_EXTERNAL, value.extax.values(), strict=True)
-    told |= {f"eax_{letter}": f"{v:g}" for letter, v in external}
-    return show(Item("ms-jointtarget", "jointtarget", told))
+    notify |= {f"eax_{letter}": f"{v:g}" for letter, v in external}
+    return show(Item("ms-jointtarget", "jointtarget", notify))
 
 
-def _pose(office: "RwsContext", asked: RwsRequest) -> Value:
+def _pose(context: "RwsContext", request: RwsRequest) -> Value:
     """The TCP of a tool in a work object; `Base` is the world's here: robots stand at its origin
     unless their object says otherwise."""
-    return _pose_of(office, asked, find_group(office, asked))
+    return _pose_of(context, request, find_group(context, request))
 
 
 def _pose_of(
-    office: "RwsContext", asked: RwsRequest, group: MotionGroup, default: str = "base"
+    context: "RwsContext", request: RwsRequest, group: MotionGroup, default: str = "base"
 ) -> Value:
-    frame = asked.query.get("coordinate", default).lower()
+    frame = request.query.get("coordinate", default).lower()
     if frame not in ("base", "world", "wobj"):
         raise RequestDenied(400, "E_INVALIDARG", f"coordinate {frame}")
-    tool = _datum(office, group, asked.query.get("tool", "tool0"), "tooldata") or tool0()
-    name = asked.query.get("wobj", "wobj0") if frame == "wobj" else "wobj0"
-    work_object = _datum(office, group, name, "wobjdata")
+    tool = _datum(context, group, request.query.get("tool", "tool0"), "tooldata") or tool0()
+    name = request.query.get("wobj", "wobj0") if frame == "wobj" else "wobj0"
+    work_object = _datum(context, group, name, "wobjdata")
     try:
         return rob_target(
             group, group.positions(), carrier_of(group, tool, work_object), NO_OFFSETS
@@ -113,11 +115,11 @@ def _pose_of(
         raise RequestDenied(400, "E_INVALIDARG", error.name) from error
 
 
-def _datum(office: "RwsContext", group: MotionGroup, name: str, kind: str) -> Value | None:
+def _datum(context: "RwsContext", group: MotionGroup, name: str, kind: str) -> Value | None:
     """A tool or an object of the robot's task; None: tool0 or wobj0. Denied: there is none."""
     if name.lower() in ("tool0", "wobj0"):
         return None
-    task = office.controller.tasks[group.config.task]
+    task = context.controller.tasks[group.config.task]
     try:
         if task.type_of(name)[0].name != kind:
             raise RequestDenied(400, "E_INVALIDARG", f"{name} is no {kind}")
@@ -127,60 +129,60 @@ def _datum(office: "RwsContext", group: MotionGroup, name: str, kind: str) -> Va
 
 
 @serves(ops.ROB_TARGET)
-def get_target(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_target(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Where the TCP is, as a robtarget."""
-    return show(Item("ms-robtargets", "robtarget", _rob_target(_pose(office, asked))))
+    return show(Item("ms-robtargets", "robtarget", _rob_target(_pose(context, request))))
 
 
 def _rob_target(value: Value, external: str = "") -> dict[str, str]:
     """A robtarget's fields; `external` spells those of external axes, by number from 1 on."""
-    told = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
-    told |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
+    notify = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
+    notify |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
     conf = ("cf1", "cf4", "cf6", "cfx")
-    told |= dict(zip(conf, (f"{v:g}" for v in value.robconf.values()), strict=True))
+    notify |= dict(zip(conf, (f"{v:g}" for v in value.robconf.values()), strict=True))
     names = [external.format(i) if external else f"eax{c}" for i, c in enumerate(_EXTERNAL, 1)]
-    return told | dict(zip(names, (f"{v:g}" for v in value.extax.values()), strict=True))
+    return notify | dict(zip(names, (f"{v:g}" for v in value.extax.values()), strict=True))
 
 
 @serves(ops.CARTESIAN)
-def get_cartesian(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_cartesian(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Where the TCP is; RWS 1.0 calls the configuration j1 to jx."""
-    value = _pose(office, asked)
-    names = ("j1", "j4", "j6", "jx") if asked.is_one else ("cf1", "cf4", "cf6", "cfx")
-    told = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
-    told |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
-    told |= dict(zip(names, (f"{v:g}" for v in value.robconf.values()), strict=True))
-    return show(Item("ms-mechunit-cartesian", "cartesian", told))
+    value = _pose(context, request)
+    names = ("j1", "j4", "j6", "jx") if request.is_one else ("cf1", "cf4", "cf6", "cfx")
+    notify = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
+    notify |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
+    notify |= dict(zip(names, (f"{v:g}" for v in value.robconf.values()), strict=True))
+    return show(Item("ms-mechunit-cartesian", "cartesian", notify))
 
 
 # -- by task -------------------------------------------------------------------------------------
 
 
 @serves(ops.TASK_MOTION)
-def get_motion(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_motion(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Positions of a task's robot [RWS manual 3HAC050973]; without `resource` what there is."""
-    task = find_task(office, asked.names["task"], asked)
-    kind = asked.query.get("resource", "")
+    task = find_task(context, request.names["task"], request)
+    kind = request.query.get("resource", "")
     if not kind:
         names = ("jointtarget", "robtarget", "extjointstate")
         return show(
             *(Item(f"rapid-{n}-li", n, {}, {"self": f"motion?resource={n}"}) for n in names)
         )
     group = next(
-        (g for g in office.controller.motion.groups.values() if g.config.task == task.name), None
+        (g for g in context.controller.motion.groups.values() if g.config.task == task.name), None
     )
     if group is None:
         raise RequestDenied(400, "E_NO_SUCH_MECHUNIT", f"{task.name} has no robot")
     if kind == "robtarget":
-        told = _rob_target(_pose_of(office, asked, group, "wobj"), "ej{}")
+        notify = _rob_target(_pose_of(context, request, group, "wobj"), "ej{}")
     elif kind in ("jointtarget", "extjointstate"):
         value = joint_target(group.map, group.positions())
         external = enumerate(value.extax.values(), 1)
         if kind == "extjointstate":
-            told = {f"j{i}": "not_active" if v > ABSENT / 2 else "rotating" for i, v in external}
+            notify = {f"j{i}": "not_active" if v > ABSENT / 2 else "rotating" for i, v in external}
         else:
-            told = {f"j{i}": str(v) for i, v in enumerate(value.robax.values(), 1)}
-            told |= {f"ej{i}": f"{v:g}" for i, v in external}
+            notify = {f"j{i}": str(v) for i, v in enumerate(value.robax.values(), 1)}
+            notify |= {f"ej{i}": f"{v:g}" for i, v in external}
     else:
         raise RequestDenied(400, "E_INVALIDARG", f"resource {kind}")
-    return show(Item(f"rapid-{kind}", kind, told))
+    return show(Item(f"rapid-{kind}", kind, notify))

@@ -16,21 +16,21 @@ _DEVICE = {"lstate": "enabled", "pstate": "running", "address": "-"}
 
 
 @serves(ops.IO_SYSTEM)
-def get_system(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What the I/O system has."""
     names = ("networks", "devices", "signals")
     return show(*(Item(f"ios-{n}-li", n, {}, {"self": f"iosystem/{n}"}) for n in names))
 
 
-def networks(office: "RwsContext") -> list[str]:
+def networks(context: "RwsContext") -> list[str]:
     """Networks, in order."""
-    return list(dict.fromkeys(map(network_of, devices(office))))
+    return list(dict.fromkeys(map(network_of, devices(context))))
 
 
-def devices(office: "RwsContext") -> list[str]:
+def devices(context: "RwsContext") -> list[str]:
     """Devices that some signal is on."""
-    found = (s.spec.device for s in office.controller.io.signals.values())
-    return [device for device in dict.fromkeys(found) if device]
+    result = (s.spec.device for s in context.controller.io.signals.values())
+    return [device for device in dict.fromkeys(result) if device]
 
 
 def _network(name: str, kind: str) -> Item:
@@ -45,57 +45,57 @@ def _device(name: str, kind: str) -> Item:
 
 
 @serves(ops.NETWORKS)
-def get_networks(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_networks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Networks that signals stand on."""
-    return show(*(_network(n, "ios-network-li") for n in networks(office)), collection=True)
+    return show(*(_network(n, "ios-network-li") for n in networks(context)), collection=True)
 
 
 @serves(ops.NETWORK)
-def get_network(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_network(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One network."""
-    for name in networks(office):
-        if name.lower() == asked.names["network"].lower():
-            return show(_network(name, asked.kind("ios-network", "ios-network-li")))
-    raise RequestDenied(404, "E_UNRESOLVED_URL", f"no network {asked.names['network']}")
+    for name in networks(context):
+        if name.lower() == request.names["network"].lower():
+            return show(_network(name, request.kind("ios-network", "ios-network-li")))
+    raise RequestDenied(404, "E_UNRESOLVED_URL", f"no network {request.names['network']}")
 
 
 @serves(ops.DEVICES)
-def get_devices(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_devices(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Devices that signals stand on."""
-    only = asked.query.get("network")
-    found = (d for d in devices(office) if only in (None, network_of(d)))
-    return show(*(_device(d, "ios-device-li") for d in found), collection=True)
+    only = request.query.get("network")
+    result = (d for d in devices(context) if only in (None, network_of(d)))
+    return show(*(_device(d, "ios-device-li") for d in result), collection=True)
 
 
 @serves(ops.DEVICE)
-def get_device(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_device(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One device, by its name or with its network."""
-    wanted = asked.names["device"].lower()
-    for name in devices(office):
-        if wanted in (name.lower(), f"{network_of(name)}/{name}".lower()):
-            return show(_device(name, asked.kind("ios-device", "ios-device-li")))
-    raise RequestDenied(404, "E_UNRESOLVED_URL", f"no device {wanted}")
+    requested = request.names["device"].lower()
+    for name in devices(context):
+        if requested in (name.lower(), f"{network_of(name)}/{name}".lower()):
+            return show(_device(name, request.kind("ios-device", "ios-device-li")))
+    raise RequestDenied(404, "E_UNRESOLVED_URL", f"no device {requested}")
 
 
 @serves(ops.SEARCH_NETWORKS)
-def search_networks(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def search_networks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Networks by name and state; one of them has to be said [RWS manual]."""
-    name, state = (asked.form.get(k, "").lower() for k in ("name", "state"))
+    name, state = (request.form.get(k, "").lower() for k in ("name", "state"))
     if not (name or state):
         raise RequestDenied(400, "E_INVALIDARG", "name or state")
-    found = [n for n in networks(office) if name in n.lower() and state in ("", "running")]
-    return show(*(_network(n, "ios-network-li") for n in found), collection=True)
+    result = [n for n in networks(context) if name in n.lower() and state in ("", "running")]
+    return show(*(_network(n, "ios-network-li") for n in result), collection=True)
 
 
 @serves(ops.SEARCH_DEVICES)
-def search_devices(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def search_devices(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Devices by name, state and network; one of the first two has to be said."""
-    name, state, network = (asked.form.get(k, "").lower() for k in ("name", "lstate", "network"))
+    name, state, network = (request.form.get(k, "").lower() for k in ("name", "lstate", "network"))
     if not (name or state):
         raise RequestDenied(400, "E_INVALIDARG", "name or lstate")
-    found = [
+    result = [
         d
-        for d in devices(office)
+        for d in devices(context)
         if name in d.lower() and state in ("", "enabled") and network in ("", network_of(d).lower())
     ]
-    return show(*(_device(d, "ios-device-li") for d in found), collection=True)
+    return show(*(_device(d, "ios-device-li") for d in result), collection=True)

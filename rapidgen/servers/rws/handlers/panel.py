@@ -38,16 +38,16 @@ def speed(controller: "VirtualController") -> int:
 
 
 @serves(ops.CTRL_STATE)
-def get_ctrl_state(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_ctrl_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Motors, emergency stop, system failure."""
-    return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(office.controller)}))
+    return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(context.controller)}))
 
 
 @serves(ops.SET_CTRL_STATE)
-def set_ctrl_state(office: "RwsContext", asked: RwsRequest) -> None:
+def set_ctrl_state(context: "RwsContext", request: RwsRequest) -> None:
     """Motors on or off."""
-    on = asked.field("ctrl-state", ("motoron", "motoroff")) == "motoron"
-    controller = office.controller
+    on = request.field("ctrl-state", ("motoron", "motoroff")) == "motoron"
+    controller = context.controller
     if on and controller.mode != "auto":
         raise RequestDenied(403, "E_MODE_REJECT", "motors on only in automatic mode", -2)
     if on and controller.failed:
@@ -58,101 +58,103 @@ def set_ctrl_state(office: "RwsContext", asked: RwsRequest) -> None:
 
 
 @serves(ops.OPMODE)
-def get_opmode(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_opmode(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The operating mode; in RWS 2.0 with a link to its lock behind it [code: rws2, GoFa]."""
-    mode = Item("pnl-opmode", "opmode", {"opmode": opmode(office.controller)})
+    mode = Item("pnl-opmode", "opmode", {"opmode": opmode(context.controller)})
     lock = Item("pnl-opmode-lockstate-li", "lock-state", {}, {"self": "lock-state"})
-    return show(mode, *(() if asked.is_one else (lock,)))
+    return show(mode, *(() if request.is_one else (lock,)))
 
 
 @serves(ops.SET_OPMODE)
-def set_opmode(office: "RwsContext", asked: RwsRequest) -> None:
+def set_opmode(context: "RwsContext", request: RwsRequest) -> None:
     """The key of a virtual controller; a real one's cannot be turned from afar."""
-    words = ("auto", "man", "manfs" if asked.is_one else "manf")
-    if office.mode_lock:
+    text = ("auto", "man", "manfs" if request.is_one else "manf")
+    if context.mode_lock:
         raise RequestDenied(403, "E_RESOURCE_HELD", "the mode is locked", -2)
-    office.controller.set_mode(_MODES[asked.field("opmode", words)])
+    context.controller.set_mode(_MODES[request.field("opmode", text)])
 
 
 @serves(ops.SPEED)
-def get_speed(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_speed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The override."""
-    return show(Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(office.controller))}))
+    return show(
+        Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(context.controller))})
+    )
 
 
 @serves(ops.SET_SPEED)
-def set_speed(office: "RwsContext", asked: RwsRequest) -> None:
+def set_speed(context: "RwsContext", request: RwsRequest) -> None:
     """The override in percent, in automatic mode."""
-    percent = whole("speed-ratio", asked.field("speed-ratio"), 0, 100)
-    if office.controller.mode != "auto":
+    percent = whole("speed-ratio", request.field("speed-ratio"), 0, 100)
+    if context.controller.mode != "auto":
         raise RequestDenied(403, "E_MODE_REJECT", "only in automatic mode", -2)
-    if not asked.is_one:
-        office.masters.need(asked, "rapid")
-    for group in office.controller.motion.groups.values():
+    if not request.is_one:
+        context.masters.need(request, "rapid")
+    for group in context.controller.motion.groups.values():
         group.override = percent / 100
-    office.controller.operation.changed.notify()
+    context.controller.operation.changed.notify()
 
 
 @serves(ops.SET_SPEED_PLAIN)
-def set_speed_plainly(office: "RwsContext", asked: RwsRequest) -> None:
+def set_speed_plainly(context: "RwsContext", request: RwsRequest) -> None:
     """RWS 2.0 keeps `?action=` for the speed; without it is 400 [VC 7.21]."""
     raise RequestDenied(400, "E_INVALIDARG", "action=setspeedratio is wanted")
 
 
 @serves(ops.COLLISION)
-def get_collision(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_collision(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Collision detection; RobotWare 6 writes the class with a blank behind it."""
-    name = asked.kind("coldetstate ", "coldetstate")
+    name = request.kind("coldetstate ", "coldetstate")
     return show(Item("pnl-coldetstate", "coldetstate", {name: "INIT"}))
 
 
 @serves(ops.PANEL)
-def get_panel(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_panel(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What the panel has."""
-    names = (asked.kind("ctrlstate", "ctrl-state"), "opmode", "speedratio", "coldetstate")
-    found = (Item(f"pnl-{name.replace('-', '')}-li", name, {}, {"self": name}) for name in names)
-    return show(*found)
+    names = (request.kind("ctrlstate", "ctrl-state"), "opmode", "speedratio", "coldetstate")
+    result = (Item(f"pnl-{name.replace('-', '')}-li", name, {}, {"self": name}) for name in names)
+    return show(*result)
 
 
 @serves(ops.ACKNOWLEDGE)
-def acknowledge(office: "RwsContext", asked: RwsRequest) -> None:
+def acknowledge(context: "RwsContext", request: RwsRequest) -> None:
     """Confirm a change of mode, which stands at once here."""
-    asked.field("opmode", ("auto", "manf", "coldet"))
+    request.field("opmode", ("auto", "manf", "coldet"))
 
 
 @serves(ops.LOCK_STATE)
-def get_lock(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_lock(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether the mode is locked by a pin."""
-    told = {"lockstate": office.mode_lock or "Unlocked"}
-    return show(Item("pnl-opmode-lockstate-li", "lock-state", told))
+    notify = {"lockstate": context.mode_lock or "Unlocked"}
+    return show(Item("pnl-opmode-lockstate-li", "lock-state", notify))
 
 
 @serves(ops.LOCK)
-def lock(office: "RwsContext", asked: RwsRequest) -> None:
+def lock(context: "RwsContext", request: RwsRequest) -> None:
     """Lock the mode: it cannot be changed until it is unlocked."""
-    pin = asked.field("pin")
+    pin = request.field("pin")
     if not (pin.isdecimal() and len(pin) == 4):
         raise RequestDenied(400, "E_INVALIDARG", "a pin has four digits")
-    if office.mode_lock:
+    if context.mode_lock:
         raise RequestDenied(403, "E_RESOURCE_ALREADY_HELD", "the mode is locked")
-    permanent = asked.form.get("permanent", "0").lower() in ("1", "true")
-    office.mode_lock = "Permanent" if permanent else "Temporary"
+    permanent = request.form.get("permanent", "0").lower() in ("1", "true")
+    context.mode_lock = "Permanent" if permanent else "Temporary"
 
 
 @serves(ops.UNLOCK)
-def unlock(office: "RwsContext", asked: RwsRequest) -> None:
+def unlock(context: "RwsContext", request: RwsRequest) -> None:
     """Unlock the mode."""
-    office.mode_lock = ""
+    context.mode_lock = ""
 
 
 @serves(ops.LANGUAGE)
-def set_language(office: "RwsContext", asked: RwsRequest) -> None:
+def set_language(context: "RwsContext", request: RwsRequest) -> None:
     """The pendant's language: texts are English here."""
-    if asked.field("lang-code").lower() != "en":
+    if request.field("lang-code").lower() != "en":
         raise RequestDenied(400, "E_INVALIDARG", "only en is installed")
 
 
 @serves(ops.EMERGENCY_STOP)
-def emergency_stop(office: "RwsContext", asked: RwsRequest) -> None:
+def emergency_stop(context: "RwsContext", request: RwsRequest) -> None:
     """The button of a virtual controller: `off` presses it, `on` lets it go [VC 7.21]."""
-    office.controller.set_e_stop(asked.field("state", ("on", "off")) == "off")
+    context.controller.set_e_stop(request.field("state", ("on", "off")) == "off")

@@ -19,84 +19,86 @@ if TYPE_CHECKING:
 def place_of(task: Task) -> Location | None:
     """Where a task stands; None while it has not begun."""
     stack = task.stack()
-    return task.pointer.stands_before() or (stack[-1] if stack else None)
+    return task.pointer.next_statement() or (stack[-1] if stack else None)
 
 
 @serves(ops.POINTER)
-def get_pointer(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_pointer(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Program and motion pointer of a task; the second is where the first is, here."""
-    task = find_task(office, asked.names["task"], asked)
+    task = find_task(context, request.names["task"], request)
     place = place_of(task)
     if place is None:
         return show(Item("pcp-info", "progpointer", {"modulemame": "", "routinename": ""}))
     at = f"{place.span.line},{place.span.column}"
-    told = {
+    notify = {
         "beginposition": at,
         "endposition": at,
         "modulemame": place.module,
         "routinename": place.routine,
-        "changecount": str(office.cabinet.programs.changes[task.name]),
+        "changecount": str(context.runner.programs.changes[task.name]),
         "executiontype": "normal",
     }
-    return show(Item("pcp-info", "progpointer", told), Item("pcp-info", "motionpointer", told))
+    return show(Item("pcp-info", "progpointer", notify), Item("pcp-info", "motionpointer", notify))
 
 
 @serves(ops.COUNTER)
-def get_counter(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_counter(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The program pointer once more, as the manual of RWS 1.0 has it for a task's execution."""
-    place = place_of(find_task(office, asked.names["task"], asked))
+    place = place_of(find_task(context, request.names["task"], request))
     row, column = (place.span.line, place.span.column) if place else (0, 0)
-    told = {"module": place.module if place else "", "routine": place.routine if place else ""}
-    told |= {"startline": str(row), "startcol": str(column)}
-    return show(Item("rap-pcp", "pcp", {**told, "endline": str(row), "endcol": str(column)}))
+    notify = {"module": place.module if place else "", "routine": place.routine if place else ""}
+    notify |= {"startline": str(row), "startcol": str(column)}
+    return show(Item("rap-pcp", "pcp", {**notify, "endline": str(row), "endcol": str(column)}))
 
 
-def _movable(office: "RwsContext", asked: RwsRequest) -> Task:
-    office.masters.need(asked, "rapid")
-    task = find_task(office, asked.names["task"], asked)
-    if task.state == "running" or execution(office.controller) == "running":
-        raise RequestDenied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
+def _movable(context: "RwsContext", request: RwsRequest) -> Task:
+    context.masters.need(request, "rapid")
+    task = find_task(context, request.names["task"], request)
+    if task.state == "running" or execution(context.controller) == "running":
+        raise RequestDenied(
+            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
+        )
     return task
 
 
 @serves(ops.POINTER_TO_ROUTINE)
-def pointer_to_routine(office: "RwsContext", asked: RwsRequest) -> None:
+def pointer_to_routine(context: "RwsContext", request: RwsRequest) -> None:
     """Program pointer of one task to a routine."""
-    task = _movable(office, asked)
+    task = _movable(context, request)
     try:
-        office.controller.tasks[task.name].pp_to_routine(asked.field("routine"))
+        context.controller.tasks[task.name].pp_to_routine(request.field("routine"))
     except CannotStep as error:
         raise RequestDenied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
 
 
 @serves(ops.POINTER_TO_MAIN)
-def pointer_to_main(office: "RwsContext", asked: RwsRequest) -> None:
+def pointer_to_main(context: "RwsContext", request: RwsRequest) -> None:
     """Program pointer of one task to main."""
-    office.controller.tasks[_movable(office, asked).name].pp_to_main()
+    context.controller.tasks[_movable(context, request).name].pp_to_main()
 
 
 @serves(ops.POINTER_TO_CURSOR)
-def pointer_to_cursor(office: "RwsContext", asked: RwsRequest) -> None:
+def pointer_to_cursor(context: "RwsContext", request: RwsRequest) -> None:
     """Program pointer of one task to a statement of the routine in which it stands."""
-    task = _movable(office, asked)
-    asked.field("module")
-    field = asked.kind("line", "begin-position-row")
-    row = whole(field, asked.field(field))
+    task = _movable(context, request)
+    request.field("module")
+    field = request.kind("line", "begin-position-row")
+    row = whole(field, request.field(field))
     try:
-        office.controller.tasks[task.name].pp_to_statement(row)
+        context.controller.tasks[task.name].pp_to_statement(row)
     except CannotStep as error:
         raise RequestDenied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
 
 
 @serves(ops.ACTIVATION_RECORD)
-def get_frame(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_frame(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One frame of the stack, from the innermost on; 400 where there is none [VC 6.16]."""
-    task = find_task(office, asked.names["task"], asked)
+    task = find_task(context, request.names["task"], request)
     frames = task.stack()[::-1]
-    number = whole("stackframe", asked.query.get("stackframe", "1"), 1, len(frames))
+    number = whole("stackframe", request.query.get("stackframe", "1"), 1, len(frames))
     place = frames[number - 1]
     row, column = str(place.span.line), str(place.span.column)
-    told = {
+    notify = {
         "execlevel": "Normal",
         "beg-row": row,
         "beg-col": column,
@@ -105,18 +107,18 @@ def get_frame(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
         "stack-url": f"RAPID/{task.name}/%{number}",
         "routine-url": f"RAPID/{task.name}/{place.module}/{place.routine}",
     }
-    return show(Item("rap-stackframe", "stackframe", told))
+    return show(Item("rap-stackframe", "stackframe", notify))
 
 
 @serves(ops.ROUTINES)
-def get_routines(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_routines(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Procedures of a task without parameters: what could be called as a service routine."""
-    task = find_task(office, asked.names["task"], asked)
+    task = find_task(context, request.names["task"], request)
     name, url = (
-        asked.kind("routine-name", "routine_name"),
-        asked.kind("url-to-routine", "url_to_routine"),
+        request.kind("routine-name", "routine_name"),
+        request.kind("url-to-routine", "url_to_routine"),
     )
-    found = [
+    result = [
         Item(
             "rap-task-routine",
             node.name,
@@ -126,4 +128,4 @@ def get_routines(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
         for node in module.tree.routines
         if node.kind == "PROC" and not node.parameters and node.scope != "LOCAL"
     ]
-    return show(*found, collection=True)
+    return show(*result, collection=True)

@@ -24,72 +24,72 @@ if TYPE_CHECKING:
 
 
 @serves(ops.PROGRAM)
-def get_program(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
+def get_program(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
     """The program of a task; nothing where there is none."""
-    task = find_task(office, asked.names["task"], asked)
-    if not office.cabinet.programs.modules(task):
+    task = find_task(context, request.names["task"], request)
+    if not context.runner.programs.modules(task):
         return None
-    name = office.program_names.get(task.name, "")
+    name = context.program_names.get(task.name, "")
     return show(Item("rap-program", "program", {"name": name, "entrypoint": task.spec.entry}))
 
 
 @serves(ops.BUILD_ERRORS)
-def get_build_errors(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_build_errors(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What is wrong with the program of a task."""
-    task = find_task(office, asked.names["task"], asked)
-    names = {m.file.path: m.name for m in office.cabinet.programs.modules(task)}
-    found = []
-    for fault in office.cabinet.programs.faults(task):
+    task = find_task(context, request.names["task"], request)
+    names = {m.file.path: m.name for m in context.runner.programs.modules(task)}
+    result = []
+    for fault in context.runner.programs.faults(task):
         span = fault.span
-        told = {
+        notify = {
             "ModuleName": names.get(span.path, "") if span else "",
             "row": str(span.line if span else 0),
             "column": str(span.column if span else 0),
             "error": fault.message,
         }
-        found.append(Item("rap-builderrs", "builderror", told))
-    return show(*found)
+        result.append(Item("rap-builderrs", "builderror", notify))
+    return show(*result)
 
 
-def _own(office: "RwsContext", task: Task) -> list[str]:
+def _own(context: "RwsContext", task: Task) -> list[str]:
     """Modules of the program: system modules are not of it."""
-    programs = office.cabinet.programs
+    programs = context.runner.programs
     return [m.name for m in programs.modules(task) if not m.is_system and not m.file.shared]
 
 
 @serves(ops.LOAD_PROGRAM)
-def load(office: "RwsContext", asked: RwsRequest) -> None:
+def load(context: "RwsContext", request: RwsRequest) -> None:
     """Load the modules that a program file lists, from its folder; `replace` takes out the rest."""
-    office.masters.need(asked, "rapid")
-    task = find_task(office, asked.names["task"], asked)
-    words = asked.field("progpath")
-    mode = asked.form.get("loadmode", "replace")
+    context.masters.need(request, "rapid")
+    task = find_task(context, request.names["task"], request)
+    text = request.field("progpath")
+    mode = request.form.get("loadmode", "replace")
     if mode not in ("add", "replace"):
         raise RequestDenied(400, "E_INVALIDARG", f"loadmode {mode}")
-    path = disk_path(office, words, asked)
-    folder = words.rpartition("/")[0]
-    files = _listed(path, asked, words)
-    places = [disk_path(office, f"{folder}/{file}", asked) for file in files]
+    path = disk_path(context, text, request)
+    folder = text.rpartition("/")[0]
+    files = _listed(path, request, text)
+    places = [disk_path(context, f"{folder}/{file}", request) for file in files]
     for file, place in zip(files, places, strict=True):
         if not place.is_file():
-            raise RequestDenied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", file)
+            raise RequestDenied(400 if request.is_one else 404, "E_FILE_NOT_FOUND", file)
     try:
         if mode == "replace":
-            for name in _own(office, task):
-                office.cabinet.programs.unload(task, name)
+            for name in _own(context, task):
+                context.runner.programs.unload(task, name)
         for file, place in zip(files, places, strict=True):
-            office.cabinet.programs.load(task, place, f"{folder}/{file}", replaced=False)
+            context.runner.programs.load(task, place, f"{folder}/{file}", replaced=False)
     except CannotLoad as fault:
-        raise load_refused(asked, fault, words) from fault
-    office.program_names[task.name] = path.stem
+        raise load_refused(request, fault, text) from fault
+    context.program_names[task.name] = path.stem
 
 
-def _listed(path: Path, asked: RwsRequest, words: str) -> list[str]:
+def _listed(path: Path, request: RwsRequest, words: str) -> list[str]:
     """Files of a program, which lie in its folder. Denied: it is none."""
     try:
         root = fromstring(read_foreign(path, LARGEST_MODULE))
     except OSError as error:
-        raise RequestDenied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
+        raise RequestDenied(400 if request.is_one else 404, "E_FILE_NOT_FOUND", words) from error
     except (ParseError, DefusedXmlException, ValueError) as error:
         raise RequestDenied(400, "E_INVALID_PROGRAMFILE", words) from error
     files = [(e.text or "").strip() for e in root.iter() if e.tag == "Module"]
@@ -99,39 +99,39 @@ def _listed(path: Path, asked: RwsRequest, words: str) -> list[str]:
 
 
 @serves(ops.UNLOAD_PROGRAM)
-def unload(office: "RwsContext", asked: RwsRequest) -> None:
+def unload(context: "RwsContext", request: RwsRequest) -> None:
     """Take the program's modules out; system modules stay."""
-    office.masters.need(asked, "rapid")
-    task = find_task(office, asked.names["task"], asked)
+    context.masters.need(request, "rapid")
+    task = find_task(context, request.names["task"], request)
     try:
-        for name in _own(office, task):
-            office.cabinet.programs.unload(task, name)
+        for name in _own(context, task):
+            context.runner.programs.unload(task, name)
     except CannotLoad as fault:
-        raise load_refused(asked, fault, task.name) from fault
-    office.program_names.pop(task.name, None)
+        raise load_refused(request, fault, task.name) from fault
+    context.program_names.pop(task.name, None)
 
 
 @serves(ops.SAVE_PROGRAM)
-def save(office: "RwsContext", asked: RwsRequest) -> None:
+def save(context: "RwsContext", request: RwsRequest) -> None:
     """Write the program's modules and its program file into a folder, made where it is none."""
-    task = find_task(office, asked.names["task"], asked)
-    words = asked.field("path")
-    folder = disk_path(office, words, asked)
-    name = asked.form.get("name") or office.program_names.get(task.name) or task.name
+    task = find_task(context, request.names["task"], request)
+    words = request.field("path")
+    folder = disk_path(context, words, request)
+    name = request.form.get("name") or context.program_names.get(task.name) or task.name
     if "/" in name or "\\" in name:
         raise RequestDenied(400, "E_INVALID_PATH", name)
-    file = disk_path(office, f"{words}/{name}.pgf", asked)
+    file = disk_path(context, f"{words}/{name}.pgf", request)
     try:
         folder.mkdir(exist_ok=True)
     except OSError as error:
         raise RequestDenied(404, "E_DIR_NOT_EXIST", words) from error
     listed = []
-    for own in _own(office, task):
+    for own in _own(context, task):
         module = task.program.modules.get(own.lower())
-        text = module_text(task, module) if module else office.cabinet.programs.text(task, own)
-        place = disk_path(office, f"{words}/{own}.mod", asked)
-        office.write_file(place, (text or "").encode("latin-1", "replace"))
+        text = module_text(task, module) if module else context.runner.programs.text(task, own)
+        place = disk_path(context, f"{words}/{own}.mod", request)
+        context.write_file(place, (text or "").encode("latin-1", "replace"))
         listed.append(f"<Module>{escaped(own)}.mod</Module>")
     head = '<?xml version="1.0" encoding="ISO-8859-1" ?>'
-    whole = f"{head}\n<Program>{''.join(listed)}</Program>\n"
-    office.write_file(file, whole.encode("latin-1", "replace"))
+    complete = f"{head}\n<Program>{''.join(listed)}</Program>\n"
+    context.write_file(file, complete.encode("latin-1", "replace"))

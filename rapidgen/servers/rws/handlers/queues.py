@@ -25,12 +25,12 @@ LARGEST = 444
 _OF_A_TASK = "rmq_"
 
 
-def find(office: "RwsContext", name: str) -> ClientQueue:
+def find(context: "RwsContext", name: str) -> ClientQueue:
     """A client's queue. Denied: there is none."""
-    found = office.queues.get(name.lower())
-    if found is None:
+    match = context.queues.get(name.lower())
+    if match is None:
         raise RequestDenied(404, "E_INVALIDSLOTID", f"no queue {name}")
-    return found
+    return match
 
 
 def _slot(name: str) -> str:
@@ -38,91 +38,91 @@ def _slot(name: str) -> str:
 
 
 def _item(kind: str, queue: ClientQueue) -> Item:
-    told = {
+    notify = {
         "queue-name": queue.name,
         "queue-size": str(queue.queue.spec.max_messages),
         "queue-max-msg-size": str(queue.queue.spec.max_size),
         "queue-slot-id": _slot(queue.name),
     }
-    return Item(kind, queue.name, told)
+    return Item(kind, queue.name, notify)
 
 
 @serves(ops.QUEUES)
-def get_queues(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_queues(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Queues of clients."""
-    found = (_item("dipc-queue-li", queue) for queue in office.queues.values())
-    return show(*found, collection=True)
+    result = (_item("dipc-queue-li", queue) for queue in context.queues.values())
+    return show(*result, collection=True)
 
 
 @serves(ops.QUEUE)
-def get_queue(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_queue(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One queue of a client."""
-    return show(_item("dipc-queue", find(office, asked.names["queue"])))
+    return show(_item("dipc-queue", find(context, request.names["queue"])))
 
 
 @serves(ops.CREATE_QUEUE)
-def create(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def create(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A queue of this client's; it ends with the session."""
-    name = asked.field("dipc-queue-name")
-    size = whole("dipc-queue-size", asked.field("dipc-queue-size"), 1, 10_000)
-    largest = whole("dipc-max-msg-size", asked.field("dipc-max-msg-size"), 1, LARGEST)
+    name = request.field("dipc-queue-name")
+    size = whole("dipc-queue-size", request.field("dipc-queue-size"), 1, 10_000)
+    largest = whole("dipc-max-msg-size", request.field("dipc-max-msg-size"), 1, LARGEST)
     spec = QueueSpec(max_messages=size, max_size=largest)
     if not name or "/" in name:
         raise RequestDenied(400, "E_INVALIDARG", f"dipc-queue-name: {name}")
     try:
-        made = ClientQueue(name, office.controller.queues.open(name, spec))
+        made = ClientQueue(name, context.controller.queues.open(name, spec))
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", f"queue {name} exists") from error
-    office.queues[name.lower()] = made
-    asked.session.on_end.append(lambda: _close(office, made))
+    context.queues[name.lower()] = made
+    request.session.on_end.append(lambda: _close(context, made))
     return RwsResponse(201)
 
 
-def _close(office: "RwsContext", queue: ClientQueue) -> None:
-    if office.queues.get(queue.name.lower()) is queue:
-        del office.queues[queue.name.lower()]
-        office.controller.queues.close(queue.name)
+def _close(context: "RwsContext", queue: ClientQueue) -> None:
+    if context.queues.get(queue.name.lower()) is queue:
+        del context.queues[queue.name.lower()]
+        context.controller.queues.close(queue.name)
 
 
 @serves(ops.DELETE_QUEUE)
-def delete(office: "RwsContext", asked: RwsRequest) -> None:
+def delete(context: "RwsContext", request: RwsRequest) -> None:
     """No more of a queue."""
-    _close(office, find(office, asked.names["queue"]))
+    _close(context, find(context, request.names["queue"]))
 
 
 @serves(ops.SEND_MESSAGE)
-def send(office: "RwsContext", asked: RwsRequest) -> None:
+def send(context: "RwsContext", request: RwsRequest) -> None:
     """Put a message into a queue: of another client, or of a task, whose program gets it."""
-    name, data = asked.names["queue"], asked.field("dipc-data")
-    if not asked.is_one:
-        asked.field("dipc-userdef")  # 400 without it [VC 7.21]
-    user, command = asked.form.get("dipc-userdef", "0"), asked.form.get("dipc-cmd", "0")
-    sender = asked.form.get("dipc-src-queue-name", "")
+    name, data = request.names["queue"], request.field("dipc-data")
+    if not request.is_one:
+        request.field("dipc-userdef")  # 400 without it [VC 7.21]
+    user, command = request.form.get("dipc-userdef", "0"), request.form.get("dipc-cmd", "0")
+    sender = request.form.get("dipc-src-queue-name", "")
     if len(data.encode()) > LARGEST:
         raise RequestDenied(400, "E_BUFFER_OVERFLOW", f"{len(data)} characters")
     if name.lower().startswith(_OF_A_TASK):
-        _to_task(office, name, data, sender, user)
+        _to_task(context, name, data, sender, user)
         return
-    queue = find(office, name)
+    queue = find(context, name)
     if len(queue) >= queue.queue.spec.max_messages:
         raise RequestDenied(400, "E_QUEUEFULL", name)
-    kind = KINDS[asked.form.get("dipc-msgtype", "1") != "0"]
+    kind = KINDS[request.form.get("dipc-msgtype", "1") != "0"]
     queue.texts.append(ClientText(sender, data, command, user, kind))
     queue.queue.changed.notify()
 
 
-def _to_task(office: "RwsContext", name: str, data: str, sender: str, user: str) -> None:
+def _to_task(context: "RwsContext", name: str, data: str, sender: str, user: str) -> None:
     kind, _, literal = data.partition(";")
-    found = find_type(kind.strip().lower())
-    queue = office.controller.queues.named(name)
+    result = find_type(kind.strip().lower())
+    queue = context.controller.queues.named(name)
     if queue is None or not queue.spec.open:
         raise RequestDenied(404, "E_INVALIDSLOTID", f"no queue {name}")
     try:
-        if found is None or not found.is_value:
+        if result is None or not result.is_value:
             raise RequestDenied(400, "E_INVALIDARG", f"no type {kind}")
-        value = parse_value(literal, found, (), escaped=True)
+        value = parse_value(literal, result, (), escaped=True)
         number = whole("dipc-userdef", user or "0")
-        office.controller.queues.send(name, Message(found, (), value, sender, float(number)))
+        context.controller.queues.send(name, Message(result, (), value, sender, float(number)))
     except (NotALiteral, ValueError) as error:
         raise RequestDenied(400, "E_INVALIDARG", f"no message {data}") from error
     except RapidError as error:
@@ -131,27 +131,27 @@ def _to_task(office: "RwsContext", name: str, data: str, sender: str, user: str)
 
 
 @serves(ops.READ_MESSAGE)
-def read(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
+def read(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
     """The first message, taken out of the queue; an empty list, or 204, where there is none."""
-    queue = find(office, asked.names["queue"])
-    told = taken(queue)
-    if told is None:
-        return show() if asked.is_one else None
-    return show(Item(asked.kind("dipc-read-li", "dipc-read"), queue.name, told))
+    queue = find(context, request.names["queue"])
+    notify = taken(queue)
+    if notify is None:
+        return show() if request.is_one else None
+    return show(Item(request.kind("dipc-read-li", "dipc-read"), queue.name, notify))
 
 
 def taken(queue: ClientQueue) -> dict[str, str] | None:
     """What the first message says, taken out of the queue; None: there is none."""
-    found = queue.take()
-    if found is None:
+    result = queue.take()
+    if result is None:
         return None
     return {
         "queue-name": queue.name,
         "queue-size": str(queue.queue.spec.max_messages),
         "queue-sid": _slot(queue.name),
-        "queue-did": _slot(found.sender),
-        "dipc-msgtype": found.kind,
-        "dipc-cmd": found.command,
-        "dipc-data": found.data,
-        "dipc-userdef": found.user,
+        "queue-did": _slot(result.sender),
+        "dipc-msgtype": result.kind,
+        "dipc-cmd": result.command,
+        "dipc-data": result.data,
+        "dipc-userdef": result.user,
     }

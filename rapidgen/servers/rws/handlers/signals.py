@@ -32,10 +32,10 @@ def network_of(device: str) -> str:
     return "Local" if device.upper().startswith(("DRV_", "PANEL")) else "Virtual1"
 
 
-def find(office: "RwsContext", path: str) -> Signal:
+def find(context: "RwsContext", path: str) -> Signal:
     """The signal at the end of a path. Denied: there is none, or not on that device."""
     parts = path.split("/")
-    signal = office.controller.io.get(parts[-1])
+    signal = context.controller.io.get(parts[-1])
     if signal is None or len(parts) not in (1, 3):
         raise RequestDenied(404, "E_UNRESOLVED_URL", f"no signal {path}")
     device = signal.spec.device
@@ -44,22 +44,22 @@ def find(office: "RwsContext", path: str) -> Signal:
     return signal
 
 
-def item(signal: Signal, kind: str, asked: RwsRequest) -> Item:
+def item(signal: Signal, kind: str, request: RwsRequest) -> Item:
     """A signal as an item."""
-    told = {
+    notify = {
         "name": signal.name,
         "type": signal.spec.type,
         "category": "",
         "lvalue": value_of(signal),
         "lstate": "not simulated",
     }
-    if not asked.is_one:
-        told["write-access"] = (
+    if not request.is_one:
+        notify["write-access"] = (
             "Rapid|LocalManual|LocalAuto|RemoteAuto"
             if _is_writable(signal)
             else "Rapid|LocalManual"
         )
-    return Item(kind, title_of(signal), told)
+    return Item(kind, title_of(signal), notify)
 
 
 def _is_writable(signal: Signal) -> bool:
@@ -67,35 +67,35 @@ def _is_writable(signal: Signal) -> bool:
 
 
 @serves(ops.SIGNALS)
-def get_signals(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_signals(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """All signals: whole in RWS 1.0, by the hundred in 2.0 [VC 7.21]."""
-    found = office.controller.io.signals.values()
-    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
+    result = context.controller.io.signals.values()
+    return page(request, [item(s, "ios-signal-li", request) for s in result], 100, "signals")
 
 
 @serves(ops.SIGNAL)
-def get_signal(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_signal(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One signal."""
-    signal = find(office, asked.names["signal"])
-    return show(item(signal, asked.kind("ios-signal", "ios-signal-li"), asked))
+    signal = find(context, request.names["signal"])
+    return show(item(signal, request.kind("ios-signal", "ios-signal-li"), request))
 
 
 @serves(ops.SET_SIGNAL)
-def set_signal(office: "RwsContext", asked: RwsRequest) -> None:
+def set_signal(context: "RwsContext", request: RwsRequest) -> None:
     """Set a signal, or pulse or invert it."""
-    signal = find(office, asked.names["signal"])
-    mode = asked.form.get("mode", "value")
-    if office.strict and not _is_writable(signal):
+    signal = find(context, request.names["signal"])
+    mode = request.form.get("mode", "value")
+    if context.strict and not _is_writable(signal):
         raise RequestDenied(403, "E_REJECT", f"access level of {signal.name}", -2)
-    io = office.controller.io
+    io = context.controller.io
     try:
         if mode in ("invert", "toggle"):
             io.set(signal, 1 - signal.value)
         elif mode == "pulse":
-            io.pulse(signal, float(asked.form.get("ActivePulse", "200")) / 1000)
+            io.pulse(signal, float(request.form.get("ActivePulse", "200")) / 1000)
         elif mode in ("value", "delay"):
-            delay = float(asked.form.get("Delay", "0")) / 1000 if mode == "delay" else 0.0
-            io.set(signal, float(asked.field("lvalue")), delay=delay)
+            delay = float(request.form.get("Delay", "0")) / 1000 if mode == "delay" else 0.0
+            io.set(signal, float(request.field("lvalue")), delay=delay)
         else:
             raise RequestDenied(400, "E_INVALIDARG", f"mode {mode}")
     except ValueError as error:
@@ -103,34 +103,36 @@ def set_signal(office: "RwsContext", asked: RwsRequest) -> None:
 
 
 @serves(ops.SEARCH_SIGNALS)
-def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Signals whose name holds a text, of a type, of a device [VC 7.21]."""
-    wanted = {k: asked.form.get(k, "").lower() for k in ("name", "type", "device")}
-    found = [s for s in office.controller.io.signals.values() if _fits(s, wanted)]
-    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
+    requested = {k: request.form.get(k, "").lower() for k in ("name", "type", "device")}
+    result = [s for s in context.controller.io.signals.values() if _fits(s, requested)]
+    return page(request, [item(s, "ios-signal-li", request) for s in result], 100, "signals")
 
 
 @serves(ops.SEARCH_SIGNALS_TWICE)
-def search_twice(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def search_twice(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Signals that fit up to two sets of criteria, both of them [VC 6.16, VC 7.21]."""
-    found = list(office.controller.io.signals.values())
+    result = list(context.controller.io.signals.values())
     for one in ("", "1", "2"):
-        wanted = {k: asked.form.get(f"{k}{one}", "").lower() for k in ("name", "type", "device")}
-        found = [s for s in found if _fits(s, wanted)]
-    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
+        requested = {
+            k: request.form.get(f"{k}{one}", "").lower() for k in ("name", "type", "device")
+        }
+        result = [s for s in result if _fits(s, requested)]
+    return page(request, [item(s, "ios-signal-li", request) for s in result], 100, "signals")
 
 
-def _fits(signal: Signal, wanted: dict[str, str]) -> bool:
+def _fits(signal: Signal, requested: dict[str, str]) -> bool:
     return (
-        wanted["name"] in signal.name.lower()
-        and wanted["type"] in ("", signal.spec.type.lower())
-        and wanted["device"] in ("", signal.spec.device.lower())
+        requested["name"] in signal.name.lower()
+        and requested["type"] in ("", signal.spec.type.lower())
+        and requested["device"] in ("", signal.spec.device.lower())
     )
 
 
 @serves(ops.SIGNAL_CONFIG)
-def get_config(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_config(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What EIO.cfg says of a signal."""
-    spec = find(office, asked.names["signal"]).spec
-    told = {"name": spec.name, "type": spec.type, "device": spec.device, "access": spec.access}
-    return show(Item("ios-signal-config-general", spec.name, told))
+    spec = find(context, request.names["signal"]).spec
+    notify = {"name": spec.name, "type": spec.type, "device": spec.device, "access": spec.access}
+    return show(Item("ios-signal-config-general", spec.name, notify))

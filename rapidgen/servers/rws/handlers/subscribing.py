@@ -13,66 +13,66 @@ if TYPE_CHECKING:
     from rapidgen.servers.rws.subscriptions import EventGroup
 
 
-def _wanted(asked: RwsRequest) -> list[WantedResource]:
+def _wanted(request: RwsRequest) -> list[WantedResource]:
     try:
-        return read_wanted(asked.pairs)
+        return read_wanted(request.pairs)
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", str(error)) from error
 
 
 def _opened(
-    office: "RwsContext", asked: RwsRequest, group: "EventGroup", status: int
+    context: "RwsContext", request: RwsRequest, group: "EventGroup", status: int
 ) -> RwsResponse:
-    poll = f"{'ws' if asked.is_one else 'wss'}://{asked.host}/poll/{group.number}"
-    body = write_opened(group.number, poll, office.groups.initial(group))
-    kind = "application/xhtml+xml" if asked.is_one else "application/xhtml+xml;v=2.0"
+    poll = f"{'ws' if request.is_one else 'wss'}://{request.host}/poll/{group.number}"
+    body = write_opened(group.number, poll, context.groups.initial(group))
+    kind = "application/xhtml+xml" if request.is_one else "application/xhtml+xml;v=2.0"
     return RwsResponse(status, data=body, headers=(("Location", poll), ("Content-Type", kind)))
 
 
 @serves(ops.SUBSCRIBE)
-def subscribe(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def subscribe(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A new group; the body is XHTML whatever was asked for."""
-    return _opened(office, asked, office.groups.begin(asked, _wanted(asked)), 201)
+    return _opened(context, request, context.groups.begin(request, _wanted(request)), 201)
 
 
 @serves(ops.ADD_SUBSCRIPTION)
-def add(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def add(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """More resources for a group."""
-    group = office.groups.find(asked.names["group"], asked.session)
-    office.groups.add(asked, group, _wanted(asked))
-    return _opened(office, asked, group, 200)
+    group = context.groups.find(request.names["group"], request.session)
+    context.groups.add(request, group, _wanted(request))
+    return _opened(context, request, group, 200)
 
 
 @serves(ops.UNSUBSCRIBE)
-def unsubscribe(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def unsubscribe(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Watch no more."""
-    office.groups.end(office.groups.find(asked.names["group"], asked.session))
+    context.groups.end(context.groups.find(request.names["group"], request.session))
     return RwsResponse(200)
 
 
 @serves(ops.UNSUBSCRIBE_ONE)
-def unsubscribe_one(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def unsubscribe_one(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One resource less."""
-    group = office.groups.find(asked.names["group"], asked.session)
-    suffix = f";{asked.suffix}" if asked.suffix else ""
-    office.groups.remove(group, f"/{asked.names['resource']}{suffix}")
+    group = context.groups.find(request.names["group"], request.session)
+    suffix = f";{request.suffix}" if request.suffix else ""
+    context.groups.remove(group, f"/{request.names['resource']}{suffix}")
     return RwsResponse(200)
 
 
 @serves(ops.SUBSCRIPTIONS)
-def get_groups(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_groups(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Groups of this session."""
-    own = office.groups.of(asked.session)
+    own = context.groups.of(request.session)
     items = (Item("sub-group-li", str(g.number), {}, {"self": str(g.number)}) for g in own)
     return show(*items, collection=True)
 
 
 @serves(ops.SUBSCRIPTION)
-def get_group(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_group(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What a group of this session watches."""
-    group = office.groups.find(asked.names["group"], asked.session)
-    found = (
+    group = context.groups.find(request.names["group"], request.session)
+    result = (
         Item("sub-resource-li", w.wanted.resource, {"priority": str(w.wanted.priority)})
         for w in group.watches
     )
-    return show(*found, collection=True)
+    return show(*result, collection=True)

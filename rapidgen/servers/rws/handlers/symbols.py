@@ -49,19 +49,19 @@ class Datum:
         return value
 
 
-def find(office: "RwsContext", path: str, asked: RwsRequest) -> Datum:
+def find(context: "RwsContext", path: str, request: RwsRequest) -> Datum:
     """The datum of `TASK/MODULE/NAME` or `TASK/NAME`. Denied: there is none."""
     parts = path.split("/")
     if len(parts) not in (2, 3):
-        raise _unknown(asked, path)
-    task = office.controller.tasks[find_task(office, parts[0], asked).name]
+        raise _unknown(request, path)
+    task = context.controller.tasks[find_task(context, parts[0], request).name]
     match = _ELEMENT.fullmatch(parts[-1])
     own = match[1] if match else parts[-1]
     name = ":".join((*parts[1:-1], own))
     try:
         type_, dims = task.type_of(name)
     except KeyError as error:
-        raise _unknown(asked, path) from error
+        raise _unknown(request, path) from error
     if not type_.is_value:
         raise RequestDenied(400, "E_INVALIDARG", f"{type_.name} is no value type")
     if match is None:
@@ -70,22 +70,22 @@ def find(office: "RwsContext", path: str, asked: RwsRequest) -> Datum:
     if len(element) > len(dims) or any(
         not 1 <= i <= most for i, most in zip(element, dims, strict=False)
     ):
-        raise _unknown(asked, path)
+        raise _unknown(request, path)
     return Datum(task, name, type_, dims[len(element) :], element)
 
 
-def _unknown(asked: RwsRequest, path: str) -> RequestDenied:
-    if asked.is_one:
+def _unknown(request: RwsRequest, path: str) -> RequestDenied:
+    if request.is_one:
         return RequestDenied(400, "E_UNEXPECTED", f"no symbol {path}", -517)
     return RequestDenied(404, "E_NO_SUCH_SYMBOL", f"no symbol {path}", -517)
 
 
 @serves(ops.SYMBOL)
-def get_symbol(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_symbol(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The value as a RAPID literal."""
-    found = find(office, asked.names["symbol"], asked)
-    text = literal_text(found.value, found.type)
-    name = asked.names["symbol"].rpartition("/")[2]
+    result = find(context, request.names["symbol"], request)
+    text = literal_text(result.value, result.type)
+    name = request.names["symbol"].rpartition("/")[2]
     if len(text) > LARGEST:
         link = "/rw/retcode?code=-1073445865"
         return show(Item("rap-data", name, {}, {"error": link}))
@@ -93,71 +93,71 @@ def get_symbol(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.SET_SYMBOL)
-def set_symbol(office: "RwsContext", asked: RwsRequest) -> None:
+def set_symbol(context: "RwsContext", request: RwsRequest) -> None:
     """Give a datum a value: at once, wherever it is read."""
-    if asked.is_one:
-        office.masters.need_mode(asked.session)  # RobotWare 6 takes mastership by itself
+    if request.is_one:
+        context.masters.need_mode(request.session)  # RobotWare 6 takes mastership by itself
     else:
-        office.masters.need(asked, "rapid")
-    found = find(office, asked.names["symbol"], asked)
-    text = asked.field("value")
+        context.masters.need(request, "rapid")
+    result = find(context, request.names["symbol"], request)
+    text = request.field("value")
     try:
-        value = parse_value(text, found.type, found.dims, escaped=True)
-        if found.element:
-            whole = deepcopy(found.task[found.name])
-            inner = whole
-            for i in found.element[:-1]:
+        value = parse_value(text, result.type, result.dims, escaped=True)
+        if result.element:
+            complete = deepcopy(result.task[result.name])
+            inner = complete
+            for i in result.element[:-1]:
                 inner = inner[i]
-            inner[found.element[-1]] = value
-            value = whole
-        found.task[found.name] = value
+            inner[result.element[-1]] = value
+            value = complete
+        result.task[result.name] = value
     except KeyError as error:
-        raise RequestDenied(403, "E_REJECT", f"{found.name} is read only", -2) from error
+        raise RequestDenied(403, "E_REJECT", f"{result.name} is read only", -2) from error
     except NotALiteral as error:
         raise RequestDenied(
-            400, "E_INVALIDARG", f"no value of {found.type.name}: {text}"
+            400, "E_INVALIDARG", f"no value of {result.type.name}: {text}"
         ) from error
     except RapidError as error:
         raise RequestDenied(400, "E_INVALIDARG", error.name) from error
 
 
 @serves(ops.VALIDATE_VALUE)
-def validate(office: "RwsContext", asked: RwsRequest) -> None:
+def validate(context: "RwsContext", request: RwsRequest) -> None:
     """Whether a text is a value of a type: 204, or 400."""
-    find_task(office, asked.names.get("task") or asked.field("task"), asked)
-    name, text = asked.field(asked.kind("datatype", "dattyp")), asked.field("value")
-    found = find_type(name.lower())
+    find_task(context, request.names.get("task") or request.field("task"), request)
+    name, text = request.field(request.kind("datatype", "dattyp")), request.field("value")
+    result = find_type(name.lower())
     try:
-        if found is None or not found.is_value:
+        if result is None or not result.is_value:
             raise RequestDenied(400, "E_INVALIDARG", f"no type {name}")
-        parse_value(text, found, escaped=True)
+        parse_value(text, result, escaped=True)
     except NotALiteral as error:
         raise RequestDenied(400, "E_INVALIDARG", f"no value of {name}: {text}") from error
 
 
 @serves(ops.SYMBOL_PROPERTIES)
-def get_properties(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_properties(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What a datum is."""
-    path = asked.names["symbol"]
-    found = find(office, path, asked)
-    for item, _ in _data(found.task, ""):
+    path = request.names["symbol"]
+    result = find(context, path, request)
+    for item, _ in _data(result.task, ""):
         if item.fields["name"].lower() == path.rpartition("/")[2].lower():
             return show(Item(item.kind, item.title, item.fields))
-    raise _unknown(asked, path)
+    raise _unknown(request, path)
 
 
 @serves(ops.SEARCH_SYMBOLS)
-def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Data of a task or a module by kind, type and a pattern of the name."""
-    form = asked.form
-    if not asked.is_one and "task" in form:
+    form = request.form
+    if not request.is_one and "task" in form:
         raise RequestDenied(400, "E_INVALIDARG", "task")  # [VC 7.21]
     parts = form.get("blockurl", "RAPID").split("/")
     if parts[0].upper() != "RAPID" or len(parts) > 3:
         raise RequestDenied(400, "E_INVALIDARG", "blockurl")
-    tasks = list(office.controller.tasks.values())
+    tasks = list(context.controller.tasks.values())
     if len(parts) > 1:
-        tasks = [office.controller.tasks[find_task(office, parts[1], asked).name]]
+        tasks = [context.controller.tasks[find_task(context, parts[1], request).name]]
     module = parts[2] if len(parts) > 2 else ""
     try:
         with warnings.catch_warnings():
@@ -170,7 +170,7 @@ def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
             400, "E_INVALIDARG", "regexp: groups that repeat, or too many repetitions"
         )
     kind, type_name = form.get("symtyp", "any").lower(), form.get("dattyp", "").lower()
-    found = [
+    result = [
         Item(f"{item.kind}-li", item.title, item.fields)
         for task in tasks
         for item, own in _data(task, module)
@@ -178,7 +178,7 @@ def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
         and type_name in ("", item.fields["dattyp"].lower())
         and pattern.fullmatch(item.fields["name"])
     ]
-    return show(*found, collection=True)
+    return show(*result, collection=True)
 
 
 def _data(task: TaskView, only: str) -> Iterator[tuple[Item, str]]:

@@ -16,48 +16,48 @@ _VARIABLES = {"$HOME": "HOME", "$TEMP": "TEMP", "$RAMDISK": "RAMDISK", "$BACKUP"
 _MODES = ("restart", "istart", "pstart", "bstart")
 
 
-def version(office: "RwsContext") -> tuple[int, int]:
+def version(context: "RwsContext") -> tuple[int, int]:
     """RobotWare's release, of the generation that is spoken."""
-    major, minor = office.controller.system.robotware
-    least = {Generation.ONE: 6, Generation.TWO: 7, Generation.EIGHT: 8}[office.generation]
+    major, minor = context.controller.system.robotware
+    least = {Generation.ONE: 6, Generation.TWO: 7, Generation.EIGHT: 8}[context.generation]
     return (major, minor) if major == least else (least, 0)
 
 
 @serves(ops.CONTROLLER, ops.IDENTITY)
-def identity(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def identity(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Who this controller is; it says that it is a virtual one."""
-    told = {
-        "ctrl-name": office.controller.system.name,
-        "ctrl-id": office.cabinet.id,
+    notify = {
+        "ctrl-name": context.controller.system.name,
+        "ctrl-id": context.runner.id,
         "ctrl-type": "Virtual Controller",
         "ctrl-mac": "",
     }
-    return show(Item("ctrl-identity-info", "identity", told))
+    return show(Item("ctrl-identity-info", "identity", notify))
 
 
 @serves(ops.SYSTEM)
-def get_system(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Name and RobotWare."""
-    (major, minor), name = version(office), office.controller.system.name
-    if asked.is_one:
-        told = {
+    (major, minor), name = version(context), context.controller.system.name
+    if request.is_one:
+        notify = {
             "name": name,
             "rwversion": f"{major}.{minor:02}.0.0",
-            "sysid": office.cabinet.id,
+            "sysid": context.runner.id,
             "starttm": "",
             "rwversionname": f"{major}.{minor:02}.00.00",
         }
-        return show(Item("sys-system-li", "system", told), *_options("sys-option-li"))
-    told = {
+        return show(Item("sys-system-li", "system", notify), *_options("sys-option-li"))
+    notify = {
         "major": str(major),
         "minor": str(minor),
         "build": "0",
         "name": name,
         "rwversion": f"{major}.{minor}.0+0",
         "rwversionname": f"{major}.{minor}.0",
-        "sysid": office.cabinet.id,
+        "sysid": context.runner.id,
     }
-    return show(Item("sys-system", "system", told))
+    return show(Item("sys-system", "system", notify))
 
 
 def _options(kind: str) -> list[Item]:
@@ -65,38 +65,38 @@ def _options(kind: str) -> list[Item]:
 
 
 @serves(ops.OPTIONS)
-def get_options(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_options(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What is installed."""
     return show(*_options("sys-option"), collection=True)
 
 
 @serves(ops.PRODUCTS)
-def get_products(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_products(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Products: RobotWare alone."""
-    major, minor = version(office)
-    told = {"version": f"{major}.{minor}", "version-name": f"{major}.{minor}.0"}
-    return show(Item("sys-product-li", "RobotWare", told), collection=True)
+    major, minor = version(context)
+    notify = {"version": f"{major}.{minor}", "version-name": f"{major}.{minor}.0"}
+    return show(Item("sys-product-li", "RobotWare", notify), collection=True)
 
 
 @serves(ops.ROBOT_TYPE)
-def get_robot_type(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_robot_type(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The robot's type, where a backup tells it."""
-    types = office.controller.system.robot_types
+    types = context.controller.system.robot_types
     return show(Item("sys-robottype", "robottype", {"robot-type": types[0][1] if types else ""}))
 
 
 @serves(ops.CLOCK)
-def get_clock(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_clock(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Date and time."""
-    now = date_time(office.controller.scheduler)
-    told = {"datetime": now.strftime("%Y-%m-%d T %H:%M:%S")}
-    return show(Item("ctrl-clock-info", "clock", told))
+    now = date_time(context.controller.scheduler)
+    notify = {"datetime": now.strftime("%Y-%m-%d T %H:%M:%S")}
+    return show(Item("ctrl-clock-info", "clock", notify))
 
 
 @serves(ops.VARIABLE)
-def get_variable(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_variable(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Where a variable points to: here to the volume of that name."""
-    name = asked.names["variable"]
+    name = request.names["variable"]
     folder = _VARIABLES.get(name.upper())
     if folder is None:
         raise RequestDenied(404, "E_UNRESOLVED_URL", name)
@@ -104,40 +104,40 @@ def get_variable(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.RESTART, ops.RESTART_AT_CTRL)
-def restart(office: "RwsContext", asked: RwsRequest) -> None:
+def restart(context: "RwsContext", request: RwsRequest) -> None:
     """A warm start: everybody is logged out. Other kinds are not offered here."""
-    office.masters.need(asked, "cfg")
-    mode = asked.field("restart-mode", (*_MODES, "xstart", "shutdown"))
+    context.masters.need(request, "cfg")
+    mode = request.field("restart-mode", (*_MODES, "xstart", "shutdown"))
     if mode != "restart":
         raise RequestDenied(403, "E_REJECT", f"{mode}: only warm starts here", -2)
-    office.cabinet.ask_restart()
+    context.runner.ask_restart()
 
 
 @serves(ops.PROGRESS)
-def get_progress(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_progress(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """How far a job is: all are done at once here."""
-    code = office.progress.get(asked.names["id"])
+    code = context.progress.get(request.names["id"])
     if code is None:
-        raise RequestDenied(404, "E_UNRESOLVED_URL", asked.path)
-    return show(Item("progress", asked.names["id"], {"state": "ready", "code": str(code)}))
+        raise RequestDenied(404, "E_UNRESOLVED_URL", request.path)
+    return show(Item("progress", request.names["id"], {"state": "ready", "code": str(code)}))
 
 
 @serves(ops.LICENSE)
-def get_license(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_license(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A virtual controller has none."""
     return show(Item("sys-license", "license", {"license": "virtual controller"}))
 
 
 @serves(ops.ENERGY)
-def get_energy(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_energy(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Energy is not modelled: the state -1 says that no value is valid [RWS manual].
 
     Fields and axes as in a body of a RobotWare 6 that an exporter of metrics has in its tests.
     """
-    now = date_time(office.controller.scheduler).strftime("%Y-%m-%d T %H:%M:%S")
-    told = {"state": "-1", "energy-state": "blocked", "change-count": "0"}
-    told |= {"time-stamp": now, "reset-time": now, "interval-length": "3600"}
-    told |= {"interval-energy": "0", "accumulated-energy": "0"}
+    now = date_time(context.controller.scheduler).strftime("%Y-%m-%d T %H:%M:%S")
+    notify = {"state": "-1", "energy-state": "blocked", "change-count": "0"}
+    notify |= {"time-stamp": now, "reset-time": now, "interval-length": "3600"}
+    notify |= {"interval-energy": "0", "accumulated-energy": "0"}
     none = {"interval-energy": "0"}
     units = (
         Item(
@@ -148,58 +148,58 @@ def get_energy(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
                 for i, _ in enumerate(group.config.joints, 1)
             ),
         )
-        for group in office.controller.motion.groups.values()
+        for group in context.controller.motion.groups.values()
     )
-    kind = asked.kind("sys-energy-state-li", "sys-energy-state")
-    return show(Item(kind, "energy-state", told, within=tuple(units)))
+    kind = request.kind("sys-energy-state-li", "sys-energy-state")
+    return show(Item(kind, "energy-state", notify, within=tuple(units)))
 
 
 @serves(ops.VISION)
-def get_vision(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_vision(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """No camera is connected."""
     return show(Item("number-of-cameras-li", "cameras", {"number-of-cameras": "0"}))
 
 
 @serves(ops.TIME_ZONE)
-def get_time_zone(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_time_zone(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The controller's clock knows no zone here: it is UTC's."""
     return show(Item("ctrl-timezone", "timezone", {"timezone": "UTC"}))
 
 
 @serves(ops.SET_CLOCK)
-def set_clock(office: "RwsContext", asked: RwsRequest) -> None:
+def set_clock(context: "RwsContext", request: RwsRequest) -> None:
     """The clock is the simulation's: it cannot be put."""
     raise RequestDenied(403, "E_REJECT", "the clock of a virtual controller is its machine's", -2)
 
 
 @serves(ops.RESTART_COUNT)
-def restart_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def restart_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """How often it has restarted."""
-    told = {"restart-count": str(office.cabinet.restarts)}
-    return show(Item("ctrl-restart-count", "restartcount", told))
+    notify = {"restart-count": str(context.runner.restarts)}
+    return show(Item("ctrl-restart-count", "restartcount", notify))
 
 
 @serves(ops.VIRTUAL_TIME)
-def virtual_time(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def virtual_time(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Virtual time in ms."""
-    told = {"vtcounter": str(round(office.cabinet.now * 1000))}
-    return show(Item("ctrl-vttime", "vttime", told))
+    notify = {"vtcounter": str(round(context.runner.now * 1000))}
+    return show(Item("ctrl-vttime", "vttime", notify))
 
 
 @serves(ops.VIRTUAL_STATE)
-def virtual_state(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def virtual_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Virtual time runs."""
     return show(Item("ctrl-vtstate", "vtstate", {"vtcurrstate": "running"}))
 
 
 @serves(ops.VIRTUAL_SPEED)
-def virtual_speed(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def virtual_speed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """How fast virtual time is, in percent of the real one."""
-    told = {"vtcurrspeed": f"{100 * office.controller.scheduler.speed:g}"}
-    return show(Item("ctrl-vtspeed", "vtspeed", told))
+    notify = {"vtcurrspeed": f"{100 * context.controller.scheduler.speed:g}"}
+    return show(Item("ctrl-vtspeed", "vtspeed", notify))
 
 
 @serves(ops.SAFETY_MODE)
-def safety_mode(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def safety_mode(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """No safety controller is modelled."""
     return show(Item("safetymodestatus", "mode", {"safetymode": "DEACTIVATED"}))

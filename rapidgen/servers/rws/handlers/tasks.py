@@ -28,64 +28,66 @@ _STATUS = {
 }  # fmt: skip
 
 
-def find_task(office: "RwsContext", name: str, asked: RwsRequest) -> Task:
+def find_task(context: "RwsContext", name: str, request: RwsRequest) -> Task:
     """A task by name. Denied: there is none (400 on RobotWare 6, 404 on 7)."""
-    for task in office.controller.rapid_tasks.values():
+    for task in context.controller.rapid_tasks.values():
         if task.name.lower() == name.lower():
             return task
-    raise RequestDenied(400 if asked.is_one else 404, "E_INVALIDARG", f"no task {name}")
+    raise RequestDenied(400 if request.is_one else 404, "E_INVALIDARG", f"no task {name}")
 
 
-def execution_state(task: Task, asked: RwsRequest) -> str:
+def execution_state(task: Task, request: RwsRequest) -> str:
     """A task's execution state; RobotWare 6 cuts the words to four letters [code: librws]."""
     word = _EXECUTION[task.state]
-    return word[:4] if asked.is_one else word
+    return word[:4] if request.is_one else word
 
 
-def _item(office: "RwsContext", task: Task, kind: str, asked: RwsRequest) -> Item:
+def _item(context: "RwsContext", task: Task, kind: str, request: RwsRequest) -> Item:
     kind_of_task = task.spec.type.lower()
-    modules = office.cabinet.programs.modules(task)
+    modules = context.runner.programs.modules(task)
     state = "linked" if task.state != "empty" else "loaded" if modules else "empty"
-    told = {
+    notify = {
         "name": task.name,
-        "type": kind_of_task[:4] if asked.is_one else kind_of_task,
+        "type": kind_of_task[:4] if request.is_one else kind_of_task,
         "taskstate": state,
-        "excstate": execution_state(task, asked),
+        "excstate": execution_state(task, request),
     }
     if task.spec.type == "NORMAL":
-        told["active"] = "Off" if task.name in office.controller.operation.left_out else "On"
-        told["motiontask"] = "TRUE" if task.spec.motion else "FALSE"
+        notify["active"] = "Off" if task.name in context.controller.operation.omitted else "On"
+        notify["motiontask"] = "TRUE" if task.spec.motion else "FALSE"
     if kind == "rap-task":
-        told |= {"trust": task.spec.trust, "prodentrypt": task.spec.entry}
-    return Item(kind, task.name, told, {"self": f"tasks/{task.name}"})
+        notify |= {"trust": task.spec.trust, "prodentrypt": task.spec.entry}
+    return Item(kind, task.name, notify, {"self": f"tasks/{task.name}"})
 
 
 @serves(ops.TASKS)
-def get_tasks(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_tasks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """All tasks."""
-    tasks = office.controller.rapid_tasks.values()
-    return show(*(_item(office, t, "rap-task-li", asked) for t in tasks), collection=True)
+    tasks = context.controller.rapid_tasks.values()
+    return show(*(_item(context, t, "rap-task-li", request) for t in tasks), collection=True)
 
 
 @serves(ops.TASK)
-def get_task(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_task(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One task."""
-    return show(_item(office, find_task(office, asked.names["task"], asked), "rap-task", asked))
+    return show(
+        _item(context, find_task(context, request.names["task"], request), "rap-task", request)
+    )
 
 
 @serves(ops.ACTIVATE_ALL, ops.DEACTIVATE_ALL)
-def activate_all(office: "RwsContext", asked: RwsRequest) -> None:
+def activate_all(context: "RwsContext", request: RwsRequest) -> None:
     """All NORMAL tasks at once."""
-    for task in office.controller.rapid_tasks.values():
+    for task in context.controller.rapid_tasks.values():
         if task.spec.type == "NORMAL":
-            activate(office, replace(asked, names={"task": task.name}))
+            activate(context, replace(request, names={"task": task.name}))
 
 
 @serves(ops.TASK_SELECTION)
-def selection(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def selection(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The task selection panel [VC 7.21]."""
-    left_out = office.controller.operation.left_out
-    found = [
+    left_out = context.controller.operation.omitted
+    result = [
         Item(
             "rap-taskselection",
             task.name,
@@ -96,33 +98,35 @@ def selection(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
                 "usermodify": "TRUE",
             },
         )
-        for task in office.controller.rapid_tasks.values()
+        for task in context.controller.rapid_tasks.values()
         if task.spec.type == "NORMAL"
     ]
-    return show(*found, collection=True)
+    return show(*result, collection=True)
 
 
 @serves(ops.CHANGE_COUNT)
-def change_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def change_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """How often a task's program was changed."""
-    task = find_task(office, asked.names["task"], asked)
-    count = str(office.cabinet.programs.changes[task.name])
-    told = {"struc-change-count": count, "change-count": count}
-    return show(Item("rap-task-struc-change-count", task.name, told))
+    task = find_task(context, request.names["task"], request)
+    count = str(context.runner.programs.changes[task.name])
+    notify = {"struc-change-count": count, "change-count": count}
+    return show(Item("rap-task-struc-change-count", task.name, notify))
 
 
 @serves(ops.ACTIVATE, ops.DEACTIVATE)
-def activate(office: "RwsContext", asked: RwsRequest) -> None:
+def activate(context: "RwsContext", request: RwsRequest) -> None:
     """The task selection panel: which NORMAL tasks are started with the program."""
     # RobotWare 6 takes mastership by itself [RWS manual].
-    office.masters.need(asked, "rapid", by_itself=asked.is_one)
-    task = find_task(office, asked.names.get("task") or asked.field("task"), asked)
+    context.masters.need(request, "rapid", by_itself=request.is_one)
+    task = find_task(context, request.names.get("task") or request.field("task"), request)
     if task.spec.type != "NORMAL":
         raise RequestDenied(403, "E_REJECT", f"{task.name} is a background task", -2)
-    if execution(office.controller) == "running":
-        raise RequestDenied(400 if asked.is_one else 403, "E_EXEC_STATE", "the program runs", -508)
-    left_out = office.controller.operation.left_out
-    if "deactivate" in (asked.query.get("action"), asked.path.rpartition("/")[2]):
+    if execution(context.controller) == "running":
+        raise RequestDenied(
+            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
+        )
+    left_out = context.controller.operation.omitted
+    if "deactivate" in (request.query.get("action"), request.path.rpartition("/")[2]):
         left_out.add(task.name)
     else:
         left_out.discard(task.name)
@@ -131,16 +135,16 @@ def activate(office: "RwsContext", asked: RwsRequest) -> None:
 # -- modules -------------------------------------------------------------------------------------
 
 
-def task_to_boot(office: "RwsContext", asked: RwsRequest) -> Task:
+def task_to_boot(context: "RwsContext", request: RwsRequest) -> Task:
     """The task that a path, or `?task=` of RWS 1.0, names. Denied."""
-    name = asked.names.get("task") or asked.query.get("task", "")
-    return find_task(office, name, asked)
+    name = request.names.get("task") or request.query.get("task", "")
+    return find_task(context, name, request)
 
 
 @serves(ops.MODULES)
-def get_modules(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_modules(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Modules of a task; they stand in `state` in HAL, though they are many [VC 7.21]."""
-    found = office.cabinet.programs.modules(task_to_boot(office, asked))
+    result = context.runner.programs.modules(task_to_boot(context, request))
     return show(
         *(
             Item(
@@ -148,76 +152,76 @@ def get_modules(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
                 module.name,
                 {"name": module.name, "type": "SysMod" if module.is_system else "ProgMod"},
             )
-            for module in found
+            for module in result
         )
     )
 
 
 @serves(ops.MODULE)
-def get_module(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_module(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """One module: its file."""
-    task, name = task_to_boot(office, asked), asked.names["module"]
-    found = [m for m in office.cabinet.programs.modules(task) if m.name.lower() == name.lower()]
-    if not found:
-        raise no_module(asked, name)
-    file = found[0].file
-    told = {"modname": found[0].name, "filename": file.target or file.path, "attribute": ""}
-    return show(Item("rap-module", found[0].name, told))
+    task, name = task_to_boot(context, request), request.names["module"]
+    result = [m for m in context.runner.programs.modules(task) if m.name.lower() == name.lower()]
+    if not result:
+        raise no_module(request, name)
+    file = result[0].file
+    notify = {"modname": result[0].name, "filename": file.target or file.path, "attribute": ""}
+    return show(Item("rap-module", result[0].name, notify))
 
 
-def no_module(asked: RwsRequest, name: str) -> RequestDenied:
+def no_module(request: RwsRequest, name: str) -> RequestDenied:
     """The answer for a module that is not there."""
     return RequestDenied(
-        400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517
+        400 if request.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517
     )
 
 
 @serves(ops.LOAD_MODULE)
-def load_module(office: "RwsContext", asked: RwsRequest) -> RwsResponse | None:
+def load_module(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
     """Load a module; what is wrong in it is told by `builderror`, not here [VC 7.21]."""
-    office.masters.need(asked, "rapid")
-    task = find_task(office, asked.names["task"], asked)
-    words = asked.field("modulepath")
-    replaced = asked.form.get("replace", "false").lower() == "true"
-    path = disk_path(office, words, asked)
+    context.masters.need(request, "rapid")
+    task = find_task(context, request.names["task"], request)
+    text = request.field("modulepath")
+    replaced = request.form.get("replace", "false").lower() == "true"
+    path = disk_path(context, text, request)
     try:
-        name = office.cabinet.programs.load(task, path, words, replaced=replaced)
+        name = context.runner.programs.load(task, path, text, replaced=replaced)
     except CannotLoad as fault:
-        raise load_refused(asked, fault, words) from fault
-    if asked.is_one:
+        raise load_refused(request, fault, text) from fault
+    if request.is_one:
         return None
     return show(Item("rap-task-module-li", name, {"name": name}))
 
 
 @serves(ops.UNLOAD_MODULE)
-def unload_module(office: "RwsContext", asked: RwsRequest) -> None:
+def unload_module(context: "RwsContext", request: RwsRequest) -> None:
     """Take a module out of a task."""
-    office.masters.need(asked, "rapid")
-    task = find_task(office, asked.names["task"], asked)
-    name = asked.field("module")
+    context.masters.need(request, "rapid")
+    task = find_task(context, request.names["task"], request)
+    name = request.field("module")
     try:
-        office.cabinet.programs.unload(task, name)
+        context.runner.programs.unload(task, name)
     except CannotLoad as fault:
-        raise load_refused(asked, fault, name) from fault
+        raise load_refused(request, fault, name) from fault
 
 
-def load_refused(asked: RwsRequest, fault: CannotLoad, what: str) -> RequestDenied:
+def load_refused(request: RwsRequest, fault: CannotLoad, what: str) -> RequestDenied:
     """The answer to a module that is not taken, or not given away."""
     name = str(fault)
-    return RequestDenied(_STATUS[name][0 if asked.is_one else 1], name, what, -507)
+    return RequestDenied(_STATUS[name][0 if request.is_one else 1], name, what, -507)
 
 
 @serves(ops.SAVE_MODULE)
-def save_module(office: "RwsContext", asked: RwsRequest) -> None:
+def save_module(context: "RwsContext", request: RwsRequest) -> None:
     """Write a module with the present values of its persistents; an ending is put behind."""
-    task, name = task_to_boot(office, asked), asked.names["module"]
+    task, name = task_to_boot(context, request), request.names["module"]
     module = task.program.modules.get(name.lower())
     if module is None:
-        raise no_module(asked, name)
-    folder = asked.field("path")
-    if not asked.is_one and not folder.endswith(":"):
+        raise no_module(request, name)
+    folder = request.field("path")
+    if not request.is_one and not folder.endswith(":"):
         raise RequestDenied(400, "E_INVALID_PATH", folder)  # the root of a volume only [VC 7.21]
-    ending = ".mod" if asked.is_one else ".modx"
-    path = disk_path(office, f"{folder.rstrip('/')}/{asked.field('name')}{ending}", asked)
+    ending = ".mod" if request.is_one else ".modx"
+    path = disk_path(context, f"{folder.rstrip('/')}/{request.field('name')}{ending}", request)
     text = module_text(task, module)
-    office.write_file(path, text.encode(module.tree.source.encoding, "replace"))
+    context.write_file(path, text.encode(module.tree.source.encoding, "replace"))

@@ -25,33 +25,33 @@ class _Module:
     text: str
 
 
-def _module(office: "RwsContext", asked: RwsRequest) -> _Module:
-    task, name = task_to_boot(office, asked), asked.names["module"]
-    programs = office.cabinet.programs
+def _module(context: "RwsContext", request: RwsRequest) -> _Module:
+    task, name = task_to_boot(context, request), request.names["module"]
+    programs = context.runner.programs
     text = programs.text(task, name)
     for module in programs.modules(task):
         if module.name.lower() == name.lower() and text is not None:
             return _Module(task, module.file, text)
-    raise no_module(asked, name)
+    raise no_module(request, name)
 
 
-def _count(office: "RwsContext", task: Task) -> str:
-    return str(office.cabinet.programs.changes[task.name])
+def _count(context: "RwsContext", task: Task) -> str:
+    return str(context.runner.programs.changes[task.name])
 
 
 @serves(ops.MODULE_TEXT)
-def get_text(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_text(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """The source of a module."""
-    module = _module(office, asked)
-    told = {"change-count": _count(office, module.task), "module-text": module.text}
-    return show(Item("rap-module-text", asked.names["module"], told))
+    module = _module(context, request)
+    notify = {"change-count": _count(context, module.task), "module-text": module.text}
+    return show(Item("rap-module-text", request.names["module"], notify))
 
 
 @serves(ops.MODULE_COUNT)
-def get_count(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """How often the program that a module is in was changed."""
-    count = _count(office, _module(office, asked).task)
-    return show(Item("rap-module-changecount", asked.names["module"], {"count": count}))
+    count = _count(context, _module(context, request).task)
+    return show(Item("rap-module-changecount", request.names["module"], {"count": count}))
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,50 +79,50 @@ def _range(text: str, fields: dict[str, str]) -> _Range:
             raise RequestDenied(400, "E_INVALIDARG", f"{column} {over}")
         return sum(map(len, rows[: at - 1])) + (over if last else max(over, 1) - 1)
 
-    found = _Range(offset("startrow", "startcol", False), offset("endrow", "endcol", True))
-    if found.end < found.begin:
+    result = _Range(offset("startrow", "startcol", False), offset("endrow", "endcol", True))
+    if result.end < result.begin:
         raise RequestDenied(400, "E_INVALIDARG", "it ends before it begins")
-    return found
+    return result
 
 
 @serves(ops.TEXT_RANGE)
-def get_range(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def get_range(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """A piece of the source; -1 is the end."""
-    text = _module(office, asked).text
-    piece = _range(text, dict(asked.query))
-    told = {"text": text[piece.begin : piece.end]}
-    return show(Item("rap-mod-text", asked.names["module"], told))
+    text = _module(context, request).text
+    piece = _range(text, dict(request.query))
+    notify = {"text": text[piece.begin : piece.end]}
+    return show(Item("rap-mod-text", request.names["module"], notify))
 
 
 @serves(ops.TEXT_SEARCH)
-def search(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Where a text stands, whatever its case."""
-    wanted = asked.query.get("text", "").lower()
-    found: list[Item] = []
-    if not wanted:
+    requested = request.query.get("text", "").lower()
+    result: list[Item] = []
+    if not requested:
         raise RequestDenied(400, "E_INVALIDARG", "text")
-    for number, row in enumerate(_module(office, asked).text.splitlines(), 1):
-        column = row.lower().find(wanted)
+    for number, row in enumerate(_module(context, request).text.splitlines(), 1):
+        column = row.lower().find(requested)
         if column >= 0:
             place = {"row": str(number), "column": str(column + 1)}
-            found.append(Item("rap-text-position", str(len(found) + 1), place))
-    return show(*found, collection=True)
+            result.append(Item("rap-text-position", str(len(result) + 1), place))
+    return show(*result, collection=True)
 
 
 @serves(ops.SET_TEXT)
-def set_text(office: "RwsContext", asked: RwsRequest) -> None:
+def set_text(context: "RwsContext", request: RwsRequest) -> None:
     """Another source for a module; what is wrong in it is told by `builderror`."""
-    office.masters.need(asked, "rapid")
-    _put(office, asked, _module(office, asked), asked.field("text"))
+    context.masters.need(request, "rapid")
+    _put(context, request, _module(context, request), request.field("text"))
 
 
 @serves(ops.SET_TEXT_RANGE)
-def set_range(office: "RwsContext", asked: RwsRequest) -> None:
+def set_range(context: "RwsContext", request: RwsRequest) -> None:
     """Another text for a piece of the source, or one more before or behind it."""
-    office.masters.need(asked, "rapid")
-    module, more = _module(office, asked), asked.field("text")
-    piece = _range(module.text, asked.form)
-    mode = asked.form.get("replace-mode", "Replace").lower()
+    context.masters.need(request, "rapid")
+    module, more = _module(context, request), request.field("text")
+    piece = _range(module.text, request.form)
+    mode = request.form.get("replace-mode", "Replace").lower()
     begin, end = {
         "replace": (piece.begin, piece.end),
         "before": (piece.begin, piece.begin),
@@ -130,13 +130,13 @@ def set_range(office: "RwsContext", asked: RwsRequest) -> None:
     }.get(mode, (-1, -1))
     if begin < 0:
         raise RequestDenied(400, "E_INVALIDARG", f"replace-mode {mode}")
-    _put(office, asked, module, module.text[:begin] + more + module.text[end:])
+    _put(context, request, module, module.text[:begin] + more + module.text[end:])
 
 
-def _put(office: "RwsContext", asked: RwsRequest, module: _Module, text: str) -> None:
-    name, programs = asked.names["module"], office.cabinet.programs
+def _put(context: "RwsContext", request: RwsRequest, module: _Module, text: str) -> None:
+    name, programs = request.names["module"], context.runner.programs
     file = ModuleFile(module.file.name, module.file.path, text.encode())
-    new = office.controller.parse_module(file).name or name
+    new = context.controller.parse_module(file).name or name
     try:
         if new.lower() != name.lower():
             if any(m.name.lower() == new.lower() for m in programs.modules(module.task)):
@@ -144,4 +144,4 @@ def _put(office: "RwsContext", asked: RwsRequest, module: _Module, text: str) ->
             programs.unload(module.task, name)
         programs.put(module.task, file, replaced=True)
     except CannotLoad as fault:
-        raise load_refused(asked, fault, name) from fault
+        raise load_refused(request, fault, name) from fault

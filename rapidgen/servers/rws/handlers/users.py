@@ -16,30 +16,30 @@ if TYPE_CHECKING:
 
 
 @serves(ops.LOGOUT)
-def logout(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def logout(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """End the session; what it held is free, but RobotWare 8's write access."""
-    office.end_session(asked.session)
+    context.end_session(request.session)
     return show(title="logout")
 
 
 @serves(ops.REGISTER_USER)
-def register(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def register(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Say who it is, for others to read."""
-    session = asked.session
-    session.alias = asked.form.get("username", "")
-    session.application = asked.form.get("application", "")
-    session.location = asked.form.get("location", "")
+    session = request.session
+    session.alias = request.form.get("username", "")
+    session.application = request.form.get("application", "")
+    session.location = request.form.get("location", "")
     return RwsResponse(201)
 
 
 @serves(ops.USERS)
-def users(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def users(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Who is logged in: one entry a session, in RWS 2.0 one a user [code: abb-rws-client]; of the
     class it is known that `user` is in it, the rest is [mem]."""
     sessions: dict[object, Session] = {}
-    for session in office.sessions():
-        sessions.setdefault(session.number if asked.is_one else session.user, session)
-    found = [
+    for session in context.sessions():
+        sessions.setdefault(session.number if request.is_one else session.user, session)
+    result = [
         Item(
             "user-li",
             session.user,
@@ -53,99 +53,101 @@ def users(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
         )
         for session in sessions.values()
     ]
-    return show(*found, collection=True)
+    return show(*result, collection=True)
 
 
 @serves(ops.SET_LOCALE)
-def set_locale(office: "RwsContext", asked: RwsRequest) -> None:
+def set_locale(context: "RwsContext", request: RwsRequest) -> None:
     """Local users press the enabling device within 5 s, which nobody does here."""
-    if asked.field("type", ("local", "remote")) == "local":
+    if request.field("type", ("local", "remote")) == "local":
         raise RequestDenied(403, "E_REJECT", "no enabling device is pressed", -2)
 
 
 @serves(ops.IMPERSONATE)
-def impersonate(office: "RwsContext", asked: RwsRequest) -> None:
+def impersonate(context: "RwsContext", request: RwsRequest) -> None:
     """Act as another session's user, by its number."""
-    number = asked.field("uid")
-    for other in office.sessions():
+    number = request.field("uid")
+    for other in context.sessions():
         if str(other.number) == number:
-            if office.login.granted(other.user) - office.login.granted(asked.session.user):
+            if context.login.granted(other.user) - context.login.granted(request.session.user):
                 raise RequestDenied(403, "E_UAS_REJECT", f"user {number} may do more", -757)
-            asked.session.user = other.user
+            request.session.user = other.user
             return
     raise RequestDenied(400, "E_INVALIDARG", f"no user {number}")
 
 
 @serves(ops.ALL_GRANTS)
-def all_grants(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def all_grants(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """All grants that there are."""
     names = ("grantname", "description")
-    found = (Item("uas-grant", g, dict.fromkeys(names, g)) for g in sorted(GRANTS))
-    return show(*found, collection=True)
+    result = (Item("uas-grant", g, dict.fromkeys(names, g)) for g in sorted(GRANTS))
+    return show(*result, collection=True)
 
 
 @serves(ops.PASSWORD_CHANGE)
-def password_change(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def password_change(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether this user may change the password: nobody may, here."""
     return show(Item("uas-password-change-allow", "allow", {"password-change-allow": "false"}))
 
 
 @serves(ops.LOGIN_INFO)
-def login_info(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def login_info(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Who is logged in."""
-    return show(Item("user-login-info", asked.session.user, {"name": asked.session.user}))
+    return show(Item("user-login-info", request.session.user, {"name": request.session.user}))
 
 
-def _grants(office: "RwsContext", asked: RwsRequest) -> list[str]:
-    return sorted(office.login.granted(asked.session.user))
+def _grants(context: "RwsContext", request: RwsRequest) -> list[str]:
+    return sorted(context.login.granted(request.session.user))
 
 
 @serves(ops.GRANTS)
-def grants(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def grants(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What this user may do."""
-    if asked.is_one:
-        return show(*(Item("user-grant", g) for g in _grants(office, asked)), collection=True)
-    found = (Item("uas-grant", g, {"grantname": g}) for g in _grants(office, asked))
-    return show(*found, collection=True)
+    if request.is_one:
+        return show(*(Item("user-grant", g) for g in _grants(context, request)), collection=True)
+    result = (Item("uas-grant", g, {"grantname": g}) for g in _grants(context, request))
+    return show(*result, collection=True)
 
 
 @serves(ops.GRANT_EXISTS)
-def grant_exists(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def grant_exists(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether this user may do one thing."""
-    wanted = asked.query.get("grant", "")
-    told = "true" if wanted in _grants(office, asked) else "false"
-    return show(Item("user-grant-status", wanted, {"status": told}))
+    requested = request.query.get("grant", "")
+    notify = "true" if requested in _grants(context, request) else "false"
+    return show(Item("user-grant-status", requested, {"status": notify}))
 
 
 @serves(ops.RETCODE)
-def retcode(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def retcode(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """What a code means; without one, all of them."""
-    if "code" not in asked.query:
-        found = [
+    if "code" not in request.query:
+        result = [
             Item("err-desc", str(code), {"name": name, "code": str(code)})
             for code, name in NAMES.items()
         ]
-        return show(*found, collection=True)
+        return show(*result, collection=True)
     try:
-        code = int(asked.query.get("code", ""))
+        code = int(request.query.get("code", ""))
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", "code") from error
     name = name_of(code)
     severity = "Error" if code < 0 else "Success"
-    told = {"name": name, "code": str(code), "severity": severity, "description": name}
-    return show(Item("err-desc", str(code), told))
+    notify = {"name": name, "code": str(code), "severity": severity, "description": name}
+    return show(Item("err-desc", str(code), notify))
 
 
 # -- RMMP: remote writing in manual mode ----------------------------------------------------------
 
 
 @serves(ops.ASK_RMMP)
-def ask_rmmp(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def ask_rmmp(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Ask the pendant's user for the right to write in manual mode."""
-    _no_rmmp_on_8(office)
-    wanted = asked.field("privilege", ("modify", "exec"))
-    privilege: Privilege = "exec" if wanted == "exec" else "modify"
-    if office.controller.mode != "auto" and not office.masters.manual.ask(asked.session, privilege):
+    _no_rmmp_on_8(context)
+    requested = request.field("privilege", ("modify", "exec"))
+    privilege: Privilege = "exec" if requested == "exec" else "modify"
+    if context.controller.mode != "auto" and not context.masters.manual.ask(
+        request.session, privilege
+    ):
         raise RequestDenied(
             403, "E_RESOURCE_HELD", "another session asks for it, or has it", -4_502
         )
@@ -153,27 +155,27 @@ def ask_rmmp(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.CANCEL_RMMP)
-def cancel_rmmp(office: "RwsContext", asked: RwsRequest) -> None:
+def cancel_rmmp(context: "RwsContext", request: RwsRequest) -> None:
     """Ask no more, or give it back."""
-    _no_rmmp_on_8(office)
-    office.masters.manual.cancel(asked.session)
+    _no_rmmp_on_8(context)
+    context.masters.manual.cancel(request.session)
 
 
 @serves(ops.RMMP)
-def rmmp(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def rmmp(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Who may write in manual mode, or asks for it."""
-    _no_rmmp_on_8(office)
-    manual = office.masters.manual
+    _no_rmmp_on_8(context)
+    manual = context.masters.manual
     who = manual.session
-    told = {
+    notify = {
         "userid": str(who.number if who else 0),
         "alias": (who.alias or who.user) if who else "",
         "location": who.location if who else "",
         "application": who.application if who else "",
         "privilege": ("" if manual.granted else "pending ") + manual.privilege if who else "none",
-        "rmmpheldbyme": "true" if manual.has(asked.session, "modify") else "false",
+        "rmmpheldbyme": "true" if manual.has(request.session, "modify") else "false",
     }
-    return show(Item("user-rmmp", "rmmp", told))
+    return show(Item("user-rmmp", "rmmp", notify))
 
 
 _POLLED = {
@@ -183,27 +185,27 @@ _POLLED = {
 
 
 @serves(ops.RMMP_POLL)
-def poll_rmmp(office: "RwsContext", asked: RwsRequest) -> RwsResponse:
+def poll_rmmp(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Whether it was granted; keeps the question on the pendant. In automatic mode it need not be.
 
     PENDING and GRANTED are ABB's words [code: abb_robot_client], those for a refusal are ours.
     """
-    _no_rmmp_on_8(office)
-    manual = office.masters.manual
-    manual.keep(asked.session)
-    state = "GRANTED" if office.controller.mode == "auto" else manual.state(asked.session)
-    told = {"code": str(CODES[_POLLED[state]]), "status": state}
-    return show(Item("user-rmmp-poll", "poll", told))
+    _no_rmmp_on_8(context)
+    manual = context.masters.manual
+    manual.keep(request.session)
+    state = "GRANTED" if context.controller.mode == "auto" else manual.state(request.session)
+    notify = {"code": str(CODES[_POLLED[state]]), "status": state}
+    return show(Item("user-rmmp-poll", "poll", notify))
 
 
 @serves(ops.GRANT_RMMP)
-def grant_rmmp(office: "RwsContext", asked: RwsRequest) -> None:
+def grant_rmmp(context: "RwsContext", request: RwsRequest) -> None:
     """A local user's answer to a request: nobody is local here."""
-    asked.field("uid")
-    asked.field("privilege", ("modify", "exec", "deny"))
+    request.field("uid")
+    request.field("privilege", ("modify", "exec", "deny"))
     raise RequestDenied(403, "E_REJECT", "only a local user grants", -2)
 
 
-def _no_rmmp_on_8(office: "RwsContext") -> None:
-    if office.generation is Generation.EIGHT:
+def _no_rmmp_on_8(context: "RwsContext") -> None:
+    if context.generation is Generation.EIGHT:
         raise RequestDenied(500, "E_UNEXPECTED", "RMMP")
