@@ -8,6 +8,7 @@ import dataclasses
 import types
 import typing
 from dataclasses import dataclass, field
+from functools import cache
 from typing import TypeVar
 
 from pydantic_core import ErrorDetails, SchemaValidator, ValidationError
@@ -20,6 +21,8 @@ from rapidgen.config.yaml_tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
+_MOST_ADVISED = 200
+"""Findings with advice; more than are ever shown."""
 _SCHEMA = "`rapidgen schema{}` has all keys, and what each takes"
 T = TypeVar("T")
 
@@ -58,7 +61,9 @@ def valid_subset(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic],
                     findings.append(_missing(root, item["loc"]))
                 path = path if len(path) < len(item["loc"]) else path[:-1]
             elif path not in paths:
-                findings.append(_translate(root, kind, path, is_key, item))
+                # More are counted and not shown: to look for what was meant would take long.
+                advise = len(findings) < _MOST_ADVISED
+                findings.append(_translate(root, kind, path, is_key, item, advise))
             paths.add(path)
         removed |= paths
         for path in sorted(paths, key=len, reverse=True):
@@ -115,14 +120,16 @@ def _missing(root: MappingNode, loc: Path) -> Diagnostic:
 
 
 def _translate(
-    root: MappingNode, kind: type, path: Path, is_key: bool, item: ErrorDetails
+    root: MappingNode, kind: type, path: Path, is_key: bool, item: ErrorDetails, advise: bool
 ) -> Diagnostic:
     key, value = place_of(root, path)
     schema = _SCHEMA.format("" if kind is ConfigurationKeys else " --cell")
     if item["type"] == "unexpected_keyword_argument":
         known = _keys_at(kind, path[:-1])
-        elsewhere = _belongs(str(path[-1]), path[:-1]) if kind is ConfigurationKeys else ""
-        meant = elsewhere or suggest(str(path[-1]), known)
+        meant = ""
+        if advise:
+            elsewhere = _belongs(str(path[-1]), path[:-1]) if kind is ConfigurationKeys else ""
+            meant = elsewhere or suggest(str(path[-1]), known)
         where = f" in '{shown(root, path[:-1])}'" if len(path) > 1 else ""
         return error(
             "RG005",
@@ -201,6 +208,7 @@ def _reason(item: ErrorDetails, is_key: bool) -> str:
     return str(item["msg"])
 
 
+@cache
 def _keys_at(kind: type, path: Path) -> tuple[str, ...]:
     """Keys that the schema knows at a path of the canonical tree."""
     if not path and kind is ConfigurationKeys:

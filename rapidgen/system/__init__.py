@@ -39,8 +39,8 @@ _FILES = {
         "backup": "is_backup read_backup",
         "cfg": "Attribute CfgText Instance Section cfg_bytes parse_cfg write_cfg",
         "folder": "expand_lines is_generated read_folder read_manifest",
-        "compose": "eio_cfg sys_cfg",
-        "loose": "read_files task_folders",
+        "cfg_writer": "eio_cfg sys_cfg",
+        "loose_files": "read_files task_folders",
         "model": "CrossConnection EventRoutine MechanicalUnitGroup ModuleFile SignalSpec System "
         "SystemInput SystemOutput TaskSpec",
     }.items()

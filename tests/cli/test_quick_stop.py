@@ -208,8 +208,8 @@ def test_no_group_waits_for_the_answer_of_another(monkeypatch):
 def test_nothing_heavy_is_imported_before_it():
     script = (
         "import sys\n"
-        "from rapidgen.cli import entry, quick_stop\n"
-        "assert quick_stop.addresses(['irb14000']) == "
+        "from rapidgen.cli import entry, send_stop\n"
+        "assert send_stop.addresses(['irb14000']) == "
         "[('127.0.0.1', 11000), ('127.0.0.1', 11010)]\n"
         "own = {n for n in sys.modules if n.startswith('rapidgen')}\n"
         "heavy = {'typer', 'numpy', 'ruamel', 'asyncio', 'threading', 'json', 'dataclasses'}\n"

@@ -14,7 +14,7 @@ def told(*reads):
         now += step
         for _ in range(count):
             number += 1
-            meter.took(now, number)
+            meter.add_sample(now, number)
         rates.append(meter.rate)
     return rates
 
@@ -65,7 +65,7 @@ def test_no_stall_of_a_tunnel_makes_a_controller_seem_a_simulation():
                 if begin <= now < begin + length:
                     now = begin + length
             free = max(now, free + dice.choice([0, 0.0005, 0.002]))
-            meter.took(free, number)
+            meter.add_sample(free, number)
             assert (meter.rate or 0) * 0.1 <= 1.2, (seed, number)
 
 

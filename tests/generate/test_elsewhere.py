@@ -33,14 +33,14 @@ def test_the_values_of_another_module_are_taken_at_the_next_trajectory(given_by)
         assert view["ROS_motion:tool_now"].tload.mass == 1.5
         bench.start_motion(link, bench.wave(6), 0.3)
         tool, load = view["own_data:tGripper"], view["own_data:lPart"]
-        tool.tload.mass, load.mass = 2.5, 0.75
+        tool.tload.mass, load.mass = 2.0, 0.75
         view["own_data:tGripper"], view["own_data:lPart"] = tool, load
         bench.run(0.5)
         assert view["ROS_motion:tool_now"].tload.mass == 1.5
         bench.wait_until_standing()
         bench.run(0.5)
         bench.assert_moves_through(link, bench.wave(3))
-        assert view["ROS_motion:tool_now"].tload.mass == 2.5
+        assert view["ROS_motion:tool_now"].tload.mass == 2.0
         assert view["ROS_motion:load_now"].mass == 0.75
         bench.assert_healthy()
 

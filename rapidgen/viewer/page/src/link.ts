@@ -1,6 +1,6 @@
 // The connection to the server: messages come, requests go, a lost one is made again.
 
-import type { FromPage, Replied, Request, ToPage } from "./messages";
+import type { PageRequest, PageReply, Request, ToPage } from "./messages";
 
 export type Connection = "connecting" | "open" | "lost" | "refused";
 type Of<T extends ToPage["type"]> = Extract<ToPage, { type: T }>;
@@ -71,7 +71,7 @@ export class Link {
     for (const listener of this.listeners.get(message.type) ?? []) listener(message as never);
   }
 
-  private settle(reply: Replied): void {
+  private settle(reply: PageReply): void {
     this.pending.get(reply.id)?.(reply.error, reply.text);
     this.pending.delete(reply.id);
   }
@@ -79,7 +79,7 @@ export class Link {
   /** Ask for something; the text of the answer. Rejected: it was refused, the message says why. */
   ask(request: Request): Promise<string> {
     const id = ++this.number;
-    const asked: FromPage = { id, request };
+    const asked: PageRequest = { id, request };
     return new Promise((resolve, reject) => {
       if (this.socket?.readyState !== WebSocket.OPEN) return reject(new Error("not connected"));
       this.pending.set(id, (error, text) => (error ? reject(new Error(error)) : resolve(text)));

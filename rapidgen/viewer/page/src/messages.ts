@@ -1,18 +1,5 @@
 // Made of rapidgen/viewer/messages.py by `python -m tests.viewer.page_types`; do not edit.
 
-/** A button of the pendant, or something that goes wrong. */
-export interface Act {
-  readonly do: "act";
-  readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
-}
-
-/** Let a connection be slow, silent and so on from now on. */
-export interface Afflict {
-  readonly do: "afflict";
-  readonly number: number;
-  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
-}
-
 /** All signals. */
 export interface AllSignals {
   readonly type: "signals";
@@ -53,7 +40,7 @@ export interface Connections {
 export interface Conversation {
   readonly type: "conversation";
   readonly listening: boolean;
-  readonly lines: readonly SpokenLine[];
+  readonly lines: readonly SocketLogLine[];
   readonly missed: number;
   readonly fresh: boolean;
 }
@@ -66,7 +53,7 @@ export interface Copy {
 }
 
 /** Count how often lines are reached from now on, or no more. */
-export interface Cover {
+export interface CountLines {
   readonly do: "cover";
   readonly on: boolean;
 }
@@ -78,10 +65,11 @@ export interface Covered {
   readonly lines: Readonly<Record<string, number>>;
 }
 
-/** Cut a connection: the task's socket is reset, and so is the other end. */
-export interface Cut {
-  readonly do: "cut";
-  readonly number: number;
+/** Pause, go on, step a task. */
+export interface DebugCommand {
+  readonly do: "drive";
+  readonly how: "pause" | "resume" | "in" | "over" | "out";
+  readonly task: string;
 }
 
 /** Breakpoints, the pause, lines of log points, the latest last. */
@@ -108,53 +96,26 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
-/** Check a file's text for a robot; nothing moves. */
-export interface DropTrajectory {
-  readonly do: "drop";
-  readonly group: string;
-  readonly file: string;
-  readonly text: string;
-}
-
-/** A trajectory as it was checked; the file's name is empty when there is none. */
-export interface DroppedTrajectory {
-  readonly type: "trajectory";
-  readonly group: string;
-  readonly file: string;
-  readonly seconds: number;
-  readonly points: number;
-  readonly way: readonly (readonly [number, number, number])[];
-  readonly pace: readonly number[];
-  readonly steps: number;
-  readonly findings: readonly TrajectoryFinding[];
-  readonly state: "refused" | "checked" | "running" | "done" | "failed";
-  readonly told: string;
-}
-
 /** The reply's text is the value of an expression where it is looked at. */
 export interface Evaluate {
   readonly do: "evaluate";
   readonly expression: string;
 }
 
-/** Take it off the page. */
-export interface ForgetTrajectory {
-  readonly do: "forget";
-}
-
-/** A request and the number that its reply will have. */
-export interface FromPage {
-  readonly id: number;
-  readonly request: Act | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | Cut | Afflict | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | Proceed | RunTo | RunFor | StopOnErrors | LookAt | Evaluate | Assign | SetWatch | Cover | Seek | Play | ReadCurves | DropTrajectory | RunTrajectory | ForgetTrajectory;
-}
-
 /** What the routine that is looked at holds, and the watch list. */
-export interface HeldValues {
+export interface FrameValues {
   readonly type: "held";
   readonly task: string;
   readonly level: number;
   readonly variables: readonly SeenValue[];
   readonly watch: readonly SeenValue[];
+}
+
+/** Let a connection be slow, silent and so on from now on. */
+export interface InjectFault {
+  readonly do: "afflict";
+  readonly number: number;
+  readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
 }
 
 /** Put a standing robot elsewhere: controller axes in wire order; None: where it is. `relative`: by so much from where it is when the request is carried out. */
@@ -209,11 +170,18 @@ export interface LogEntry {
   readonly task: string;
 }
 
-/** Show the values of a routine of a call stack from now on; -1: the innermost. */
-export interface LookAt {
-  readonly do: "look";
-  readonly task: string;
-  readonly level: number;
+/** The answer to a request; `error` is empty when it was carried out. */
+export interface PageReply {
+  readonly type: "reply";
+  readonly id: number;
+  readonly error: string;
+  readonly text: string;
+}
+
+/** A request and the number that its reply will have. */
+export interface PageRequest {
+  readonly id: number;
+  readonly request: PendantAction | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | ResetConnection | InjectFault | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | DebugCommand | RunTo | RunFor | StopOnErrors | SelectFrame | Evaluate | Assign | SetWatch | CountLines | Seek | Play | ReadCurves | UploadTrajectory | RunTrajectory | RemoveTrajectory;
 }
 
 /** What the pendant's status bar says. */
@@ -230,6 +198,12 @@ export interface PanelState {
   readonly tasks: Readonly<Record<string, string>>;
   readonly override: number | null;
   readonly pace: number | null;
+}
+
+/** A button of the pendant, or something that goes wrong. */
+export interface PendantAction {
+  readonly do: "act";
+  readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
 /** Let it run, at so many seconds in a second; 0 stops. */
@@ -252,7 +226,7 @@ export interface Playback {
 export interface Pointers {
   readonly type: "pointers";
   readonly time: number;
-  readonly tasks: readonly SeenTask[];
+  readonly tasks: readonly TaskPosition[];
 }
 
 /** A frame: position m, orientation q1..q4. */
@@ -266,13 +240,6 @@ export interface Positions {
   readonly type: "positions";
   readonly time: number;
   readonly groups: readonly RobotPlace[];
-}
-
-/** Pause, go on, step a task. */
-export interface Proceed {
-  readonly do: "drive";
-  readonly how: "pause" | "resume" | "in" | "over" | "out";
-  readonly task: string;
 }
 
 /** The reply's text is PlotData (JSON) of a robot's axes or of a signal. */
@@ -302,12 +269,15 @@ export interface RemoveBreakpoint {
   readonly number: number;
 }
 
-/** The answer to a request; `error` is empty when it was carried out. */
-export interface Replied {
-  readonly type: "reply";
-  readonly id: number;
-  readonly error: string;
-  readonly text: string;
+/** Take it off the page. */
+export interface RemoveTrajectory {
+  readonly do: "forget";
+}
+
+/** Cut a connection: the task's socket is reset, and so is the other end. */
+export interface ResetConnection {
+  readonly do: "cut";
+  readonly number: number;
 }
 
 /** Where a robot is. `joints` and `commanded` are URDF values, `axes` the controller's. */
@@ -417,14 +387,6 @@ export interface SeenTarget {
   readonly pose: Pose;
 }
 
-/** A task: what it executes, outermost routine first, and what its robot executes. */
-export interface SeenTask {
-  readonly name: string;
-  readonly state: string;
-  readonly stack: readonly SeenPlace[];
-  readonly motion: SeenPlace | null;
-}
-
 /** A mesh of the cell, by its name on this server. */
 export interface SeenThing {
   readonly name: string;
@@ -439,6 +401,13 @@ export interface SeenValue {
   readonly kind: string;
   readonly text: string;
   readonly settable: boolean;
+}
+
+/** Show the values of a routine of a call stack from now on; -1: the innermost. */
+export interface SelectFrame {
+  readonly do: "look";
+  readonly task: string;
+  readonly level: number;
 }
 
 /** A new one, or another wish for one that is there; the reply's text is its number. */
@@ -509,14 +478,8 @@ export interface SignalValues {
   readonly values: Readonly<Record<string, number>>;
 }
 
-/** The answer to ReadOrigin: each line that a template made, the template and its line. */
-export interface SourceOrigin {
-  readonly lines: readonly (readonly [number, string, number])[];
-  readonly templates: Readonly<Record<string, string>>;
-}
-
 /** A frame of simple_message, or bytes that are none; `way` is seen from the program. */
-export interface SpokenLine {
+export interface SocketLogLine {
   readonly time: number;
   readonly way: "open" | "in" | "out" | "close";
   readonly task: string;
@@ -525,6 +488,12 @@ export interface SpokenLine {
   readonly name: string;
   readonly text: string;
   readonly fault: boolean;
+}
+
+/** The answer to ReadOrigin: each line that a template made, the template and its line. */
+export interface SourceOrigin {
+  readonly lines: readonly (readonly [number, string, number])[];
+  readonly templates: Readonly<Record<string, string>>;
 }
 
 /** At which errors everything pauses. */
@@ -539,6 +508,14 @@ export interface Targets {
   readonly targets: readonly SeenTarget[];
 }
 
+/** A task: what it executes, outermost routine first, and what its robot executes. */
+export interface TaskPosition {
+  readonly name: string;
+  readonly state: string;
+  readonly stack: readonly SeenPlace[];
+  readonly motion: SeenPlace | null;
+}
+
 /** What is wrong or doubtful; `point` counts from 0, None: it is of no point. */
 export interface TrajectoryFinding {
   readonly code: string;
@@ -549,6 +526,29 @@ export interface TrajectoryFinding {
   readonly point: number | null;
 }
 
-export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | DroppedTrajectory | HeldValues | LoadedPrograms | Log | PanelState | Playback | Pointers | Positions | Replied | Scene | Screen | SignalValues | Targets;
+/** Check a file's text for a robot; nothing moves. */
+export interface UploadTrajectory {
+  readonly do: "drop";
+  readonly group: string;
+  readonly file: string;
+  readonly text: string;
+}
 
-export type Request = Act | Afflict | AnswerQuestion | Assign | Copy | Cover | Cut | DropTrajectory | Evaluate | ForgetTrajectory | Jog | JogTo | Listen | LookAt | Play | Proceed | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RunFor | RunTo | RunTrajectory | Seek | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors;
+/** A trajectory as it was checked; the file's name is empty when there is none. */
+export interface UploadedTrajectory {
+  readonly type: "trajectory";
+  readonly group: string;
+  readonly file: string;
+  readonly seconds: number;
+  readonly points: number;
+  readonly way: readonly (readonly [number, number, number])[];
+  readonly pace: readonly number[];
+  readonly steps: number;
+  readonly findings: readonly TrajectoryFinding[];
+  readonly state: "refused" | "checked" | "running" | "done" | "failed";
+  readonly told: string;
+}
+
+export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | FrameValues | LoadedPrograms | Log | PageReply | PanelState | Playback | Pointers | Positions | Scene | Screen | SignalValues | Targets | UploadedTrajectory;
+
+export type Request = AnswerQuestion | Assign | Copy | CountLines | DebugCommand | Evaluate | InjectFault | Jog | JogTo | Listen | PendantAction | Play | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RemoveTrajectory | ResetConnection | RunFor | RunTo | RunTrajectory | Seek | SelectFrame | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors | UploadTrajectory;

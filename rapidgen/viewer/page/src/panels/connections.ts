@@ -2,13 +2,13 @@
 
 import { Asked } from "../asked";
 import { h, say, section } from "../dom";
-import type { Act, Afflict, ShownSocket, SpokenLine } from "../messages";
+import type { PendantAction, InjectFault, ShownSocket, SocketLogLine } from "../messages";
 import type { MakePanel, View } from "../panel";
 import { Rows, type Row } from "../rows";
 
-const FAULTS: readonly (readonly [Act["action"], string])[] =
+const FAULTS: readonly (readonly [PendantAction["action"], string])[] =
   [["e-stop", "Emergency stop"], ["motors-off", "Motors off"], ["stop", "Program stop"], ["power-loss", "Power failure"]];
-const AILMENTS: readonly (readonly [Afflict["ailment"], string])[] = [["well", "well"], ["delay", "0.5 s late"],
+const AILMENTS: readonly (readonly [InjectFault["ailment"], string])[] = [["well", "well"], ["delay", "0.5 s late"],
   ["split", "in pieces"], ["slow", "slow (400 B/s)"], ["silent", "silent"], ["half-open", "half open"]];
 const WAYS = { open: "·", in: "→", out: "←", close: "·" } as const;
 const MOST = 1000; // lines that are kept
@@ -33,25 +33,25 @@ export const connectionsPanel: MakePanel = (view) => {
 
 function row(socket: ShownSocket, view: View): Row<ShownSocket> {
   const ill: HTMLSelectElement = h("select", { "aria-label": `How ${socket.peer} fares`, onchange: () =>
-    void fares.ask({ do: "afflict", number: socket.number, ailment: ill.value as Afflict["ailment"] }) },
+    void fares.ask({ do: "afflict", number: socket.number, ailment: ill.value as InjectFault["ailment"] }) },
     ...AILMENTS.map(([value, text]) => h("option", { value }, text)));
-  const fares = new Asked<Afflict["ailment"]>(view, (ailment) => { ill.value = ailment; });
+  const fares = new Asked<InjectFault["ailment"]>(view, (ailment) => { ill.value = ailment; });
   const element = h("tr", {},
     h("th", { scope: "row" }, socket.peer || `${socket.status} on ${socket.local}`,
       h("small", {}, `${socket.task}${socket.peer ? ` · ${socket.local}` : ""}`)),
     h("td", {}, socket.peer ? h("div", { class: "row commands" }, ill,
-      h("button", { type: "button", onclick: () => view.order({ do: "cut", number: socket.number }) }, "Cut")) : null));
+      h("button", { type: "button", onclick: () => view.order({ do: "cut", number: socket.number }) }, "ResetConnection")) : null));
   return { element, show: (now) => fares.tell(now.ailment) };
 }
 
 interface Said {
-  line: SpokenLine;
+  line: SocketLogLine;
   count: number;
 }
 
 class ProtocolLog {
   readonly element: HTMLElement;
-  private lines: SpokenLine[] = [];
+  private lines: SocketLogLine[] = [];
   private missed = 0;
   private readonly listen: HTMLInputElement;
   private readonly words = h("input", { type: "search", placeholder: "Filter", "aria-label": "Filter what was said",

@@ -2,7 +2,7 @@
 
 import { Asked } from "../asked";
 import { Choice, h, say, section } from "../dom";
-import type { Act, Dialog, PanelState } from "../messages";
+import type { PendantAction, Dialog, PanelState } from "../messages";
 import type { MakePanel } from "../panel";
 import { Rows } from "../rows";
 
@@ -12,8 +12,8 @@ const PACES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
 export const pendantPanel: MakePanel = (view) => {
   const { link, order } = view;
   let status: PanelState | null = null;
-  const act = (action: Act["action"]) => () => order({ do: "act", action });
-  const button = (text: string, action: Act["action"], kind = ""): HTMLButtonElement =>
+  const act = (action: PendantAction["action"]) => () => order({ do: "act", action });
+  const button = (text: string, action: PendantAction["action"], kind = ""): HTMLButtonElement =>
     h("button", { type: "button", class: kind, onclick: act(action) }, text);
 
   const stop = h("button", {

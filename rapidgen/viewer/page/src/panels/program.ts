@@ -2,7 +2,7 @@
 
 import { Asked } from "../asked";
 import { h, say, section } from "../dom";
-import type { Debugging, Proceed, Pointers, SeenPlace, SeenValue } from "../messages";
+import type { Debugging, DebugCommand, Pointers, SeenPlace, SeenValue } from "../messages";
 import type { MakePanel, View } from "../panel";
 import { SourceEditor } from "../program/editor";
 import { Origins } from "../program/origin";
@@ -10,7 +10,7 @@ import { Points } from "../program/points";
 import { Sources } from "../program/sources";
 
 const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused", time: "Paused after a time step" };
-const KEYS: Record<string, Proceed["how"]> = { F5: "resume", F6: "pause", F10: "over", F11: "in" };
+const KEYS: Record<string, DebugCommand["how"]> = { F5: "resume", F6: "pause", F10: "over", F11: "in" };
 
 export const programPanel: MakePanel = (view) => new ProgramPanel(view);
 
@@ -149,7 +149,7 @@ class ProgramPanel {
     return { ...this.editor.seen, module: this.module, halted: this.debugging?.halt?.time ?? null };
   }
 
-  private drive(how: Proceed["how"]): void {
+  private drive(how: DebugCommand["how"]): void {
     this.follow.checked = true;
     this.view.order({ do: "drive", how, task: this.task });
   }

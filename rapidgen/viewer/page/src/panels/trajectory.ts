@@ -1,10 +1,10 @@
 // A trajectory from a file: checked, drawn with its speeds, executed by the simulator's driver.
 
 import { h, say, section } from "../dom";
-import type { DroppedTrajectory, TrajectoryFinding } from "../messages";
+import type { UploadedTrajectory, TrajectoryFinding } from "../messages";
 import type { MakePanel } from "../panel";
 
-const STATES: Record<DroppedTrajectory["state"], string> = {
+const STATES: Record<UploadedTrajectory["state"], string> = {
   refused: "It cannot be executed.", checked: "It can be executed.", running: "It is being executed.",
   done: "It was executed.", failed: "It was not executed to its end.",
 };
