@@ -44,7 +44,7 @@ def execute_motion(robot: "Robot", trajectory: "Trajectory", path: "Way", units:
     Raises as `Robot.execute` and `Execution.result`, KeyboardInterrupt.
     """
     with report_interruption(robot, units) as in_progress:
-        execution = robot.execute(trajectory, mode=path)
+        execution = robot.execute(trajectory, way=path)
         in_progress.append(execution)
         return follow(execution)
 

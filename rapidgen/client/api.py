@@ -395,7 +395,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
             return self._core.check(trajectory).way
 
     @_own
-    def execute(self, trajectory: Trajectory, *, mode: Way | None = None) -> Flow[Execution]:
+    def execute(self, trajectory: Trajectory, *, way: Way | None = None) -> Flow[Execution]:
         """Send a trajectory; returns when the controller has taken it and begins to move.
 
         `way` is `download` (whole, before anything moves) or `stream` (the rest is sent while
@@ -404,7 +404,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         when nothing will move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C here, or
         cancelling this, stops the robot.
         """
-        job = yield from flows.job.execute(self._core, trajectory, mode)
+        job = yield from flows.job.execute(self._core, trajectory, way)
         return self._execution_type(self._carrier, job)
 
     def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
@@ -422,7 +422,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         return checked.notes
 
     @_own
-    def run(self, program: Program, *, mode: Way | None = None) -> Flow[Run]:
+    def run(self, program: Program, *, way: Way | None = None) -> Flow[Run]:
         """Send a program; returns when the controller has taken it and begins to move.
 
         `way` is `download` (whole, and checked whole by the controller before anything moves) or
@@ -431,5 +431,5 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         sent, TrajectoryRefused when nothing will move, RobotTimeout, ConnectionLost. Ctrl-C here,
         or cancelling this, stops the robot.
         """
-        job = yield from flows.program.run(self._core, program, mode)
+        job = yield from flows.program.run(self._core, program, way)
         return self._run_type(self._carrier, job)

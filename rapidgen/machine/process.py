@@ -11,8 +11,8 @@ from rapidgen.machine.scheduler import Scheduler
 class Process:
     """A greenlet that is charged for what it does. RAPID tasks are processes.
 
-    What it is launched with runs in the greenlet `body`; `attend()` is called at every poll and
-    after every wait and is where a task serves traps and stops.
+    What it is launched with runs in the greenlet `body`; `process_pending()` is called at every
+    poll and after every wait and is where a task serves traps and stops.
     """
 
     __slots__ = ("_blocked", "_kicked", "b", "body", "name", "scheduler", "slice_end")
@@ -62,7 +62,7 @@ class Process:
     # -- inside the process ----------------------------------------------------------------------
 
     def block(self) -> None:
-        """Give the CPU away until somebody calls `wake()`; then `attend()`."""
+        """Give the CPU away until somebody calls `wake()`; then `process_pending()`."""
         self._blocked = True
         self.scheduler.suspend(self)
         self.process_pending()
@@ -79,7 +79,7 @@ class Process:
         return self.b
 
     def yield_cpu(self) -> None:
-        """Go to the end of the queue when others are ready; then `attend()`."""
+        """Go to the end of the queue when others are ready; then `process_pending()`."""
         self.switch()
         self.process_pending()
 
@@ -104,7 +104,7 @@ class Process:
             self.poll(self.b)
 
     def wake_at_next_statement(self) -> None:
-        """Let `attend()` be called before the next statement, or in the wait."""
+        """Let `process_pending()` be called before the next statement, or in the wait."""
         scheduler = self.scheduler
         self._kicked = True
         if scheduler.running is self:

@@ -171,7 +171,7 @@ class RapidTask(MotionWaiter, Protocol):
         """Spend `cost` nanoseconds of CPU."""
 
     def wake_at_next_statement(self) -> None:
-        """Let `attend()` be called before the next statement."""
+        """Let `process_pending()` be called before the next statement."""
 
     def process_pending(self) -> None:
         """Obey, stand, serve traps, as is due."""

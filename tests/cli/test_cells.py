@@ -73,7 +73,7 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
 
 
 @pytest.mark.parametrize(
-    ("statement", "words", "mend"),
+    ("statement", "words", "help"),
     [
         ("SetDO do1, 1;", [], "`--cell guess` makes signals"),
         ("x := y;", ["--cell", "guess"], "`rapidgen schema --cell`"),

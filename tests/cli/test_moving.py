@@ -176,7 +176,7 @@ def test_signals_of_a_driver_are_read_and_set(cell, capsys):
 
 
 @pytest.mark.parametrize(
-    ("text", "code", "said"),
+    ("text", "code", "message"),
     [
         (["move"], 2, "where to?"),
         (["move", "--joints", HOME, "--pose", "1,2,3"], 2, "--joints and --pose were given"),
@@ -221,7 +221,7 @@ def test_typed_wrong(cell, capsys, text, code, message):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         (["move", "--joints", "1,2,x"], "'x' is no number"),
         (["move", "--joints", "joint_1=1,2"], "'2' is not NAME=VALUE"),

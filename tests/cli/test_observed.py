@@ -69,7 +69,7 @@ def test_what_cannot_be_written_is_refused_before_anything_runs(capsys, program,
 
 
 @pytest.mark.parametrize(
-    ("statement", "told"),
+    ("statement", "text"),
     [
         ("SocketAccept s, c \\Time:=WAIT_MAX", "SocketAccept waits for a client on port 5000"),
         ("WaitDI di1, 1", "waits for di1 = 1; di1 is 0"),

@@ -70,7 +70,7 @@ def test_an_interruption_while_it_starts_ends_it_without_a_traceback():
 
 
 @pytest.mark.parametrize(
-    ("words", "told"),
+    ("words", "text"),
     [
         (["biuld"], "did you mean 'build'"),
         (["build"], "build --help"),

@@ -119,7 +119,7 @@ class Followed:
 
 
 @pytest.mark.parametrize(
-    ("back", "shown"),
+    ("back", "displayed"),
     [
         (["1 a", "2 b", "3 c"], ["1 a", "2 b", "3 c"]),
         (["3 c"], ["1 a", "2 b", "3 c"]),

@@ -48,7 +48,7 @@ def test_all_rows_are_read():
     assert len(ROWS) == text.count("\n$ ") > 100
 
 
-@pytest.mark.parametrize(("words", "exit_code", "code", "told", "mend"), ROWS)
+@pytest.mark.parametrize(("words", "exit_code", "code", "told", "help"), ROWS)
 def test_typed_wrong(place, capsys, words, exit_code, code, told, help):
     folder = str(place / "folder")
     before = sorted(place.rglob("*"))

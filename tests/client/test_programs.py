@@ -69,7 +69,7 @@ def test_what_no_robot_does_is_told_with_its_instruction():
 
 
 @pytest.mark.parametrize(
-    ("name", "to", "code", "told"),
+    ("name", "to", "code", "report"),
     [
         (
             "irb120",
@@ -140,7 +140,9 @@ def test_a_circle_is_one():
         assert max(y for _, y, _ in poses) - min(y for _, y, _ in poses) > 1.9 * radius
 
 
-@pytest.mark.parametrize(("degrees", "told"), [(239.0, None), (239.8, "longer than 239.5 degrees")])
+@pytest.mark.parametrize(
+    ("degrees", "report"), [(239.0, None), (239.8, "longer than 239.5 degrees")]
+)
 def test_a_circle_is_not_too_long(degrees, report):
     """The driver, which has it in whole micrometres, refuses it from 240 degrees on."""
     config = load_config("irb120")
@@ -374,7 +376,7 @@ UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
 
 
 @pytest.mark.parametrize(
-    ("own", "told"),
+    ("own", "report"),
     [
         (UserTool(UPRIGHT, 0.0), "more than nothing"),
         (UserTool(UPRIGHT, float("nan")), "more than nothing"),

@@ -67,7 +67,7 @@ def test_a_fault_that_only_the_driver_finds(monkeypatch):
         points[120][1][2] = 9.0
         stream = robot.stream()
         monkeypatch.setattr(client_checks, "_content", lambda _: [])
-        monkeypatch.setattr(client_checks, "on_the_grid", lambda wire, group: wire)
+        monkeypatch.setattr(client_checks, "quantised", lambda wire, group: wire)
         stream.extend(points)
         with pytest.raises(MotionFailed, match="point 120, joint_3: a joint is outside") as error:
             stream.result()

@@ -203,7 +203,7 @@ _CAPACITY, _PERIOD, _LOWER, _RING = 44, 56, 72, 196
 
 
 @pytest.mark.parametrize(
-    ("offset", "packing", "value", "said"),
+    ("offset", "packing", "value", "message"),
     [
         (_RING, "<i", -1, "ring -1"),
         (_CAPACITY, "<i", -5, "capacity -5"),

@@ -419,7 +419,7 @@ def test_doctor_names_the_fix_of_a_server_task_that_has_ended(report, message, t
     checks = json.loads(capsys.readouterr().out)
     result = [c for c in checks if c["area"] == "driver" and c["verdict"] == "fail"]
     assert [message in check["found"] for check in result] == [True] * bool(message)
-    assert all("warm start" in check["mend"] for check in result)
+    assert all("warm start" in check["help"] for check in result)
 
 
 def test_monitor_names_the_fix_of_a_server_task_that_has_ended(capsys):

@@ -230,7 +230,7 @@ def test_groups_do_not_share_ports_or_tasks(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("network", "told"),
+    ("network", "text"),
     [
         # A controller binds to an address of its own, to no wildcard (a real one of 7.21).
         ("{bind: 0.0.0.0}", "`lan`"),

@@ -90,7 +90,7 @@ def test_a_sensor_reads_what_the_file_says_and_the_robot_presses_along_its_path(
 
 
 @pytest.mark.parametrize(
-    ("entry", "told"),
+    ("entry", "report"),
     [
         ("uncalibrated", "Force sensor not calibrated"),
         ("on", "No process force"),

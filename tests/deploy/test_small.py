@@ -45,7 +45,7 @@ def instance(**attributes):
 
 
 @pytest.mark.parametrize(
-    ("section", "found", "key"),
+    ("section", "result", "key"),
     [
         ("CAB_TASKS", instance(Type="NORMAL", Name="T_ROB1"), "T_ROB1"),
         ("CAB_TASK_MODULES", instance(Task="T1", Shared=(), file="HOME:/a.mod"), "HOME:/a.mod T1"),
@@ -72,7 +72,7 @@ def joint(name, kind="revolute", **keys):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "told"),
+    ("old", "new", "text"),
     [
         ({"robotware": [6, 15]}, {"robotware": [7, 15]}, ["robotware.0: 6 → 7"]),
         ({"a": 1, "source": "x"}, {"a": 1, "source": "y"}, []),

@@ -55,7 +55,7 @@ def as_moved(bench, before):
 
 
 @pytest.mark.parametrize(
-    ("keep", "said"),
+    ("keep", "message"),
     [
         ("[rax_5]", "No joint drives axis 5: it is held where it stands when a trajectory begins."),
         (

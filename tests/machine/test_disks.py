@@ -77,7 +77,7 @@ def test_a_folder_of_the_user_stays(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("path", "file", "found"),
+    ("path", "file", "result"),
     [
         ("a.txt", "", "HOME/a.txt"),
         ("HOME:", "a.txt", "HOME/a.txt"),

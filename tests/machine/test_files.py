@@ -21,7 +21,7 @@ def disks(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("path", "said"),
+    ("path", "message"),
     [
         ("nowhere:x", "no disk for 'nowhere:x'"),
         ("/etc/passwd", "no disk"),

@@ -26,7 +26,7 @@ def test_an_impossible_configuration_stops_the_program(rapid):
     assert any(event.code == 50080 for event in program.controller.log)
 
 
-@pytest.mark.parametrize(("check", "said"), [("turn", ["60", "60"]), ("quarter", [])])
+@pytest.mark.parametrize(("check", "message"), [("turn", ["60", "60"]), ("quarter", [])])
 @pytest.mark.parametrize("move", ["MoveJ", "MoveL"])
 def test_how_far_an_axis_may_be_from_its_quarter(rapid, check, message, move):
     """S4 overview 5-33: 45 degrees; public programs with cfx are further off, see the switch.
@@ -135,7 +135,7 @@ def test_path_acc_lim_slows_the_ramps(rapid):
     assert times[0] < 1.1
 
 
-@pytest.mark.parametrize(("waits", "ended"), [(False, "running"), (True, "standing")])
+@pytest.mark.parametrize(("waits", "finished"), [(False, "running"), (True, "standing")])
 def test_whether_stop_move_waits_is_a_switch(rapid, waits, finished):
     # S4 datasys 2-StopMove: it does not; newer manuals are not public
     data = DATA + (

@@ -205,7 +205,7 @@ def test_constants_of_a_routine_know_those_above():
 
 
 @pytest.mark.parametrize(
-    ("text", "found"),
+    ("text", "result"),
     [
         ("1", "number"),
         ("1 + n", "num"),

@@ -74,7 +74,7 @@ def test_unknown_traps_and_endless_steps():
 
 
 @pytest.mark.parametrize(
-    ("line", "told"),
+    ("line", "text"),
     [("IF b != c THEN", 1), ("IF b", 0), ("IF b ! = c", 0), ("IF b !==== c", 0), ("IF b <> c", 0)],
 )
 def test_a_condition_that_ends_before_what_looks_like_an_operator(line, text):

@@ -80,7 +80,7 @@ def test_names_in_any_order():
 
 
 @pytest.mark.parametrize(
-    ("requested", "mend"),
+    ("requested", "help"),
     [
         (goal(0.0, 1.0, seconds=0.15), "joint_limits.yaml"),
         (goal(0.1, 0.2), "replace: approach"),

@@ -55,7 +55,7 @@ def test_a_tolerance_is_of_its_joint_0_the_default_and_minus_1_none(requested, p
     assert end.path.tolist() == [0.5] * 3
 
 
-@pytest.mark.parametrize(("requested", "found"), [(0.0, 4.0), (-1.0, INF), (0.7, 0.7)])
+@pytest.mark.parametrize(("requested", "result"), [(0.0, 4.0), (-1.0, INF), (0.7, 0.7)])
 def test_the_time_that_a_goal_may_be_late(requested, result):
     assert judged(goal_time_tolerance=requested).goal_time == result
 

@@ -220,7 +220,7 @@ def test_what_ends_a_link_is_said(up):
 
 
 @pytest.mark.parametrize(
-    ("parameters", "told"),
+    ("parameters", "report"),
     [
         ({"config": "irb12o"}, "irb12o"),
         ({"config": "irb120", "address": "not an address"}, "is no address of a robot"),

@@ -229,7 +229,7 @@ def test_two_robots_of_one_name_are_refused(cell):
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("given", "report"),
     [
         (["irb120", "irb2400"], "once for each of several robots"),
         (["irb120", "--at", "0,0,0"], "for several robots only"),

@@ -117,7 +117,7 @@ DIALOG = """
 """
 
 
-@pytest.mark.parametrize(("trusted", "shown"), [(False, "nobody"), (True, None)])
+@pytest.mark.parametrize(("trusted", "displayed"), [(False, "nobody"), (True, None)])
 def test_a_dialog_waits_only_for_who_may_answer(trusted: bool, displayed: str | None) -> None:
     controller, _ = boot(DIALOG)
     with controller:

@@ -173,7 +173,7 @@ def test_a_budget_that_is_over_leaves_the_rest(tmp_path):
 def test_the_first_failure_ends_it(tmp_path, monkeypatch, capsys):
     values = ["test", "irb120", "--quick", "--stop-on-failure", "--json"]
     names = ("ping", "hello", "single-point")
-    monkeypatch.setattr("rapidgen.verification.testbench.Bench.healthy", _ill)
+    monkeypatch.setattr("rapidgen.verification.testbench.Bench.assert_healthy", _ill)
     assert main([*values, *(word for name in names for word in ("--case", name))]) == 1
     result = json.loads(capsys.readouterr().out)
     assert [outcome["passed"] for outcome in result["outcomes"]] == [False]

@@ -95,7 +95,7 @@ def test_what_is_left_of_a_schedule_is_drawn_as_before():
 
 
 @pytest.mark.parametrize(
-    ("seed", "told"), [("0", "while nothing disturbs it: length"), ("7", "length")]
+    ("seed", "reply"), [("0", "while nothing disturbs it: length"), ("7", "length")]
 )
 def test_bytes_that_are_no_message_are_a_finding(seed, reply):
     """Also where they come before a history begins: to whoever looks what the driver executes."""

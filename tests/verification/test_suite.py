@@ -269,7 +269,7 @@ def test_every_example_can_be_proven(path, capsys):
 
 
 @pytest.mark.parametrize(
-    ("name", "case", "words"),
+    ("name", "case", "values"),
     [
         # Its axes accelerate slowly.
         ("irb460-rw7", "one-place", ()),

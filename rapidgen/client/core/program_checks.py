@@ -213,8 +213,8 @@ def _line(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     pose, near, robot = _target(walk, step)
     if pose is None or robot is None:
         return (), 0.0
-    mode = Line(robot.pose(walk.here), pose)
-    seconds = _along(walk, step, robot, mode, near)
+    way = Line(robot.pose(walk.here), pose)
+    seconds = _along(walk, step, robot, way, near)
     return operands(pose, walk.here), seconds
 
 
@@ -223,18 +223,18 @@ def _circle(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     via = unit(walk, step.via)
     if pose is None or via is None or robot is None:
         return (), 0.0
-    mode = arc_through(robot.pose(walk.here), via, pose)
-    if mode is None or mode.sweep > _LARGEST:
+    way = arc_through(robot.pose(walk.here), via, pose)
+    if way is None or way.sweep > _LARGEST:
         walk.say(
             "RG672",
             "the three points make no circle"
-            if mode is None
+            if way is None
             else "the circle is longer than 239.5 degrees: 240 at most, and points are rounded",
             "points 0.1 mm apart and more, the others 1 degree as seen from the first; two circles "
             "for a long one",
         )
         return (), 0.0
-    seconds = _along(walk, step, robot, mode, near)
+    seconds = _along(walk, step, robot, way, near)
     return (*via[0], *via[1], *operands(pose, walk.here)), seconds
 
 
@@ -306,12 +306,12 @@ def _go(walk: ProgramTraversal, target: Posture, step: ProgramStep) -> float:
 
 
 def _along(
-    walk: ProgramTraversal, step: ProgramStep, robot: Frames, mode: _Way, outer: Posture
+    walk: ProgramTraversal, step: ProgramStep, robot: Frames, way: _Way, outer: Posture
 ) -> float:
     """Follow a way of the TCP on the branch where the robot is; seconds that it takes, at least."""
     speed = step.speed
-    seconds = max(mode.length / speed.tcp, mode.angle / speed.orientation, 1e-4)
-    count = max(2, ceil(mode.length / _STEP), ceil(mode.angle / _TURN))
+    seconds = max(way.length / speed.tcp, way.angle / speed.orientation, 1e-4)
+    count = max(2, ceil(way.length / _STEP), ceil(way.angle / _TURN))
     begin, nodes = walk.here, [walk.here]
     for number in range(1, count + 1):
         fraction = number / count
@@ -319,10 +319,10 @@ def _along(
             a + (b - a) * fraction if joint.axis.startswith("eax") else current
             for joint, a, b, current in zip(walk.group.joints, begin, outer, nodes[-1], strict=True)
         )
-        posture = robot.follow((mode.position(fraction), mode.orientation(fraction)), near)
+        posture = robot.follow((way.position(fraction), way.orientation(fraction)), near)
         beyond = outside(walk.group.joints, posture) if posture is not None else []
         if posture is None or beyond:
-            end = mode.position(1.0), mode.orientation(1.0)
+            end = way.position(1.0), way.orientation(1.0)
             _left(walk, step, robot, end, outer, fraction, beyond)
             return seconds
         jumps = [

@@ -461,7 +461,7 @@ class Core:
             )
 
     def check(
-        self, trajectory: Trajectory, mode: Way | None = None
+        self, trajectory: Trajectory, way: Way | None = None
     ) -> CheckedTrajectory | CheckedPoints:
         """Check a trajectory, once: what goes by `download`, or the points of a stream.
 
@@ -470,26 +470,24 @@ class Core:
         yet), NotSupported (no driver that streams).
         """
         require_trajectory(trajectory)
-        require_mode(mode)
-        if mode == "stream":
+        require_mode(way)
+        if way == "stream":
             self.require_streaming()
             return check_points(trajectory, self.known_group, before=None, start=self.start)
         hello = self.state_port.driver.hello
         fits = hello is None or len(trajectory) <= hello.ring
-        if mode == "download" or fits or not self.can_stream:
+        if way == "download" or fits or not self.can_stream:
             return self.check_whole(trajectory)
         complete = self.check_whole(trajectory, len(trajectory))
         return to_stream(complete, self.known_group, self.capacity)
 
-    def check_program(
-        self, program: Program, mode: Way | None = None
-    ) -> tuple[CheckedProgram, Way]:
+    def check_program(self, program: Program, way: Way | None = None) -> tuple[CheckedProgram, Way]:
         """Check a program, and the way that it goes by: whole, where the driver's ring holds it.
 
         Raises InvalidProgram, NotReady (no state yet), NotSupported.
         """
         require_program(program)
-        require_mode(mode)
+        require_mode(way)
         hello = self.state_port.driver.hello
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(
@@ -497,7 +495,7 @@ class Core:
                 "the driver takes no programs",
                 "build and deploy one whose configuration has not `profile: basic`",
             )
-        chosen = mode or ("download" if len(program) <= hello.ring else "stream")
+        chosen = way or ("download" if len(program) <= hello.ring else "stream")
         most = hello.ring if chosen == "download" else INDEX_WRAP - 1
         return check_program(program, self.known_group, start=self.start, most=most), chosen
 
@@ -596,10 +594,10 @@ class Core:
         stream.queue.put(pack_points(checked.durations, checked.wire))
         stream.goes_on(checked.durations.tolist(), checked.last.wire.tolist())
 
-    def begin_program(self, checked: CheckedProgram, mode: Way) -> PointStream:
+    def begin_program(self, checked: CheckedProgram, way: Way) -> PointStream:
         """A program, from now on the motion under way."""
-        motion = self._begin(InstructionQueue(checked.instructions, complete=mode == "download"))
-        motion.way, motion.noun, motion.warnings = mode, "instruction", checked.notes
+        motion = self._begin(InstructionQueue(checked.instructions, complete=way == "download"))
+        motion.way, motion.noun, motion.warnings = way, "instruction", checked.notes
         motion.goes_on(checked.seconds, checked.goal)
         motion.end()
         return motion

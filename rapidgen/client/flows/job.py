@@ -23,11 +23,11 @@ _AHEAD = 2
 """Batches that wait in the client for room at the controller before an append waits."""
 
 
-def execute(core: Core, trajectory: Trajectory, mode: Way | None) -> Flow[Job]:
+def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
     """A trajectory by stream or by download; None: the way that fits."""
     yield from ready(core)
     core.ready()
-    checked = core.check(trajectory, mode)
+    checked = core.check(trajectory, way)
     yield from armed(core)
     if isinstance(checked, CheckedTrajectory):
         return (yield from download(core, checked))

@@ -46,11 +46,11 @@ _ANY = 1e6
 """s that a routine without a time-out may take."""
 
 
-def run(core: Core, program: Program, mode: Way | None) -> Flow[Job]:
+def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
     """A program whole or by stream; None: whole, where the driver's ring holds it."""
     yield from ready(core)
     core.ready()
-    checked, chosen = core.check_program(program, mode)
+    checked, chosen = core.check_program(program, way)
     yield from armed(core)
     job = Job(core)
     job.program = program

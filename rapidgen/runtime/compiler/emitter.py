@@ -177,7 +177,7 @@ class Emitter:
         w.depth -= 1
         w.emit("_f = None")
         if self.options.accounting == "block":
-            w.emit("b = R.recharge(b, @REST@)")
+            w.emit("b = R.charge_again(b, @REST@)")
         w.depth -= 1
         if calls:
             w.emit("else: b = R.b")

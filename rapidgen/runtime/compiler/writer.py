@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 INDENT = " "
 _BUDGET_LINES = frozenset({"b = R.b", "R.b = b", "else: b = R.b", "b += @REFUND@"})
 """What nobody needs without accounting."""
-_FILLED = frozenset({"b += @REFUND@", "b -= @OWN@", "b = R.recharge(b, @REST@)"})
+_FILLED = frozenset({"b += @REFUND@", "b -= @OWN@", "b = R.charge_again(b, @REST@)"})
 """Lines with a cost that is known when the block is."""
 
 
@@ -147,7 +147,7 @@ class Writer:
                 code = code.replace("@REST@", repr(remaining) if remaining else "()")
                 own = block.costs[line.paid - 1] if block is not None and line.paid else 0
                 code = code.replace("@OWN@", str(own))
-            if code in ("", "b += 0", "b = R.recharge(b, ())"):
+            if code in ("", "b += 0", "b = R.charge_again(b, ())"):
                 continue
             add(line.depth, code, line.token)
             if refund:

@@ -38,7 +38,7 @@ FLOWS = {
     "instances": lambda c: flows.cfg.cfg_instances(c, "SYS", "CAB_TASKS"),
     "cfg_load": lambda c: flows.cfg.cfg_load(c, "HOME/a.cfg"),
     "log": lambda c: flows.log.log(c),
-    "holder": lambda c: flows.holding.holder(c),
+    "holder": lambda c: flows.mastership.holder(c),
     "backup": lambda c: flows.jobs.backup(c, "b"),
     "restore": lambda c: flows.jobs.restore(c, "BACKUP/b", wait=3),
     "dialog": lambda c: flows.dialogs.dialog(c),
@@ -48,14 +48,14 @@ FLOWS = {
     "send_message": lambda c: flows.queues.send_message(c, "RMQ_T", "num;1"),
     "receive_message": lambda c: flows.queues.receive_message(c, "q", wait=3),
     "restart": lambda c: flows.jobs.restart(c, wait=3),
-    "subscribe": lambda c: flows.subscribing.subscribe(c, [topics.symbol("T/x"), topics.log()]),
+    "subscribe": lambda c: flows.subscriptions.subscribe(c, [topics.symbol("T/x"), topics.log()]),
     "select_task": lambda c: flows.rapid.select_task(c, "T", True),
     "joint_target": lambda c: flows.motion.joint_target(c),
     "rob_target": lambda c: flows.motion.rob_target(c),
     "grants": lambda c: flows.users.grants(c),
     "ask_rmmp": lambda c: flows.users.ask_rmmp(c, wait=3),
     "cancel_rmmp": lambda c: flows.users.cancel_rmmp(c),
-    "close": lambda c: flows.connecting.close(c),
+    "close": lambda c: flows.connect.close(c),
 }
 KINDS = (
     "pnl-ctrlstate", "pnl-opmode", "pnl-speedratio", "rap-execution", "rap-task-li", "rap-data",
@@ -144,5 +144,5 @@ def test_hostile_answers_end_in_a_result_or_an_error(name, generation, seed):
 @given(st.integers(0, 2**32))
 def test_hostile_greetings_get_no_password(seed):
     core = RwsCore(parse_address("rws://h"), Login(password="SECRET"), pins=NOWHERE)
-    run(core, flows.connecting.connect(core), seed)
+    run(core, flows.connect.connect(core), seed)
     assert not core.certificate or not core.connected

@@ -134,7 +134,7 @@ def test_what_the_pendant_denies_changes_nothing(rws, cell, wanted):
 
 def test_a_grant_that_is_missing_is_told_before_anything_is_changed(rws, cell, wanted):
     cabinet, transport = cell
-    office = transport.services._carrier.line.desk.office
+    office = transport.services._carrier.line.desk.context
     office.login = replace(office.login, denied=frozenset({"UAS_CFG_WRITE"}))
     plan = make_plan(transport, wanted)
     assert "! you: give the user UAS_CFG_WRITE in RobotStudio" in plan_text(plan)

@@ -109,7 +109,7 @@ def test_unpacking_text(bench):
 
 
 @pytest.mark.parametrize(
-    ("switch", "found"), [("exact", 64 + (11 << 32)), ("single", 11 << 32), ("error", None)]
+    ("switch", "result"), [("exact", 64 + (11 << 32)), ("single", 11 << 32), ("error", None)]
 )
 def test_a_ulint_in_all_dialects(bench, switch, result):
     """3HAC16581-1 lists ULINT, and that it needs a dnum; whether it is exact is in no source."""

@@ -320,7 +320,7 @@ def test_a_locked_mode_cannot_be_changed(caller):
 
 
 @pytest.mark.parametrize(
-    ("mode", "found"),
+    ("mode", "result"),
     [
         ("Before", "PERS num 3x := 1;"),
         ("After", "PERS num x3 := 1;"),
@@ -555,7 +555,7 @@ def test_each_choice_for_jogging_is_shown_under_its_own_name(caller):
 
 
 @pytest.mark.parametrize(
-    ("generation", "folder", "there"),
+    ("generation", "folder", "target"),
     [
         (Generation.ONE, "$HOME", ""),
         (Generation.ONE, "HOME:", ""),

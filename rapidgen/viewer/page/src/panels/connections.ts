@@ -40,7 +40,7 @@ function row(socket: ShownSocket, view: View): Row<ShownSocket> {
     h("th", { scope: "row" }, socket.peer || `${socket.status} on ${socket.local}`,
       h("small", {}, `${socket.task}${socket.peer ? ` · ${socket.local}` : ""}`)),
     h("td", {}, socket.peer ? h("div", { class: "row commands" }, ill,
-      h("button", { type: "button", onclick: () => view.order({ do: "cut", number: socket.number }) }, "ResetConnection")) : null));
+      h("button", { type: "button", onclick: () => view.order({ do: "cut", number: socket.number }) }, "Cut")) : null));
   return { element, show: (now) => fares.tell(now.ailment) };
 }
 
