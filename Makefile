@@ -3,13 +3,13 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.made
-# `time` of bash says what a step of the gate has cost.
+# `time` of bash says what each step costs.
 SHELL := /bin/bash
 export TIMEFORMAT = %U s of CPU, %R s
-# Where it is set, each of the hundreds of processes of a gate compiles all modules that it imports.
+# Where it is set, each of the hundreds of processes of a test run compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo lock test test-long lint types contract unit held-up stopped wheel page driver-hours site release-lint changelog room picture foreign campaigns clean
+.PHONY: demo lock test test-long lint types import-contract unit stall-test pause-test wheel page driver-soak site release-lint changelog check diagrams interop campaigns clean
 
 # Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
 RUNS := $(VENV)/.runs
@@ -21,7 +21,7 @@ $(RUNS): pyproject.toml
 	@touch $@
 
 # What takes one core is done side by side, each with its output in one piece; then the tests, which take them all.
-CHECKS := lint types contract wheel driver-hours site release-lint
+CHECKS := lint types import-contract wheel driver-soak site release-lint
 test:
 	@$(MAKE) --no-print-directory --jobs $$(getconf _NPROCESSORS_ONLN) --output-sync=target $(CHECKS)
 	@$(MAKE) --no-print-directory unit
@@ -50,17 +50,17 @@ lint: $(STAMP)
 types: $(STAMP)
 	time $(BIN)/mypy
 
-contract: $(STAMP)
+import-contract: $(STAMP)
 	time $(BIN)/lint-imports
 
-# Lint, types and tests of one room: `make room ROOM=axes`.
-room: $(STAMP)
-	@test -d rapidgen/$(ROOM) -a -n "$(ROOM)" || { echo "ROOM is one of:" $(notdir $(patsubst %/,%,$(wildcard rapidgen/*/))); false; }
-	$(BIN)/ruff check rapidgen/$(ROOM) $(wildcard tests/$(ROOM))
-	$(BIN)/ruff format --check rapidgen/$(ROOM) $(wildcard tests/$(ROOM))
+# Lint, types and tests of one package: `make check PACKAGE=axes`.
+check: $(STAMP)
+	@test -d rapidgen/$(PACKAGE) -a -n "$(PACKAGE)" || { echo "PACKAGE is one of:" $(notdir $(patsubst %/,%,$(wildcard rapidgen/*/))); false; }
+	$(BIN)/ruff check rapidgen/$(PACKAGE) $(wildcard tests/$(PACKAGE))
+	$(BIN)/ruff format --check rapidgen/$(PACKAGE) $(wildcard tests/$(PACKAGE))
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/python -m pytest -n auto tests/$(ROOM)
+	$(BIN)/python -m pytest -n auto tests/$(PACKAGE)
 
 # Install the wheel in an environment of its own and run the demo: the wheel must carry templates/ and robots/.
 WHEEL := build/wheel
@@ -74,7 +74,7 @@ wheel: $(STAMP) $(PAGE)
 	cd $(WHEEL) && env/bin/python -c 'from rapidgen.viewer.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
 
 # The generated driver for some simulated hours; `make driver-day` is the long form.
-driver-hours: $(STAMP)
+driver-soak: $(STAMP)
 	time $(BIN)/python tools/driver_campaign.py days --hours 1 --watched 0.25
 
 # The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one,
@@ -102,20 +102,20 @@ test-long: $(STAMP) $(PAGE)
 	$(BIN)/python tools/driver_campaign.py days --hours 4 --watched 0.25
 	$(BIN)/python -m pytest -n auto
 
-# The tests of a room, or all, in processes that are held up at HELD_UP of their calls: what is red is red by chance.
-held-up: export PYTHONPATH = $(CURDIR)/tools/held_up
-held-up: export HELD_UP ?= 0.05
-held-up: export SEED ?= 1
-held-up: $(STAMP) $(PAGE)
-	$(BIN)/python -m pytest -n 6 tests/$(ROOM)
+# The tests of a package, or all, in processes that are delayed at HELD_UP of their calls: a failing test is flaky.
+stall-test: export PYTHONPATH = $(CURDIR)/tools/stall
+stall-test: export HELD_UP ?= 0.05
+stall-test: export SEED ?= 1
+stall-test: $(STAMP) $(PAGE)
+	$(BIN)/python -m pytest -n 6 tests/$(PACKAGE)
 
 # The same in processes that are stopped for moments, anywhere; another SEED, other moments.
-stopped: SEED ?= 1
-stopped: $(STAMP) $(PAGE)
-	$(BIN)/python tools/held_up/stopped.py --seed $(SEED) $(BIN)/python -m pytest -n 6 tests/$(ROOM)
+pause-test: SEED ?= 1
+pause-test: $(STAMP) $(PAGE)
+	$(BIN)/python tools/stall/stopped.py --seed $(SEED) $(BIN)/python -m pytest -n 6 tests/$(PACKAGE)
 
-# The pictures of docs/develop/architecture.md (rooms, a trajectory's life) and docs/start/robots.md, drawn again from the code.
-picture: $(STAMP)
+# The pictures of docs/develop/architecture.md (packages, a trajectory's life) and docs/start/robots.md, drawn again from the code.
+diagrams: $(STAMP)
 	$(BIN)/python -m tests.docs.picture
 	$(BIN)/python -m tests.docs.life
 	$(BIN)/python -m tests.docs.robots_picture
@@ -123,13 +123,13 @@ picture: $(STAMP)
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
 # PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros2, ros_nodes, rws_suites, text_pairs, text_servers; default: any).
 PROGRAM = trial
-foreign: $(STAMP)
-	$(BIN)/python -m tools.foreign.$(PROGRAM) $(FOREIGN)
+interop: $(STAMP)
+	$(BIN)/python -m tools.interop.$(PROGRAM) $(FOREIGN)
 
 # What takes too long for `make test`, each with its time on two cores: `make campaigns` lists them.
 campaigns:
 	@sed -n 's/^\([a-z0-9-]*\):.*## \([^:]*\): \(.*\)/\1|\2|\3/p' Makefile | \
-		while IFS='|' read -r name time what; do printf '%-20s%-14s%s\n' "$$name" "$$time" "$$what"; done
+		while IFS='|' read -r name time what; do printf '%-22s%-14s%s\n' "$$name" "$$time" "$$what"; done
 
 properties: $(STAMP) ## 15 min: every property test with examples of its own drawing, more of them
 	RAPIDGEN_PROPERTIES=campaign $(BIN)/python -m pytest -n auto -m hypothesis --timeout 0
@@ -140,7 +140,7 @@ suite: $(STAMP) ## 8 min: every case of `rapidgen test`, any two assumptions abo
 triples: $(STAMP) ## 15 min: the same where any three assumptions about controllers meet
 	$(BIN)/rapidgen test irb120 --together 3 --seeds 0
 
-signature: $(STAMP) ## 3 h: the same on every example, and on any two of profile, commissioning, main, control
+full-suite: $(STAMP) ## 3 h: the same on every example, and on any two of profile, commissioning, main, control
 	$(BIN)/python tools/signature.py
 
 mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance program
@@ -176,7 +176,7 @@ motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py
 
-two-workers: $(STAMP) ## 2 min: what a second worker of a campaign is worth, beside two processes of their own
+worker-scaling: $(STAMP) ## 2 min: what a second worker of a campaign is worth, beside two processes of their own
 	$(BIN)/python benchmarks/two_workers.py
 
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
@@ -186,13 +186,13 @@ exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are fou
 RESULTS ?= build/schedules
 EXPLORED := irb120 robots/examples/irb2400-rw5.yaml robots/examples/irb910sc-rw6.yaml \
 	robots/examples/irb120_basic-rw6.yaml robots/examples/irb460-rw7.yaml
-schedules-100k: $(STAMP) ## 2 h: 100,000 random schedules of the drivers of five robots, the curve of new pairs
+exploration-100k: $(STAMP) ## 2 h: 100,000 random schedules of the drivers of five robots, the curve of new pairs
 	$(BIN)/python tools/exploration.py --of $(EXPLORED) --seeds 20000 --jobs 2 --results $(RESULTS)
 
-ceiling: $(STAMP) ## 2 min: how fast the TCP is in 1,000 random trajectories under a ceiling
+tcp-speed-limit: $(STAMP) ## 2 min: how fast the TCP is in 1,000 random trajectories under a ceiling
 	$(BIN)/python benchmarks/ceiling.py
 
-schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
+exploration-stops: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
 	$(BIN)/python tools/fast_stops.py --jobs 2 --pairs irb120 irb6700
 
 ros-goals: $(STAMP) ## 20 min: 10,000 goals of FollowJointTrajectory by lot, with faults at any moment
@@ -218,7 +218,7 @@ driver-day: $(STAMP) ## 1 min: 24 simulated hours, a trajectory every ten minute
 driver-days: $(STAMP) ## 2 h: 30 simulated days, the state read all the time
 	$(BIN)/python tools/driver_campaign.py days --hours 720
 
-deploy-cuts: $(STAMP) ## 10 min: every cut of every deployment, garbled answers of servers
+deploy-interruptions: $(STAMP) ## 10 min: every cut of every deployment, garbled answers of servers
 	$(BIN)/python benchmarks/deploy.py --cuts
 
 rws-answers: $(STAMP) ## 1 min: 10,000 flows of the web services' client with hostile answers
@@ -227,7 +227,7 @@ rws-answers: $(STAMP) ## 1 min: 10,000 flows of the web services' client with ho
 rws-requests: $(STAMP) ## 1 min: 100,000 hostile requests to the face, a good client after each thousand
 	$(BIN)/python -m tools.rws_campaign requests 100000
 
-rws-cuts: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
+rws-interruptions: $(STAMP) ## 1 h: deployments over the web services cut at every request, before and after it was done
 	RAPIDGEN_LONG=1 $(BIN)/python -m pytest -n 2 -v --timeout 0 tests/deploy/rws/test_cuts.py
 
 image: $(STAMP) ## 5 min: the container image, built and tried by docker or podman
@@ -248,7 +248,7 @@ bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need 
 
 # OLD and NEW are interpreters of environments that have two trees of this project in them. (Whether
 # they behave the same: `python tools/unmoved.py`.)
-side-by-side: $(STAMP) ## 15 min: what has become slower between two trees; OLD=... NEW=...
+compare: $(STAMP) ## 15 min: what has become slower between two trees; OLD=... NEW=...
 	$(BIN)/python benchmarks/side_by_side.py $(OLD) $(NEW)
 
 .PHONY: $(shell sed -n 's/^\([a-z0-9-]*\):.*\#\# .*/\1/p' Makefile)

@@ -25,7 +25,7 @@ from rapidgen.motion import MotionSettings
 from rapidgen.verification.position_checks import off
 from rapidgen.verification.raw_connection import STOP, point_frame
 from rapidgen.verification.testbench import Bench
-from tools.foreign.abb_driver import read_system
+from tools.interop.abb_driver import read_system
 
 ROUNDING = 1e-4
 """s: what num and the steps of the planner leave of an exact time."""

@@ -36,7 +36,7 @@ from rapidgen.verification.settings import Setting
 from rapidgen.verification.testbench import Bench
 from rapidgen.wire.simple_message.numpy_codec import encode_points
 from rapidgen.wire.simple_message.spec import StreamFlag
-from tools.foreign.abb_driver import read_system
+from tools.interop.abb_driver import read_system
 
 BATCH = 35
 RING = 127

@@ -33,7 +33,7 @@ from rapidgen.verification.schedule_selection import ScheduleSelector
 from rapidgen.verification.suite_runner import DriverUnderTest, run_suite, schedules
 from rapidgen.verification.worker_pool import Call, LocalPool, in_order
 from tests.verification.defective import CAPACITY, DEFECTS, small_driver
-from tools.foreign.abb_driver import read_system
+from tools.interop.abb_driver import read_system
 
 ABB_CAPACITY = 100
 

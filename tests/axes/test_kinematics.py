@@ -22,7 +22,7 @@ WRIST_ARMS = [
     if g.chain and Kinematics.of(g)._arm
 ]
 
-IRB140 = Path(__file__).parents[2] / "tools" / "foreign" / "irb140.yaml"
+IRB140 = Path(__file__).parents[2] / "tools" / "interop" / "irb140.yaml"
 
 
 def kinematics(name):

@@ -1,6 +1,6 @@
 """The pictures of docs/start/robots.md, drawn from the chains of the shipped models.
 
-`python -m tests.docs.robots_picture` draws docs/start/robots.svg again (`make picture`): every
+`python -m tests.docs.robots_picture` draws docs/start/robots.svg again (`make diagrams`): every
 model on a grid of 500 mm, its links as bars between the axes, its axes as short thick lines. Arms
 stand at 0; those that would look like one line there are bent.
 """

@@ -46,7 +46,7 @@ def test_the_trials_of_foreign_programs_are_named():
     named = re.search(r"PROGRAM the trial \((.+?); default", MAKEFILE)[1].split(", ")
     target = {
         path.stem
-        for path in (ROOT / "tools" / "foreign").glob("*.py")
+        for path in (ROOT / "tools" / "interop").glob("*.py")
         if MAIN in path.read_text(encoding="utf-8")
     }
     assert set(named) == target - {"trial"}

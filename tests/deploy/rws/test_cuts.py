@@ -2,7 +2,7 @@
 
 What boots is the old set, the new one, or one that does not move; the next run, of whichever kind,
 puts it right. Some of the kinds of requests that change something are cut once each; RAPIDGEN_LONG
-takes every request, before and after it was done (`make rws-cuts`).
+takes every request, before and after it was done (`make rws-interruptions`).
 """
 
 import os

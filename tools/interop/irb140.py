@@ -1,6 +1,6 @@
 """Trial: gizatt/ABB-IRB140, its server and logger with its own Python client abb.py.
 
-    python -m tools.foreign.irb140 FOLDER
+    python -m tools.interop.irb140 FOLDER
 
 FOLDER is a checkout. The client is for Python 2: it is converted in memory (lib2to3, so that this
 needs Python 3.12 or older), and its sockets take texts. Every command is sent that needs no option.
@@ -16,7 +16,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from rapidgen.system import read_files
-from tools.foreign.serving import served
+from tools.interop.serving import served
 
 START = [10.0, 20.0, -10.0, 0.0, 40.0, 5.0]
 

@@ -5,9 +5,9 @@ from itertools import pairwise
 from signal import SIGINT
 
 from rapidgen.wire.simple_message import spec
-from tools.foreign.ros import until
-from tools.foreign.ros_case import FIVE, PREEMPTED, Findings, begin_moving, case
-from tools.foreign.ros_cell import FALSE, TRUE, Cell
+from tools.interop.ros import until
+from tools.interop.ros_case import FIVE, PREEMPTED, Findings, begin_moving, case
+from tools.interop.ros_cell import FALSE, TRUE, Cell
 
 # -- state --------------------------------------------------------------------------------------
 

@@ -22,7 +22,7 @@ from std_srvs.srv import Trigger
 from trajectory_msgs.msg import JointTrajectoryPoint
 
 from rapidgen.config import load_config
-from tools.foreign.ros import HOST, Process, Simulated, until
+from tools.interop.ros import HOST, Process, Simulated, until
 
 SUCCEEDED, CANCELED, ABORTED = (
     GoalStatus.STATUS_SUCCEEDED,

@@ -1,6 +1,6 @@
 """Trial: servers that take commands as text, spoken to as their own comments document.
 
-    python -m tools.foreign.text_servers FOLDER
+    python -m tools.interop.text_servers FOLDER
 
 FOLDER is a checkout of joseballester/abb-rapidserver, jk4684/Gcode, RobotExMachina/Machina.NET or
 FlyingSlap/MatrixComm, whose own clients are for ROS, windows on a screen, or C#.
@@ -14,8 +14,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from tools.foreign.programs import furnished, programs
-from tools.foreign.serving import Link, served
+from tools.interop.programs import furnished, programs
+from tools.interop.serving import Link, served
 
 
 def only_program(folder: Path) -> System:

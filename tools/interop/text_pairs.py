@@ -1,6 +1,6 @@
 """Trial: ten servers of courses, theses and small tools, with what their own clients say to them.
 
-    python -m tools.foreign.text_pairs FOLDER...
+    python -m tools.interop.text_pairs FOLDER...
 
 Each FOLDER is a checkout of one of the repositories below. Their clients are windows on a screen,
 C#, C++, or want a camera: what they send is in the table as they write it, and what they read back

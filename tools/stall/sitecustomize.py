@@ -1,5 +1,6 @@
 """Holds every Python process up now and then, as a busy machine does: what is red then is red by
-chance. `make held-up ROOM=client`; the environment says how often (HELD_UP) and which times (SEED).
+chance. `make stall-test PACKAGE=client`; the environment says how often (HELD_UP) and which times
+(SEED).
 
 In one process or another a test may then be right to fail: jog's 0.2 s, 2 s without a state, and
 `test_nothing_heavy_is_imported_before_it`, as this file imports threading.

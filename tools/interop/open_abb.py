@@ -1,6 +1,6 @@
 """Trial: bristolroboticslab/OpenABB-FDM, its RAPID and its own Python client abb.py.
 
-    python -m tools.foreign.open_abb FOLDER
+    python -m tools.interop.open_abb FOLDER
 
 FOLDER is a checkout. The server runs on a robot with a track and a positioner that has the name
 its program wants, and the client sends every kind of command that it has.
@@ -10,8 +10,8 @@ import importlib.util
 import sys
 from pathlib import Path
 
-from tools.foreign.programs import furnished, programs
-from tools.foreign.serving import served
+from tools.interop.programs import furnished, programs
+from tools.interop.serving import served
 
 
 def main(folder: Path) -> None:

@@ -1,6 +1,6 @@
 """Trial: Keyence's CV-X modules in Alienspartner/ABB-and-Keyence, spoken to as its camera does.
 
-    python -m tools.foreign.keyence FOLDER
+    python -m tools.interop.keyence FOLDER
 
 FOLDER is a checkout. Two programs connect to a camera, which is played here: the set-up, which
 answers every command of the camera, and the operation, which picks along paths that the camera
@@ -19,7 +19,7 @@ from rapidgen.controller import VirtualController
 from rapidgen.controller.mechanics import groups_for
 from rapidgen.rapid.switches import Switches
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from tools.foreign.programs import furnished
+from tools.interop.programs import furnished
 
 PORT = 8500
 MAIN = 'MODULE TrialMain\nPROC main()\n  KeyenceSetup "192.168.0.10", 8500;\nENDPROC\nENDMODULE\n'

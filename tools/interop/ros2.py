@@ -1,7 +1,7 @@
 """Trial: the ROS 2 node with a real rclpy, on each RMW that is there.
 
-    python -m tools.foreign.ros2 PYTHON [CASE...] [--goals N]
-    (or: make foreign PROGRAM=ros2 FOREIGN=PYTHON)
+    python -m tools.interop.ros2 PYTHON [CASE...] [--goals N]
+    (or: make interop PROGRAM=ros2 FOREIGN=PYTHON)
 
 PYTHON is one that has rclpy (its workspace is sourced in this shell) and rapidgen. Each case boots
 `rapidgen sim` on an address of loopback and starts `python -m rapidgen.ros`, as a user does; a
@@ -26,9 +26,9 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
     requested = parser.parse_args(arguments)
     if find_spec("rclpy") is None:
-        os.execv(requested.python, [requested.python, "-m", "tools.foreign.ros2", *arguments])
+        os.execv(requested.python, [requested.python, "-m", "tools.interop.ros2", *arguments])
     if requested.here:
-        from tools.foreign.ros2_cases import run_all
+        from tools.interop.ros2_cases import run_all
 
         return run_all(requested.cases, requested.goals)
     from ament_index_python.packages import get_packages_with_prefixes
@@ -42,7 +42,7 @@ def main(arguments: list[str]) -> int:
             "ROS_LOCALHOST_ONLY": "1",
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         }
-        command = [sys.executable, "-m", "tools.foreign.ros2", *arguments, "--here"]
+        command = [sys.executable, "-m", "tools.interop.ros2", *arguments, "--here"]
         failed += bool(subprocess.run(command, env=environment, check=False).returncode)
     return 1 if failed or not target else 0
 

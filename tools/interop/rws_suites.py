@@ -1,6 +1,6 @@
 """Trial: clients of Robot Web Services with suites of their own, and one in C++, on served faces.
 
-    python -m tools.foreign.rws_suites FOLDER   (or: make foreign PROGRAM=rws_suites FOREIGN=FOLDER)
+    python -m tools.interop.rws_suites FOLDER   (or: make interop PROGRAM=rws_suites FOREIGN=FOLDER)
 
 FOLDER has checkouts of abb-rws-client (after `npm ci`) and abb_librws under these names, or one of
 them; the second wants CMake and libpoco-dev. Nothing of either is changed. Of the first the cells

@@ -1,8 +1,8 @@
 """Cases of the trial with ROS nodes: what the driver refuses."""
 
 from rapidgen.wire.simple_message import spec
-from tools.foreign.ros_case import PREEMPTED, Findings, case
-from tools.foreign.ros_cell import FALSE, Cell
+from tools.interop.ros_case import PREEMPTED, Findings, case
+from tools.interop.ros_cell import FALSE, Cell
 
 
 def _refused(cell: Cell, findings: Findings, points, reason: spec.Reason, joint: int, step=0.5):

@@ -1,7 +1,7 @@
 """Trial: the unmodified C++ nodes of ros-industrial/abb_driver against the generated driver.
 
-    python -m tools.foreign.ros_nodes WORKSPACE [CASE...]
-    (or: make foreign PROGRAM=ros_nodes FOREIGN=WORKSPACE)
+    python -m tools.interop.ros_nodes WORKSPACE [CASE...]
+    (or: make interop PROGRAM=ros_nodes FOREIGN=WORKSPACE)
 
 WORKSPACE is a built catkin workspace (ROS 1) with abb_driver, industrial_core and control_msgs;
 nothing of it is part of this project. rosmaster, rospy and roslaunch come from the system. Each
@@ -16,11 +16,11 @@ import tempfile
 import traceback
 from pathlib import Path
 
-from tools.foreign import ros_comings, ros_commands, ros_refused
-from tools.foreign.abb_driver import read_system
-from tools.foreign.ros import Workspace, write_backup
-from tools.foreign.ros_case import CASES, Case, Findings
-from tools.foreign.ros_cell import Cell
+from tools.interop import ros_comings, ros_commands, ros_refused
+from tools.interop.abb_driver import read_system
+from tools.interop.ros import Workspace, write_backup
+from tools.interop.ros_case import CASES, Case, Findings
+from tools.interop.ros_cell import Cell
 
 URDF = Path(__file__).parents[2] / "robots" / "urdf"
 PARTS = (ros_commands, ros_refused, ros_comings)

@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from rapidgen.config import load_config
-from tools.foreign.ros import HOST, Process, Simulated, Workspace, until
+from tools.interop.ros import HOST, Process, Simulated, Workspace, until
 
 TRUE, FALSE = 1, 0
 """industrial_msgs/TriState."""

@@ -1,6 +1,6 @@
 """Trial: rpiRobotics/abb_motion_program_exec, its RAPID and its own Python client and examples.
 
-    python -m tools.foreign.motion_program_exec FOLDER
+    python -m tools.interop.motion_program_exec FOLDER
 
 FOLDER is a checkout; the package of the same name has to be installed beside rapidgen. Its
 examples run as they are: only the HTTP calls of Robot Web Services go to a stand-in (rws.py), and
@@ -24,7 +24,7 @@ from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.controller.mechanics import groups_for
 from rapidgen.system import read_system
-from tools.foreign.rws import Face
+from tools.interop.rws import Face
 
 
 def install(folder: Path, config: str, where: Path) -> Path:

@@ -1,6 +1,6 @@
 """Descriptions: every URDF and xacro file below folders, with `rapidgen new` and what it asks for.
 
-    make foreign PROGRAM=descriptions FOREIGN="FOLDER FOLDER ..." [QUICK=1]
+    make interop PROGRAM=descriptions FOREIGN="FOLDER FOLDER ..." [QUICK=1]
 
 A person who gives at most three answers is played: a coupling (0), one speed and one range for all
 axes of which nothing says one, arguments of xacro and of its macros. What is built is booted on the

@@ -1,4 +1,4 @@
-"""Cases of the trial with a real rclpy: `python -m tools.foreign.ros2` runs them on each RMW."""
+"""Cases of the trial with a real rclpy: `python -m tools.interop.ros2` runs them on each RMW."""
 
 import json
 import os
@@ -21,8 +21,8 @@ from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 
-from tools.foreign.ros import until
-from tools.foreign.ros2_cell import ABORTED, CANCELED, ENDINGS, SUCCEEDED, Cell
+from tools.interop.ros import until
+from tools.interop.ros2_cell import ABORTED, CANCELED, ENDINGS, SUCCEEDED, Cell
 
 
 class Findings:

@@ -1,6 +1,6 @@
 """Trial: backups of real cells as what a driver is built for.
 
-    python -m tools.foreign.backups FOLDER     (or: make foreign PROGRAM=backups FOREIGN=FOLDER)
+    python -m tools.interop.backups FOLDER     (or: make interop PROGRAM=backups FOREIGN=FOLDER)
 
 FOLDER holds backups at any depth. Each is read as a controller: all its cfg files by the rules
 that a generated file is judged by, of which it must break none, since it ran. Then a driver is

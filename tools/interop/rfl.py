@@ -1,6 +1,6 @@
 """Trial: two backups of createchaos/abb_communication: two robots on gantries, five tasks.
 
-    python -m tools.foreign.rfl FOLDER
+    python -m tools.interop.rfl FOLDER
 
 FOLDER is a checkout. Its client is for Python 2 and a window; its bytes are written here by hand.
 A backup's master and its robots both write `bWaitForJob` behind the same synchronisation point,

@@ -1,6 +1,6 @@
 """Trial: a driver is deployed into copies of real cells' backups, and taken off again.
 
-    python -m tools.foreign.deployed FOLDER    (or: make foreign PROGRAM=deployed FOREIGN=FOLDER)
+    python -m tools.interop.deployed FOLDER    (or: make interop PROGRAM=deployed FOREIGN=FOLDER)
 
 FOLDER holds backups at any depth. Into a copy of each goes the driver that its MOC.cfg asks for
 (else an irb120 or a crb15000), planned once more (nothing to do), read as a controller, and
@@ -20,7 +20,7 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build
 from rapidgen.generate.existing_controller import fit, read_cell
 from rapidgen.system import is_backup, read_system
-from tools.foreign.backups import robot
+from tools.interop.backups import robot
 
 
 def answer(folder: Path) -> str:

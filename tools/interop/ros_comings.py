@@ -5,9 +5,9 @@ from contextlib import suppress
 from signal import SIGCONT, SIGINT, SIGKILL, SIGSTOP
 
 from rapidgen.wire.simple_message import spec
-from tools.foreign.ros import HOST, until
-from tools.foreign.ros_case import FIVE, SUCCEEDED, Findings, begin_moving, case, code
-from tools.foreign.ros_cell import FALSE, TRUE, Cell
+from tools.interop.ros import HOST, until
+from tools.interop.ros_case import FIVE, SUCCEEDED, Findings, begin_moving, case, code
+from tools.interop.ros_cell import FALSE, TRUE, Cell
 
 SILENT = "network: [{do: silent, port: 11000, direction: in, connection: 1, after: 340}]"
 """Five points pass, then nothing more, not even the end of the connection."""

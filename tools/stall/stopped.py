@@ -1,8 +1,8 @@
 """Tests in processes that are stopped now and then, each by itself, as on a machine that has no
-time for them: between any two instructions, where `make held-up` holds up at calls of sockets and
-threads. What is red then is red by chance. `make stopped ROOM=view`.
+time for them: between any two instructions, where `make stall-test` holds up at calls of sockets
+and threads. What is red then is red by chance. `make pause-test PACKAGE=view`.
 
-    python tools/held_up/stopped.py [--longest S] [--every S] [--seed N] COMMAND ...
+    python tools/stall/stopped.py [--longest S] [--every S] [--seed N] COMMAND ...
 
 Linux only: whose child a process is, is read from /proc.
 """

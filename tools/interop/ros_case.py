@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rapidgen.wire.simple_message import spec
-from tools.foreign.ros import until
-from tools.foreign.ros_cell import TRUE, Cell
+from tools.interop.ros import until
+from tools.interop.ros_cell import TRUE, Cell
 
 FIVE = ([0.0], [0.125], [0.25, 0.125], [0.5, 0.25, 0, 0, 0, 0.125], [0.5, 0.25, -0.5, 0, 0, 0.25])
 ACTIVE, PREEMPTED, SUCCEEDED, ABORTED = 1, 2, 3, 4

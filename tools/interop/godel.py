@@ -1,6 +1,6 @@
 """Trial: ros-industrial-attic/godel, whose client drops modules into HOME: that are then executed.
 
-    python -m tools.foreign.godel FOLDER
+    python -m tools.interop.godel FOLDER
 
 FOLDER is a checkout. Twice a module of this trial is laid where godel's file suite lays its own;
 each has to be loaded, executed, unloaded and deleted.

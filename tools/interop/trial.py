@@ -1,6 +1,6 @@
 """Trial: every RAPID program below a folder, as it is, on the virtual controller, cell guessed.
 
-    python -m tools.foreign.trial FOLDER [ROBOT]     (or: make foreign FOREIGN=FOLDER)
+    python -m tools.interop.trial FOLDER [ROBOT]     (or: make interop FOREIGN=FOLDER)
 
 Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` does, and where the
 guessed robot does not reach a position on the one with which it gets furthest: what no module
@@ -26,8 +26,8 @@ from rapidgen.controller.inference.restarts import run_past_stops
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check
-from tools.foreign.called import lines_called
-from tools.foreign.programs import Program, programs
+from tools.interop.called import lines_called
+from tools.interop.programs import Program, programs
 
 ROBOTS = (
     *("irb120", "irb1200", "IRB 140-6/0.81", "irb1600", "irb2400", "IRB 2600-12/1.65", "irb4600"),

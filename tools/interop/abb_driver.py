@@ -1,6 +1,6 @@
 """Trial: the unmodified RAPID modules of ros-industrial/abb_driver on the virtual controller.
 
-    python -m tools.foreign.abb_driver FOLDER  (or: make foreign PROGRAM=abb_driver FOREIGN=FOLDER)
+    python -m tools.interop.abb_driver FOLDER  (or: make interop PROGRAM=abb_driver FOREIGN=FOLDER)
 
 FOLDER holds the six modules; nothing of them is part of this project. They boot, take five
 points as bytes written by hand, answer in bytes compared with a table written by hand, and
