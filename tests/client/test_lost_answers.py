@@ -58,7 +58,7 @@ def test_the_robot_stands_when_execute_raises(fault, way):
     kind = {"download": 11, "stream": 1302}[way]
     with lossy(once("motion", fault, kind=kind)) as (robot, controller):
         with pytest.raises(LOST, match="the robot stands") as error:
-            robot.execute(wiggle(robot), mode=way)
+            robot.execute(wiggle(robot), way=way)
         assert "then go on" in error.value.diagnostics[0].help
         assert stands(robot, controller)
 
@@ -118,7 +118,7 @@ def test_without_progress_a_motion_ends_when_the_robot_stands_at_its_end():
         lost.clear()
         with lossy(alter) as (robot, controller):
             path = wiggle(robot)
-            moving = robot.execute(path, mode=way)
+            moving = robot.execute(path, way=way)
             lost.append(True)
             began = robot.time()
             result = moving.result()
@@ -199,7 +199,7 @@ def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
     try:
         with client(proxy.address) as robot:
             with pytest.raises(RobotError, match="the robot stands"):
-                robot.execute(LONG, mode=way)
+                robot.execute(LONG, way=way)
             with controller.lock:
                 assert controller.stops
                 assert not controller._moving

@@ -174,7 +174,7 @@ def test_more_than_the_ring_holds_is_streamed():
         assert execution.progress.reached == 200
         assert not complaints(controller)
         with pytest.raises(InvalidProgram, match="ring holds"):
-            robot.run(program, mode="download")
+            robot.run(program, way="download")
 
 
 def test_a_stop_gives_a_prefix_with_its_index():

@@ -401,7 +401,7 @@ def test_no_frame_goes_out_behind_a_stop_that_came_before_the_lock():
 def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
     controller = fake(stream=StreamModel() if way == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
-        execution = robot.execute(LONG, mode=way)
+        execution = robot.execute(LONG, way=way)
         wait = robot._carrier.guard.wait
 
         def interrupt(timeout=None):
@@ -419,7 +419,7 @@ def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
 def test_ctrl_c_between_two_waits_stops_the_robot(fake, patient, monkeypatch, comes, place, way):
     controller = fake(stream=StreamModel() if way == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
-        execution = robot.execute(LONG, mode=way)
+        execution = robot.execute(LONG, way=way)
         goes_on = getattr(robot._carrier, place)
 
         def interrupt(*arguments):

@@ -275,10 +275,10 @@ def test_nothing_else_begins_while_a_routine_runs():
         robot._core.motion, motion = None, robot._core.motion
         for way in ("download", "stream"):
             with pytest.raises(TrajectoryRefused) as refused:
-                robot.run(Program().move_joints([0.1] * 6), mode=way)
+                robot.run(Program().move_joints([0.1] * 6), way=way)
             assert refused.value.reason is Reason.MOVING
         with pytest.raises(TrajectoryRefused) as refused:
-            robot.execute(wiggle(robot), mode="download")
+            robot.execute(wiggle(robot), way="download")
         assert refused.value.reason is Reason.MOVING
         robot._core.motion = motion
         assert execution.result().deviation < 1e-4

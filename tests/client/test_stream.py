@@ -174,7 +174,7 @@ def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(connected):
         assert [d for _, d in controller.points] == pytest.approx([0.1, 0.1, 0.1])
         for what in (
             lambda: robot.stream(fallback=False).append([0], [[0.02] * 6]),
-            lambda: robot.execute(Trajectory([0, 1], [[0.02] * 6] * 2), mode="stream"),
+            lambda: robot.execute(Trajectory([0, 1], [[0.02] * 6] * 2), way="stream"),
             robot.pause,
             lambda: robot.read_signal(0),
             lambda: robot.next_feedback(),
@@ -191,7 +191,7 @@ def test_execute_tells_the_way(connected):
         assert execution.way == "stream"
         assert execution.planned_seconds == pytest.approx(10)
         assert execution.result().way == "stream"
-        execution = robot.execute(short.reversed(), mode="stream")
+        execution = robot.execute(short.reversed(), way="stream")
         assert execution.result().points == 2
         assert execution.trajectory.names == robot.group.names
 
@@ -201,7 +201,7 @@ def test_what_no_number_of_a_stream_holds_is_downloaded(connected):
     with connected(**streams(ring=64), capacity=1000) as (robot, _):
         assert robot.way_for(path) == "download"
         with pytest.raises(InvalidTrajectory, match="RG623"):
-            robot.execute(path, mode="stream")
+            robot.execute(path, way="stream")
 
 
 def test_pause_speed_and_signals(fake, client, comes):

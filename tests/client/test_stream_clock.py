@@ -513,12 +513,12 @@ def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
         assert execution.way == "stream"
         # 1,000 are the most that the driver holds as a whole
         with pytest.raises(NotReady):
-            robot.execute(long, mode="download")
+            robot.execute(long, way="download")
         began = driver.model.reached
         result = execution.result()
         assert execution.trajectory.positions.shape == (5000, 6)
         with pytest.raises(InvalidTrajectory, match="holds 1000"):
-            robot.execute(long, mode="download")
+            robot.execute(long, way="download")
     assert began < 128
     assert result.points == 5000
     assert result.way == "stream"
@@ -536,7 +536,7 @@ def test_a_trajectory_is_checked_once(monkeypatch, points, way):
         if way == "append":
             robot.stream().append([0, 1], [[0.0] * 6] * 2)
         else:
-            robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), mode=way)
+            robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), way=way)
         robot.stop()
     assert len(checks) == 1
 

@@ -49,7 +49,7 @@ def test_motion_begins_at_once_however_long_the_trajectory():
         with driven() as (robot, _):
             path = Trajectory(*map(np.array, zip(*wave(points), strict=True)))
             requested = robot.time()
-            execution = robot.execute(path, mode=way)
+            execution = robot.execute(path, way=way)
             state = robot.wait_until(lambda s: s.is_moving, 60)
             robot.stop()
             with pytest.raises(MotionStopped):

@@ -291,7 +291,7 @@ def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
     )
     with Robot(streaming.address) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.2] * 6], seconds=20)
-        result = motion_progress.follow(robot.execute(path, mode="stream"))
+        result = motion_progress.follow(robot.execute(path, way="stream"))
     assert result.points == 2
     assert "moving" in terminal.getvalue()
     assert "done" in terminal.getvalue()

@@ -66,7 +66,7 @@ def test_a_driver_of_the_basic_profile(boot, client):
         with pytest.raises(MotionStopped):
             execution.result(60)
         with pytest.raises(NotSupported):
-            robot.execute(path, mode="stream")
+            robot.execute(path, way="stream")
 
 
 def test_a_stream(boot, client):

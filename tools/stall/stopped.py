@@ -1,6 +1,6 @@
 """Tests in processes that are stopped now and then, each by itself, as on a machine that has no
 time for them: between any two instructions, where `make stall-test` holds up at calls of sockets
-and threads. What is red then is red by chance. `make pause-test PACKAGE=view`.
+and threads. What is red then is red by chance. `make pause-test PACKAGE=viewer`.
 
     python tools/stall/stopped.py [--longest S] [--every S] [--seed N] COMMAND ...
 
