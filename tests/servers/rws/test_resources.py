@@ -527,7 +527,7 @@ DYNAMIC = {
 
 
 @pytest.mark.parametrize(
-    ("request", "names"),
+    ("query", "names"),
     [
         ("", [*DYNAMIC, *STATIC]),
         ("static", [*STATIC]),
@@ -538,8 +538,8 @@ DYNAMIC = {
         ("is-integrated", ["is-integrated-unit"]),
     ],
 )
-def test_a_robot_for_which_nothing_is_chosen(caller, request, names):
-    (item,) = caller.get(f"{UNIT}?resource={request}" if request else UNIT)
+def test_a_robot_for_which_nothing_is_chosen(caller, query, names):
+    (item,) = caller.get(f"{UNIT}?resource={query}" if query else UNIT)
     assert dict(item.fields) == {name: (DYNAMIC | STATIC)[name] for name in names}
 
 
