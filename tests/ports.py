@@ -18,7 +18,7 @@ def own_address() -> str:
 
 def free_port(adjacent: int = 0) -> int:
     """A port of loopback that nobody has, and that the system gives to nobody; so are the next
-    `beside` ones.
+    `adjacent` ones.
 
     One that was bound to 0 and let go can be another test's a moment later: its server then
     answers in place of the one that is awaited.

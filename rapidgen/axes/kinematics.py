@@ -133,7 +133,7 @@ class Kinematics:
 
         Axes that can turn more than once appear with every turn. Closest to `near` first.
         Without a closed form: what iteration finds from `near` and from other starts, at least
-        one if there is any; with `wanted` it looks longer for one of that configuration.
+        one if there is any; with `expected` it looks longer for one of that configuration.
         """
         values = self.map.to_urdf(start)
         if self._four is not None:

@@ -148,7 +148,7 @@ def arc_through(
     best = min(ways, key=lambda path: frames.angle_between(path.orientation(fraction), via[1]))
     if mode is CircleMode.PATH:
         return best
-    # turn * s + bend * s^2 is that of the circle point at `share` and that of the end at 1.
+    # turn * s + bend * s^2 is that of the circle point at `fraction` and that of the end at 1.
     off = frames.subtract(own(via[1], fraction), frames.scale(best.turn, fraction))
     bend = frames.scale(off, 1 / (fraction * fraction - fraction))
     turn = frames.subtract(best.turn, bend)

@@ -77,7 +77,7 @@ class ArmSearch:
         return tuple(s.joint for s in self.steps if s.joint in (*self._own, *self._inner))
 
     def search(self, start: Posture, *, complete: bool = False) -> "Search":
-        """The search of this arm, with what carries it as in `near`; `whole`: with its seventh."""
+        """The search of this arm, carried as in `start`; `complete`: with its seventh axis."""
         key = complete, tuple(start[i] for i in self._outside)
         if key not in self._searches:
             for old in [k for k in self._searches if k[0] == complete]:

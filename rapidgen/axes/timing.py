@@ -87,7 +87,7 @@ def parametrise(positions: Array, speed: Array, acceleration: Array) -> Array:
 def _next_share(
     before: Array, rate: Array, period_before: float, period: float, fraction: float, limit: Array
 ) -> float:
-    """Largest share of a segment whose neighbour has `share`, by the acceleration between them.
+    """Largest share of a segment whose neighbour has `fraction`, by the acceleration between them.
 
     |rate s' - before s| <= limit (period_before / s + period / s') / 2 is, for each axis in
     the direction in which it speeds up, a quadratic inequality in s'.

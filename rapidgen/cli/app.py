@@ -279,5 +279,5 @@ def _usage(fault: TyperException, text: list[str]) -> Diagnostic:
         "RG901",
         None,
         message[0].lower() + message[1:],
-        f"`{path} --help` shows what can be said here",
+        f"`{path} --help` lists its commands and options",
     )

@@ -107,7 +107,7 @@ def joints_of(
     current: Sequence[float],
     option: str = "--joints",
 ) -> tuple[float, ...]:
-    """All joints in the robot's order, those without a value where they are (`here`); rad, m.
+    """All joints in the robot's order, those without a value where they are (`current`); rad, m.
 
     Raises typer.BadParameter.
     """
@@ -129,7 +129,7 @@ def joints_of(
 def named_of(
     figures: Figures, units: Units, kinds: Mapping[str, str], current: Sequence[float], option: str
 ) -> tuple[float, ...]:
-    """All of `kinds`, those without a value where they are (`here`); rad, m.
+    """All of `kinds`, those without a value where they are (`current`); rad, m.
 
     Raises typer.BadParameter.
     """

@@ -57,7 +57,7 @@ class RobotError(DiagnosticError):
 
     @classmethod
     def because(cls, code: str, message: str, help: str = "", *notes: str, **report: Any) -> Self:  # noqa: ANN401
-        """One with a finding that has no place in a text; `told` is what its kind takes."""
+        """One with a finding that has no place in a text; `report` is what its kind takes."""
         return cls(fault(code, message, help, *notes), **report)
 
     def amend(self, message: str, help: str) -> None:

@@ -115,7 +115,7 @@ class ControllerRunner:
         self.ask_restart()
 
     def run(self, finished: Callable[[], bool]) -> None:
-        """Let time pass, over restarts, until `ended()`."""
+        """Let time pass, over restarts, until `finished()`."""
         while not finished():
             self.controller.scheduler.advance(stop=lambda: finished() or self._restart_asked)
             if self._restart_asked:

@@ -75,7 +75,7 @@ def name_of(key: Key) -> str:
 def compare(
     desired: Keyed, present: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> tuple[CfgChange, ...]:
-    """Changes from `present` to `wanted`; what is only in `ours` (deployed before) goes.
+    """Changes from `present` to `desired`; what is only in `own_files` (deployed before) goes.
 
     `before` has the instances from before the first deployment, as far as they were seen.
     """
@@ -102,7 +102,7 @@ def compare(
 def without_used(
     desired: Keyed, present: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> Keyed:
-    """`wanted`, with what somebody else has defined to the same end as it is."""
+    """`desired`, with what somebody else has defined to the same end as it is."""
     result = {}
     for key, instance in desired.items():
         if _toward(key, instance, present, own_files, before)[0] != "use":
@@ -115,7 +115,7 @@ def without_used(
 def merged(
     present: CfgText, desired: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> CfgText:
-    """`present` with the wanted instances of its domain, and without those only in `ours`.
+    """`present` with the wanted instances of its domain, and without those only in `own_files`.
 
     An instance of ours that was there before the first deployment gets its old attributes back.
     """

@@ -53,7 +53,7 @@ def steps_of(
 ) -> tuple[ManualStep, ...]:
     """Steps after the files have been switched; none where nothing loaded changes.
 
-    `modules` are the new and changed ones with their tasks, `gone` that some went, `wanted` and
+    `modules` are the new and changed ones with their tasks, `gone` that some went, `desired` and
     `old` the cfg files of the new and the last set, `written` that SYSPAR itself was changed.
     """
     steps = [] if written else [*_delete(cfg), *_load(cfg, desired), *_give_back(cfg)]

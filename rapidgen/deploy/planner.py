@@ -52,7 +52,7 @@ def make_plan(
     verb: Verb = "deploy",
     loaded: tuple[CfgText, ...] = (),
 ) -> Plan:
-    """Read the controller and plan the way to `wanted` (None: to the state before the first).
+    """Read the controller and plan the way to `desired` (None: to the state before the first).
 
     `loaded` is what a backup says is loaded, for a transport that does not see it.
     Raises TransportFault; DiagnosticError RG524 (another robot's driver), RG525 (RobotWare),

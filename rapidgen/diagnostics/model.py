@@ -67,7 +67,7 @@ def error(
     related: Sequence[Label] = (),
     severity: Severity = Severity.ERROR,
 ) -> Diagnostic:
-    """A finding: the one way to make one. `at` is its place, `mend` says what to do."""
+    """A finding: the one way to make one. `at` is its place, `help` says what to do."""
     return Diagnostic(code, severity, message, at, label, help, tuple(notes), tuple(related))
 
 

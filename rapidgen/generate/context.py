@@ -443,7 +443,7 @@ def _datum(
 
 
 def _in_lines(value: str, in_use: int) -> str:
-    """A record's value behind `taken` characters, broken behind commas where the line is full."""
+    """A record's value behind `in_use` characters, broken behind commas where the line is full."""
     lines, room = [""], MAX_LINE - in_use
     for part in re.findall("[^,]+,?", value):
         if len(lines[-1]) + len(part) > room:

@@ -1,7 +1,7 @@
 """The operator's side: the FlexPendant's screen and the dialogs that wait for an answer.
 
-Dialogs are answered by a script (`Answers`), by the control socket or by a test. With none of
-them there is no FlexPendant, and every dialog raises ERR_TP_NO_CLIENT.
+Dialogs are answered by a script (`DescriptionChoices`), by the control socket or by a test. With
+none of them there is no FlexPendant, and every dialog raises ERR_TP_NO_CLIENT.
 """
 
 from collections import deque

@@ -186,7 +186,7 @@ class Drive:
         remaining: Posture | None = None,
         stop: BrakingMotion | None = None,
     ) -> None:
-        """A law that began at `start` and ends at a place of the path, unless at `rest`."""
+        """A law that began at `start` and ends at a place of the path, unless at `remaining`."""
         if remaining is None:
             remaining = path.target if law.place >= path.end else path.at(law.place)
         now = self._scheduler.now

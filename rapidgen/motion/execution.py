@@ -179,14 +179,14 @@ class PathExecution:
         self.finish(lost, cleared=True)
 
     def store(self) -> StoredPath:
-        """The path as it is, for `take_up`; another one is to `begin`."""
+        """The path as it is, for `restore`; another one is to `begin`."""
         self.path.prune(self.drive.place())
         aside = StoredPath(self.path, self.motion, self._events)
         self._events = PathEvents()
         return aside
 
     def restore(self, aside: StoredPath, current: Posture) -> None:
-        """Drop this path for one that was put aside; the robot stands at `here`."""
+        """Drop this path for one that was put aside; the robot stands at `current`."""
         self.finish(list(self.path.legs), cleared=True)
         self.path, self._events = aside.path, aside.events
         self.come_back(current, aside.motion.law.place)

@@ -149,7 +149,7 @@ class Path:
         return lost
 
     def distance_to_path(self, current: Posture, place: float, limits: AxisLimits) -> float:
-        """Put a joint line from `here` to the path's `place` before it; returns where it begins.
+        """Put a joint line from `current` to the path's `place` before it; returns where it begins.
 
         `place` itself when the robot is there. An earlier way back is forgotten.
         """
@@ -209,7 +209,7 @@ def _slower_than_a_stop(adjacent: list[Piece], between: list[Piece], ramp: float
 
 
 def posture_at(pieces: tuple[Piece, ...], place: float, remaining: Posture) -> Posture:
-    """Axis values at a place of these pieces; `rest` where there is no piece."""
+    """Axis values at a place of these pieces; `remaining` where there is no piece."""
     if not pieces:
         return remaining
     low, high = 0, len(pieces) - 1

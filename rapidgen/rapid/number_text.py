@@ -20,7 +20,7 @@ _ALL_DIGITS: Final = Context(prec=800)
 
 
 def number_text(value: float, digits: int = NUM_DIGITS, *, complete: bool = False) -> str:
-    """A number in the standard format; `whole`: all digits of one that is whole and exact."""
+    """A number in the standard format; `complete`: all digits of one that is whole and exact."""
     if digits == NUM_DIGITS and math.isfinite(value):
         fraction = abs(value) % 1
         if fraction < _FRACTION or fraction > 1 - _FRACTION:

@@ -1,6 +1,6 @@
 """A goal carried out: SUCCEEDED only on the controller's DONE, everything else with its reason.
 
-One `Follower` is one motion group. It runs on the loop of its robot, also on a virtual clock.
+One `GoalExecutor` is one motion group. It runs on the loop of its robot, also on a virtual clock.
 """
 
 import asyncio

@@ -199,7 +199,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
 
 
 class GroupInterface:
-    """What one motion group shows to ROS; the `Public` of its link."""
+    """What one motion group shows to ROS; the `LinkListener` of its link."""
 
     def __init__(
         self,
@@ -280,7 +280,7 @@ class GroupInterface:
     # What the link tells
 
     def joint_states(self, states: JointStates) -> None:
-        """As `Public`."""
+        """As `LinkListener`."""
         message = JointState()
         message.header.stamp = _time(states.stamp)
         message.name = [self._prefix + name for name in states.names]
@@ -291,7 +291,7 @@ class GroupInterface:
         self._joint_states.publish(message)
 
     def status(self, status: RobotStatus, health: RobotHealth) -> None:
-        """As `Public`."""
+        """As `LinkListener`."""
         stamp = _time(round(self.link.now() * 1e9))
         diagnostics = DiagnosticArray()
         diagnostics.header.stamp = stamp
@@ -316,7 +316,7 @@ class GroupInterface:
         self._status.publish(message)
 
     def note(self, text: str) -> None:
-        """As `Public`."""
+        """As `LinkListener`."""
         self._node.get_logger().info(f"{self._name}: {text}")
 
     # What ROS asks for

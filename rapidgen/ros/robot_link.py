@@ -1,6 +1,6 @@
 """The link to one motion group: up before the robot, saying why it waits, back when it is.
 
-One `RobotLink` runs on one asyncio loop. What it sees goes to a `Public`, which publishes it.
+One `RobotLink` runs on one asyncio loop. What it sees goes to a `LinkListener`, which publishes it.
 """
 
 import asyncio

@@ -134,7 +134,8 @@ class Cluster:
         return [(given.piece.number, result)]
 
     def _fetched(self, given: _Given) -> tuple[bool, object]:
-        """What a worker has made of a piece. Raises EngineLost, KilledWorker, FutureCancelledError.
+        """What a worker has made of a piece. Raises WorkerProcessLost, KilledWorker,
+        FutureCancelledError.
 
         A worker may be lost between its answer and this: Dask then waits for it to come back.
         """
@@ -211,7 +212,7 @@ def rejection_reason(build: str, key: str, context: bytes) -> str:
 
 
 def perform(key: str, function: Callable[..., object], item: object) -> tuple[bool, object]:
-    """A piece of work, by an engine that has nothing to do. Raises EngineLost."""
+    """A piece of work, by an engine that has nothing to do. Raises WorkerProcessLost."""
     with _lock:
         idle = _idle.setdefault(key, [])
         engine = idle.pop() if idle else None

@@ -99,7 +99,7 @@ class History:
     ) -> None:
         """Send `data` and, at some time or at some statement of the driver, `act`.
 
-        `behind`: not before all of `data` was sent.
+        `after`: not before all of `data` was sent.
         """
         if self.step.where is None:
             wait = self.chance.choice(

@@ -20,7 +20,7 @@ class Net(SystemNetwork):
         super().__init__(self.scheduler, ports="auto")
 
     def until(self, result):
-        """What `found` gives as soon as it gives something."""
+        """What `result` gives as soon as it gives something."""
         seen = []
 
         def look():

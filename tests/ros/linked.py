@@ -14,7 +14,7 @@ from rapidgen.testing.asyncio_clock import VirtualLoop
 
 
 class Heard:
-    """A `Public` that keeps what is published."""
+    """A `LinkListener` that keeps what is published."""
 
     def __init__(self):
         self.states, self.health, self.notes = [], [], []

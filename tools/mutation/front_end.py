@@ -181,7 +181,7 @@ def _sources(root=ROOT, package=PACKAGE):
 
 
 def of_functions(expected=None, *, root=ROOT, package=PACKAGE):
-    """Mutants of functions and methods; of the modules in `wanted` (paths) where given.
+    """Mutants of functions and methods; of the modules in `expected` (paths) where given.
 
     `root` and `package` are another package's than the front end.
     """

@@ -77,7 +77,7 @@ def lines_of(graph: Graph, joints: Sequence[UrdfJoint]) -> list[Line]:
 def read_cell(graph: Graph, names: tuple[str, ...], message: Mapping[str, str]) -> Cell:
     """The arms of a checked description, and the positioners beside them.
 
-    `said` are the axes of joints that a person named, "" of one that is to be ignored.
+    `message` are the axes of joints that a person named, "" of one that is to be ignored.
     """
     moving = [j for j in graph.robot.joints if j.is_actuated and message.get(j.name) != ""]
     if len(moving) > MOST_MOVING:

@@ -168,7 +168,7 @@ class Debugger:
 
     def run_for(self, seconds: float) -> None:
         """Go on, and pause when so much of the controller's time has passed, if nothing else has
-        paused it before. NotNow: it is not paused."""
+        paused it before. NotPaused: it is not paused."""
         self._go_on(None)
         self._timer = self._scheduler.after(round(seconds * S), lambda: self._pause("time"))
 
@@ -189,7 +189,7 @@ class Debugger:
         self._go_on(None)
 
     def step(self, task: str, kind: StepKind = "over") -> None:
-        """Go on until a task is before its next statement. NotNow: it is not paused.
+        """Go on until a task is before its next statement. NotPaused: it is not paused.
 
         `in` enters what is called, `over` does not, `out` ends where the routine was called.
         Traps, event routines and modules with NOSTEPIN are not stepped into: they are executed
@@ -204,7 +204,7 @@ class Debugger:
         self._go_on(_Step(task, kind, depth, frames[-1].level, _hidden(frames[-1].module)))
 
     def run_to(self, task: str, module: str, line: int) -> None:
-        """Go on to a line, as if there were a breakpoint for once. NotNow: there is none."""
+        """Go on to a line, as if there were a breakpoint for once. NotPaused: there is none."""
         cursor = PlacedBreakpoint(0, Breakpoint(module, line, task))
         places.place(cursor, self._tasks[task].program.modules.values())
         if not cursor.line:
@@ -343,7 +343,7 @@ class Debugger:
         return self.frames(task)
 
     def frame(self, task: str, level: int = -1) -> StackFrame:
-        """One routine of a call stack, the innermost by default. NotNow: there is none."""
+        """One routine of a call stack, the innermost by default. NotPaused: there is none."""
         frames = self.frames(task)
         try:
             return frames[level]
@@ -351,11 +351,11 @@ class Debugger:
             raise NotPaused(f"{task} is not executing anything there") from None
 
     def evaluate(self, task: str, text: str, level: int = -1) -> DisplayedValue:
-        """The value of an expression, where a routine stands. NotNow says why there is none."""
+        """The value of an expression, where a routine stands. NotPaused says why there is none."""
         return values.evaluate(self._tasks[task].program, self.frame(task, level), text)
 
     def assign(self, task: str, target: str, value: str, level: int = -1) -> DisplayedValue:
-        """Set a datum, an element or a component; the value it has then. NotNow says why not."""
+        """Set a datum, an element or a component; the value it has then. NotPaused says why not."""
         done = values.assign(self._tasks[task].program, self.frame(task, level), target, value)
         self.changed.notify()
         return done

@@ -45,13 +45,13 @@ class DisplayedValue:
 
 
 def evaluate(program: Program, frame: StackFrame, text: str) -> DisplayedValue:
-    """The value of an expression in a frame. NotNow: it has none, or would call something."""
+    """The value of an expression in a frame. NotPaused: it has none, or would call something."""
     watched = compiled(program, frame, text)
     return shown(text, watched.type, watched.dims, read(watched, frame))
 
 
 def compiled(program: Program, frame: StackFrame, text: str) -> WatchedExpression:
-    """An expression, ready to be read in any frame of the routine. NotNow."""
+    """An expression, ready to be read in any frame of the routine. NotPaused."""
     try:
         return watch(*_where(program, frame), parse_expression(text))
     except (CannotCompile, SyntaxError, FatalError) as error:
@@ -59,7 +59,7 @@ def compiled(program: Program, frame: StackFrame, text: str) -> WatchedExpressio
 
 
 def read(watched: WatchedExpression, frame: StackFrame) -> Value:
-    """The present value. NotNow: an error of execution."""
+    """The present value. NotPaused: an error of execution."""
     try:
         return watched.read(frame.values)
     except RECOVERABLE as error:
@@ -72,7 +72,7 @@ def read(watched: WatchedExpression, frame: StackFrame) -> Value:
 
 
 def assign(program: Program, frame: StackFrame, target: str, value: str) -> DisplayedValue:
-    """Set a datum, an element or a component, as an assignment there would. NotNow."""
+    """Set a datum, an element or a component, as an assignment there would. NotPaused."""
     try:
         node = parse_assignment(f"{target}:={value}")
         name, change = store(*_where(program, frame), node)

@@ -113,7 +113,7 @@ def guess(
 ) -> InferredCell:
     """The cell that the programs of `system` seem to stand in.
 
-    `units` are its mechanical units, `table` is where work objects are, m, `stands` the robtarget
+    `units` are its mechanical units, `table` is where work objects are, m, `frames` the robtarget
     and the jointtarget of the robot at first, as RAPID has them.
     """
     found: dict[str, UndeclaredName] = {}

@@ -21,7 +21,7 @@ _NUMBERS: Final = (*(str(n) for n in range(1, 11)), "0", "100")
 
 
 class DialogResponder:
-    """Answers the dialogs of one controller; `said` grows by (dialog and text, answer)."""
+    """Answers the dialogs of one controller; `message` grows by (dialog and text, answer)."""
 
     def __init__(self, operator: Operator, scheduler: Scheduler, message: list[Said]) -> None:
         self._operator = operator

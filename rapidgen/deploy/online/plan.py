@@ -153,7 +153,7 @@ def make_live_plan(
     conflict: tuple[MemoryModule, ...],
     restore: tuple[MemoryModule, ...],
 ) -> OnlinePlan:
-    """`old` are the modules of earlier sets with their tasks, `ours` and `before` as in a plan."""
+    """`old`: modules of earlier sets with their tasks; `own_files` and `before` as in a plan."""
     rows = {row.name: row for row in view.rows}
     delete, again, change = [], [], []
     for one in cfg:

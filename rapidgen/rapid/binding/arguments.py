@@ -144,7 +144,7 @@ def match(
 
 
 def first_fit(result: str | None, alternatives: Sequence[int], types: Sequence[str | None]) -> int:
-    """Of alternatives the first that has the type `found` exactly; else the first.
+    """Of alternatives the first that has the type `result` exactly; else the first.
 
     `types` are those of the alternatives. A literal number means the first.
     """

@@ -1,7 +1,7 @@
 """What stands at a place of a text: for editors, and for whoever looks for all uses of a name.
 
-`Bound(scope).at(line, column)` is the symbol that is named there. A parameter that an argument
-names, and a procedure that a late call names with a literal, are found as well.
+`BoundModule(scope).at(line, column)` is the symbol that is named there. A parameter that an
+argument names, and a procedure that a late call names with a literal, are found as well.
 """
 
 from bisect import bisect_right

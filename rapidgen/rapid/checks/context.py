@@ -40,7 +40,7 @@ class CheckContext:
 
 
 def closest(keyword: str, known: Iterable[str]) -> str:
-    """The known name that `word` looks like a slip of the keyboard for, or an empty text.
+    """The known name that `keyword` looks like a slip of the keyboard for, or an empty text.
 
     One slip, or two in a long name: a letter too many, too few, wrong, or two swapped. Names
     that differ in their digits only (p10, p20) are siblings, not slips.

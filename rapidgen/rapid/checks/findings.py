@@ -131,7 +131,7 @@ class Findings:
         """A name that nothing declares: an error where it is certain that nothing can.
 
         Elsewhere a name that looks like a slip is worth a warning, any other one a place in the
-        module's note (`tell_elsewhere`). `wanted` is the type of a datum. Once a name.
+        module's note (`note_other_scopes`). `expected` is the type of a datum. Once a name.
         """
         code, kinds, options = _ROLES[role]
         key = (role, name.lower())
@@ -188,7 +188,7 @@ class Findings:
 
 
 def _fits(result: str | None, expected: str | None) -> bool:
-    """Whether a datum may stand where `wanted` is; also where either type is not known."""
+    """Whether a datum may stand where `expected` is; also where either type is not known."""
     if result is None or expected is None or expected in ("anytype", AGGREGATE):
         return True
     return equal(element(result), element(expected))

@@ -369,7 +369,7 @@ class TypeChecker:
     # -- places --------------------------------------------------------------------------
 
     def expect(self, node: Expression, expected: str | None, place: str) -> str | None:
-        """Check that an expression has the type `wanted`; gives `wanted` when it fits."""
+        """Check that an expression has the type `expected`; gives `expected` when it fits."""
         if expected is None or expected == "anytype":
             return self.type_of(node)
         if isinstance(node, Aggregate):

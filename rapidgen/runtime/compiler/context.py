@@ -135,7 +135,7 @@ class Unit:
     def expression(
         self, node: n.Expression, expected: Type | None = None, dims: tuple[int, ...] = ()
     ) -> CompiledExpression:
-        """Compile an expression to a value (signals are read); `want` types aggregates and
+        """Compile an expression to a value (signals are read); `expected` types aggregates and
         literals."""
         e = self.compile(self, node, expected, dims)
         if e.type.kind == "semivalue":

@@ -31,7 +31,7 @@ inline  the value itself stands in the code (atomic CONST, ERR_ numbers)
 global  a global of the task's namespace
 cell    a global `PersistentCell` (PERS)
 local   a Python local
-box     a Python local that holds a `Box` (a variable that is passed by reference)
+box     a Python local that holds a `ValueRef` (a variable that is passed by reference)
 ref     a Python local that holds a `Ref` or `PersistentCell` (VAR, INOUT and PERS parameters)
 object  a Python local that is the record, array or non-value object of a VAR parameter
 """

@@ -1,8 +1,8 @@
 """The pieces of an MCAP file: found by its index, or one after the other where it has none.
 
 A recording that was cut off has no index; everything up to the cut is read. Whatever a file
-contains, reading ends with a `Damaged` at worst: sizes are looked at before anything is unpacked,
-and what a checksum does not fit is not used.
+contains, reading ends with a `RecordingDamaged` at worst: sizes are looked at before anything is
+unpacked, and what a checksum does not fit is not used.
 """
 
 import struct

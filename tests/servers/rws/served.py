@@ -64,7 +64,7 @@ class Caller:
         return self.application.generation is Generation.ONE
 
     def send(self, method, target, form=None, body=None, **headers):
-        """A request of this session; its HttpReply."""
+        """A request of this session; its HttpResponse."""
         one = self.application.generation is Generation.ONE
         sent = {"host": "h", "cookie": f"{SESSION}={self.session.key}"}
         if not one:

@@ -39,7 +39,7 @@ def _waiting(core: RwsCore) -> Flow[Dialog]:
 def answer_dialog(core: RwsCore, value: RapidValue) -> Flow[None]:
     """Answer the dialog that waits: a number of a key or a button, a num, a text.
 
-    Returns when it is gone. Raises RwsError (RG650; 404: none waits), NotObeyed (RG655): it was
+    Returns when it is gone. Raises RwsError (RG650; 404: none waits), NotConfirmed (RG655): it was
     agreed to, and waits still.
     """
     waiting = yield from _waiting(core)

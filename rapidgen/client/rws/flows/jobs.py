@@ -54,7 +54,7 @@ def backup(core: RwsCore, name: str, *, volume_name: str = "BACKUP") -> Flow[str
 def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     """Restart the controller (a warm start, no other kind), and wait s until it serves again.
 
-    RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602), NotObeyed
+    RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602), NotConfirmed
     (RG655): it was agreed to, and nothing restarts.
     """
     yield from _restarted(core, ops.RESTART, {"restart-mode": "restart"}, wait)
@@ -90,7 +90,7 @@ def _restarted(core: RwsCore, operation: RwsOperation, form: Fields, wait: float
 def _gone(core: RwsCore, wait: float) -> Flow[None]:
     """Wait until the mastership of this session is gone: with it the old run of the controller.
 
-    Raises NotObeyed (RG655).
+    Raises NotConfirmed (RG655).
     """
     until = core.clock() + wait
     while core.clock() < until:

@@ -17,7 +17,7 @@ _LOOK = 0.1
 
 
 def one(core: RwsCore, operation: RwsOperation, *kinds: str, **names: str) -> Flow[Item]:
-    """The one thing that an operation gives. Raises NotObeyed (RG655) when it is not there."""
+    """The one thing that an operation gives. Raises NotConfirmed (RG655) when it is not there."""
     body, _ = yield from ask(core, operation, names)
     result = body.all(*kinds)
     if not result:
@@ -59,7 +59,7 @@ def execution(core: RwsCore) -> Flow[ProgramState]:
 def motors(core: RwsCore, on: bool) -> Flow[None]:
     """Motors on or off; returns when they are.
 
-    Raises RwsError (RG650), NotObeyed (RG655): the controller agreed, and they are not.
+    Raises RwsError (RG650), NotConfirmed (RG655): the controller agreed, and they are not.
     """
     requested = "motoron" if on else "motoroff"
     yield from ask(core, ops.SET_CTRL_STATE, form={"ctrl-state": requested})
@@ -101,7 +101,7 @@ def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
     """Start the program of all selected tasks; returns when it runs. `cycle`: once, forever, asis.
 
     THE ROBOT MAY MOVE. Motors have to be on. Raises NotReady (RG610): this session holds
-    mastership, which keeps a program from running. NotObeyed (RG655): it was agreed to, and does
+    mastership, which keeps a program from running. NotConfirmed (RG655): it was agreed to, and does
     not run.
     """
     if core.held.keys() - {"write"}:

@@ -37,7 +37,7 @@ def _task(item: Item) -> TaskState:
 def select_task(core: RwsCore, task: str, selected: bool) -> Flow[None]:
     """Whether a NORMAL task is started with the program (the task selection panel); read back.
 
-    The program must stand. Raises NotObeyed (RG655).
+    The program must stand. Raises NotConfirmed (RG655).
     """
     operation = ops.ACTIVATE if selected else ops.DEACTIVATE
     yield from held(core, "rapid", ask(core, operation, {"task": task}, {"task": task}))
@@ -159,7 +159,7 @@ def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
 
 
 def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
-    """Give a datum a value, and read it back. Raises NotObeyed (RG655): it did not take it."""
+    """Give a datum a value, and read it back. Raises NotConfirmed (RG655): it did not take it."""
     steps = ask(core, ops.SET_SYMBOL, {"symbol": path}, {"value": write(value)})
     if core.generation is Generation.ONE:
         yield from steps  # RobotWare 6 takes mastership by itself

@@ -46,7 +46,7 @@ def _signal(item: Item) -> SignalState:
 
 
 def set_signal(core: RwsCore, name: str, value: float) -> Flow[SignalState]:
-    """Set a signal, and look: two requests. Raises NotObeyed (RG655): it is something else."""
+    """Set a signal, and look: two requests. Raises NotConfirmed (RG655): it is something else."""
     yield from ask(core, ops.SET_SIGNAL, {"signal": name}, {"lvalue": f"{float(value):g}"})
     now = yield from signal(core, name)
     if abs(now.value - value) > 1e-4 * max(1.0, abs(value)):

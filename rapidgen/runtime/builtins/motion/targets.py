@@ -105,8 +105,8 @@ def joints_for(
     """The posture for a flange pose: that of the wanted configuration, or the closest one.
 
     External axes are those of `near`; of an arm with seven axes its seventh value is the arm angle
-    that the target asks for, unless it is that of `here`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis
-    outside its range in every posture); NoConfiguration: not with this one.
+    that the target asks for, unless it is that of `current`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an
+    axis outside its range in every posture); NoConfiguration: not with this one.
     """
     place = kinematics.seventh
     arm_angle = None
