@@ -1,7 +1,7 @@
 """What goes where: tasks, their modules, and the System that the cfg files are written from.
 
 The structure (one reader, one supervisor, one state server and the motion task for each motion
-group) and its reasons are in docs/use/driver.md.
+group) and its reasons are in docs/develop/driver-design.md.
 """
 
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""The zones that the path planner is given: found as docs/use/driver.md ("Motion") says.
+"""The zones that the path planner is given: found as docs/develop/driver-design.md ("Motion") says.
 
 What a zone is: S4 datasys 1-zonedata; one radius on both sides, angles and external axes where
 the TCP rests.

@@ -24,7 +24,7 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("watching")
 
 _CLIENTS = 3
-"""Clients that the state port serves at a time, as docs/use/driver.md promises."""
+"""Clients that the state port serves at a time, as docs/reference/driver.md says."""
 _WAITING = 16
 """Events that may wait to be told."""
 

@@ -201,7 +201,7 @@ def _each_round(bench: Bench) -> None:
 
 
 _WRAP = 1000
-"""s: where the time stamp of JOINT_FEEDBACK begins anew, as docs/use/driver.md promises."""
+"""s: where the time stamp of JOINT_FEEDBACK begins anew, as docs/reference/driver.md says."""
 
 
 def _stamps(reply: Sequence[Round]) -> list[float]:
