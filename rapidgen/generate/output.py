@@ -50,7 +50,11 @@ class Change:
 
 
 def manifest_file(files: list[OutputFile], head: Members) -> OutputFile:
-    """manifest.json over `files`; `head` has what comes before the list of files."""
+    """Return manifest.json for `files`; `head` has the members before the list of files.
+
+    The files are listed in the order in which they must be written, the manifest itself last.
+    `lines` maps RAPID lines to template lines: path -> [rapid line, template, template line].
+    """
     manifest: Members = {
         **head,
         "files": [

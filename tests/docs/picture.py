@@ -1,7 +1,7 @@
-"""The picture of docs/develop/architecture.md, drawn from the code.
+"""The package list of docs/develop/architecture.md, drawn from the code.
 
-`python -m tests.docs.picture` draws it again: the rooms as the import contract has them, top to
-bottom, their folders, what each says of itself in its first line, and which rooms it imports.
+`python -m tests.docs.picture` draws it again: the packages as the import contract has them, top to
+bottom, and their folders, each with the first line of its docstring.
 """
 
 import ast
@@ -10,14 +10,14 @@ import textwrap
 import tomllib
 
 from tests.docs.drawn import Picture
-from tests.docs.tree import PACKAGE, ROOT, imports, modules, room, tree_of
+from tests.docs.tree import PACKAGE, ROOT, modules, package_of, tree_of
 
 PICTURE = Picture("<!-- drawn by tests/docs/picture.py -->\n```text\n", "```\n<!-- drawn -->\n")
 WIDTH = 100
 
 
 def layers() -> list[list[str]]:
-    """Rooms of the import contract, top to bottom; those of one layer do not import each other."""
+    """Packages of the import contract, top to bottom; those of one layer are independent."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     contracts = tomllib.loads(text)["tool"]["importlinter"]["contracts"]
     match = next(contract["layers"] for contract in contracts if contract["type"] == "layers")
@@ -25,32 +25,25 @@ def layers() -> list[list[str]]:
 
 
 def says(package: str) -> str:
-    """First sentence of a package about itself."""
+    """First line of a package's docstring."""
     path = modules()[package]
     return (ast.get_docstring(tree_of(path)) or "").split("\n")[0]
 
 
 def entry(name: str, text: str, depth: int) -> list[str]:
-    """A room or folder with its line, folded."""
+    """A package or folder with its line, folded."""
     left = f"{'  ' * depth}{name}/".ljust(22)
     return textwrap.wrap(left + text, WIDTH, subsequent_indent=" " * 22)
 
 
 def draw() -> str:
-    """The picture."""
-    graph, out = imports(), []
+    """Return the text block."""
+    out = []
     for layer in layers():
         out.append("─" * WIDTH)
         for name in layer:
-            own = [module for module in modules() if room(module) == name]
+            own = [module for module in modules() if package_of(module) == name]
             out += entry(name, says(f"rapidgen.{name}"), 0)
-            below = {room(result) for module in own for result in graph[module]} - {name, ""}
-            out += textwrap.wrap(
-                f"imports {' '.join(sorted(below)) or 'no room'}",
-                WIDTH,
-                initial_indent=" " * 22 + "→ ",
-                subsequent_indent=" " * 24,
-            )
             for module in own:
                 if module.count(".") > 1 and modules()[module].name == "__init__.py":
                     path = modules()[module].parent

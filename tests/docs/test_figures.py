@@ -3,7 +3,7 @@
 import pytest
 
 from tests.docs.figures import FIGURES, classes, words
-from tests.docs.tree import circles, imports, modules, room
+from tests.docs.tree import circles, imports, modules, package_of
 
 
 @pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: figure.what)
@@ -23,4 +23,4 @@ def test_words_and_classes_are_counted():
     assert len(words("class")) > 500
     assert len(classes()) > 300
     assert "rapidgen.config.model" in imports()["rapidgen.config.load"]
-    assert {room(name) for name in modules()} >= {"", "axes", "cli", "wire"}
+    assert {package_of(name) for name in modules()} >= {"", "axes", "cli", "wire"}

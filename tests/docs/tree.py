@@ -25,8 +25,8 @@ def tree_of(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"))
 
 
-def room(module: str) -> str:
-    """The room of a module, '' for the package's own files."""
+def package_of(module: str) -> str:
+    """Return the top package of a module, '' for files directly in rapidgen."""
     parts = module.split(".")
     return parts[1] if len(parts) > 1 and (PACKAGE / parts[1]).is_dir() else ""
 
