@@ -138,7 +138,7 @@ suite: $(STAMP) ## 8 min: every case of `rapidgen test`, any two assumptions abo
 	$(BIN)/rapidgen test irb120
 
 triples: $(STAMP) ## 15 min: the same where any three assumptions about controllers meet
-	$(BIN)/rapidgen test irb120 --together 3 --seeds 0
+	$(BIN)/rapidgen test irb120 --strength 3 --seeds 0
 
 full-suite: $(STAMP) ## 3 h: the same on every example, and on any two of profile, commissioning, main, control
 	$(BIN)/python tools/signature.py

@@ -35,7 +35,7 @@ def ready(*paths: Path | str) -> float:
     """Seconds to the line."""
     began = time.perf_counter()
     words = [sys.executable, "-m", "rapidgen.cli", "sim", *map(str, paths), "--ports", "auto"]
-    words += [] if paths[0] in OWN else ["--cell", "guess"]
+    words += [] if paths[0] in OWN else ["--cell", "infer"]
     with subprocess.Popen(
         words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, env=ENVIRONMENT
     ) as sim:

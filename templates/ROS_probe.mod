@@ -1,7 +1,7 @@
 MODULE ROS_probe
     ! Questions to a controller, about what no manual settles. Load this module alone into a
     ! NORMAL task, PP to main, Start, and read the pendant (or the event log, 80003). Each line
-    ! is an answer, `switch=value`, as `rapidgen run --dialect` and the test suite take it.
+    ! is an answer, `switch=value`, as `rapidgen run --assume` and the test suite take it.
     !
     ! Nothing here moves a robot, sets an output or opens a socket. A line that begins with
     ! "! If the program stops now:" is the answer of the question that stopped it; then go on with

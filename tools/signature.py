@@ -1,6 +1,6 @@
 """What the driver is signed for: the suite on every example, and on what may be configured.
 
-    python tools/signature.py [--part N/M] [--of LABEL ...] [--jobs N] [--together N]
+    python tools/signature.py [--part N/M] [--of LABEL ...] [--jobs N] [--strength N]
                                    [--output FILE] [--plan]
 
 Every example of robots/examples, and of the IRB 120 the configurations in which any two of profile,
@@ -70,13 +70,13 @@ def done(of):
 
 def proven(label, path, overrides, of):
     config = load_config(str(path), overrides=overrides)
-    saved = GIVEN.output.with_suffix("") / of / f"{label.replace(' ', '_')}-{GIVEN.together}.jsonl"
+    saved = GIVEN.output.with_suffix("") / of / f"{label.replace(' ', '_')}-{GIVEN.strength}.jsonl"
     saved.parent.mkdir(parents=True, exist_ok=True)
     proof = run_suite(
         config,
         seeds=100,
         jobs=GIVEN.jobs,
-        strength=GIVEN.together,
+        strength=GIVEN.strength,
         results=saved,
         resume=True,
     )
@@ -143,7 +143,7 @@ if __name__ == "__main__":
     parser.add_argument("--part", default="1/1")
     parser.add_argument("--of", nargs="*", choices=[label for label, _, _ in runs()])
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--together", type=int, default=2, choices=range(4))
+    parser.add_argument("--strength", type=int, default=2, choices=range(4))
     parser.add_argument("--output", type=Path, default=ROOT / "build" / "signature.jsonl")
     parser.add_argument("--plan", action="store_true")
     GIVEN = parser.parse_args()

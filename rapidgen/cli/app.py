@@ -45,8 +45,8 @@ VERBS = {
     "record": "Write every joint message to a CSV: `time,<joint names>` in s and rad (m).",
     "status": "Show a controller: mode, motors, speed, tasks, pointers.",
     "log": "Show a controller's event log; follow it.",
-    "start": "Start the program of a controller. THE ROBOT MAY MOVE.",
-    "halt": "Stop the program of a controller.",
+    "start-program": "Start the program of a controller. THE ROBOT MAY MOVE.",
+    "stop-program": "Stop the program of a controller.",
     "io": "Show signals of a driver or a controller, or set one.",
     "symbols": "Show a controller's RAPID data, or set one.",
     "backup": "Bring a backup of a controller here, which `sim` reads.",
@@ -185,7 +185,8 @@ def _interruptible(verb: Callable[..., object]) -> Callable[..., object]:
 
 def function(verb: str) -> Callable[..., object]:
     """The function behind a verb."""
-    result: Callable[..., object] = getattr(import_module(f"rapidgen.cli.{verb}"), verb)
+    name = verb.replace("-", "_")
+    result: Callable[..., object] = getattr(import_module(f"rapidgen.cli.{name}"), name)
     return result
 
 

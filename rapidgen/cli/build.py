@@ -16,9 +16,11 @@ if TYPE_CHECKING:
 
 def build(
     config: options.Config,
-    out: Annotated[
+    output: Annotated[
         Path | None,
-        typer.Option("--out", "-o", help="Output folder; default rapid_out/NAME.", metavar="DIR"),
+        typer.Option(
+            "--output", "-o", help="Output folder; default rapid_out/NAME.", metavar="DIR"
+        ),
     ] = None,
     overrides: options.Overrides = None,
     backup: options.VeryBackup = None,
@@ -55,21 +57,21 @@ def build(
         _tell(tuple(note for note in cell.notes if note.code != "RG710"))
         model = fit(model, cell)
         typer.echo(_fitted(backup, model), err=True)
-    output = generate(model, cell)
-    folder = out if out is not None else Path("rapid_out") / model.name
+    files = generate(model, cell)
+    folder = output if output is not None else Path("rapid_out") / model.name
     if list_files:
-        for file in output.files:
+        for file in files.files:
             typer.echo(file.path)
         return 0
     if diff or check:
-        changes = compare(output, folder)
+        changes = compare(files, folder)
         if diff:
             typer.echo(_diff(changes), nl=False)
         if check and changes:
             _differs(folder, changes)
         return 1 if changes else 0
-    write(output, folder)
-    typer.echo(_summary(output, folder), err=True)
+    write(files, folder)
+    typer.echo(_summary(files, folder), err=True)
     return 0
 
 

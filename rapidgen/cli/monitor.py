@@ -12,8 +12,8 @@ def monitor(
     config: options.ConfigOrHost,
     to: options.RobotAddress = "",
     group: options.Group = "",
-    plain: Annotated[
-        bool, typer.Option("--plain", help="One line a state, no table; deg and mm.")
+    lines: Annotated[
+        bool, typer.Option("--lines", help="One line a state, no table; deg and mm.")
     ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="One JSON object a line; rad and m.")
@@ -39,7 +39,7 @@ def monitor(
 
     robot = Robot(config, address=to or None, group=group, watch=True, reconnect=reconnect)
     watcher = state_lines.StateStatistics()
-    is_live = not (plain or as_json) and sys.stdout.isatty()
+    is_live = not (lines or as_json) and sys.stdout.isatty()
     with robot, Live(refresh_per_second=10) if is_live else nullcontext() as screen:
         for number, state in enumerate(robot.states(), 1):
             watcher.take(state, robot.events[-1] if robot.events else None)

@@ -37,9 +37,9 @@ def new(
     ignore: Annotated[
         list[str] | None, typer.Option("--ignore", help="Joint that the controller does not move.")
     ] = None,
-    keep: Annotated[
+    hold_axis: Annotated[
         list[str] | None,
-        typer.Option("--keep", help="Robot axis without a joint, held where it stands."),
+        typer.Option("--hold-axis", help="Robot axis without a joint, held where it stands."),
     ] = None,
     tip: Annotated[
         list[str] | None,
@@ -106,7 +106,7 @@ def new(
             joints=assignments([*(joint or ()), *(track or ())]),
             ignore=tuple(ignore or ()),
             tips=tuple(tip or ()),
-            keep=tuple(keep or ()),
+            held_axes=tuple(hold_axis or ()),
             coupling=coupling,
             speed=speed,
             ranges=ranges(range_ or ()),

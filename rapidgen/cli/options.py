@@ -68,8 +68,8 @@ Cell = Annotated[
     str,
     typer.Option(
         "--cell",
-        metavar="FILE|guess",
-        help="What stands around the controller; `guess`: whatever the programs name.",
+        metavar="FILE|infer",
+        help="What stands around the controller; `infer`: whatever the programs name.",
     ),
 ]
 Start = Annotated[

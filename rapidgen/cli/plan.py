@@ -11,8 +11,9 @@ from rapidgen.cli import options
 def plan(
     config: options.ConfigOrFolder,
     to: options.Controllers,
-    out: Annotated[
-        Path | None, typer.Option(help="Write the plan for `deploy --plan`.", metavar="FILE")
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Write the plan for `deploy --plan`.", metavar="FILE"),
     ] = None,
     detailed_exitcode: Annotated[
         bool, typer.Option("--detailed-exitcode", help="0 nothing to do, 1 error, 2 changes.")
@@ -33,7 +34,7 @@ def plan(
     What is left to people, and what cannot be seen over the transport, is a line of it.
     The password comes from --secrets, RAPIDGEN_PASSWORD or a prompt.
 
-    rapidgen plan cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --out plan.json
+    rapidgen plan cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --output plan.json
     """
     import json
 
@@ -45,8 +46,8 @@ def plan(
     from rapidgen.deploy.plan_text import plans_text
     from rapidgen.deploy.target import Access
 
-    if out is not None:
-        refuse_unwritable([out])
+    if output is not None:
+        refuse_unwritable([output])
     requested = desired_set(config, overrides or ())
     access = Access(
         user, secrets, identity, known_hosts, ask=True, fingerprint=fingerprint, agree=agree()
@@ -60,8 +61,8 @@ def plan(
         backup=backup,
     )
     plans = plan_all(job)
-    if out is not None:
-        write_plans(out, plans)
+    if output is not None:
+        write_plans(output, plans)
     if as_json:
         typer.echo(json.dumps([plan_json(made) for made in plans], indent=2))
     else:

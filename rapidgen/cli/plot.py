@@ -25,10 +25,10 @@ def plot(
     executed: Annotated[
         Path | None, typer.Argument(help="A recording of the same, to draw over it.")
     ] = None,
-    out: Annotated[
+    output: Annotated[
         Path | None,
         typer.Option(
-            "--out",
+            "--output",
             "-o",
             help="FILE.html, .png or .svg; without suffix .html, and .png where it can.",
         ),
@@ -66,7 +66,7 @@ def plot(
         title = f"{commanded.name} against {executed.name}"
         labels = "commanded", "executed"
         made = draw(*both, labels=labels, title=title, group=group, linear=metres)
-    for path in files_of(out if out is not None else commanded.with_suffix("")):
+    for path in files_of(output if output is not None else commanded.with_suffix("")):
         typer.echo(made.save(path))
     return 0
 

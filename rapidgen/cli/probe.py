@@ -21,7 +21,7 @@ def probe(
     """Write a module that asks a controller what is only assumed about it.
 
     Load it alone into a NORMAL task and start it: each line on the pendant is an answer that
-    `rapidgen run --dialect` takes. It moves nothing and sets no output, unless `--moving` asks
+    `rapidgen run --assume` takes. It moves nothing and sets no output, unless `--moving` asks
     for the other module: that one turns axis 6 by 10 degrees, after a question on the pendant.
     """
     from rapidgen._atomic_write import write_whole

@@ -11,7 +11,7 @@ from rapidgen.cli import options
 
 def record(
     config: options.ConfigOrHost,
-    out: Annotated[Path, typer.Option("--out", "-o", help="CSV file.", metavar="FILE")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="CSV file.", metavar="FILE")],
     to: options.RobotAddress = "",
     group: options.Group = "",
     seconds: Annotated[
@@ -36,7 +36,7 @@ def record(
     robot = Robot(
         config, address=to or None, group=group, watch=True, reconnect=reconnect, feedback=feedback
     )
-    with robot, CsvWriter(out, robot.group) as writer:
+    with robot, CsvWriter(output, robot.group) as writer:
         end = time.monotonic() + (seconds or float("inf"))
         try:
             while time.monotonic() < end:
@@ -44,5 +44,5 @@ def record(
         except KeyboardInterrupt:
             # The usual way to end a recording.
             typer.echo("", err=True)
-        typer.echo(f"{writer.count} states in {out}", err=True)
+        typer.echo(f"{writer.count} states in {output}", err=True)
     return 0

@@ -10,7 +10,9 @@ from rapidgen.cli import options
 
 def ros1(
     config: options.Config,
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder of the package.", metavar="DIR")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder of the package.", metavar="DIR")
+    ],
     overrides: options.Overrides = None,
 ) -> None:
     """Write a catkin package for the unmodified ROS-Industrial nodes.
@@ -23,5 +25,5 @@ def ros1(
     model = load_config(config, overrides=overrides or ())
     source = config if config in shipped_names() else str(Path(config).resolve())
     files = ros1_package(model, source)
-    write(files, out)
-    typer.echo(f"{len(files)} files in {out}")
+    write(files, output)
+    typer.echo(f"{len(files)} files in {output}")

@@ -14,8 +14,10 @@ def ros2(
         list[str],
         typer.Argument(help="Configuration file or shipped name; several share a MoveIt."),
     ],
-    out: Annotated[Path, typer.Option("--out", "-o", help="Folder of the package.", metavar="DIR")],
-    at: Annotated[
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Folder of the package.", metavar="DIR")
+    ],
+    base_pose: Annotated[
         list[str] | None,
         typer.Option(
             help="Of several robots: where the base of each is, m and rad.", metavar="PLACE"
@@ -31,10 +33,10 @@ def ros2(
     from rapidgen.config import load_config, shipped_names
     from rapidgen.ros.package import CellMember, ros2_cell, ros2_package, write
 
-    places = [_place(text) for text in at or ()]
+    places = [_place(text) for text in base_pose or ()]
     if len(places) != (len(config) if len(config) > 1 else 0):
         told = "once for each of several robots" if len(config) > 1 else "for several robots only"
-        raise typer.BadParameter(f"it is given {told}", param_hint="--at")
+        raise typer.BadParameter(f"it is given {told}", param_hint="--base-pose")
     over = tuple(overrides or ())
     models = [load_config(one, overrides=over) for one in config]
     sources = [one if one in shipped_names() else str(Path(one).resolve()) for one in config]
@@ -44,9 +46,9 @@ def ros2(
         members = [
             CellMember(*one, overrides=over) for one in zip(models, sources, places, strict=True)
         ]
-        files = ros2_cell(members, out.resolve().name.removesuffix("_rapidgen"))
-    write(files, out)
-    typer.echo(f"{len(files)} files in {out}")
+        files = ros2_cell(members, output.resolve().name.removesuffix("_rapidgen"))
+    write(files, output)
+    typer.echo(f"{len(files)} files in {output}")
 
 
 def _place(text: str) -> tuple[float, ...]:
@@ -57,6 +59,6 @@ def _place(text: str) -> tuple[float, ...]:
         result = ()
     if len(result) not in (3, 6) or not all(map(math.isfinite, result)):
         raise typer.BadParameter(
-            f"'{text}' is not X,Y,Z or X,Y,Z,ROLL,PITCH,YAW in m and rad", param_hint="--at"
+            f"'{text}' is not X,Y,Z or X,Y,Z,ROLL,PITCH,YAW in m and rad", param_hint="--base-pose"
         )
     return (*result, 0.0, 0.0, 0.0)[:6]

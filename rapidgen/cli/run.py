@@ -56,9 +56,9 @@ def run(
         Literal["round-robin", "random", "pers"],
         typer.Option("--schedule", help="Switching between tasks; pers: at every PERS access."),
     ] = "round-robin",
-    dialect: Annotated[
+    assume: Annotated[
         str,
-        typer.Option("--dialect", metavar="SWITCH=VALUE,...", help="See virtual-controller.md."),
+        typer.Option("--assume", metavar="SWITCH=VALUE,...", help="See virtual-controller.md."),
     ] = "",
     answers: Annotated[
         Path | None, typer.Option("--answers", help="YAML with the operator's answers.")
@@ -110,7 +110,7 @@ def run(
             schedule="round-robin" if schedule == "round-robin" else "random",
             switch_at_pers=schedule == "pers",
             tracing=requested.tracing,
-            dialect=_dialect(dialect),
+            dialect=_assumptions(assume),
             answers=read_answers(answers) if answers is not None else None,
             autostart=False,
         ) as controller,
@@ -152,7 +152,7 @@ def _no_configuration(files: list[Path]) -> None:
             )
 
 
-def _dialect(text: str) -> "Switches":
+def _assumptions(text: str) -> "Switches":
     from dataclasses import fields
 
     from rapidgen.rapid.switches import Switches, parse_switches
@@ -162,7 +162,7 @@ def _dialect(text: str) -> "Switches":
     except ValueError as fault:
         names = ", ".join(switch.name for switch in fields(Switches))
         raise refusal(
-            "RG901", None, f"--dialect: {fault}", f"SWITCH=VALUE; there are {names}"
+            "RG901", None, f"--assume: {fault}", f"SWITCH=VALUE; there are {names}"
         ) from fault
 
 
@@ -215,13 +215,13 @@ def _mend(fault: "FatalError", cell: str) -> str:
         if cell:
             return f"say it in the cell's description (`rapidgen schema --cell`), {declared}"
         return (
-            f"`--cell guess` makes signals, tools and work objects that programs name, {declared}"
+            f"`--cell infer` makes signals, tools and work objects that programs name, {declared}"
         )
     if {"ERR_REFUNKPRC", "ERR_REFUNKFUN"} & set(fault.arguments):
         return "load the module that declares it"
     if "ERR_TP_NO_CLIENT" in fault.arguments:
         return (
-            "`--answers FILE` answers dialogs (`rapidgen explain RG420`), `--cell guess` tries "
+            "`--answers FILE` answers dialogs (`rapidgen explain RG420`), `--cell infer` tries "
             "their choices"
         )
     if {"ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"} & set(fault.arguments):

@@ -40,7 +40,9 @@ def sim(
     speed: Annotated[
         float, typer.Option(help="Simulated seconds in a second.", min=0.001, max=1000.0)
     ] = 1.0,
-    cold: Annotated[bool, typer.Option("--cold", help="Motors off, program not started.")] = False,
+    motors_off: Annotated[
+        bool, typer.Option("--motors-off", help="Motors off, program not started.")
+    ] = False,
     faults: Annotated[
         Path | None, typer.Option(help="What is to go wrong: `rapidgen explain RG421`.")
     ] = None,
@@ -144,11 +146,11 @@ def sim(
         faults=plan,
         answers=script,
         tracing=requested.tracing,
-        autostart=not cold,
+        autostart=not motors_off,
     ) as cabinet:
         _tell(cabinet.controller.diagnostics)
-        if cold:
-            _start_cold(cabinet.controller)
+        if motors_off:
+            _start_background_tasks(cabinet.controller)
         with (
             _control(cabinet) as control,
             _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
@@ -381,7 +383,7 @@ def _recording(
         end()
 
 
-def _start_cold(controller: "VirtualController") -> None:
+def _start_background_tasks(controller: "VirtualController") -> None:
     """As after switching on: background tasks run, motors are off, the program waits."""
     controller.set_motors(False)
     for task in controller.rapid_tasks.values():

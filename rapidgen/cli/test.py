@@ -43,7 +43,7 @@ def test(
     quick: Annotated[
         bool, typer.Option("--quick", help="Only the default of every assumption.")
     ] = False,
-    together: Annotated[
+    strength: Annotated[
         int, typer.Option(help="Any N assumptions meet in some setting.", min=1, max=3, metavar="N")
     ] = 2,
     assume: Annotated[
@@ -138,7 +138,7 @@ def test(
                 jobs=jobs,
                 hire=None if cluster is None else _of_cluster(cluster),
                 only=case or (),
-                strength=0 if quick else together,
+                strength=0 if quick else strength,
                 assuming=assuming,
                 progress=progress,
                 limits=limits,

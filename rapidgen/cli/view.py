@@ -32,9 +32,9 @@ def view(
     ],
     to: options.RobotAddress = "",
     group: options.Group = "",
-    take: Annotated[
+    take_connection: Annotated[
         bool,
-        typer.Option("--take", help="Take the only state connection of a plain driver."),
+        typer.Option("--take-connection", help="Take the only state connection of a plain driver."),
     ] = False,
     host: Annotated[str, typer.Option(help="Address of this machine to serve on.")] = "127.0.0.1",
     port: Annotated[
@@ -53,14 +53,14 @@ def view(
     When it is served, stdout gets one line: `ready` and a JSON object with the link. With a
     configuration the robot is drawn, with an address alone there are its axes. It takes one of the
     three places of a rapidgen driver's state port; the one place of a plain driver only with
-    `--take`: a program that moves the robot loses it, and stops. A recording shows everything as it
-    was at any moment; one that was cut off is shown up to there.
+    `--take-connection`: a program that moves the robot loses it, and stops. A recording shows
+    everything as it was at any moment; one that was cut off is shown up to there.
     """
     with ExitStack() as stack:
         if not _is_recording(target):
             if csv is not None:
                 raise typer.BadParameter("--csv is of a recording")
-            viewed, look = _robots(stack, target, to, group, take, reconnect)
+            viewed, look = _robots(stack, target, to, group, take_connection, reconnect)
             return _serve(viewed, host, port, look.files)
         from rapidgen.viewer.recording.playback import RecordingSubject
         from rapidgen.viewer.recording.reader import RecordingFile
@@ -107,7 +107,7 @@ def _serve(viewed: "Subject", host: str, port: int, files: "Mapping[str, bytes]"
 
 
 def _robots(
-    stack: ExitStack, target: str, to: str, group: str, take: bool, reconnect: float
+    stack: ExitStack, target: str, to: str, group: str, take_connection: bool, reconnect: float
 ) -> "tuple[Subject, Appearance]":
     """All robots of a configuration, or one at an address, connected until the stack closes; and
     what they look like."""
@@ -120,7 +120,7 @@ def _robots(
     for name in [group] if group else groups_of(target):
         robot = Robot(target, address=to or None, group=name, watch=True, reconnect=reconnect)
         stack.enter_context(robot)
-        if not (take or robot.driver.is_rapidgen):
+        if not (take_connection or robot.driver.is_rapidgen):
             raise _plain(robot.address)
         robot.next_state(_LOOK)
         robots.append((robot, _known(target, name, robot)))
@@ -147,6 +147,6 @@ def _plain(address: "Address") -> Exception:
         "RG923",
         None,
         f"{address} does not answer HELLO and may serve one client: looking would take its place",
-        "with `--take` it is taken, and a program that moves the robot then stops it",
+        "with `--take-connection` it is taken, and a program that moves the robot then stops it",
         exit_code=1,
     )

@@ -1,4 +1,4 @@
-"""Which axes an arm has: a set that some ABB robot has, or with `keep` all six.
+"""Which axes an arm has: a set that some ABB robot has, or with `held_axes` all six.
 
 Sets: six robot axes; 1, 2, 3 and 6 of a palletiser (ABB PR10284EN_D: "no axes 4 and 5"); 1 to 4 of
 a SCARA, whose axis 3 slides (IRB 910SC); six and eax_a, which sits between axes 2 and 3 of a YuMi
@@ -18,32 +18,32 @@ PALLETISER = frozenset({"rax_1", "rax_2", "rax_3", "rax_6"})
 SCARA = frozenset({"rax_1", "rax_2", "rax_3", "rax_4"})
 
 
-def held_axes(
-    draft: GroupDraft, keep: Mapping[str, float | None], path: KeyPath, report: DraftFindings
+def resolve_held_axes(
+    draft: GroupDraft, held: Mapping[str, float | None], path: KeyPath, report: DraftFindings
 ) -> tuple[model.KeptAxis, ...]:
     """The robot axes that no joint drives; RG021 and RG046 say what is no arm."""
     where: KeyPath = (*path, "joints")
     axes = {joint.axis for joint in draft.joints}
     faulty = "" in axes or len(axes) < len(draft.joints)
     driven = axes & set(ROBOT_AXES)
-    for axis in keep:
+    for axis in held:
         if axis in axes:
             name = next(j.name for j in draft.joints if j.axis == axis)
             report.error(
                 "RG021",
                 f"{axis} is kept and driven by joint '{name}'",
-                (*path, "keep"),
+                (*path, "held_axes"),
                 help="take it out of one of the two",
             )
         elif axis not in ROBOT_AXES:
             report.error(
                 "RG021",
                 f"{axis} cannot be kept: only axes of the robot",
-                (*path, "keep"),
+                (*path, "held_axes"),
                 help="take it out: without a joint an external axis is not moved",
             )
     missing = [axis for axis in ROBOT_AXES if axis not in driven]
-    unkept = [axis for axis in _needed(draft, driven) if axis not in driven and axis not in keep]
+    unkept = [axis for axis in _needed(draft, driven) if axis not in driven and axis not in held]
     if draft.coupling and {"rax_2", "rax_3"} & set(missing):
         report.error(
             "RG021",
@@ -73,7 +73,7 @@ def held_axes(
                 f"drives {', '.join(sorted(driven))}",
                 "map a joint to each, or let the robot hold them where they stand when a "
                 "trajectory is accepted"
-                + ("" if any(keep.values()) else f":\nkeep: [{', '.join([*keep, *unkept])}]"),
+                + ("" if any(held.values()) else f":\nheld_axes: [{', '.join([*held, *unkept])}]"),
                 key=True,
             )
         elif len(draft.ignored) > len(missing):
@@ -95,8 +95,8 @@ def held_axes(
     return tuple(
         model.KeptAxis(
             axis,
-            math.radians(keep.get(axis) or 0.0),
-            must_stand=keep.get(axis) is not None,
+            math.radians(held.get(axis) or 0.0),
+            must_stand=held.get(axis) is not None,
         )
         for axis in missing
     )

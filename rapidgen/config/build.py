@@ -5,7 +5,7 @@ from ipaddress import IPv4Address
 from pathlib import Path
 
 from rapidgen.config import model, schema
-from rapidgen.config.axis_sets import held_axes
+from rapidgen.config.axis_sets import resolve_held_axes
 from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
@@ -209,7 +209,7 @@ def _group(
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = joints_of(keys, draft, path, report)
-    saved = held_axes(draft, dict(keys.keep.items()), path, report)
+    saved = resolve_held_axes(draft, dict(keys.held_axes.items()), path, report)
     names = {joint.name for joint in draft.joints}
     _check_ceiling(keys.tcp_speed_limit, (*path, "tcp_speed_limit"), report)
     if report.is_faulty((*path, "joints")):
@@ -311,7 +311,7 @@ def _check_angles(keys: schema.GroupKeys, path: KeyPath, report: DraftFindings) 
         for number, step in enumerate(chain)
         for place, angle in enumerate(step.rpy)
     ]
-    angles += [((*path, "keep", axis), value or 0.0) for axis, value in keys.keep.items()]
+    angles += [((*path, "held_axes", axis), value or 0.0) for axis, value in keys.held_axes.items()]
     for where, angle in angles:
         if is_radians(angle):
             report.add(

@@ -51,7 +51,7 @@ class GroupDraft:
     """The chain of the URDF, where one is read."""
     names: tuple[str, ...] = ()
     """What the description and its file are called."""
-    keep: tuple[float, ...] = ()
+    held_axes: tuple[float, ...] = ()
     """Where the axes without a joint stand (rad), in their order."""
     arm: str = ""
     """The variant that it was recognised as, by its axes in space."""

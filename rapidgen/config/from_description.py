@@ -38,7 +38,7 @@ class DescriptionChoices:
     joints: Mapping[str, str] = field(default_factory=dict)
     ignore: tuple[str, ...] = ()
     tips: tuple[str, ...] = ()
-    keep: tuple[str, ...] = ()
+    held_axes: tuple[str, ...] = ()
     coupling: float | None = None
     speed: float | None = None
     """deg/s and mm/s for axes of which nothing says a speed"""
@@ -216,10 +216,10 @@ def _group(
     tail.append(f"coupling: {coupling:<18}# {why}")
     if variant and any(line.is_known for line in lines):
         tail.append(f'source: {{limits: "{variant.name} of robots/variants.json"}}')
-    if answers.keep:
-        tail.append(f"keep: {yaml_flow(answers.keep)}")
+    if answers.held_axes:
+        tail.append(f"held_axes: {yaml_flow(answers.held_axes)}")
     elif arm.axes == ROBOT_AXES[:3] and not any(line.axis == "rax_4" for line in lines):
-        tail.append("keep: [rax_4]           # not in the description: held where it stands")
+        tail.append("held_axes: [rax_4]      # not in the description: held where it stands")
     if number == 0:
         tail += _positioners(cell)
     tip = cell.graph.tip_link(arm.joints[-1])

@@ -124,7 +124,7 @@ def _draft(name: str, keys: schema.GroupKeys, basis: ShippedBasis | None) -> Gro
     carriers = {unit: [_link(step) for step in steps] for unit, steps in keys.positioners.items()}
     model, known = (basis.model, basis.known) if basis else ("", {})
     units = tuple(keys.external_units)
-    keep = tuple(math.radians(value or 0.0) for _, value in sorted(keys.keep.items()))
+    held_axes = tuple(math.radians(value or 0.0) for _, value in sorted(keys.held_axes.items()))
     return GroupDraft(
         name,
         model,
@@ -135,7 +135,7 @@ def _draft(name: str, keys: schema.GroupKeys, basis: ShippedBasis | None) -> Gro
         keys.max_payload or 0.0,
         known,
         units,
-        keep=keep,
+        held_axes=held_axes,
     )
 
 

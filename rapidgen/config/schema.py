@@ -72,7 +72,7 @@ def _robotware(value: object) -> object:
     return version
 
 
-def _keep(value: object) -> object:
+def _held_axes(value: object) -> object:
     """[rax_5] to {rax_5: None}; {rax_5: 30} stays."""
     return dict.fromkeys(value) if isinstance(value, list) else value
 
@@ -345,12 +345,12 @@ class GroupKeys(StrictModel):
         dict[str, JointKeys],
         Rule("Joint name: its axis. The order is the order on the wire; at most 10."),
     ] = field(default_factory=dict)
-    keep: Annotated[
+    held_axes: Annotated[
         dict[RobotAxis, float | None],
         Rule(
             "Robot axes without a joint: `[rax_5]` is held where it stands when a trajectory is "
             "accepted; `{rax_5: 30}` is refused unless it stands there, deg.",
-            before=_keep,
+            before=_held_axes,
             json={
                 "anyOf": [
                     {"type": "array", "items": {"enum": ROBOT_AXES}},

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 # Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
 # small program takes hardly longer than its imports.
-GUESS = "guess"
+INFER = "infer"
 """Instead of a cell's file: whatever the programs name is there."""
 Source = Path | str
 
@@ -189,7 +189,7 @@ def _foreign(system: System, notes: list[Diagnostic] | None, options: BootOption
     robots = cell.robots if cell is not None else {}
     system = _moving(system, robots)
     robot, model = options.robot, None
-    if str(options.cell) == GUESS and not robot and not system.robot_types:
+    if str(options.cell) == INFER and not robot and not system.robot_types:
         from rapidgen.controller.inference.robot_model import infer_robot_model
 
         model = infer_robot_model(system, DEFAULT_ROBOT)
@@ -206,7 +206,7 @@ def _foreign(system: System, notes: list[Diagnostic] | None, options: BootOption
 
 
 def _described(options: BootOptions) -> "CellDescription | None":
-    if str(options.cell) in ("", GUESS):
+    if str(options.cell) in ("", INFER):
         return None
     from rapidgen.config.cell import load_cell
 
@@ -219,7 +219,7 @@ def _warned(cell: "CellDescription | None") -> tuple[Diagnostic, ...]:
 
 def _surrounded(result: Bootable, cell: "CellDescription | None", options: BootOptions) -> Bootable:
     guessed = None
-    if str(options.cell) == GUESS:
+    if str(options.cell) == INFER:
         from rapidgen.controller.inference.cell import guess
 
         units = [u for g in result.groups for u in (g.mechanical_unit, *g.external_units)]

@@ -285,7 +285,7 @@ class VirtualController:
         """Loose module files: one task T_ROB1, or one for each key.
 
         `robot` is a shipped name or a configuration (default irb120), `cell` the file that
-        describes what stands around it, or "guess", `start` where the robot stands (deg, mm).
+        describes what stands around it, or "infer", `start` where the robot stands (deg, mm).
         """
         if isinstance(files, str | Path):
             raise TypeError(f"files are a list, or a mapping of tasks to lists: [{str(files)!r}]")

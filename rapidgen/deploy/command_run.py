@@ -223,7 +223,7 @@ def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSe
 
 
 def write_plans(path: Path, plans: Sequence[Plan]) -> None:
-    """`--out`. Raises OSError."""
+    """`--output`. Raises OSError."""
     text = json.dumps({"format": 1, "plans": [plan_json(p) for p in plans]}, indent=2) + "\n"
     write_whole(path, text.encode())
 
@@ -319,5 +319,5 @@ def _plan_file(path: Path, reason: str) -> DiagnosticError:
     return refused(
         "RG523",
         f"plan {path} cannot be carried out: {reason}",
-        "make a new one with `rapidgen plan ... --out FILE`",
+        "make a new one with `rapidgen plan ... --output FILE`",
     )

@@ -216,7 +216,7 @@ def _live(plan: Plan, live: OnlinePlan, generation: Generation) -> Iterator[Chec
         help = "switch it to automatic at the pendant: nobody writes from afar before"
         yield Check("mode", "warn", f"it is {live.mode}", help)
     if live.running:
-        help = f"it has to stand for a restart: `rapidgen halt {plan.target}`"
+        help = f"it has to stand for a restart: `rapidgen stop-program {plan.target}`"
         yield Check("program", "warn", "it runs", help)
     for module in live.clash:
         help = "unload it, or `rapidgen deploy --overwrite`, which saves it first"

@@ -151,7 +151,7 @@ class Plan:
 
 
 def plan_json(plan: Plan) -> Members:
-    """The plan as `--out` writes it: hashes and words, no contents, no secrets."""
+    """The plan as `--output` writes it: hashes and words, no contents, no secrets."""
     return {
         "format": 1,
         "verb": plan.verb,

@@ -99,7 +99,7 @@ def questions() -> dict[str, tuple[Answer, ...]]:
 
 
 def said(name: str, answer: Answer) -> str:
-    """An assumption in words, as `--assume` and `--dialect` take it."""
+    """An assumption in words, as `--assume` takes it."""
     return f"{name}={str(answer).lower()}" if isinstance(answer, bool) else f"{name}={answer}"
 
 

@@ -30,7 +30,7 @@ def test_a_described_cell(capsys, program, tmp_path):
 
 
 def test_a_guessed_cell_is_told(capsys, program):
-    code, out, err = run(capsys, program, "--cell", "guess")
+    code, out, err = run(capsys, program, "--cell", "infer")
     assert (code, out) == (0, ["done"])
     assert "diGripped  signaldi   work.mod:4" in err
     assert "because the program waited for it: diGripped = 1, giPart = 4" in err
@@ -75,8 +75,8 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
 @pytest.mark.parametrize(
     ("statement", "words", "help"),
     [
-        ("SetDO do1, 1;", [], "`--cell guess` makes signals"),
-        ("x := y;", ["--cell", "guess"], "`rapidgen schema --cell`"),
+        ("SetDO do1, 1;", [], "`--cell infer` makes signals"),
+        ("x := y;", ["--cell", "infer"], "`rapidgen schema --cell`"),
         ("foo;", [], "load the module that declares it"),
         ('TPReadNum n, "how many";', [], "`--answers FILE` answers dialogs"),
         ("MoveL other, v100, fine, tool0;", [], "for none with ConfL \\Off"),

@@ -20,8 +20,8 @@ FILES = """
 bad.yaml    check bad.yaml
 bad.yaml    build bad.yaml
 bad.yaml    stop bad.yaml
-bad.yaml    ros1 bad.yaml --out out
-bad.yaml    ros2 bad.yaml --out out
+bad.yaml    ros1 bad.yaml --output out
+bad.yaml    ros2 bad.yaml --output out
 bad.yaml    run good.mod --robot bad.yaml
 bad.yaml    run good.mod --cell bad.yaml
 bad.yaml    run good.mod --answers bad.yaml

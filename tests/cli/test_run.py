@@ -137,7 +137,7 @@ def test_several_tasks(capsys, tmp_path: Path) -> None:
 def test_usage(capsys, program: Path) -> None:
     assert run(capsys)[0] == 2
     assert run(capsys, program, "--task", "nonsense")[0] == 2
-    assert run(capsys, program, "--dialect", "for_loop=sideways")[0] == 2
+    assert run(capsys, program, "--assume", "for_loop=sideways")[0] == 2
     assert run(capsys, program, "--entry", "nobody")[0] == 2
     assert run(capsys, program.parent / "missing.mod")[0] == 2
 

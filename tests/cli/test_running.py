@@ -118,8 +118,8 @@ def test_the_verbs_find_it(start, capsys):
     assert sim.ready["address"]["rob1"] == "127.0.0.1:{motion},{state},{control}".format(
         **sim.ready["ports"]["rob1"]
     )
-    assert main(["monitor", "irb120", "--to", "sim", "--plain", "--count", "1"]) == 0
-    assert main(["monitor", "sim", "--plain", "--count", "1"]) == 0
+    assert main(["monitor", "irb120", "--to", "sim", "--lines", "--count", "1"]) == 0
+    assert main(["monitor", "sim", "--lines", "--count", "1"]) == 0
     capsys.readouterr()
     assert main(["stop", "sim"]) == 0
     assert "stopped at joint_1" in capsys.readouterr().out

@@ -84,7 +84,7 @@ def test_servers_come_back_where_they_were_after_a_power_failure(start):
 
 
 def test_cold(start):
-    sim = start("irb120", "--ports", "auto", "--cold")
+    sim = start("irb120", "--ports", "auto", "--motors-off")
     status = sim.control(do="status")["result"]
     assert status["motors_on"] is False
     assert status["tasks"]["T_ROB1"] == "ready"

@@ -35,7 +35,7 @@ def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(star
     assert rapidgen("plan", *target, "--detailed-exitcode", **secret).returncode == 0
     # The other face shows the same files, and they are what `build` writes.
     built = tmp_path / "built"
-    assert rapidgen("build", "irb120", "--out", str(built)).returncode == 0
+    assert rapidgen("build", "irb120", "--output", str(built)).returncode == 0
     modules = [path for path in (built / "HOME").rglob("*") if path.is_file()]
     assert len(modules) > 3
     with ftplib.FTP(timeout=60) as client:

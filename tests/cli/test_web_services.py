@@ -49,10 +49,10 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert main(["status", host, "--json"]) == 0
     text = json.loads(said(capsys))
     assert (text["state"], text["mode"], text["running"]) == ("motoron", "AUTO", False)
-    assert main(["start", host]) == 2  # nobody is there to answer
-    assert main(["start", host, "--yes", "--main"]) == 0
+    assert main(["start-program", host]) == 2  # nobody is there to answer
+    assert main(["start-program", host, "--yes", "--main"]) == 0
     assert f"{host}: the program runs" in said(capsys)
-    assert main(["halt", host, "--motors-off"]) == 0
+    assert main(["stop-program", host, "--motors-off"]) == 0
     assert main(["status", host]) == 0
     assert "motoroff" in said(capsys)
     assert main(["log", host, "--count", "3"]) == 0
@@ -92,13 +92,13 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
         (["io", "nothing"], 1, "rapidgen io"),
         (["io", "nothing", "1"], 1, "rapidgen io"),
         (["log", "--domain", "99"], 1, "domain 0"),
-        (["start"], 2, "THE ROBOT MAY MOVE"),
+        (["start-program"], 2, "THE ROBOT MAY MOVE"),
     ],
 )
 def test_what_is_not_there_is_told_with_what_there_is(host, capsys, text, code, hint):
     assert main([text[0], host, *text[1:]]) == code
     output = capsys.readouterr()
-    assert output.out.count("\n") == 0 or text == ["start"]
+    assert output.out.count("\n") == 0 or text == ["start-program"]
     assert hint in output.err
 
 

@@ -136,13 +136,13 @@ def test_stop_that_nobody_hears(capsys):
 
 
 def test_monitor(controller, capsys):
-    assert main(["monitor", "irb120", "--to", controller.address, "--plain", "--count", "3"]) == 0
+    assert main(["monitor", "irb120", "--to", controller.address, "--lines", "--count", "3"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 3
     assert all("auto" in line and "standing" in line for line in lines)
     controller.position = [0.5, -0.1, 0.0, 0.0, 0.0, 0.0]
     controller.script.status = {"possible": 0}
-    assert main(["monitor", "irb120", "--to", controller.address, "--plain", "--count", "30"]) == 0
+    assert main(["monitor", "irb120", "--to", controller.address, "--lines", "--count", "30"]) == 0
     line = capsys.readouterr().out.splitlines()[-1]
     assert "  28.65 -5.73 0.00 0.00 0.00 0.00 deg  " in line
     assert "standing, motion not possible" in line
@@ -306,7 +306,7 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
         feed.append([0, 0.6], [[0.0] * 6, [0.01] * 6])
         robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 60)
         data = struct.pack("<3i80s160x", 5, 24, 3, b"Corner path failure")
-        words = ["monitor", streaming.address, "--plain", "--count", "3"]
+        words = ["monitor", streaming.address, "--lines", "--count", "3"]
         streaming.extra = frame(1308, 1, 0, data)
         assert robot.next_event(60).code == 50024
         assert main(words) == 0
@@ -424,7 +424,7 @@ def test_doctor_names_the_fix_of_a_server_task_that_has_ended(report, message, t
 
 def test_monitor_names_the_fix_of_a_server_task_that_has_ended(capsys):
     with FakeController(status=ENDED) as fake:
-        assert main(["monitor", fake.address, "--plain", "--count", "1"]) == 0
+        assert main(["monitor", fake.address, "--lines", "--count", "1"]) == 0
     line = capsys.readouterr().out
     assert "motion not possible" in line
     assert "a server task of the driver has ended: restart the controller (a warm start)" in line

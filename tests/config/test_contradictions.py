@@ -120,7 +120,7 @@ def test_20_an_axis_of_the_arm_without_a_joint(check, lines):
 
 
 def keep_line(fault):
-    return re.search(r"keep: \[.*?\]", fault.help)[0]
+    return re.search(r"held_axes: \[.*?\]", fault.help)[0]
 
 
 def test_20_an_external_axis_inside_of_a_six_axis_arm(check):
@@ -151,7 +151,7 @@ def test_20_a_group_without_a_robot(tmp_path):
 
 @pytest.mark.parametrize("keep", ["[eax_a]", "[rax_6]", "[rax_9]", "{rax_5: on}", "rax_5"])
 def test_20_what_cannot_be_kept(tmp_path, keep):
-    (tmp_path / "cell.yaml").write_text(f"model: irb120\nkeep: {keep}\n")
+    (tmp_path / "cell.yaml").write_text(f"model: irb120\nheld_axes: {keep}\n")
     with pytest.raises(DiagnosticError) as caught:
         load_config(tmp_path / "cell.yaml")
     assert {d.code for d in caught.value.diagnostics} <= {"RG006", "RG021"}

@@ -315,7 +315,7 @@ def test_what_the_schema_cannot_say_is_checked(tmp_path):
         "model: irb120\njoints: {joint_1: {lower: 10, upper: -10}}\n",
         "model: irb120\njoints: {joint_2: {axis: rax_1}}\n",
         "model: irb120\njoints: {joint_1: {axis: rax_2}, joint_2: {axis: rax_1}}\n",
-        "model: irb120\nkeep: [eax_a]\n",
+        "model: irb120\nheld_axes: [eax_a]\n",
         "model: irb120\nsignals: {part: {kind: DI}, Part: {kind: DO}}\n",
         "model: irb120\npositioners: {TABLE: [{joint: joint_1}]}\n",
         "model: irb120\nchain: [{joint: joint_9}, {joint: joint_1, axis: [0, 0, 0]}]\n",
@@ -454,7 +454,7 @@ def test_radians_in_the_configuration_look_odd(tmp_path):
 def test_an_axis_of_length_0_turns_nothing(tmp_path):
     text = (
         "joints: {j: {axis: rax_1, lower: -90, upper: 90, speed: 9}}\n"
-        "keep: [rax_2, rax_3, rax_4, rax_5, rax_6]\n"
+        "held_axes: [rax_2, rax_3, rax_4, rax_5, rax_6]\n"
         "chain: [{joint: j, axis: [0, 0, 0]}, {joint: k}]\n"
     )
     assert places(faults(tmp_path, text)) == [("RG014", 3, 20), ("RG014", 3, 46)]

@@ -180,7 +180,7 @@ def test_every_code_about_descriptions_has_its_case():
 def lines_of(help_text):
     """The parts of a mend that are lines of a configuration, by key."""
     text = help_text.replace("\n  urdf:\n    ", "\nurdf:\n  ")
-    pattern = r"^((?:model|urdf|joints|coupling|keep|groups|tool)):.*(?:\n .*)*"
+    pattern = r"^((?:model|urdf|joints|coupling|held_axes|groups|tool)):.*(?:\n .*)*"
     return {hit[1]: hit[0] for hit in re.finditer(pattern, text, re.MULTILINE)}
 
 

@@ -363,7 +363,7 @@ def test_17_a_palletiser_of_nobodys_list_needs_its_coupling_too(check):
     passive = "  ignore_joints: [joint_4, joint_5]"
     only("RG047", check(text, f"joints:\n{lines}", urdf=passive))
     only("RG021", check(text, f"coupling: 0\njoints:\n{lines}", urdf=passive))
-    saved = "coupling: 0\nkeep: {rax_4: 0, rax_5: 30}"
+    saved = "coupling: 0\nheld_axes: {rax_4: 0, rax_5: 30}"
     config, _ = check(text, f"{saved}\njoints:\n{lines}", urdf=passive)
     assert config.groups[0].coupling == 0
     assert [(k.axis, k.must_stand) for k in config.groups[0].kept] == [

@@ -80,7 +80,7 @@ def test_a_described_cell_answers_the_program(program, cell, tmp_path):
 
 
 def test_a_guessed_cell_has_what_the_program_names(program):
-    result = load_target([program], BootOptions(cell="guess"))
+    result = load_target([program], BootOptions(cell="infer"))
     assert result.guessed is not None
     named = {one.name: one.type for one in result.guessed.named}
     assert named == {
@@ -105,7 +105,7 @@ def test_what_a_program_waits_for_on_a_guessed_input_comes_half_a_second_later(t
         "MODULE waits\n PROC main()\n WaitDI diA, 1;\n WaitUntil (NOT diA = 1) AND giB >= 7;\n"
         " WaitGI giB, \\LT, 3;\n WaitUntil TestDI(diA);\n ENDPROC\nENDMODULE\n"
     )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         assert controller.run(max_time=60) == "finished"
         assert controller.guessed.answered == [
             ("diA", 1),
@@ -188,7 +188,7 @@ def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
         "   ENDIF\n   TEST giPart\n   CASE 4:\n    done := done + 100;\n   ENDTEST\n"
         "   WaitTime 0.3;\n  ENDWHILE\n ENDPROC\nENDMODULE\n"
     )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
         assert controller.guessed.answered[:2] == [("DI_1", 1), ("start", 1)]
         assert controller.signals["DI_1"] == 0, "a button is let go"
@@ -200,7 +200,7 @@ def test_the_routine_that_a_task_starts_in_is_such_a_loop(tmp_path):
         "MODULE cycles\n PERS num done := 0;\n PROC main()\n  IF DI_1 = 1 Incr done;\n"
         "  WaitTime 0.1;\n ENDPROC\nENDMODULE\n"
     )
-    with VirtualController.from_files([path], cell="guess", cycle="forever") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="forever") as controller:
         assert controller.run_until(lambda: controller.task("T_ROB1")["cycles:done"] > 1, timeout=5)
 
 
@@ -211,7 +211,7 @@ def test_a_guessed_cell_does_not_hide_a_deadlock(tmp_path):
         "  WHILE di1 = 0 DO\n   never := TRUE;\n   WaitTestAndSet never;\n  ENDWHILE\n"
         " ENDPROC\nENDMODULE\n"
     )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         assert controller.run(max_time=20) == "deadlock"
         assert "WaitTestAndSet waits for its flag" in controller.where()[0]
 
@@ -243,7 +243,7 @@ def test_dialogs_of_a_guessed_cell_get_their_default_and_then_each_choice_in_tur
         r'  IF UIMessageBox(\Message:="On?"\Buttons:=btnYesNo\DefaultBtn:=resNo) = resNo THEN'
         "\n   sum := 10 * sum + 8;\n  ENDIF\n ENDPROC\nENDMODULE\n"
     )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         assert controller.run(max_time=60) == "finished"
         assert controller.task("T_ROB1")["asks:sum"] == 13178
         assert controller.guessed.answered == [
@@ -260,7 +260,7 @@ def test_a_script_of_answers_is_all_that_is_answered(tmp_path):
     path.write_text(
         'MODULE asks\n VAR num n;\n PROC main()\n  TPReadNum n, "A";\n ENDPROC\nENDMODULE\n'
     )
-    with VirtualController.from_files([path], cell="guess", cycle="once", answers=[]) as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once", answers=[]) as controller:
         assert controller.run(max_time=60) == "deadlock"
         assert controller.guessed.answered == []
 
@@ -277,7 +277,7 @@ def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
         '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
         " ENDPROC\nENDMODULE\n"
     )
-    result = load_target([path], BootOptions(cell="guess", robot="irb1600"))
+    result = load_target([path], BootOptions(cell="infer", robot="irb1600"))
     assert result.guessed is not None
     assert {one.name: one.type for one in result.guessed.named} == {
         "sig_a": "signaldo",
@@ -309,7 +309,7 @@ def test_a_folder_with_a_folder_for_each_task_is_those_tasks(tmp_path):
     for task, message in (("T_ROB_L", "SetDO"), ("T_ROB_R", "WaitDO")):
         (tmp_path / task).mkdir()
         (tmp_path / task / "m.mod").write_text(text.format(message))
-    result = load_target([tmp_path], BootOptions(cell="guess", robot="irb14000"))
+    result = load_target([tmp_path], BootOptions(cell="infer", robot="irb14000"))
     assert [group.task for group in result.groups] == ["T_ROB_L", "T_ROB_R"]
     with VirtualController.boot(result, cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
@@ -334,14 +334,14 @@ def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path)
         "  MoveJ q, v100, fine, tRod \\WObj:=wAway;\n  MoveJ [[0,0,0],[0,0,0,0],[0,0,0,0],"
         "[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
     )
-    result = load_target([path], BootOptions(cell="guess"))
+    result = load_target([path], BootOptions(cell="infer"))
     assert result.likely == RobotCandidate("irb4600", 2, 2)
     assert result.groups[0].model == "irb4600"
-    assert load_target([path], BootOptions(cell="guess", robot="irb1600")).likely is None
+    assert load_target([path], BootOptions(cell="infer", robot="irb1600")).likely is None
     assert load_target([path]).groups[0].model == "irb120"
     text = path.read_text().replace("MODULE far\n", "MODULE far\n VAR num i := 3;\n")
     path.write_text(text.replace("Offs(p, 0, 0, 1)", "RelTool(Offs(p, 0, 0, i), 0, 0, -1)"))
-    assert load_target([path], BootOptions(cell="guess")).likely == RobotCandidate("irb4600", 2, 2)
+    assert load_target([path], BootOptions(cell="infer")).likely == RobotCandidate("irb4600", 2, 2)
 
 
 @pytest.mark.parametrize(("eax_a", "robot"), [(101.96, "irb14000"), (0, "irb120")])
@@ -353,7 +353,7 @@ def test_an_arm_angle_guesses_the_robot_with_seven_axes(eax_a, robot, tmp_path):
         "MODULE angle\n PROC main()\n  MoveJ [[300,0,400],[0,0.707107,0.707107,0],[0,0,0,0],"
         f"[{eax_a},9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
     )
-    result = load_target([path], BootOptions(cell="guess"))
+    result = load_target([path], BootOptions(cell="infer"))
     assert result.groups[0].model == robot
 
 

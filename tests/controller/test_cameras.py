@@ -86,7 +86,7 @@ def test_jobs_and_parameters_are_changed_in_program_mode(files):
 
 
 def test_a_guessed_camera_sees_one_thing(files):
-    lines, finished, _, _ = shown(files, cell="guess")
+    lines, finished, _, _ = shown(files, cell="infer")
     assert lines == ["Cam1[0,0,0]0", "none of 0"] * 3
     assert finished == "finished"
 

@@ -64,7 +64,7 @@ def run(tmp_path, text, **options):
 
 
 def test_a_server_hears_its_words_and_numbers_and_the_end_last(tmp_path):
-    finished, displayed, _, controller = run(tmp_path, SERVER, cell="guess")
+    finished, displayed, _, controller = run(tmp_path, SERVER, cell="infer")
     assert finished == "finished"
     assert displayed[:4] == ["unknown", "seven", "unknown", "go"], "with more behind it"
     assert "seven" in displayed[4:], "alone"
@@ -130,7 +130,7 @@ def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp
     path = tmp_path / "counting.mod"
     path.write_text(COUNTING)
     displayed: list[str] = []
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: displayed.append(line))
         run_past_stops(controller, max_time=300)
         message = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
@@ -188,7 +188,7 @@ ENDMODULE
 
 def test_a_server_of_binary_messages_hears_their_length_and_the_numbers_it_tests(tmp_path):
     """Length first, in the order of bytes that the program unpacks [S4 UnpackRawBytes]."""
-    finished, displayed, where, controller = run(tmp_path, BINARY, cell="guess")
+    finished, displayed, where, controller = run(tmp_path, BINARY, cell="infer")
     assert displayed[:4] == ["begin", "between", "end 0", "unknown"]
     assert (finished, "waits for bytes" in where[0]) == ("deadlock", True)
     message = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
@@ -239,7 +239,7 @@ def test_a_text_of_fields_has_what_each_is_compared_with(tmp_path):
     path = tmp_path / "fields.mod"
     path.write_text(FIELDS)
     displayed: list[str] = []
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: displayed.append(line))
         run_past_stops(controller, max_time=300)
         message = [text for what, text in controller.guessed.answered if what == "SocketReceive"]
@@ -254,7 +254,7 @@ def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
         "  SocketListen s;\n  SocketAccept s, c;\n  SocketAccept s, d;\n"
         '  SocketReceive d \\Str:=said;\n  IF said = "a" TPWrite said;\n ENDPROC\nENDMODULE\n'
     )
-    finished, displayed, _, _ = run(tmp_path, two, cell="guess")
+    finished, displayed, _, _ = run(tmp_path, two, cell="infer")
     assert finished == "finished"
     assert displayed == ["a"]
 
@@ -264,13 +264,13 @@ def test_a_copy_of_what_is_received_is_compared_whole_and_errors_are_not_said(tm
         '   IF StrPart(said, 1, 1) = "G" TPWrite "go";\n',
         '   also := said;\n   IF also = "gate" AND ERRNO <> ERR_SOCK_TIMEOUT TPWrite "gate";\n',
     ).replace(" VAR bool ok;", " VAR bool ok;\n VAR string also;")
-    _, displayed, _, controller = run(tmp_path, text, cell="guess")
+    _, displayed, _, controller = run(tmp_path, text, cell="infer")
     assert "gate" in displayed
     assert "1161" not in str(controller.guessed.answered)
 
 
 def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
-    finished, displayed, where, _ = run(tmp_path, CLIENT, cell="guess")
+    finished, displayed, where, _ = run(tmp_path, CLIENT, cell="infer")
     assert displayed == ["got 12"], "as many bytes as it reads"
     assert finished == "deadlock"
     assert "waits for bytes" in where[0]
@@ -284,7 +284,7 @@ def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tm
         )
     )
     displayed: list[str] = []
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, line: displayed.append(line))
         finished = run_past_stops(controller, max_time=120)
         assert finished == "finished"
@@ -297,7 +297,7 @@ def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
     path.write_text(
         'MODULE wrong\n PROC main()\n  TPWrite StrPart("a", 5, 1);\n ENDPROC\nENDMODULE\n'
     )
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         run_past_stops(controller, max_time=120)
         assert "ERR_OUTOFBND" in str(controller.task("T_ROB1").fault)
         assert controller.guessed.stopped == []
@@ -313,7 +313,7 @@ def test_without_a_guess_nobody_is_there(tmp_path, text):
 def test_on_real_sockets_nobody_is_made_up(tmp_path):
     path = tmp_path / "server.mod"
     path.write_text(SERVER)
-    result = load_target([path], BootOptions(cell="guess"))
+    result = load_target([path], BootOptions(cell="infer"))
     with VirtualController.boot(result, host="127.0.0.1", cycle="once") as controller:
         controller.run(max_time=10)
         assert controller.sockets.on_awaited is None

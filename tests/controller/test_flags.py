@@ -43,7 +43,7 @@ def run(tmp_path, text, cell):
 
 
 def test_each_becomes_what_it_is_looked_at_for_and_is_told(tmp_path):
-    finished, displayed, answered = run(tmp_path, PROGRAM, "guess")
+    finished, displayed, answered = run(tmp_path, PROGRAM, "infer")
     assert finished == "finished"
     assert displayed == ["started", "three", "new"]
     given = [("bStart", "TRUE"), ("nOrder", "3"), ("nOrder", "0"), ("bNew", "TRUE")]
@@ -52,7 +52,7 @@ def test_each_becomes_what_it_is_looked_at_for_and_is_told(tmp_path):
 
 def test_what_the_program_sets_itself_is_left_alone(tmp_path):
     text = PROGRAM.replace("  WaitUntil bStart;", "  bStart := TRUE;\n  WaitUntil bStart;")
-    _, _, answered = run(tmp_path, text, "guess")
+    _, _, answered = run(tmp_path, text, "infer")
     assert "bStart" not in [name for name, _ in answered]
     assert "bDone" not in [name for name, _ in answered]
 
@@ -90,7 +90,7 @@ def test_what_has_to_hold_together_does(name, tmp_path):
         " ENDPROC\n FUNC bool asked()\n  RETURN nPart = 4 AND NOT (NOT bAuto);\n ENDFUNC\n"
         "ENDMODULE\n"
     )
-    finished, _, answered = run(tmp_path, text, "guess")
+    finished, _, answered = run(tmp_path, text, "infer")
     assert finished == "finished"
     assert answered
 
@@ -107,7 +107,7 @@ ENDMODULE
 """
 
 
-@pytest.mark.parametrize(("cell", "starts"), [("guess", 50), ("", 0)])
+@pytest.mark.parametrize(("cell", "starts"), [("infer", 50), ("", 0)])
 def test_behind_a_stop_somebody_presses_start(cell, starts, tmp_path):
     path = tmp_path / "stops.mod"
     path.write_text(STOPS)
@@ -129,7 +129,7 @@ ENDMODULE
 def test_what_fails_behind_each_answer_has_failed_in_the_end(tmp_path):
     path = tmp_path / "fails.mod"
     path.write_text(FAILS)
-    with VirtualController.from_files([path], robot="irb120", cell="guess", cycle="once") as driven:
+    with VirtualController.from_files([path], robot="irb120", cell="infer", cycle="once") as driven:
         run_past_stops(driven, max_time=600)
         (task,) = driven.tasks.values()
         assert task.fault is not None

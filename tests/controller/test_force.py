@@ -112,7 +112,7 @@ def test_without_a_word_about_the_sensor_the_program_stops(boot):
 
 
 def test_a_guessed_sensor_measures_nothing(boot):
-    with boot("main", cell="guess") as controller:
+    with boot("main", cell="infer") as controller:
         displayed, fault = run(controller)
         assert fault is None
         assert displayed[1] == "[0,0,0,0,0,0]"

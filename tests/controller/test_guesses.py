@@ -18,7 +18,7 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         '  x := x + sizeOf("k");\n  p := lookUp(x);\n  MoveJ p, v100, fine, tool0;\n'
         '  %"later"% 3;\n  TPWrite "x " + ValToStr(x);\n ENDPROC\nENDMODULE\n'
     )
-    result = load_target([path], BootOptions(cell="guess"))
+    result = load_target([path], BootOptions(cell="infer"))
     assert result.guessed is not None
     named = {one.name: one.type for one in result.guessed.named}
     assert named == {
@@ -38,7 +38,7 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         assert "ERR_REFUNKFUN" in str(controller.task("T_ROB1").fault)
     text = path.read_text().replace("  x := 3 + countOf(strange{2});\n", "")
     path.write_text(text)
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, text: displayed.append(text))
         start = controller.positions()
         assert controller.run(max_time=20) == "finished"
@@ -56,7 +56,7 @@ def test_a_routine_in_no_file_has_the_optional_arguments_of_all_its_calls(tmp_pa
         '  TPWrite "behind";\n ENDPROC\nENDMODULE\n'
     )
     displayed: list[str] = []
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         controller.operator.subscribe(lambda _task, text: displayed.append(text))
         controller.run(max_time=5)
         assert controller.task("T_ROB1").fault is None
@@ -69,7 +69,7 @@ def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
         "MODULE calls\n VAR intnum i;\n PROC main()\n  CONNECT i WITH later;\n"
         '  ITimer \\Single, 0.1, i;\n  WaitTime 1;\n  TPWrite "end";\n ENDPROC\nENDMODULE\n'
     )
-    result = load_target([path], BootOptions(cell="guess"))
+    result = load_target([path], BootOptions(cell="infer"))
     assert result.guessed is not None
     assert {one.name: one.type for one in result.guessed.named} == {"later": "trap"}
     with VirtualController.boot(result, cycle="once") as controller:
@@ -132,7 +132,7 @@ def test_a_program_ends_in_a_guessed_cell_alone(name, tmp_path):
     text, lacks = ENDS[name]
     path = tmp_path / "ends.mod"
     path.write_text(f"MODULE ends\n{text}ENDMODULE\n")
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         assert controller.run(max_time=20) == "finished"
         assert controller.task("T_ROB1").fault is None
         assert controller.signals.get("hand_grip", 1) == 1
@@ -149,7 +149,7 @@ def test_the_size_of_an_array_that_nobody_says_is_a_constant(tmp_path):
         " PROC main()\n  FOR i FROM 1 TO maxParts DO\n   many{i} := few{i};\n  ENDFOR\n"
         "  TPWrite ValToStr(Dim(few, 1) + many{3});\n ENDPROC\nENDMODULE\n"
     )
-    result = load_target([path], BootOptions(cell="guess"))
+    result = load_target([path], BootOptions(cell="infer"))
     assert [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR] == []
     displayed: list[str] = []
     with VirtualController.boot(result, cycle="once") as controller:
@@ -179,7 +179,7 @@ ENDMODULE
 def test_a_guessed_robot_goes_where_it_can_and_tells_where_it_did_not(tmp_path):
     path = tmp_path / "far.mod"
     path.write_text(FAR)
-    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
         assert controller.run(max_time=60) == "finished"
         assert controller.guessed.missed == [
             ("far.mod:9", "by its axes, in the nearest configuration"),
@@ -193,7 +193,7 @@ def test_a_robot_that_somebody_chose_stops_where_it_does_not_come(tmp_path):
     path = tmp_path / "far.mod"
     path.write_text(FAR)
     with VirtualController.from_files(
-        [path], cell="guess", robot="irb120", cycle="once"
+        [path], cell="infer", robot="irb120", cycle="once"
     ) as controller:
         controller.run(max_time=60)
         assert str(controller.task("T_ROB1").fault) == "Close to singularity"
@@ -203,12 +203,12 @@ def test_a_robot_that_somebody_chose_stops_where_it_does_not_come(tmp_path):
 def test_hands_of_a_guessed_cell_are_calibrated(tmp_path):
     path = tmp_path / "grips.mod"
     path.write_text("MODULE grips\n PROC main()\n  g_GripIn;\n ENDPROC\nENDMODULE\n")
-    for cell in ("guess", ""):
+    for cell in ("infer", ""):
         with VirtualController.from_files(
             [path], cell=cell, robot="irb14000", cycle="once"
         ) as controller:
             controller.run(max_time=60)
-            assert (controller.task("T_ROB1").fault is None) is (cell == "guess")
+            assert (controller.task("T_ROB1").fault is None) is (cell == "infer")
 
 
 def test_inputs_that_a_backup_declares_are_given_but_for_what_crosses(tmp_path):
@@ -223,7 +223,7 @@ def test_inputs_that_a_backup_declares_are_given_but_for_what_crosses(tmp_path):
     }.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text(text)
-    with VirtualController.boot(load_target([tmp_path], BootOptions(cell="guess"))) as controller:
+    with VirtualController.boot(load_target([tmp_path], BootOptions(cell="infer"))) as controller:
         assert controller.run(max_time=20) == "deadlock"
         assert controller.guessed.answered == [("diPart", 1), ("diPart", 0)]
         assert "waits for diBoth = 1" in controller.where()[0]

@@ -67,7 +67,7 @@ def built(kit, tmp_path):
 
 def test_plan_then_exactly_that_plan(run, built, home, tmp_path, kit):
     url, file = f"dir://{home}", tmp_path / "plan.json"
-    code, out, _ = run("plan", built(OLD), "--to", url, "--detailed-exitcode", "--out", file)
+    code, out, _ = run("plan", built(OLD), "--to", url, "--detailed-exitcode", "--output", file)
     assert code == 2
     assert "  + HOME:/rapidgen: " in out
     assert "Plan: 6 to add, 0 to change, 0 to remove." in out

@@ -23,7 +23,8 @@ def robot(tmp_path):
 
     def boot(keep, stands):
         (tmp_path / "cell.yaml").write_text(
-            f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nkeep: {keep}\njoints:\n{JOINTS}\n"
+            f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nheld_axes: {keep}\n"
+            f"joints:\n{JOINTS}\n"
         )
         config = load_config(tmp_path / "cell.yaml")
         bench = Bench(
@@ -66,7 +67,7 @@ def as_moved(bench, before):
 )
 def test_the_readme_tells(tmp_path, keep, message):
     (tmp_path / "cell.yaml").write_text(
-        f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nkeep: {keep}\njoints:\n{JOINTS}\n"
+        f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nheld_axes: {keep}\njoints:\n{JOINTS}\n"
     )
     files = build(load_config(tmp_path / "cell.yaml")).files
     assert [f for f in files if f.kind == "readme" and message in f.data.decode()]

@@ -232,9 +232,9 @@ def test_two_robots_of_one_name_are_refused(cell):
     ("given", "report"),
     [
         (["irb120", "irb2400"], "once for each of several robots"),
-        (["irb120", "--at", "0,0,0"], "for several robots only"),
-        (["irb120", "irb2400", "--at", "0,0,0", "--at", "0,1"], "is not X,Y,Z"),
-        (["irb120", "irb2400", "--at", "0,0,0", "--at", "nan,0,1"], "is not X,Y,Z"),
+        (["irb120", "--base-pose", "0,0,0"], "for several robots only"),
+        (["irb120", "irb2400", "--base-pose", "0,0,0", "--base-pose", "0,1"], "is not X,Y,Z"),
+        (["irb120", "irb2400", "--base-pose", "0,0,0", "--base-pose", "nan,0,1"], "is not X,Y,Z"),
     ],
 )
 def test_places_that_do_not_fit_are_refused(given, report, tmp_path, capsys):
@@ -327,7 +327,9 @@ def commands(launch):
     ]
 
 
-@pytest.mark.parametrize("robots", [["irb120"], ["irb120", "irb2400", "--at=0,0,0", "--at=2,0,0"]])
+@pytest.mark.parametrize(
+    "robots", [["irb120"], ["irb120", "irb2400", "--base-pose=0,0,0", "--base-pose=2,0,0"]]
+)
 def test_node_and_simulator_know_what_was_overridden(robots, tmp_path):
     """With the ports, ranges and joints of another robot they would drive it otherwise."""
     sets = ["ports.motion=12000", "network.allowed_clients=[10.0.0.1, 10.0.0.2]"]

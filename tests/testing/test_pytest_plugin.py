@@ -141,7 +141,7 @@ def test_a_program_that_serves_nobody(virtual_controller, virtual_client, tmp_pa
 
 def test_a_line_that_breaks(virtual_controller, virtual_faults, virtual_client, program):
     plan = virtual_faults("network: [{do: reset, port: 5000, direction: in, after: 1}]")
-    controller = virtual_controller(program, cell="guess", faults=plan)
+    controller = virtual_controller(program, cell="infer", faults=plan)
     client = virtual_client(controller, 5000)
     client.send(b"ABC")
     assert b";" not in client.receive(until=b";"), "it was reset before the answer was whole"

@@ -62,7 +62,7 @@ class Pair:
 def serving(folder: Path, pair: Pair) -> Iterator[tuple[VirtualController, Line]]:
     """The server in real time, and a client of its first listener."""
     files = [sorted(folder.rglob(pattern))[0] for pattern in pair.files]
-    result = load_target(files, BootOptions(cell="guess", robot=pair.robot))
+    result = load_target(files, BootOptions(cell="infer", robot=pair.robot))
     with VirtualController.boot(
         result, clock="real", host="127.0.0.1", ports="auto", speed=20, autostart=False
     ) as controller:

@@ -2,7 +2,7 @@
 
     python -m tools.interop.trial FOLDER [ROBOT]     (or: make interop FOREIGN=FOLDER)
 
-Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell guess` does, and where the
+Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell infer` does, and where the
 guessed robot does not reach a position on the one with which it gets furthest: what no module
 declares is made up, an input that the program waits for and a dialog answer, and nobody else does.
 A backup moves its own robot. For each program it says how it ended (whole; waits for a partner:
@@ -74,7 +74,7 @@ def trial(program: Program, robot: str = "") -> Outcome:
 def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
     """Load, start, run until it ends, or for a while."""
     try:
-        result = load_target(program.files, BootOptions(cell="guess", robot=robot))
+        result = load_target(program.files, BootOptions(cell="infer", robot=robot))
         errors = [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR]
         if errors:
             raise DiagnosticError(errors)

@@ -174,7 +174,7 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
             place,
             "a delta robot: several arms move one flange, and no chain of joints tells how",
             "say its axes by hand: `joints:` with rax_1 to rax_4, ranges and speeds, "
-            "and `keep: [rax_5, rax_6]`",
+            "and `held_axes: [rax_5, rax_6]`",
         )
     elif mimic := _arms_mimic(cell):
         yield error(

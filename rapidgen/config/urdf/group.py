@@ -304,11 +304,11 @@ def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[ChainLink]:
     """The kinematic chain from the root to the flange, in the URDF's sense.
 
     A turning joint that mimics a mapped one follows it; a sliding one stands still. Joints of the
-    arm that drive nothing stand where `keep` says.
+    arm that drive nothing stand where `held_axes` says.
     """
     mapped = {joint.name for joint in draft.joints}
     path = _path(graph, draft, tip)
-    saved = dict(zip((j.name for j in _ignored(path, draft)), draft.keep, strict=False))
+    saved = dict(zip((j.name for j in _ignored(path, draft)), draft.held_axes, strict=False))
     made = []
     for joint in path:
         if saved.get(joint.name):

@@ -176,7 +176,7 @@ def _missing(run: OnlineRun, *, granted: bool) -> tuple[str, str] | None:
     stops = (run.options.restart and run.live.restart) or run.rearranges
     if stops and run.services.execution().running:
         what = f"the program of {target} runs, and what is planned stops it"
-        return what, f"when the robot may stop: `rapidgen halt {target}`"
+        return what, f"when the robot may stop: `rapidgen stop-program {target}`"
     return None
 
 
@@ -257,7 +257,7 @@ def _point(run: OnlineRun) -> None:
             others = ", ".join(run.live.pointers) or "no other task"
             run.work.say(
                 f"! the program pointer of {task} cannot be set alone ({cause.symbol}): "
-                f"`rapidgen start --main` sets those of all tasks ({others})"
+                f"`rapidgen start-program --main` sets those of all tasks ({others})"
             )
 
 

@@ -288,7 +288,7 @@ def live_steps(
     if lacking:
         steps.append(ManualStep("you", f"give the user {', '.join(lacking)} in RobotStudio"))
     if live.running:
-        what = f"stop the program: `rapidgen halt {host}`"
+        what = f"stop the program: `rapidgen stop-program {host}`"
         steps.append(ManualStep("you", what, stops_motion=True))
     if live.restart:
         others = sorted(set(live.started) - set(live.owned))
@@ -297,7 +297,7 @@ def live_steps(
         what = f"a warm start: --restart does it, or menu > Restart{adjacent}"
         steps.append(ManualStep("you", what, stops_motion=True))
     if verb != "uninstall":
-        what = f"motors on and start, at the robot or by `rapidgen start {host}`"
+        what = f"motors on and start, at the robot or by `rapidgen start-program {host}`"
         if live.mains and not live.restart and not live.touches_memory:
             what += "; program pointer to main first"
         steps.append(ManualStep("you", what))

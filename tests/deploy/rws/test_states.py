@@ -82,7 +82,10 @@ def test_a_program_that_runs_is_not_stopped(rws, cell, wanted):
     transport.services.motors(True)
     transport.services.start()
     plan = make_plan(transport, None, verb="uninstall")
-    assert "! you: stop the program: `rapidgen halt rws://cell` (stops motion)" in plan_text(plan)
+    assert (
+        "! you: stop the program: `rapidgen stop-program rws://cell` (stops motion)"
+        in plan_text(plan)
+    )
     files = rws.home_of(cabinet)
     assert "RG542" in refused(rws.run, transport, None, "uninstall")
     assert rws.home_of(cabinet) == files

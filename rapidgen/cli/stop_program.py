@@ -1,4 +1,4 @@
-"""`rapidgen halt`: stops the program of a controller, over Robot Web Services."""
+"""`rapidgen stop-program`: stops the program of a controller, over Robot Web Services."""
 
 from typing import Annotated
 
@@ -7,7 +7,7 @@ import typer
 from rapidgen.cli import options
 
 
-def halt(
+def stop_program(
     host: options.WebServices,
     everything: Annotated[
         bool, typer.Option("--all", help="Background tasks, too; a driver serves no more then.")
@@ -27,5 +27,5 @@ def halt(
         result.stop(everything=everything)
         if motors_off:
             result.motors(False)
-        typer.echo(f"{host}: the program stands")
+        typer.echo(f"{host}: program stopped")
     return 0

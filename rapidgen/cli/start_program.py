@@ -1,4 +1,4 @@
-"""`rapidgen start`: the program of a controller, over Robot Web Services."""
+"""`rapidgen start-program`: the program of a controller, over Robot Web Services."""
 
 from typing import Annotated, Literal
 
@@ -7,7 +7,7 @@ import typer
 from rapidgen.cli import options
 
 
-def start(
+def start_program(
     host: options.WebServices,
     cycle: Annotated[
         Literal["asis", "once", "forever"],
