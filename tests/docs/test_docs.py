@@ -207,7 +207,7 @@ def mentioned(text):
     code += re.findall(r"^    \S.*$", text, re.MULTILINE)
     code += re.findall(r"`(rapidgen [^`]+)`", re.sub(FENCE, "", text))
     for line in re.sub(r"\\\n", "", "\n".join(code)).splitlines():
-        for command in re.findall(r"(?:^|\s)rapidgen ([a-z]+\b[^#|]*)", line):
+        for command in re.findall(r"(?:^|\s)rapidgen ([a-z][a-z0-9-]*\b[^#|]*)", line):
             verb, *words = command.split()
             yield verb, [w.strip("[],.;:").partition("=")[0] for w in words if w.startswith("--")]
 
