@@ -46,7 +46,7 @@ class Setting:
 
         Tasks that run by lot may keep it waiting for a dozen calls on sockets in a row, 25 ms of
         a slow controller with two clients: no driver is in time there for a `planning_lead` of
-        20 ms, nor need it be (docs/develop/compatibility.md, 35). In turns it is 13 ms.
+        20 ms, nor need it be (docs/develop/assumptions.md, 35). In turns it is 13 ms.
         """
         return not self.random_schedule or self.motion.planning_lead > _TURN * self.slowness
 

@@ -224,7 +224,7 @@ def test_every_command_that_is_named_exists(path):
 @pytest.mark.parametrize(
     ("page", "verb"),
     [
-        ("develop/testing.md", "test"),
+        ("use/test-driver.md", "test"),
         ("start/simulation.md", "sim"),
         ("rapid/virtual-controller.md", "run"),
     ],

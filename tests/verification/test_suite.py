@@ -240,7 +240,7 @@ def test_a_run_that_is_broken_off_reports_what_it_saw(jobs, monkeypatch, capsys)
 
 
 def test_the_table_of_faults_names_cases_that_exist():
-    page = Path(__file__).parents[2] / "docs" / "develop" / "testing.md"
+    page = Path(__file__).parents[2] / "docs" / "use" / "test-driver.md"
     text = page.read_text(encoding="utf-8")
     rows = re.findall(r"^\| (\d+) \| .+? \| (.+?) \|$", text, re.MULTILINE)
     assert [int(number) for number, _ in rows] == list(range(1, 26))
