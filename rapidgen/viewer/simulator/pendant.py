@@ -73,6 +73,8 @@ class PendantProvider:
             raise RequestRejected("a program runs: stop it first")
         if request.action != "start":
             c.perform(request.action)
+        if request.action == "motors-on" and not c.motors_on:
+            raise RequestRejected("the motors stay off: the event log says why")
         return ""
 
     def _mode(self, request: Request) -> str:
