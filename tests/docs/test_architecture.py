@@ -47,5 +47,17 @@ def test_places_are_named():
 
 def test_recipes_cover_common_additions():
     titles = re.findall(r"^## An? (.+)$", RECIPES, re.MULTILINE)
-    wanted = ("built-in", "message", "verb", "robot", "transport", "face", "diagnostic")
+    wanted = (
+        "built-in",
+        "RobotWare switch",
+        "configuration key",
+        "behaviour of the driver",
+        "page of the documentation",
+        "message",
+        "command",
+        "robot",
+        "transport",
+        "server",
+        "diagnostic",
+    )
     assert [word for word in wanted if not any(title.startswith(word) for title in titles)] == []
