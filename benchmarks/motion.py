@@ -19,8 +19,8 @@ from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionGroup, MotionSystem
 from rapidgen.motion.moves import CartesianMove, JointMove, Move, MoveSpeed, Zone
 from rapidgen.rapid.switches import Switches
-from rapidgen.runtime.compiler.context import Options
-from rapidgen.runtime.compiler.linking import Shared
+from rapidgen.runtime.compiler.emit.access import Options
+from rapidgen.runtime.compiler.link import Shared
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System, TaskSpec
 

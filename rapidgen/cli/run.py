@@ -208,7 +208,7 @@ def _run(
 def _mend(fault: "FatalError", cell: str) -> str:
     """What to do about a name that nothing declares, a dialog that nobody answers and a place that
     the robot, or this posture, does not reach; of other errors the program knows more."""
-    from rapidgen.runtime.motion_faults import NOT_COMPATIBLE
+    from rapidgen.runtime.motion_interface import NOT_COMPATIBLE
 
     if "ERR_REFUNKDAT" in fault.arguments:
         declared = "or load the module that declares it"

@@ -17,7 +17,7 @@ from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.machine.sync_points import SyncPoints
 from rapidgen.motion.system import MotionSystem
-from rapidgen.runtime.compiler import predefined
+from rapidgen.runtime.compiler.link import predefined_value
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import ModuleFile, SignalSpec, System
 
@@ -230,7 +230,7 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
             controller.scheduler.after(round(_PATIENCE * S), give)
 
     for row in around.blank:
-        controller.task(row.task)[f"{row.module}:{row.name}"] = predefined.value(row.stands)
+        controller.task(row.task)[f"{row.module}:{row.name}"] = predefined_value(row.stands)
     if around.guessed:
         controller.io.on_awaited = answer
     if around.polled:

@@ -41,10 +41,10 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches
-from rapidgen.runtime.compiler.context import Options
-from rapidgen.runtime.compiler.linking import Shared
+from rapidgen.runtime.compiler.emit.access import Options
+from rapidgen.runtime.compiler.link import Shared
+from rapidgen.runtime.motion_interface import RobotData
 from rapidgen.runtime.queues import QueueSystem
-from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.statement_hooks import Statements
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System

@@ -9,9 +9,9 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
 from rapidgen.machine.io import IOSystem
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.predefined import find_type
+from rapidgen.runtime.compiler.link import find_type
+from rapidgen.runtime.compiler.program import missing_routines
 from rapidgen.runtime.compiler.symbols import Routine
-from rapidgen.runtime.compiler.undefined_calls import missing_routines
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Type, Value
 from rapidgen.system.model import ModuleFile, System

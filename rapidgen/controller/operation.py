@@ -7,7 +7,7 @@ from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.host import Host, RapidTask
-from rapidgen.runtime.task.event_routines import StopEvent
+from rapidgen.runtime.task.interrupts import StopEvent
 from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.task.task import Task
 

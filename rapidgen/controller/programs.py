@@ -13,8 +13,8 @@ from rapidgen.controller.controller import VirtualController
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.syntax.lexer import decode
+from rapidgen.runtime.compiler.program import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
-from rapidgen.runtime.compiler.undefined_calls import missing_routines
 from rapidgen.runtime.loading import LARGEST_MODULE, module_text
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import ModuleFile

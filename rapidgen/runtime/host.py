@@ -24,12 +24,12 @@ from rapidgen.motion.group import MotionWaiter
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.emit.access import Options
 from rapidgen.runtime.compiler.program import Program
-from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import FatalError, Location
+from rapidgen.runtime.motion_interface import RobotData
 from rapidgen.runtime.queues import QueueSystem
-from rapidgen.runtime.robot_data import RobotData
+from rapidgen.runtime.signals import CyclicBools
 from rapidgen.runtime.task.statement_hooks import Statements
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 

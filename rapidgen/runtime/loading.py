@@ -1,22 +1,68 @@
-"""Modules that a program loads, unloads and saves while it runs.
+"""Modules loaded at run time, and the disks that hold them."""
 
-Sources: S4 reference, pages Load, UnLoad, StartLoad, WaitLoad, Save [manual]; [K §2.18] for the
-value of a persistent, which is saved as its initial value.
-"""
-
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Severity
 from rapidgen.machine.calendar import date_time
+from rapidgen.machine.files import Directory, DiskFault, DiskReason, IODevice
+from rapidgen.runtime.compiler.program import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Origin
-from rapidgen.runtime.compiler.undefined_calls import missing_routines
-from rapidgen.runtime.disks import file_path, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.text import literal_text
-from rapidgen.runtime.values import PersistentCell
+from rapidgen.runtime.values import PersistentCell, register_type
 from rapidgen.system.model import ModuleFile
+
+# -- Disks -----------------------------------------------------------------------------------------
+#
+# The controller's disks as programs see them: iodev, dir, and what a disk's faults are called.
+
+
+_ERRORS = {
+    DiskReason.NO_ACCESS: "ERR_FILEACC",
+    DiskReason.TOO_MANY_OPEN: "ERR_FILEOPEN",
+}
+
+register_type("iodev", IODevice)
+register_type("dir", Directory)
+
+
+@contextmanager
+def _in_rapid() -> Iterator[None]:
+    try:
+        yield
+    except DiskFault as fault:
+        raise RapidError(_ERRORS[fault.reason], str(fault)) from fault
+
+
+def file_path(task: RapidTask, path: str, file: str = "") -> Path:
+    """Where a path (with \\File behind it) lies. ERR_FILEACC: on no disk, or outside of it."""
+    with _in_rapid():
+        return task.controller.files.path(path, file)
+
+
+def hold(task: RapidTask, device: IODevice | Directory) -> None:
+    """A file or folder is open for the task; ERR_FILEOPEN when too many are."""
+    with _in_rapid():
+        task.controller.files.hold(device, task.name)
+
+
+def spend(task: RapidTask, count: int) -> None:
+    """Account for bytes that are written; ERR_FILEACC when the disk is full."""
+    with _in_rapid():
+        task.controller.files.spend(count)
+
+
+# -- Modules ---------------------------------------------------------------------------------------
+#
+# Modules that a program loads, unloads and saves while it runs.
+#
+# Sources: S4 reference, pages Load, UnLoad, StartLoad, WaitLoad, Save [manual]; [K §2.18] for the
+# value of a persistent, which is saved as its initial value.
+
 
 LARGEST_MODULE = 8_000_000
 """Bytes; a larger one does not fit the program memory."""

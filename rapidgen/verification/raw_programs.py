@@ -11,7 +11,7 @@ from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.motion.moves import MoveFrames
 from rapidgen.runtime.builtins.motion.targets import rob_target
-from rapidgen.runtime.robot_data import NO_OFFSETS
+from rapidgen.runtime.motion_interface import NO_OFFSETS
 from rapidgen.runtime.values import Value
 from rapidgen.system.model import ModuleFile, System
 from rapidgen.verification import messages

@@ -4,7 +4,7 @@ import pytest
 
 from rapidgen.motion import MotionSettings
 from rapidgen.motion.fault_reasons import FaultReason, MotionFault
-from rapidgen.runtime.motion_faults import in_rapid
+from rapidgen.runtime.motion_interface import in_rapid
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\n"

@@ -18,8 +18,8 @@ from rapidgen.controller.debugger.stack import Level, StackFrame, depth_here, fr
 from rapidgen.controller.debugger.values import DisplayedValue, NotPaused
 from rapidgen.machine.scheduler import S, Timer, WaitSet
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.resume import WatchedExpression
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
-from rapidgen.runtime.compiler.watch_expressions import WatchedExpression
 from rapidgen.runtime.errors import FatalError, Location, RapidError
 from rapidgen.runtime.task.task import Task
 

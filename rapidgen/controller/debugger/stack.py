@@ -6,13 +6,11 @@ from types import FrameType
 from typing import Literal, TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.compiler.resume import find
-from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
+from rapidgen.runtime.compiler.symbols import CodeRole, LoadedModule, Routine
 from rapidgen.runtime.errors import Location
-from rapidgen.runtime.task.call_stack import location, outwards
-from rapidgen.runtime.task.event_routines import EventRoutines
-from rapidgen.runtime.task.interrupts import Interrupts
+from rapidgen.runtime.task.calls import location, outwards
+from rapidgen.runtime.task.interrupts import EventRoutines, Interrupts
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Value
 

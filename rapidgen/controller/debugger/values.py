@@ -8,18 +8,18 @@ from types import FrameType
 
 from rapidgen.controller.debugger.stack import StackFrame
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import Options
-from rapidgen.runtime.compiler.linking import Linker
-from rapidgen.runtime.compiler.loops import loop_variable
+from rapidgen.runtime.compiler.emit.access import Options
+from rapidgen.runtime.compiler.emit.statements import loop_variable
+from rapidgen.runtime.compiler.link import Linker
 from rapidgen.runtime.compiler.program import Program
-from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule, Routine
-from rapidgen.runtime.compiler.watch_expressions import (
+from rapidgen.runtime.compiler.resume import (
     WatchedExpression,
     parse_assignment,
     parse_expression,
     store,
     watch,
 )
+from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule, Routine
 from rapidgen.runtime.errors import RECOVERABLE, FatalError, as_rapid_error
 from rapidgen.runtime.text import value_text
 from rapidgen.runtime.values import ATOMIC, Record, Type, Value

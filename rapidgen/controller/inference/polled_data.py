@@ -25,7 +25,7 @@ from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.rapid.binding import DataSymbol, ModuleScope, RoutineSymbol, Scope, constant
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.task.call_stack import stack_at
+from rapidgen.runtime.task.calls import stack_at
 from rapidgen.runtime.task.task import Task
 
 if TYPE_CHECKING:

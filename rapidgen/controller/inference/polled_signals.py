@@ -24,7 +24,7 @@ from rapidgen.machine.io import IOSystem, Relation, SignalCondition
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.rapid.binding import ModuleScope, constant
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.task.call_stack import stack_at
+from rapidgen.runtime.task.calls import stack_at
 from rapidgen.runtime.task.task import Task
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from rapidgen.machine.cameras import Camera, Seen
 from rapidgen.machine.scheduler import S
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.motion_faults import NOT_SIMULATED
+from rapidgen.runtime.motion_interface import NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Orient, Pos, Pose, Ref, Value

@@ -16,12 +16,12 @@ from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
 from rapidgen.machine.files import Directory, IODevice
 from rapidgen.rapid.numbers import MAX_STRING, single
-from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.builtins.operator import appended
-from rapidgen.runtime.disks import file_path, hold, spend
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.loading import file_path, hold, spend
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin, builtins
+from rapidgen.runtime.signals import target_of, value_of
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import NotALiteral, parse_value
 from rapidgen.runtime.values import NUM, Record, Ref, Type, Value, dimensions

@@ -1,18 +1,25 @@
-"""Signals: Set to AliasIO, and the instructions that wait for a signal.
+"""Signals, I/O units and cyclic conditions."""
 
-Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \\TimeFlag);
-3HAC16581-1 names of the IRC5 additions. Ranges of \\SDelay and \\PLength: switch `signal_times`.
-"""
-
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from typing import Final
 
 from rapidgen.machine.io import Relation, Signal, SignalCondition
 from rapidgen.rapid.numbers import single
+from rapidgen.runtime.compiler.support import Condition
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import builtin, builtins
-from rapidgen.runtime.signals import AnySignal, SignalAlias
+from rapidgen.runtime.signals import MOST, AnySignal, CyclicBool, CyclicBools, SignalAlias, follower
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
+
+# -- Signals ---------------------------------------------------------------------------------------
+#
+# Signals: Set to AliasIO, and the instructions that wait for a signal.
+#
+# Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \TimeFlag);
+# 3HAC16581-1 names of the IRC5 additions. Ranges of \SDelay and \PLength: switch `signal_times`.
+
 
 _TIMES = {"irc5": (0.001, 2000.0), "s4": (0.1, 32.0)}
 _DEFAULT_PULSE = 0.2
@@ -260,3 +267,132 @@ def _relation(
     *, different: bool | None = None, less: bool | None = None, greater: bool | None = None
 ) -> Relation:
     return "<>" if different else "<" if less else ">" if greater else "="
+
+
+# -- I/O units -------------------------------------------------------------------------------------
+#
+# I/O units: those that the signals of the configuration are on, switched off and on.
+#
+# Sources: S4 datasys 2-IODisable, 2-IOEnable, 3HAC16581-1 IOUnitState [manual]; numbers of the
+# states as installed modules have them [code]. A unit runs unless a program has disabled it. Not
+# simulated: that signals of a disabled unit are not there; nothing is on the wire that could fail
+# in time.
+
+
+_STATES: Final = {
+    "Phys": (20.0, 21.0),
+    "Logic": (10.0, 11.0),
+    "": (3.0, 1.0),
+}
+"""iounit_state of a disabled unit and of one that runs: IOUNIT_PHYS_STATE_DEACTIVATED and _RUNNING,
+IOUNIT_LOG_STATE_DISABLED and _ENABLED; IOUNIT_DISABLE and IOUNIT_RUNNING without a switch."""
+
+
+def _known(task: Task, name: str) -> str:
+    """ERR_NAME_INVALID: there is no such unit."""
+    io = task.controller.io
+    if not io.is_unit(name):
+        raise RapidError("ERR_NAME_INVALID", f"no I/O unit '{name}'")
+    return name.casefold()
+
+
+@builtin("IOEnable")
+def io_enable(task: Task, name: str, _max_time: float) -> None:
+    """Switch a unit on."""
+    task.controller.io.disabled.discard(_known(task, name))
+
+
+@builtin("IODisable")
+def io_disable(task: Task, name: str, _max_time: float) -> None:
+    """Switch a unit off."""
+    task.controller.io.disabled.add(_known(task, name))
+
+
+@builtin("IOUnitState")
+def io_unit_state(task: Task, name: str, phys: bool | None, logic: bool | None) -> float:
+    """How a unit is."""
+    disabled, running = _STATES["Phys" if phys else "Logic" if logic else ""]
+    return disabled if _known(task, name) in task.controller.io.disabled else running
+
+
+# -- Cyclic conditions -----------------------------------------------------------------------------
+#
+# SetupCyclicBool to IsCyclicBool. See `rapidgen/runtime/signals.py` for sources.
+
+
+@builtin("SetupCyclicBool")
+def setup_cyclic_bool(
+    task: Task, flag: Ref, condition: Condition, signal: AnySignal | None
+) -> None:
+    """Evaluate a condition on signals and persistents from now on.
+
+    ERR_ARGVALERR: it calls a function of the program, or there are 60 already.
+    """
+    if condition.calls:
+        raise RapidError("ERR_ARGVALERR", "the condition calls a function of the program")
+    others = sum(name != flag.name.lower() for every in _all(task) for name in every.known)
+    if others >= MOST:
+        raise RapidError("ERR_ARGVALERR", f"there are {MOST} cyclic bools")
+    follow = follower(signal.signal if signal is not None else None, task.controller.io.set)
+    made = CyclicBool(task.scheduler, flag, condition.look, condition.watched, follow)
+    task.cyclic.put(flag.name, made)
+
+
+@builtin("RemoveCyclicBool")
+def remove_cyclic_bool(task: Task, flag: Ref | None, name: str | None) -> None:
+    """The persistent keeps its value. ERR_ARGVALERR: it has no condition in this task."""
+    expected = _condition_name(flag, name)
+    if not task.cyclic.remove(expected):
+        raise RapidError("ERR_ARGVALERR", f"{expected} is no cyclic bool")
+
+
+@builtin("RemoveAllCyclicBool")
+def remove_all_cyclic_bool(task: Task, all_tasks: bool | None) -> None:
+    """Those of this task, or of all."""
+    for every in _all(task) if all_tasks else (task.cyclic,):
+        every.clear()
+
+
+@builtin("GetMaxNumberOfCyclicBool")
+def get_max_number_of_cyclic_bool(_task: Task) -> int:
+    """How many there may be in all tasks."""
+    return MOST
+
+
+@builtin("GetNumberOfCyclicBool")
+def get_number_of_cyclic_bool(task: Task) -> int:
+    """How many there are in all tasks."""
+    return sum(len(every.known) for every in _all(task))
+
+
+@builtin("GetNextCyclicBool")
+def get_next_cyclic_bool(task: Task, place: Ref, name: Ref) -> bool:
+    """The next one behind a place, which is 0 at first; FALSE: there are no more."""
+    names = [c.flag.name for every in _all(task) for c in every.known.values()]
+    at = int(place.get())
+    if not 0 <= at < len(names):
+        return False
+    name.set(names[at])
+    place.set(at + 1)
+    return True
+
+
+@builtin("IsCyclicBool")
+def is_cyclic_bool(
+    task: Task, flag: Ref | None, name: str | None, reference: Value, task_name: str | None
+) -> bool:
+    """Whether a persistent has a condition, in this task or in a named one. ERR_TASKNAME."""
+    expected = task_name if task_name is not None else reference.value if reference else task.name
+    for other in task.controller.rapid_tasks.values():
+        if other.name.lower() == str(expected).lower():
+            return _condition_name(flag, name).lower() in other.cyclic.known
+    raise RapidError("ERR_TASKNAME", str(expected))
+
+
+def _condition_name(flag: Ref | None, name: str | None) -> str:
+    return str(name) if flag is None else flag.name
+
+
+def _all(task: RapidTask) -> Iterator[CyclicBools]:
+    for other in task.controller.rapid_tasks.values():
+        yield other.cyclic

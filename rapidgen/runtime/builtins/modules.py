@@ -1,14 +1,28 @@
-"""Load to ModTime: modules at run time. See `loading.py` for sources."""
+"""Modules at run time and access to data by name."""
 
+import re
+from collections.abc import Callable, Iterator
+
+from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.numbers import single
+from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime import loading
-from rapidgen.runtime.compiler.undefined_calls import missing_routines
-from rapidgen.runtime.disks import file_path
+from rapidgen.runtime.builtins.motion.positions import carry, payload_of
+from rapidgen.runtime.builtins.motion.targets import data_of, frame
+from rapidgen.runtime.compiler.program import missing_routines
+from rapidgen.runtime.compiler.symbols import Data, LoadedModule
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.loading import file_path
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import target_of
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, register_type
+from rapidgen.runtime.values import PersistentCell, Ref, ValueRef, copy_value, register_type
+
+# -- Modules ---------------------------------------------------------------------------------------
+#
+# Load to ModTime: modules at run time. See `loading.py` for sources.
+
 
 _LOAD_RATE = 1_000_000
 """Bytes of a module that StartLoad reads in a second, while the program goes on."""
@@ -143,3 +157,289 @@ def task_named(task: Task, reference: object, name: str | None) -> RapidTask:
         if known.lower() == str(expected).lower():
             return other
     raise RapidError("ERR_TASKNAME", str(expected))
+
+
+# -- Data by name ----------------------------------------------------------------------------------
+#
+# Data by name: GetDataVal, SetDataSearch and their family; the active tool and work object.
+#
+# Sources: 3HAC16581-1's arguments and error names [manual]; the pairing of error and case is
+# remembered only [mem]. A search that is not narrowed to a task or module sees predefined data,
+# too: Keyence's CV-X modules [code] look for tool0 and wobj0 so.
+
+
+_ELEMENT = re.compile(r"(\w+)\{([\d,\s]+)\}")
+
+
+class DataPosition:
+    """A `datapos`: the module in which what was found lies."""
+
+    __slots__ = ("module",)
+
+    def __init__(self) -> None:
+        self.module: LoadedModule | None = None
+
+
+register_type("datapos", DataPosition)
+
+
+# -- by name ------------------------------------------------------------------------------------
+
+
+def _data_ref(
+    task: RapidTask, module: LoadedModule | None, name: str
+) -> tuple[Data, Ref | PersistentCell]:
+    """Data of a task by name, or ERR_SYM_ACCESS."""
+    program = task.program
+    data = program.find_data(module, name.lower())
+    if data is None:
+        raise RapidError("ERR_SYM_ACCESS", name)
+    if data.storage == "inline":
+        return data, ValueRef(data.value, data.type, (), data.name)
+    if data.storage == "cell":
+        cell: PersistentCell = program.space[data.code]
+        return data, cell
+    reference: Ref = program.space[program.global_ref(data)]
+    return data, reference
+
+
+def _reached(
+    task: Task, block: DataPosition | None, reference: object, task_name: str | None, name: str
+) -> tuple[Data, Ref | PersistentCell]:
+    """Data by name, of this task or of the one that is named: there only persistents are seen
+    [mem], anything else is ERR_SYM_ACCESS."""
+    owner = task_named(task, reference, task_name)
+    data, result = _data_ref(owner, block.module if block is not None else None, name)
+    if owner is not task and not task.controller.dialect.data_of_tasks:
+        raise RapidError("ERR_TASKNAME", owner.name)
+    if owner is not task and data.storage != "cell":
+        raise RapidError("ERR_SYM_ACCESS", f"{name} is no PERS of {owner.name}")
+    return data, result
+
+
+def _indices(name: str) -> tuple[str, tuple[int, ...]]:
+    match = _ELEMENT.fullmatch(name.strip())
+    if match is None:
+        return name.strip(), ()
+    return match[1], tuple(int(part) for part in match[2].split(","))
+
+
+def _check_type(source: Ref | PersistentCell, degree: int, target: Ref | PersistentCell) -> None:
+    if source.type is not target.type:
+        raise RapidError("ERR_SYMBOL_TYPE", f"{source.name} is a {source.type.name}")
+    if source.dims[degree:] != target.dims:
+        raise RapidError("ERR_INVDIM", source.name)
+
+
+@builtin("GetDataVal", cost="string")
+def get_data_val(
+    task: Task,
+    name: str,
+    block: DataPosition | None,
+    reference: object,
+    task_name: str | None,
+    argument: object,
+) -> None:
+    """The value of data whose name is a string; an element as `name{i}`."""
+    target = target_of(argument)
+    plain, indices = _indices(name)
+    _, source = _reached(task, block, reference, task_name, plain)
+    _check_type(source, len(indices), target)
+    value = source.get()
+    for index in indices:
+        value = value[index]
+    target.set(copy_value(value))
+
+
+@builtin("SetDataVal", cost="string")
+def set_data_val(
+    task: Task,
+    name: str,
+    block: DataPosition | None,
+    reference: object,
+    task_name: str | None,
+    argument: object,
+) -> None:
+    """Give data whose name is a string a value; constants are ERR_SYM_ACCESS."""
+    value = target_of(argument)
+    plain, indices = _indices(name)
+    data, target = _reached(task, block, reference, task_name, plain)
+    if data.readonly:
+        raise RapidError("ERR_SYM_ACCESS", f"{name} is a constant")
+    _check_type(target, len(indices), value)
+    if not indices:
+        target.set(copy_value(value.get()))
+        return
+    complete = copy_value(target.get())
+    part = complete
+    for index in indices[:-1]:
+        part = part[index]
+    part[indices[-1]]  # an index outside is the usual error
+    part[indices[-1]] = copy_value(value.get())
+    target.set(complete)
+
+
+# -- searches -----------------------------------------------------------------------------------
+
+
+def _fitting(task: RapidTask, pattern: str) -> Callable[[str], object]:
+    """Whether a name fits a regular expression: whole, or by some part of it."""
+    try:
+        compiled = re.compile(pattern, re.IGNORECASE)
+    except re.error as error:
+        raise RapidError("ERR_ARGVALERR", f"'{pattern}' is no pattern") from error
+    part = task.controller.dialect.search_pattern == "part"
+    return compiled.search if part else compiled.fullmatch
+
+
+def _declared(
+    task: RapidTask, type_: str, module: str, pattern: str
+) -> Iterator[tuple[LoadedModule, n.DataDeclaration, Data]]:
+    """Module data of a type (all for an empty one) whose names fit a regular expression."""
+    fits = _fitting(task, pattern)
+    for loaded in tuple(task.program.modules.values()):
+        if module and loaded.name.lower() != module.lower():
+            continue
+        for key, declaration in tuple(loaded.declarations.items()):
+            if type_ and declaration.type.lower() != type_.lower():
+                continue
+            if pattern and not fits(declaration.name):
+                continue
+            data = task.program.find_data(loaded, key)
+            if data is not None:
+                yield loaded, declaration, data
+
+
+def _predefined(task: Task, type_: str, pattern: str, kinds: set[str]) -> Iterator[Data]:
+    """Predefined data of a type (all for an empty one) that nothing in the program hides."""
+    fits = _fitting(task, pattern)
+    for key, known in signatures.predefined().items():
+        if type_ and known.type.lower() != type_.lower():
+            continue
+        if (kinds and known.kind not in kinds) or key in task.program.names.globals:
+            continue
+        if pattern and not fits(known.name):
+            continue
+        data = task.program.find_data(None, key)
+        if data is not None:
+            yield data
+
+
+@builtin("SetDataSearch", cost="string")
+def set_data_search(
+    task: Task,
+    type_: str,
+    _type_module: str | None,
+    pattern: str | None,
+    pers: bool | None,
+    var: bool | None,
+    const: bool | None,
+    in_task: bool | None,
+    in_module: str | None,
+    _in_routine: str | None,
+    global_: bool | None,
+    local: bool | None,
+) -> None:
+    """Begin a search: kinds, place and scope narrow it, none of them means all."""
+    kinds = {k for k, expected in (("PERS", pers), ("VAR", var), ("CONST", const)) if expected}
+    result: list[tuple[LoadedModule | None, Data]] = [
+        (module, data)
+        for module, declaration, data in _declared(
+            task, type_, "" if in_task else in_module or "", pattern or ""
+        )
+        if (not kinds or declaration.kind in kinds)
+        and (not global_ or declaration.scope != "LOCAL")
+        and (not local or declaration.scope == "LOCAL")
+    ]
+    if not (in_task or in_module or local):
+        result += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
+    task.found, task.searched_module = iter(result), bool(in_module) and not in_task
+
+
+@builtin("GetNextSym", cost="string")
+def get_next_sym(task: Task, name: Ref, block: DataPosition, recursive: bool | None) -> bool:
+    """The next find of the search, on its level or below it; FALSE when there is none left."""
+    below = recursive or task.searched_module or task.controller.dialect.next_symbol == "below"
+    for module, data in task.found:
+        if below or module is None:
+            name.set(data.name)
+            block.module = module
+            return True
+    return False
+
+
+@builtin("SetAllDataVal", cost="string")
+def set_all_data_val(
+    task: Task,
+    type_: str,
+    _type_module: str | None,
+    pattern: str | None,
+    _hidden: bool | None,
+    argument: object,
+) -> None:
+    """Give all module data of a type (and name) one value; constants stay."""
+    value = target_of(argument)
+    for module, _, data in list(_declared(task, type_, "", pattern or "")):
+        _, target = _data_ref(task, module, data.name)
+        if not data.readonly and target.dims == value.dims:
+            target.set(copy_value(value.get()))
+
+
+# -- what is active -----------------------------------------------------------------------------
+
+_ACTIVE = {"tooldata": "tool0", "wobjdata": "wobj0", "loaddata": "load0"}
+
+
+@builtin("GetSysData", cost="string")
+def get_sys_data(
+    task: Task, reference: object, task_name: str | None, target: Ref, name: Ref | None
+) -> None:
+    """The tool, work object or payload that is active, by the type of the target."""
+    owner = task_named(task, reference, task_name)
+    kind = target.type.name
+    if kind not in _ACTIVE:
+        raise RapidError("ERR_SYMBOL_TYPE", kind)
+    group = task.controller.motion.of_task(owner.name)
+    active = None
+    if group is not None:
+        data = data_of(owner, group)
+        known_ones = {"tooldata": data.tool, "wobjdata": data.work_object}
+        active = known_ones[kind] if kind in known_ones else payload_of(owner, group)
+    _, default = _data_ref(owner, None, _ACTIVE[kind])
+    value = default.get() if active is None else active
+    target.set(copy_value(value))
+    if name is not None:
+        known = "" if active is None else _name_of(owner, kind, value)
+        name.set(known or _ACTIVE[kind])
+
+
+def _name_of(task: RapidTask, kind: str, value: object) -> str:
+    """Name of the persistent that holds a value: the very one, else one that is equal."""
+    equal = ""
+    for module, _, data in _declared(task, kind, "", ""):
+        held = _data_ref(task, module, data.name)[1].get()
+        if held is value:
+            return data.name
+        if not equal and held == value:
+            equal = data.name
+    return equal
+
+
+@builtin("SetSysData", cost="string")
+def set_sys_data(task: Task, source: Ref, name: str | None) -> None:
+    """Make a tool, work object or payload the active one."""
+    kind = source.type.name
+    if kind not in _ACTIVE:
+        raise RapidError("ERR_SYMBOL_TYPE", kind)
+    chosen = source if name is None else _data_ref(task, None, name)[1]
+    group = task.controller.motion.of_task(task.name)
+    if group is None:
+        return
+    data = data_of(task, group)
+    if kind == "tooldata":
+        data.use(chosen.get(), data.work_object)
+        group.planner.tool = frame(chosen.get().tframe)
+    elif kind == "wobjdata":
+        data.use(data.tool, chosen.get())
+    else:
+        carry(task, group, chosen.get(), "the load of SetSysData")

@@ -4,10 +4,10 @@ Sources: 3HAC16581-1's arguments and error names [manual]. Without \\TimeOut RMQ
 ever; how long RMQSendWait does is the switch `queue_patience`.
 """
 
-from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.queues import Message, MessageBox, Queue, QueueSystem, Slot
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import target_of, value_of
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, RmqHeader, copy_value, dimensions
 

@@ -7,7 +7,6 @@ empty container, motion_program_exec [code] for \\ASCII:=0.
 from collections.abc import Callable
 
 from rapidgen.rapid.numbers import dnum, single
-from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import (
     CAPACITY,
@@ -20,6 +19,7 @@ from rapidgen.runtime.rawbytes import (
     whole,
 )
 from rapidgen.runtime.registry import builtin, builtins
+from rapidgen.runtime.signals import target_of, value_of
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from rapidgen.machine.smart_gripper import PHYSICAL_LIMIT, Command, HandState, SmartGripper
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.motion_faults import NOT_ALLOWED
+from rapidgen.runtime.motion_interface import NOT_ALLOWED
 from rapidgen.runtime.registry import Arguments, builtins, by_name
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Value

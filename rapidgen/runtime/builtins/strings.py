@@ -9,10 +9,10 @@ from operator import add, eq, floordiv, ge, gt, le, lt, mod, mul, ne, sub
 
 from rapidgen.rapid.number_text import exponent_text, fixed_text
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import byte_value, whole
 from rapidgen.runtime.registry import builtin, builtins
+from rapidgen.runtime.signals import target_of, value_of
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import (
     NotALiteral,

@@ -1,21 +1,115 @@
-"""What the controller tells about itself, and its text tables.
-
-Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the form of its texts is
-remembered only [mem].
-"""
+"""Clocks, system information, text tables and configuration."""
 
 from collections.abc import Callable
 
 from rapidgen._reading import read_foreign
 from rapidgen.config.model import GroupConfig
-from rapidgen.runtime.disks import file_path
-from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.loading import LARGEST_MODULE
+from rapidgen.machine.calendar import date_time
+from rapidgen.rapid.numbers import MAX_STRING, single
+from rapidgen.runtime.errors import EndOfRun, FatalError, RapidError
+from rapidgen.runtime.loading import LARGEST_MODULE, file_path, spend, words_of
 from rapidgen.runtime.rawbytes import whole
 from rapidgen.runtime.registry import builtin, builtins
+from rapidgen.runtime.signals import target_of, value_of
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import limited
-from rapidgen.runtime.values import Value
+from rapidgen.runtime.values import Ref, Value, register_type
+
+# -- Clocks ----------------------------------------------------------------------------------------
+#
+# Stop watches, date and time, and what the controller tells about itself.
+#
+# Sources: S4 reference, pages clock, ClkStart to ClkRead, CDate, CTime, GetTime [manual]; the form
+# of GetSysInfo's texts is remembered only [mem].
+
+
+_MS = 1_000_000
+_US = 1_000
+_S = 1_000_000_000
+_LONGEST = 4_294_967
+"""Seconds that a clock can hold, about 49 days."""
+
+
+class StopWatch:
+    """A `clock`: what it has measured, and since when it runs (ns), if it does."""
+
+    __slots__ = ("measured", "started")
+
+    def __init__(self) -> None:
+        self.measured = 0
+        self.started: int | None = None
+
+    def read(self, now: int) -> int:
+        """Nanoseconds; ERR_OVERFLOW beyond 49 days."""
+        total = self.measured + (0 if self.started is None else now - self.started)
+        if total > _LONGEST * _S:
+            raise RapidError("ERR_OVERFLOW", "a clock holds 49 days")
+        return total
+
+
+register_type("clock", StopWatch)
+
+
+@builtin("ClkReset")
+def clk_reset(_task: Task, clock: StopWatch) -> None:
+    """Stop and set to 0."""
+    clock.measured = 0
+    clock.started = None
+
+
+@builtin("ClkStart")
+def clk_start(task: Task, clock: StopWatch) -> None:
+    """Run on from where it stands."""
+    clock.read(task.scheduler.now)
+    if clock.started is None:
+        clock.started = task.scheduler.now
+
+
+@builtin("ClkStop")
+def clk_stop(task: Task, clock: StopWatch) -> None:
+    """Stop; the value stays."""
+    clock.measured = clock.read(task.scheduler.now)
+    clock.started = None
+
+
+@builtin("ClkRead")
+def clk_read(task: Task, clock: StopWatch, high_resolution: bool | None) -> float:
+    """Seconds, in steps of 1 ms (1 µs with \\HighRes)."""
+    step = _US if high_resolution else _MS
+    return single(clock.read(task.scheduler.now) // step * step / _S)
+
+
+@builtin("GetTime")
+def get_time(
+    task: Task, weekday: bool | None, hour: bool | None, minute: bool | None, second: bool | None
+) -> int:
+    """One part of date and time; Monday is 1."""
+    now = date_time(task.scheduler)
+    if weekday:
+        return now.isoweekday()
+    if hour:
+        return now.hour
+    if minute:
+        return now.minute
+    if second:
+        return now.second
+    raise FatalError(40_661, "GetTime needs a part", "one of \\WDay, \\Hour, \\Min and \\Sec")
+
+
+_SHOWN: dict[str, Callable[..., Value]] = {
+    "CDate": lambda task: f"{date_time(task.scheduler):%Y-%m-%d}",
+    "CTime": lambda task: f"{date_time(task.scheduler):%H:%M:%S}",
+}
+builtins(_SHOWN, cost="string")
+
+
+# -- System information and text tables ------------------------------------------------------------
+#
+# What the controller tells about itself, and its text tables.
+#
+# Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the form of its texts is
+# remembered only [mem].
+
 
 _SERIAL = "00-00000"
 
@@ -92,11 +186,96 @@ def text_get(task: Task, table: float, index: float) -> str:
     return limited(text)
 
 
-_TOLD: dict[str, Callable[..., Value]] = {
+_INFORMATION: dict[str, Callable[..., Value]] = {
     "IsSysId": lambda _task, identity: identity == _SERIAL,
     "GetServiceInfo": lambda task, _unit, _duty: str(task.scheduler.now // 3_600_000_000_000),  # h
     "TextTabFreeToUse": lambda task, name: task.controller.texts.number(name) is None,
 }
-builtins(_TOLD, cost="string")
+builtins(_INFORMATION, cost="string")
 builtin("RobOS")(lambda _task: False)
 builtin("IsBrakeCheckActive")(lambda _task: False)  # no brake is checked here
+
+
+# -- Configuration ---------------------------------------------------------------------------------
+#
+# ReadCfgData and its family, and WarmStart.
+#
+# Sources: 3HAC16581-1's arguments and error names [manual]. \ListNo: the number of one of several
+# instances that a path stands for (`/EIO/EIO_CROSS`: they have no names); behind it stands the
+# number of the next one. How they are counted: switch `list_number`.
+
+
+def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | int | float | bool]:
+    """Attributes of the instance; `number` goes on to the next one.
+
+    ERR_CFG_NOTFND, ERR_CFG_OUTOFBND: the list has no such instance.
+    """
+    configuration = task.controller.configuration
+    result = configuration.find(path)
+    hidden = path.strip("/").lower().startswith("moc/arm/")
+    if not result or (hidden and not task.controller.dialect.axis_limits_told):
+        raise RapidError("ERR_CFG_NOTFND", path)
+    if number is None:
+        return result[0]
+    first = 0 if task.controller.dialect.list_number == "zero" else 1
+    at = number.get() - first
+    if at not in range(len(result)):
+        raise RapidError("ERR_CFG_OUTOFBND", f"{number.get():g} of {len(result)}")
+    number.set(first + at + 1 if at + 1 < len(result) else first - 1)
+    return result[int(at)]
+
+
+@builtin("ReadCfgData", cost="socket")
+def read_cfg_data(
+    task: Task, path: str, attribute: str, argument: object, number: Ref | None
+) -> None:
+    """A system parameter; an absent flag is FALSE."""
+    target = target_of(argument)
+    value = _attributes(task, path, number).get(attribute.lower())
+    kind = target.type.kind
+    if kind == "bool" and value is None:
+        target.set(False)
+    elif value is None:
+        raise RapidError("ERR_CFG_NOTFND", f"{path} {attribute}")
+    elif kind == "bool":
+        target.set(value is True or value == 1)
+    elif kind == "string" and isinstance(value, str):
+        target.set(value[:MAX_STRING])
+    elif kind in ("num", "dnum") and isinstance(value, int | float):
+        target.set(value)
+    else:
+        raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
+
+
+@builtin("WriteCfgData", cost="socket")
+def write_cfg_data(
+    task: Task, path: str, attribute: str, argument: object, number: Ref | None
+) -> None:
+    """Change a system parameter; only ReadCfgData sees it."""
+    attributes = _attributes(task, path, number)
+    before = attributes.get(attribute.lower())
+    value, _ = value_of(argument)
+    if before is not None and isinstance(before, str) is not isinstance(value, str):
+        raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
+    attributes[attribute.lower()] = value
+
+
+@builtin("SaveCfgData", cost="socket")
+def save_cfg_data(task: Task, path: str, file: str | None, domain: str) -> None:
+    """Write a domain to a file."""
+    configuration = task.controller.configuration
+    if domain.upper() not in configuration.domains:
+        raise RapidError("ERR_CFG_ILL_DOMAIN", domain)
+    text = configuration.text(domain.upper())
+    spend(task, len(text))
+    try:
+        file_path(task, words_of(path, file)).write_text(text, encoding="latin-1")
+    except OSError as error:
+        raise RapidError("ERR_CFG_WRITEFILE", str(error.strerror)) from error
+
+
+@builtin("WarmStart", cost="socket")
+def warm_start(task: Task) -> None:
+    """Restart the controller, as after a power failure."""
+    task.scheduler.after(0, task.controller.power_loss)
+    raise EndOfRun

@@ -1,25 +1,133 @@
-"""The program of one task: modules linked into one Python namespace, compiled on first call."""
+"""The program of one task."""
 
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
-from typing import Protocol
+from types import FrameType
+from typing import Protocol, TypeAlias
 
-from rapidgen.diagnostics import error
+from rapidgen.diagnostics import Diagnostic, Severity, error
+from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.binding.symbols import Symbol
 from rapidgen.rapid.numbers import dnum
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler import runtime
-from rapidgen.runtime.compiler.argname import arg_name
-from rapidgen.runtime.compiler.code_info import Compiled
-from rapidgen.runtime.compiler.context import Options
-from rapidgen.runtime.compiler.linking import Linker, Shared
-from rapidgen.runtime.compiler.resume import StoppedFrame, after, compile_backward, compile_rest
-from rapidgen.runtime.compiler.routine import RoutineCompiler
-from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine
-from rapidgen.runtime.errors import RECOVERABLE, FatalError
-from rapidgen.runtime.values import PersistentCell, Value, make_array
+from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.runtime import unsupported
+from rapidgen.runtime.compiler import support
+from rapidgen.runtime.compiler.emit.access import Options
+from rapidgen.runtime.compiler.emit.routine import RoutineCompiler
+from rapidgen.runtime.compiler.link import Linker, Shared
+from rapidgen.runtime.compiler.resume import (
+    StoppedFrame,
+    after,
+    compile_backward,
+    compile_rest,
+    find,
+)
+from rapidgen.runtime.compiler.symbols import (
+    CannotCompile,
+    CodeRole,
+    Codes,
+    Compiled,
+    Data,
+    LoadedModule,
+    Routine,
+)
+from rapidgen.runtime.errors import RECOVERABLE, FatalError, RapidError
+from rapidgen.runtime.values import PersistentCell, Ref, Value, make_array
 from rapidgen.system.model import ModuleFile
+
+# -- ArgName ---------------------------------------------------------------------------------------
+#
+# ArgName: the name of the datum that a parameter stands for, back through the calls.
+#
+# Values carry no names: the calls are looked up in the trees, from the place of each routine.
+
+
+Call: TypeAlias = n.ProcedureCall | n.FunctionCall | n.LateCall
+FindData: TypeAlias = Callable[[LoadedModule | None, str], Data | None]
+
+
+def arg_name(codes: Codes, find_data: FindData, parameter: str, number: Ref | None = None) -> str:
+    """Name of the datum behind `parameter` of the routine that asks [S4 datasys 3-ArgName].
+
+    For an element or a component the whole datum's; ERR_ARGNAME for an expression. With
+    `number` that gets the error instead, and the name is empty.
+    """
+    try:
+        return _named(codes, find_data, parameter)
+    except RapidError as error:
+        if number is None:
+            raise
+        number.set(error.number)
+        return ""
+
+
+def _named(codes: Codes, find_data: FindData, name: str) -> str:
+    places = _places(codes, sys._getframe(2))
+    routine, _ = next(places)
+    while (at := routine.by_name.get(name.lower())) is not None:
+        caller, token = next(places, (None, 0))
+        if caller is None:
+            raise RapidError("ERR_ARGNAME")
+        value = _argument(caller, token, routine, at)
+        while isinstance(value, n.Index | n.Member):
+            value = value.base
+        if not isinstance(value, n.Name):
+            raise RapidError("ERR_ARGNAME")
+        routine, name = caller, value.name
+    data = None if _is_local(routine, name) else find_data(routine.module, name.lower())
+    return data.name if data is not None else name
+
+
+def _places(codes: Codes, frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
+    """Routines of the call stack, innermost first, and the token at which each is."""
+    inside: Routine | None = None
+    while frame is not None:
+        compiled = codes.get(frame.f_code.co_filename)
+        if compiled is not None:
+            inner = compiled.role(frame.f_code) is not CodeRole.ROUTINE
+            if inside is not compiled.routine:
+                yield compiled.routine, compiled.tokens[frame.f_lineno]
+            # A handler's or a deep part's own frame comes before that of its routine.
+            inside = compiled.routine if inner else None
+        frame = frame.f_back
+
+
+def _argument(caller: Routine, token: int, routine: Routine, at: int) -> n.Expression | None:
+    """What a call in the statement at `token` gives to a parameter."""
+    for call in _calls(caller, token):
+        if not isinstance(call, n.LateCall) and call.name.lower() != routine.name.lower():
+            continue
+        matching = match(routine.parameters, call.arguments, lambda _, among: among[0])
+        for pair in matching.pairs:
+            if pair.parameter == at:
+                return pair.argument.value
+    return None
+
+
+def _calls(caller: Routine, token: int) -> Iterator[Call]:
+    node = caller.node
+    assert node is not None
+    bodies = [node.body]
+    bodies += [part.body for part in (node.backward, node.error, node.undo) if part is not None]
+    for body in bodies:
+        path = find(body, token)
+        if path is not None:
+            inner, i = path[-1]
+            yield from (at for at in walk(inner[i]) if isinstance(at, Call))
+
+
+def _is_local(routine: Routine, name: str) -> bool:
+    node = routine.node
+    return node is not None and any(d.name.lower() == name.lower() for d in node.data)
+
+
+# -- Program ---------------------------------------------------------------------------------------
+#
+# The program of one task: modules linked into one Python namespace, compiled on first call.
 
 
 class Executor(Protocol):
@@ -44,7 +152,7 @@ class Program:
         self._initial: dict[str, Value] = {}
         """Values that nothing has changed yet, by where they are kept."""
         self.space: dict[str, Value] = {
-            **runtime.NAMESPACE,
+            **support.NAMESPACE,
             "R": executor,
             "ERRS": RECOVERABLE,
             "ARRAY": make_array,
@@ -54,11 +162,11 @@ class Program:
         dialect = options.dialect
         self.space["WHOLE"] = partial(dnum, bits=int(dialect.dnum_whole))
         if dialect.for_loop == "tested":
-            self.space["STEPS"] = runtime.count_tested
+            self.space["STEPS"] = support.count_tested
         if dialect.integer_division == "floor":
-            self.space["DIV"], self.space["MOD"] = runtime.div_floor, runtime.mod_floor
+            self.space["DIV"], self.space["MOD"] = support.div_floor, support.mod_floor
         if dialect.negative_mod == "error":
-            self.space["MOD"] = runtime.mod_strict
+            self.space["MOD"] = support.mod_strict
         self.linker = Linker(shared, self.space)
         self.names = self.linker.names
         self.modules = self.linker.modules
@@ -207,3 +315,85 @@ class Program:
             return data.value
         saved = self.space[data.code]
         return saved.v if isinstance(saved, PersistentCell) else saved
+
+
+# -- Undefined calls -------------------------------------------------------------------------------
+#
+# Calls of routines that do not exist here, found when modules are loaded.
+#
+# Trees of large systems are not walked for it: only names that are no known routine and stand, in
+# the tokens, where a call stands are looked for in the tree.
+
+
+_BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
+_NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})
+
+
+def missing_routines(program: Program) -> list[Diagnostic]:
+    """One warning for each built-in that is not available and each name that is not declared."""
+    findings: dict[str, Diagnostic] = {}
+    for module in program.modules.values():
+        suspects = _suspects(program, module) - findings.keys()
+        if not suspects:
+            continue
+        for routine in module.tree.routines:
+            for node in walk(routine):
+                if isinstance(node, n.ProcedureCall | n.FunctionCall):
+                    key = node.name.lower()
+                    if key in suspects and key not in findings:
+                        findings[key] = _diagnostic(program, module, node)
+    return list(findings.values())
+
+
+def _suspects(program: Program, module: LoadedModule) -> set[str]:
+    tokens = module.tree.source.tokens
+    unknown = set()
+    for text in {t.lower() for t in set(tokens) if t[0].isalpha()}:
+        if text.upper() in KEYWORDS:
+            continue
+        symbol = program.find(module, text)
+        routine = program.routine(symbol)
+        if symbol is None or (routine is not None and routine.missing):
+            unknown.add(text)
+    for record in module.tree.records:
+        unknown.difference_update(c.name.lower() for c in record.components)
+    for declared in module.tree.routines:
+        unknown.difference_update(d.name.lower() for d in declared.data)
+        unknown.difference_update(p.name.lower() for p in declared.parameters)
+    if not unknown:
+        return unknown
+    suspects = set()
+    last = len(tokens) - 1
+    for i, text in enumerate(tokens):
+        key = text.lower()
+        if key not in unknown or key in suspects:
+            continue
+        after = tokens[i + 1] if i < last else ""
+        before = tokens[i - 1].upper() if i else ""
+        starts = before in _BEFORE_STATEMENT or (before[:1].isalpha() and before not in KEYWORDS)
+        if after == "(" or (starts and (after == ";" or after not in _NO_CALL)):
+            suspects.add(key)
+    return suspects
+
+
+def _diagnostic(
+    program: Program, module: LoadedModule, node: n.ProcedureCall | n.FunctionCall
+) -> Diagnostic:
+    routine = program.find_routine(module, node.name.lower())
+    if routine is not None or node.name.lower() in unsupported.option_routines():
+        return error(
+            "RG403",
+            module.span(node),
+            f"{routine.name if routine else node.name} is not available on the virtual controller",
+            label="the task stops here",
+            notes=(unsupported.reason(node.name),),
+            severity=Severity.WARNING,
+        )
+    return error(
+        "RG404",
+        module.span(node),
+        f"{node.name} is not declared in any module of {program.name}",
+        "load the module that declares it",
+        label="ERR_REFUNKPRC when it is reached",
+        severity=Severity.WARNING,
+    )

@@ -7,7 +7,7 @@ from typing import NoReturn
 
 from greenlet import GreenletExit
 
-from rapidgen.runtime.compiler.code_info import CodeRole
+from rapidgen.runtime.compiler.symbols import CodeRole
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,
@@ -21,7 +21,7 @@ from rapidgen.runtime.errors import (
     python_error,
 )
 from rapidgen.runtime.host import RapidTask
-from rapidgen.runtime.task.call_stack import outwards, stack_of_error
+from rapidgen.runtime.task.calls import outwards, stack_of_error
 
 RETRY, TRYNEXT, RETURN, RAISE = 0, 1, 2, 3
 RETRIES = 4

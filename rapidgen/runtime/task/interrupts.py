@@ -1,19 +1,177 @@
-"""Interrupts of one task: numbers, orders, the queue, and when a trap runs [K §8].
+"""Interrupts, event routines and process errors of a task."""
 
-An event is noticed at once and its trap starts a while later, at the next statement or inside
-a wait. While a trap runs, or between IDisable and IEnable, events queue, first in first out.
-"""
-
+import sys
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from types import CodeType, FrameType
+from typing import Literal, TypeAlias
 
 from rapidgen.machine.event_log import Event
 from rapidgen.runtime.compiler.symbols import Routine
-from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.errors import EventStopped, FatalError, RapidError
 from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.registry import bound
+from rapidgen.runtime.task.calls import outwards
 from rapidgen.runtime.task.errors import Errors
-from rapidgen.runtime.task.process_errors import ProcessError
+
+# -- Process errors --------------------------------------------------------------------------------
+#
+# Errors that a trap raises in the routine that moves the robot: ProcerrRecovery [K §7.4].
+#
+# The error waits until the trap is over. `\SyncLastMoveInst`: it is raised at the move instruction
+# that is being executed, or else at the next one. `\SyncOrgMoveInst`: it is raised at once, in the
+# routine whose move made the path that the robot is on; routines that this one has called are left,
+# so that a RETRY calls them again (a controller goes on inside them).
+
+
+@dataclass(frozen=True, slots=True)
+class ProcessError:
+    """An error that waits. `owner`: module and routine of the path's move, or "" for the last."""
+
+    number: int
+    owner: tuple[str, str] | None = None
+
+    def due(self, task: RapidTask, outside: Sequence[CodeType]) -> RapidError | None:
+        """The error where it is to be raised now; None: not yet.
+
+        Between two statements, in functions that compiled code calls `outside` of any, nobody
+        would handle it: it waits for the inside of one.
+        """
+        frames, between = _frames(task, outside)
+        error = RapidError(self.number)
+        if self.owner is None:
+            return error if not between and _at_move(task, frames) else None
+        error.target = _frame_of(task, frames, self.owner)
+        return None if between and error.target in (None, frames[0]) else error
+
+
+def _frames(task: RapidTask, outside: Sequence[CodeType]) -> tuple[list[FrameType], bool]:
+    """Frames of RAPID routines, innermost first; whether the innermost is between statements."""
+    result: list[FrameType] = []
+    between = False
+    called: CodeType | None = None
+    for frame in outwards(sys._getframe(1)):
+        if frame.f_code.co_filename in task.program.codes:
+            between = between or (not result and any(called is code for code in outside))
+            result.append(frame)
+        called = frame.f_code
+    return result, between
+
+
+def _at_move(task: RapidTask, frames: list[FrameType]) -> bool:
+    """Whether the statement that is being executed is a move instruction."""
+    for frame in frames[:1]:
+        compiled = task.program.codes[frame.f_code.co_filename]
+        if 0 <= frame.f_lineno < len(compiled.tokens):
+            token = compiled.tokens[frame.f_lineno]
+            builtin = bound(compiled.module.tree.source.tokens[token])
+            return builtin is not None and builtin.cost == "move"
+    return False
+
+
+def _frame_of(task: RapidTask, frames: list[FrameType], owner: tuple[str, str]) -> FrameType | None:
+    """The innermost frame with a handler, from the owner's one on; None: the owner is gone."""
+    inside = False
+    for frame in frames:
+        compiled = task.program.codes[frame.f_code.co_filename]
+        inside = inside or (compiled.module.name, compiled.routine.name) == owner
+        if inside and compiled.handled and not compiled.role(frame.f_code).is_handler:
+            return frame
+    return None
+
+
+# -- Event routines --------------------------------------------------------------------------------
+#
+# Event routines and service routines: what a task executes because of a start, a stop, a reset.
+#
+# They run at user level: interrupts wait, and errors are nobody's but their own.
+
+
+EventName: TypeAlias = Literal["POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP"]
+StopEvent: TypeAlias = Literal["STOP", "QSTOP", ""]
+"""Which routines a stop brings."""
+WHILE_STOPPED: frozenset[EventName] = frozenset({"STOP", "QSTOP", "POWER_ON"})
+"""Their routines run at once, in a task that stands."""
+AT_RESTART: frozenset[EventName] = frozenset({"RESTART", "STEP"})
+
+
+class EventRoutines:
+    """Which routines of one task are due, and their execution."""
+
+    def __init__(self, task: RapidTask, errors: Errors) -> None:
+        self._task = task
+        self._errors = errors
+        self.due: list[EventName] = []
+        """Events whose routines are to be executed, in order."""
+        self.service: list[Routine] = []
+        """Service routines that are to be executed while the program stands."""
+        self.running: EventName | Literal["SERVICE", ""] = ""
+        """Event whose routine is being executed."""
+        self.while_stopped = False
+        """Executing what a stop or the power-up brought, while the program stands."""
+
+    def names(self, event: EventName) -> Iterator[str]:
+        """Names of the routines of an event (CAB_EXEC_HOOKS), lower -SeqNo first."""
+        task = self._task
+        for entry in sorted(task.controller.system.events, key=lambda entry: entry.order):
+            mine = (
+                entry.all_tasks
+                or entry.task.lower() == task.name.lower()
+                or (entry.all_motion_tasks and task.spec.motion)
+            )
+            if mine and entry.event.upper().replace("_", "") == event.replace("_", ""):
+                yield entry.routine
+
+    def run(self, which: frozenset[EventName] | None = None) -> None:
+        """Run the routines of the events that are due, of `which` only."""
+        program = self._task.program
+        while due := [e for e in self.due if which is None or e in which]:
+            self.due.remove(due[0])
+            for name in self.names(due[0]):
+                result = program.find_routine(None, name.lower())
+                if result is not None and result.node is not None:
+                    self.execute(due[0], program.function(result))
+
+    def execute(self, event: EventName | Literal["SERVICE"], routine: Callable[[], object]) -> None:
+        """Execute a routine at user level."""
+        outer, self.running = self.running, event
+        try:
+            self._errors.at_level(routine)
+        except EventStopped:
+            pass
+        finally:
+            self.running = outer
+        if not outer:
+            self._task.process_pending()
+
+    @property
+    def due_while_stopped(self) -> bool:
+        """Whether something is to be executed now, although the program stands."""
+        due = bool(self.service) or any(e in WHILE_STOPPED for e in self.due)
+        return due and not self.while_stopped
+
+    def run_while_stopped(self) -> None:
+        """Execute what a stop brought, and service routines."""
+        task = self._task
+        self.while_stopped = True
+        task.held = False
+        try:
+            self.run(WHILE_STOPPED)
+            while self.service:
+                self.execute("SERVICE", task.program.function(self.service.pop(0)))
+        finally:
+            self.while_stopped = False
+            task.held = task.state == "stopped" and not task.leaving
+
+
+# -- Interrupts ------------------------------------------------------------------------------------
+#
+# Interrupts of one task: numbers, orders, the queue, and when a trap runs [K §8].
+#
+# An event is noticed at once and its trap starts a while later, at the next statement or inside
+# a wait. While a trap runs, or between IDisable and IEnable, events queue, first in first out.
+
 
 LARGEST_QUEUE = 30
 """Queued interrupts of a task; one more stops it [S4 datasys 1-intnum-2]."""

@@ -12,16 +12,14 @@ from types import FrameType
 from typing import ParamSpec, TypeVar
 
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.code_info import CodeRole
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import StoppedFrame, find
-from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, CodeRole, Routine
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.host import RapidTask
-from rapidgen.runtime.task.call_stack import frames_of, outwards
+from rapidgen.runtime.task.calls import frames_of, outwards
 from rapidgen.runtime.task.errors import Errors
-from rapidgen.runtime.task.event_routines import EventRoutines
-from rapidgen.runtime.task.interrupts import Interrupts
+from rapidgen.runtime.task.interrupts import EventRoutines, Interrupts
 
 LARGEST_STACK = 100
 """Routines inside each other that are kept."""

@@ -8,10 +8,9 @@ from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, ExitCycle, FatalError, PointerMoved
 from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.loading import drop_dynamic
-from rapidgen.runtime.task.call_stack import stack_of_error
+from rapidgen.runtime.task.calls import stack_of_error
 from rapidgen.runtime.task.errors import Errors
-from rapidgen.runtime.task.event_routines import WHILE_STOPPED, EventRoutines
-from rapidgen.runtime.task.interrupts import Interrupts
+from rapidgen.runtime.task.interrupts import WHILE_STOPPED, EventRoutines, Interrupts
 from rapidgen.runtime.task.pointer import CannotStep, Pointer
 from rapidgen.runtime.task.stepping import Stepper
 

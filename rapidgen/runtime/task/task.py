@@ -14,22 +14,32 @@ from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, Timer, WaitSet
 from rapidgen.motion.fault_reasons import MotionFault
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.linking import Shared
+from rapidgen.runtime.compiler.link import Shared
 from rapidgen.runtime.compiler.program import Program
-from rapidgen.runtime.compiler.runtime import LateArgument
+from rapidgen.runtime.compiler.support import LateArgument
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine
-from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host, TaskState
-from rapidgen.runtime.motion_faults import in_rapid
+from rapidgen.runtime.motion_interface import in_rapid
 from rapidgen.runtime.registry import COSTS
-from rapidgen.runtime.task import late_call
-from rapidgen.runtime.task.call_stack import between, location, outwards, stack_at
+from rapidgen.runtime.signals import CyclicBools
+from rapidgen.runtime.task.calls import (
+    between,
+    late_arguments,
+    late_routine,
+    location,
+    outwards,
+    stack_at,
+)
 from rapidgen.runtime.task.errors import Errors
-from rapidgen.runtime.task.event_routines import AT_RESTART, EventRoutines, StopEvent
-from rapidgen.runtime.task.interrupts import Interrupts
+from rapidgen.runtime.task.interrupts import (
+    AT_RESTART,
+    EventRoutines,
+    Interrupts,
+    ProcessError,
+    StopEvent,
+)
 from rapidgen.runtime.task.pointer import CannotStep, Pointer, standing
-from rapidgen.runtime.task.process_errors import ProcessError
 from rapidgen.runtime.task.run import Run
 from rapidgen.runtime.task.stepping import Stepper
 from rapidgen.runtime.values import Value
@@ -544,12 +554,12 @@ class Task(Process):
         self, name: str, module: LoadedModule | None, arguments: tuple[LateArgument | None, ...]
     ) -> None:
         """`%name% arguments;` [K §4.5]."""
-        routine = late_call.find(self.program, name, module)
+        routine = late_routine(self.program, name, module)
         binding = routine.builtin
         if routine.node is None and binding is None:
             self.missing(routine.name)
             return
-        positional, named = late_call.arguments(routine, [a for a in arguments if a is not None])
+        positional, named = late_arguments(routine, [a for a in arguments if a is not None])
         if binding is None:
             self.program.function(routine)(*positional, **named)
             return

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.event_log import EventType
-from rapidgen.runtime.builtins.clocks import StopWatch
+from rapidgen.runtime.builtins.system import StopWatch
 from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.messages import (

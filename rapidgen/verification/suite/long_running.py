@@ -1,6 +1,6 @@
 """What lasts long: clocks that run over, bells that nobody hears."""
 
-from rapidgen.runtime.builtins.clocks import StopWatch
+from rapidgen.runtime.builtins.system import StopWatch
 from rapidgen.runtime.errors import RapidError
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup

@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeVar
 
 from rapidgen.generate.layout import signal_name
 from rapidgen.generate.status import STATUS_SIGNALS
-from rapidgen.runtime.builtins.clocks import StopWatch
+from rapidgen.runtime.builtins.system import StopWatch
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.instruction_hooks import fails

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.config.model import UserRoutine
-from rapidgen.runtime.builtins.motion.task_group import data_of
-from rapidgen.runtime.robot_data import NO_OFFSETS
+from rapidgen.runtime.builtins.motion.targets import data_of
+from rapidgen.runtime.motion_interface import NO_OFFSETS
 from rapidgen.system.model import ModuleFile, System
 from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths

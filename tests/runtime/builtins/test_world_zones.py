@@ -7,7 +7,7 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
-from rapidgen.runtime.motion_faults import NOT_ALLOWED
+from rapidgen.runtime.motion_interface import NOT_ALLOWED
 from rapidgen.system.model import EventRoutine, ModuleFile, SignalSpec, System, TaskSpec
 
 POINTS = """

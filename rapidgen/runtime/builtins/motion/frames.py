@@ -1,8 +1,4 @@
-"""Frames, orientations and vectors.
-
-Sources: S4 datasys, the page of each name (RelTool, OrientZYX, EulerZYX, DefFrame, DefDFrame,
-MirPos, ORobT, NOrient). Lengths are mm throughout: these functions never leave RAPID's units.
-"""
+"""Frames, and figures from measured points."""
 
 from collections.abc import Callable
 from math import pi
@@ -13,12 +9,25 @@ from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.arguments import quaternion
-from rapidgen.runtime.builtins.motion.task_group import data_of, group_of
+from rapidgen.runtime.builtins.motion.targets import (
+    data_of,
+    geometry_of,
+    group_of,
+    quaternion,
+    target_of,
+)
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import ExtJoint, Orient, Pos, Pose, Ref, Value
+
+# -- Frames ----------------------------------------------------------------------------------------
+#
+# Frames, orientations and vectors.
+#
+# Sources: S4 datasys, the page of each name (RelTool, OrientZYX, EulerZYX, DefFrame, DefDFrame,
+# MirPos, ORobT, NOrient). Lengths are mm throughout: these functions never leave RAPID's units.
+
 
 _RAD = pi / 180
 
@@ -212,3 +221,119 @@ _PURE: dict[str, Callable[..., Value]] = {
     "VectMagn": lambda _, vector: single(frames.norm(_vector(vector))),
 }
 builtins(_PURE, pure=True)
+
+
+# -- Measured points -------------------------------------------------------------------------------
+#
+# Figures from measured points: FitSphere, FitCircle, MToolTCPCalib; and Rand.
+#
+# Sources: FLo-ABB/RAPID-Scripts-and-Demos [code] for what they are called with, the errors of
+# FitSphere and Rand's largest value; FitSphere's optional arguments [mem].
+
+
+_MOST = 100
+_LARGEST_RANDOM = 32_767
+
+
+@builtin("Rand")
+def rand(task: Task) -> int:
+    """A whole number from 0 to 32767, drawn from the controller's seed."""
+    return task.scheduler.rng.randint(0, _LARGEST_RANDOM)
+
+
+@builtin("FitSphere")
+def fit_sphere(
+    _task: Task,
+    points: dict[int, Value],
+    count: float | None,
+    centre: Ref,
+    radius: Ref,
+    rms: Ref | None,
+    largest: Ref | None,
+    worst: Ref | None,
+) -> None:
+    """The sphere through 4 to 100 points, by least squares.
+
+    ERR_FIT_TOO_FEW_POINTS, ERR_FIT_TOO_MANY_POINTS, ERR_FIT_POINTS_IN_LINE (also in a plane).
+    """
+    used = [points[i] for i in range(1, (len(points) if count is None else int(count)) + 1)]
+    if len(used) < 4:
+        raise RapidError("ERR_FIT_TOO_FEW_POINTS", f"{len(used)} of 4")
+    if len(used) > _MOST:
+        raise RapidError("ERR_FIT_TOO_MANY_POINTS", f"{len(used)} of {_MOST}")
+    try:
+        result = fitting.sphere([(p.x, p.y, p.z) for p in used])
+    except NoFit as fault:
+        raise RapidError("ERR_FIT_POINTS_IN_LINE") from fault
+    centre.set(_pos_value(result.centre))
+    radius.set(result.radius)
+    for where, value in ((rms, result.rms), (largest, result.largest), (worst, result.worst + 1)):
+        if where is not None:
+            where.set(value)
+
+
+@builtin("FitCircle")
+def fit_circle(
+    _task: Task,
+    points: dict[int, Value],
+    count: float | None,
+    centre: Ref,
+    radius: Ref,
+    normal: Ref,
+    rms: Ref | None,
+    largest: Ref | None,
+    worst: Ref | None,
+) -> None:
+    """The circle through 3 to 100 points of space. Errors as of FitSphere [mem]."""
+    used = [points[i] for i in range(1, (len(points) if count is None else int(count)) + 1)]
+    if len(used) < 3:
+        raise RapidError("ERR_FIT_TOO_FEW_POINTS", f"{len(used)} of 3")
+    if len(used) > _MOST:
+        raise RapidError("ERR_FIT_TOO_MANY_POINTS", f"{len(used)} of {_MOST}")
+    try:
+        result = fitting.circle([(p.x, p.y, p.z) for p in used])
+    except NoFit as fault:
+        raise RapidError("ERR_FIT_POINTS_IN_LINE") from fault
+    centre.set(_pos_value(result.centre))
+    radius.set(result.radius)
+    normal.set(_pos_value(result.normal))
+    for where, value in ((rms, result.rms), (largest, result.largest), (worst, result.worst + 1)):
+        if where is not None:
+            where.set(value)
+
+
+@builtin("MToolTCPCalib")
+def m_tool_tcp_calib(
+    task: Task,
+    one: Value,
+    two: Value,
+    three: Value,
+    four: Value,
+    tool: Ref,
+    largest: Ref,
+    mean: Ref,
+) -> None:
+    """The TCP that four postures hold at one place of the world, by least squares, mm.
+
+    Of the tool only the position changes. ERR_ARGVALERR: the postures do not turn the tool.
+    """
+    group = group_of(task)
+    kinematics = geometry_of(group)
+    offsets = data_of(task, group).external_offset
+    flanges = []
+    for joints in (one, two, three, four):
+        place, turn = kinematics.forward(target_of(joints, group.map, group.positions(), offsets))
+        flanges.append((frames.scale(place, 1000), turn))
+    try:
+        held, errors = fitting.held_point(flanges)
+    except NoFit as fault:
+        raise RapidError("ERR_ARGVALERR", str(fault)) from fault
+    changed = tool.get().copy()
+    changed.tframe = Pose(_pos_value(held), Orient(*changed.tframe.rot.values()))
+    tool.set(changed)
+    largest.set(max(errors))
+    mean.set(sum(errors) / len(errors))
+
+
+def _pos_value(v: Vector) -> Value:
+    return Pos(*map(single, v))

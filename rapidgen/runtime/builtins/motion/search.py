@@ -1,30 +1,32 @@
-"""SearchL, SearchC and SearchExtJ: a move that watches a signal.
-
-Source: S4 datasys 2-SearchL. \\Stop brakes hard, \\PStop and \\SStop on the path as a normal
-stop, without a switch and with \\Sup the robot goes on to its target. The move ends in a stop
-point, the point of the hit is where the TCP was when the signal changed. In a step a search
-without a hit stops the program, no handler gets it.
-"""
+"""Moves that end at a signal or at contact; lead-through."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from rapidgen.axes.kinematics import Posture
-from rapidgen.machine.scheduler import WaitSet
+from rapidgen.machine.scheduler import MS, S, WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move
-from rapidgen.runtime.builtins.motion.arguments import joint_target
-from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move
-from rapidgen.runtime.builtins.motion.moves import external_move
-from rapidgen.runtime.builtins.motion.synchronised_moves import together
-from rapidgen.runtime.builtins.motion.targets import rob_target
-from rapidgen.runtime.builtins.motion.task_group import data_of
+from rapidgen.runtime.builtins.motion.moves import cartesian_move, external_move, together
+from rapidgen.runtime.builtins.motion.path import reason_of
+from rapidgen.runtime.builtins.motion.targets import data_of, group_of, joint_target, rob_target
+from rapidgen.runtime.builtins.motion.units import unit_axis, unit_group
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.motion_faults import planned
-from rapidgen.runtime.registry import Arguments, by_name
+from rapidgen.runtime.motion_interface import planned
+from rapidgen.runtime.registry import Arguments, builtin, by_name
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
+
+# -- Searches --------------------------------------------------------------------------------------
+#
+# SearchL, SearchC and SearchExtJ: a move that watches a signal.
+#
+# Source: S4 datasys 2-SearchL. \Stop brakes hard, \PStop and \SStop on the path as a normal
+# stop, without a switch and with \Sup the robot goes on to its target. The move ends in a stop
+# point, the point of the hit is where the TCP was when the signal changed. In a step a search
+# without a hit stops the program, no handler gets it.
+
 
 _REASON = "search"
 _NO_HIT = 49_906
@@ -151,3 +153,109 @@ def _first_hit(task: Task, group: MotionGroup, expected: Move, arguments: Argume
             raise FatalError(_NO_HIT, "Search was not successful", f"{len(hits.found)} hits")
         raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")
     return hits.found[0]
+
+
+# -- Contact and lead-through ----------------------------------------------------------------------
+#
+# ContactL, lead-through, GetJointData.
+#
+# Sources: 3HAC050917 for ContactL and GetJointData, programs for their arguments [code yumipy];
+# that SetLeadThrough \On orders StopMove, \Off ClearPath and StartMove [manual, in public notes].
+# There are no dynamics: torques are 0, and a robot touches something when a test says so
+# (`controller.motion.group(name).touch()`).
+
+
+_LED = "LeadThrough"
+_CONTACT = "contact"
+
+
+@by_name("ContactL", cost="move")
+@planned
+def contact_l(task: Task, _name: str, arguments: Arguments) -> None:
+    """On a line until the robot touches something; what is left of the line goes.
+
+    ERR_CONTACTL: it has come to the end without, and \\DesiredTorque is given [mem].
+    """
+    group, move = cartesian_move(task, _without_zone(arguments))
+    touched: list[bool] = []
+
+    def touch() -> None:
+        touched.append(True)
+        group.stop(_CONTACT, quick=True)
+
+    leg = group.enqueue(together(task, group, move, arguments["ID"]))
+    group.contacts.add(touch)
+    try:
+        if leg is not None:
+            group.wait(task, leg, lambda: (leg.finished or bool(touched)) and group.is_settled)
+    finally:
+        group.contacts.remove(touch)
+        if touched:
+            group.clear_path()
+            group.start(_CONTACT)
+    if not touched and arguments["DesiredTorque"] is not None:
+        raise RapidError("ERR_CONTACTL", "nothing was touched on the way")
+
+
+def _without_zone(arguments: Arguments) -> dict[str, Value]:
+    """It ends in a stop point: the program has to know whether there was contact."""
+    return {name: value for name, value in arguments.items() if name != "Zone"}
+
+
+@builtin("SetLeadThrough")
+def set_lead_through(
+    task: Task,
+    on: bool | None,
+    off: bool | None,
+    no_stop: bool | None,
+    no_start: bool | None,
+    no_clear: bool | None,
+) -> None:
+    """The robot yields to hands, or holds its place again."""
+    group = group_of(task)
+    data_of(task, group).extra[_LED] = not off
+    if off:
+        if not no_clear:
+            group.clear_path()
+        if not no_start:
+            group.start(reason_of(task))
+    elif not no_stop:
+        group.stop(reason_of(task))
+
+
+@builtin("IsLeadThrough")
+def is_lead_through(task: Task, unit: Value, active: bool | None, _set: bool | None) -> bool:
+    """Whether lead-through is set; \\Active: and the robot stands, so that it yields."""
+    group = group_of(task) if unit is None else unit_group(task, unit)
+    led = bool(data_of(task, group).extra.get(_LED))
+    return led and (group.is_standing or not active)
+
+
+@builtin("GetJointData")
+def get_joint_data(
+    task: Task,
+    unit: Value,
+    axis: float,
+    position: Ref | None,
+    speed: Ref | None,
+    torque: Ref | None,
+    outer_torque: Ref | None,
+) -> None:
+    """Place and speed of an axis now, deg or mm and per s; its torques, 0 Nm. ERR_AXIS_PAR."""
+    group, joint = unit_axis(task, unit, axis)
+    now = task.scheduler.now
+    current, before = (_axis(group, joint.axis, time) for time in (now, now - MS))
+    for where, value in (
+        (position, current),
+        (speed, (current - before) * S / MS if now < group.motion.end else 0.0),
+        (torque, 0.0),
+        (outer_torque, 0.0),
+    ):
+        if where is not None:
+            where.set(value)
+
+
+def _axis(group: MotionGroup, axis: str, time: int) -> float:
+    robot, external = group.map.to_rapid(group.motion.posture(max(time, group.motion.since)))
+    kind, _, number = axis.partition("_")
+    return robot[int(number) - 1] if kind == "rax" else external["abcdef".index(number)]

@@ -14,15 +14,20 @@ from rapidgen.axes.path_shapes import CircleMode
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Singularities
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame
-from rapidgen.runtime.builtins.motion.loads import carry, payload_of
-from rapidgen.runtime.builtins.motion.positions import here_of, load0
-from rapidgen.runtime.builtins.motion.task_group import data_of, geometry_of, group_of, named_group
+from rapidgen.runtime.builtins.motion.positions import carry, here_of, load0, payload_of
+from rapidgen.runtime.builtins.motion.targets import (
+    RAD,
+    Offsets,
+    data_of,
+    frame,
+    geometry_of,
+    group_of,
+    named_group,
+)
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.motion_faults import NOT_SIMULATED
+from rapidgen.runtime.motion_interface import NO_OFFSETS, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin, builtins
-from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
 

@@ -1,7 +1,15 @@
-"""robtargets as moves: frames of tool and work object, inverse kinematics with a configuration."""
+"""Motion groups, motion data and targets."""
+
+import sys
+from collections.abc import Callable
+from functools import partial
+from math import pi
+from types import FrameType
+from typing import TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.axes.frames import IDENTITY, Pose
+from rapidgen.axes.frames import IDENTITY, Quaternion, normalise
+from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.kinematics import (
     AxisConfiguration,
     ConfigurationCheck,
@@ -9,20 +17,222 @@ from rapidgen.axes.kinematics import (
     MovingFrame,
     Posture,
 )
+from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.axes.reach_errors import unreached
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import MoveFrames
+from rapidgen.motion.modal import ModalSettings
+from rapidgen.motion.moves import MoveFrames, MoveSpeed, Zone
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.builtins.motion.arguments import (
-    Offsets,
-    external_target,
-    external_values,
-    frame,
-)
-from rapidgen.runtime.builtins.motion.task_group import geometry_of
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.motion_faults import FRAMES_CONTRADICT, NO_GEOMETRY, NOT_COMPATIBLE
-from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, Value
+from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.motion_interface import (
+    FRAMES_CONTRADICT,
+    NO_GEOMETRY,
+    NO_MOTION_TASK,
+    NO_OFFSETS,
+    NO_UNIT,
+    NOT_COMPATIBLE,
+    RobotData,
+    planned,
+)
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import (
+    ConfData,
+    ExtJoint,
+    JointTarget,
+    Orient,
+    Pos,
+    Pose,
+    RobJoint,
+    RobTarget,
+    Value,
+)
+
+# -- Motion groups ---------------------------------------------------------------------------------
+#
+# How a built-in finds the motion group of its task.
+
+
+def here(task: Task) -> Callable[[], object] | None:
+    """Where the task is, to be looked up only when somebody asks."""
+    codes = task.program.codes
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        file = frame.f_code.co_filename
+        if file in codes:
+            return partial(task.place_of, file, frame.f_lineno)
+        frame = frame.f_back
+    return None
+
+
+def group_of(task: RapidTask) -> MotionGroup:
+    """The group that the task moves or is connected to. FatalError: there is none."""
+    group = task.controller.motion.of_task(task.name)
+    if group is None:
+        raise FatalError(NO_UNIT, "No mechanical unit", f"{task.name} is connected to no robot")
+    return group
+
+
+def data_of(task: RapidTask, group: MotionGroup) -> RobotData:
+    """What programs have set for a robot."""
+    return task.controller.robot_data[group.name]
+
+
+@planned
+def geometry_of(group: MotionGroup) -> Kinematics:
+    """The kinematics of a robot. FatalError: its model has none."""
+    return group.geometry()
+
+
+def moving_group(task: Task) -> MotionGroup:
+    """The same for move instructions, which only a motion task may execute."""
+    if not task.controller.motion.is_motion_task(task.name):
+        raise FatalError(NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves")
+    if task.interrupts.process_error is not None:
+        task.raise_process_error(task.interrupts.process_error)
+    return group_of(task)
+
+
+def named_group(task: Task, reference: Value, name: str | None) -> MotionGroup:
+    """The group of \\TaskRef or \\TaskName, else the task's own.
+
+    ERR_TASKNAME: no such task, which in a guessed cell is the own one; ERR_NOT_MOVETASK: it moves
+    nothing.
+    """
+    expected = name if reference is None else reference.value
+    if expected is None:
+        return group_of(task)
+    if expected.lower() not in (known.lower() for known in task.controller.tasks):
+        if task.controller.meetings.any_task:
+            return group_of(task)
+        raise RapidError("ERR_TASKNAME", expected)
+    motion = task.controller.motion
+    group = motion.of_task(expected)
+    if group is None or not motion.is_motion_task(expected):
+        raise RapidError("ERR_NOT_MOVETASK", expected)
+    return group
+
+
+# -- Motion data -----------------------------------------------------------------------------------
+#
+# RAPID's motion data (deg, mm) as what the planner takes (rad, m), and back.
+
+
+RAD = pi / 180
+Offsets: TypeAlias = tuple[float, ...]
+"""Of the external axes eax_a to eax_f, deg and mm."""
+STOP_TIME = 2
+"""stoppointdata.type of a dwell."""
+
+
+def speed_of(data: Value, tcp: float | None, modal: ModalSettings) -> MoveSpeed:
+    """speeddata with \\V and VelSet: the override scales all parts, the limit only the TCP's."""
+    fraction = modal.speed_override
+    return MoveSpeed(
+        tcp=min((data.v_tcp if tcp is None else tcp) * fraction / 1000, modal.speed_limit),
+        orientation=data.v_ori * fraction * RAD,
+        linear=data.v_leax * fraction / 1000,
+        rotary=data.v_reax * fraction * RAD,
+    )
+
+
+def time_of(time: float | None, group: MotionGroup) -> float | None:
+    """\\T with VelSet: half the override, twice the time. ERR_ARGVALERR: not positive."""
+    if time is None:
+        return None
+    if time <= 0:
+        raise RapidError("ERR_ARGVALERR", f"\\T:={time:g}")
+    return time / group.modal.speed_override if group.settings.velset_timed else time
+
+
+def zone_of(data: Value, radius: float | None, stop: Value = None) -> Zone:
+    """zonedata with \\Z; \\Inpos makes any zone a stop point."""
+    if data.finep or stop is not None:
+        return Zone(fine=True)
+    tcp = data.pzone_tcp if radius is None else radius
+    fraction = tcp / data.pzone_tcp if radius is not None and data.pzone_tcp > 0 else 1.0
+    return Zone(
+        fine=False,
+        tcp=tcp / 1000,
+        orientation=data.pzone_ori * fraction / 1000,
+        external=data.pzone_eax * fraction / 1000,
+        angle=data.zone_ori * fraction * RAD,
+        linear=data.zone_leax * fraction / 1000,
+        rotary=data.zone_reax * fraction * RAD,
+    )
+
+
+def dwell_of(stop: Value) -> float:
+    """s that the program waits after a stop point with \\Inpos."""
+    if stop is None:
+        return 0.0
+    time = stop.stoptime if stop.type == STOP_TIME else stop.inpos.mintime
+    return float(time)
+
+
+def target_of(
+    data: Value,
+    axes: JointMap,
+    default: Posture,
+    offsets: Offsets = NO_OFFSETS,
+) -> Posture:
+    """A jointtarget as controller values. `offsets` shift external axes; 9E9 keeps `default`."""
+    return axes.from_rapid(data.robax.values(), external_values(data.extax, offsets), default)
+
+
+def external_values(data: Value, offsets: Offsets) -> tuple[float, ...]:
+    """extjoint with offsets added where an axis is used."""
+    return tuple(
+        v if v > ABSENT / 2 else v + o for v, o in zip(data.values(), offsets, strict=True)
+    )
+
+
+def joint_target(axes: JointMap, posture: Posture, offsets: Offsets = NO_OFFSETS) -> Value:
+    """A posture as a fresh jointtarget."""
+    robot, external = axes.to_rapid(posture)
+    return JointTarget(
+        RobJoint(*map(single, robot)),
+        external_target(external, offsets),
+    )
+
+
+def external_target(external: tuple[float, ...], offsets: Offsets) -> Value:
+    """External axes in RAPID units as a fresh extjoint, without the offsets."""
+    return ExtJoint(
+        *(
+            single(v) if v > ABSENT / 2 else single(v - o)
+            for v, o in zip(external, offsets, strict=True)
+        )
+    )
+
+
+def quaternion(data: Value) -> Quaternion:
+    """An orient as a unit quaternion. ERR_ILLQUAT: too far from unit length.
+
+    Up to 1e-5 off in the sum of squares it is normalised silently, up to 0.1 too (the manual
+    sends the user to NOrient), above it is unusable (S4 datasys 1-orient-1).
+    """
+    q = (data.q1, data.q2, data.q3, data.q4)
+    if abs(sum(v * v for v in q) - 1.0) > 0.1:
+        raise RapidError("ERR_ILLQUAT", f"{list(q)}")
+    return normalise(q)
+
+
+def frame(data: Value) -> Frame:
+    """A pose in m."""
+    t = data.trans
+    return (t.x / 1000, t.y / 1000, t.z / 1000), quaternion(data.rot)
+
+
+def pose(frame_: Frame) -> Value:
+    """A frame as a fresh pose in mm."""
+    (x, y, z), q = frame_
+    return Pose(Pos(single(x * 1000), single(y * 1000), single(z * 1000)), Orient(*map(single, q)))
+
+
+# -- Targets ---------------------------------------------------------------------------------------
+#
+# robtargets as moves: frames of tool and work object, inverse kinematics with a configuration.
 
 
 def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> MoveFrames:
@@ -96,7 +306,7 @@ class NoConfiguration(FatalError):
 
 def joints_for(
     kinematics: Kinematics,
-    flange: Pose,
+    flange: Frame,
     near: Posture,
     expected: AxisConfiguration | None,
     check: ConfigurationCheck,

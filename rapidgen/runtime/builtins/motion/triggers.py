@@ -1,24 +1,35 @@
-"""Events at places of a move: TriggIO, TriggInt, TriggEquip, TriggCheckIO and TriggL, J, C.
-
-Sources: S4 datasys 2-TriggIO, 2-TriggInt, 2-TriggEquip, 2-TriggL; 3HAC050917 for arguments.
-A distance counts from the end (\\Start: the beginning) of the move, \\Time in s before the end.
-"""
+"""Moves with events: triggers and arc welding."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from operator import eq, ge, gt, le, lt, ne
 
+from rapidgen.machine.arc_equipment import REFERENCES, ArcEquipment
+from rapidgen.machine.scheduler import S
 from rapidgen.motion.moves import MeasuredFrom, PathEvent
 from rapidgen.runtime.builtins.io import fitting
-from rapidgen.runtime.builtins.motion.cartesian_request import cartesian_move, joint_move
-from rapidgen.runtime.builtins.motion.enqueue import bind
+from rapidgen.runtime.builtins.motion.moves import (
+    bind,
+    cartesian_move,
+    joint_move,
+    move_abs_j,
+    move_ext_j,
+    order,
+)
 from rapidgen.runtime.builtins.motion.path import MOVE_TASK
-from rapidgen.runtime.builtins.motion.task_group import group_of
+from rapidgen.runtime.builtins.motion.targets import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
+from rapidgen.runtime.motion_interface import NOT_ALLOWED, NOT_SIMULATED, planned
 from rapidgen.runtime.registry import Arguments, builtins, by_name
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value, register_type
+
+# -- Triggers --------------------------------------------------------------------------------------
+#
+# Events at places of a move: TriggIO, TriggInt, TriggEquip, TriggCheckIO and TriggL, J, C.
+#
+# Sources: S4 datasys 2-TriggIO, 2-TriggInt, 2-TriggEquip, 2-TriggL; 3HAC050917 for arguments.
+# A distance counts from the end (\Start: the beginning) of the move, \Time in s before the end.
 
 
 @dataclass(slots=True)
@@ -164,3 +175,134 @@ builtins(_DATA)
 bind("TriggL", cartesian_move, prepared)
 bind("TriggC", cartesian_move, prepared)
 bind("TriggJ", joint_move, prepared)  # distances are approximate, as on a controller
+
+
+# -- Arc welding -----------------------------------------------------------------------------------
+#
+# Arc welding: ArcLStart, ArcL, ArcLEnd, ArcCStart, ArcC, ArcCEnd, and moves between seams.
+#
+# Source: [manual] 3HAC050988 for phases and arguments, where no public text has it [mem]. On the
+# way to a start the argument Speed holds, on a seam the welddata's weld_speed; in stop points the
+# robot stands for the phases of seamdata, in fly-by points the arc changes in the middle of the
+# corner. Weaving, tracking and heating move nothing here: the event log says so.
+
+
+_ON_SEAM = "on a seam"
+
+
+def _equipment(task: Task) -> ArcEquipment:
+    return task.controller.arcs[task.name]
+
+
+def _data(task: Task, arc: Value) -> dict[str, float]:
+    """arcdata by component. ERR_AO_LIM, ERR_GO_LIM: it does not fit the cell's signals."""
+    result = dict(zip(arc.fields, arc.values(), strict=True))
+    for use, component in REFERENCES.items():
+        signal = _equipment(task).signal(use)
+        if signal is not None:
+            fitting(signal, result[component])
+    return result
+
+
+@by_name("ArcLStart", "ArcL", "ArcLEnd", "ArcCStart", "ArcC", "ArcCEnd", cost="move")
+@planned
+def weld(task: Task, name: str, arguments: Arguments) -> None:
+    """A line or a circle of a seam. ERR_ARGVALERR: weld_speed is 0."""
+    arc, seam = _equipment(task), arguments["Seam"]
+    data = _data(task, arguments["Weld"].main_arc)
+    begins, ends = name.endswith("Start"), name.endswith("End")
+    welds = not arc.inhibited
+    _tell_what_is_left_out(task, arguments)
+    # A start in a corner is behind the program before it is behind the robot.
+    on_seam = data_of(task, moving_group(task)).extra
+    if welds and not begins and not on_seam.get(_ON_SEAM):
+        _ignite(task, seam, data, 0.0)
+    on_seam[_ON_SEAM] = welds and not ends
+    stops = arguments["Zone"].finep or arguments["Inpos"] is not None
+    events = list(prepared(task, arguments, first="T1"))
+    opened: list[int] = []
+
+    def open_gas() -> None:
+        opened.append(task.scheduler.now)
+        arc.set_gas(True)
+
+    if welds and begins:
+        events.append(PathEvent(MeasuredFrom.BEFORE_END, seam.purge_time, open_gas))
+        if not stops:
+            events.append(PathEvent(MeasuredFrom.MIDDLE, 0.0, lambda: _burn(arc, data)))
+    elif welds:
+        events.append(PathEvent(MeasuredFrom.START, 0.0, lambda: arc.refer(data)))
+        if ends and not stops:
+            events.append(PathEvent(MeasuredFrom.MIDDLE, 0.0, arc.put_out))
+    at_weld_speed = welds and not begins
+    speed = {"V": arguments["Weld"].weld_speed if at_weld_speed else None, "T": arguments["Time"]}
+    order(task, {**arguments, **speed}, cartesian_move, tuple(events))
+    if welds and stops and begins:
+        since = (task.scheduler.now - opened[0]) / S if opened else 0.0
+        _ignite(task, seam, data, since)
+    elif welds and stops and ends:
+        _finish(task, seam)
+
+
+def _burn(arc: ArcEquipment, data: dict[str, float]) -> None:
+    arc.set_gas(True)
+    arc.refer(data)
+    arc.set_arc(True)
+
+
+def _ignite(task: Task, seam: Value, data: dict[str, float], purged: float) -> None:
+    """Gas for what is left of the purge and for the preflow, then the arc; the robot stands."""
+    group_of(task).wait_standing(task)
+    arc = _equipment(task)
+    arc.set_gas(True)
+    _stand(task, max(0.0, seam.purge_time - purged) + seam.preflow_time)
+    arc.refer(_data(task, seam.ign_arc) if any(seam.ign_arc.values()) else data)
+    arc.set_arc(True)
+    _stand(task, seam.ign_move_delay)
+    arc.refer(data)
+
+
+def _finish(task: Task, seam: Value) -> None:
+    """Cooling, filling of the crater, burn-back, roll-back, gas behind; the robot stands."""
+    arc = _equipment(task)
+    if seam.cool_time > 0:
+        arc.set_arc(False)
+        _stand(task, seam.cool_time)
+    if seam.fill_time > 0:
+        arc.refer(_data(task, seam.fill_arc))
+        arc.set_arc(True)
+        _stand(task, seam.fill_time)
+    if seam.bback_time > 0:
+        arc.refer(_data(task, seam.bback_arc))
+        arc.stop_feeding()
+        _stand(task, seam.bback_time)
+    arc.set_arc(False)
+    _stand(task, seam.rback_time + seam.postflow_time)
+    arc.set_gas(False)
+
+
+def _stand(task: Task, seconds: float) -> None:
+    if seconds > 0:
+        task.sleep(seconds)
+
+
+def _tell_what_is_left_out(task: Task, arguments: Arguments) -> None:
+    seam, weave, track = arguments["Seam"], arguments["Weave"], arguments["Track"]
+    for target, text in (
+        (weave is not None and weave.weave_shape != 0, "weaving"),
+        (track is not None and track.track_system != 0, "tracking"),
+        (seam.heat_speed > 0 and (seam.heat_time > 0 or seam.heat_distance > 0), "heating"),
+    ):
+        told = f"{text} is not simulated: the tool goes along the seam at its speed"
+        if target and not any(
+            e.code == NOT_SIMULATED and told in e.texts and e.task == task.name
+            for e in task.controller.log
+        ):
+            task.controller.log.info(NOT_SIMULATED, "Arc welding", told, task=task.name)
+
+
+by_name("ArcMoveAbsJ", cost="move")(move_abs_j)
+by_name("ArcMoveExtJ", cost="move")(move_ext_j)
+bind("ArcMoveJ", joint_move)
+bind("ArcMoveL", cartesian_move)
+bind("ArcMoveC", cartesian_move)

@@ -1,16 +1,24 @@
-"""Mechanical units: which there are, and which of their axes move.
+"""Mechanical units and synchronised tasks."""
 
-Sources: S4 datasys 2-ActUnit, 2-DeactUnit; 3HAC050917 for IsMechUnitActive and GetNextMechUnit.
-"""
+from collections.abc import Iterable
 
 from rapidgen.config.model import Joint
+from rapidgen.machine.sync_points import SyncPoint
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.task_group import group_of
+from rapidgen.runtime.builtins.control import wait_standing
+from rapidgen.runtime.builtins.motion.targets import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.motion_faults import NOT_ALLOWED
+from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.motion_interface import NOT_ALLOWED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
+
+# -- Mechanical units ------------------------------------------------------------------------------
+#
+# Mechanical units: which there are, and which of their axes move.
+#
+# Sources: S4 datasys 2-ActUnit, 2-DeactUnit; 3HAC050917 for IsMechUnitActive and GetNextMechUnit.
 
 
 def _axes_of(group: MotionGroup, unit: str) -> tuple[str, ...] | None:
@@ -132,3 +140,176 @@ def get_next_mech_unit(
         if where is not None:
             where.set(value)
     return True
+
+
+# -- Synchronised tasks ----------------------------------------------------------------------------
+#
+# Tasks that wait for each other: WaitSyncTask, and SyncMoveOn to SyncMoveUndo.
+#
+# Sources: 3HAC050917 for arguments; ETH's and Gramazio Kohler's cells [code] for lists with empty
+# names; the rest of MultiMove [mem]. Between SyncMoveOn and SyncMoveOff moves of one \ID begin and
+# end together (`together.py`).
+
+
+_REFUSED = 49_910
+"""Event of ours: ABB's numbers are not public."""
+
+
+def _members(task: Task, tasks: Ref) -> frozenset[str]:
+    """Lower-case names of a task list; rows with an empty name are none [code].
+
+    ERR_TASKNAME: an unknown task, or the own one is not in its list; in a guessed cell unknown
+    tasks are left out.
+    """
+    members = frozenset(entry.taskname.lower() for entry in tasks.get().values()) - {""}
+    known = {t.name.lower() for t in task.controller.rapid_tasks.values()}
+    if task.controller.meetings.any_task:
+        return members & known | {task.name.lower()}
+    if task.name.lower() not in members or not members <= known:
+        raise RapidError("ERR_TASKNAME", ", ".join(sorted(members - known)) or task.name)
+    return members
+
+
+def _missing(absent: frozenset[str]) -> str:
+    tasks = ", ".join(sorted(absent))
+    return f"waits for {tasks} to come here" if tasks else "all have come to where it waits"
+
+
+def _meet(
+    task: Task, point: object, members: frozenset[str], time_out: float | None, error: str
+) -> None:
+    """Wait until all members are at the point; `error` when `time_out` s passed first."""
+    meetings = task.controller.meetings.points
+    meeting = meetings.setdefault((point, members), SyncPoint(members))
+    own = task.name.lower()
+    meeting.arrived.add(own)
+    if meeting.arrived == meeting.members:
+        meeting.complete = True
+        del meetings[point, members]
+        meeting.changed.notify()
+        return
+    try:
+        met = task.wait_for(
+            lambda: meeting.complete,
+            on=(meeting.changed,),
+            timeout=time_out,
+            why=lambda: _missing(members - meeting.arrived),
+        )
+    finally:
+        if not meeting.complete:
+            meeting.arrived.discard(own)
+    if not met:
+        raise RapidError(error)
+
+
+def _point(task: Task, identity: Value) -> str:
+    """A syncident is known by the name of its variable, the same in each task."""
+    program = task.program
+    for module in program.modules.values():
+        for key in module.declarations:
+            if program.value(module, key) is identity:
+                return key
+    return ""
+
+
+@builtin("WaitSyncTask")
+def wait_sync_task(
+    task: Task, in_pos: bool | None, identity: Ref, tasks: Ref, time_out: float | None
+) -> None:
+    """Until every task of the list waits at the point of that name. ERR_WAITSYNCTASK: \\TimeOut."""
+    if in_pos:
+        wait_standing(task)
+    members = _members(task, tasks)
+    _meet(task, _point(task, identity), members, time_out, "ERR_WAITSYNCTASK")
+
+
+# -- synchronised movement -----------------------------------------------------------------------
+
+
+def _partners(task: Task) -> frozenset[str]:
+    return data_of(task, group_of(task)).partners
+
+
+def _synchronised(task: RapidTask) -> bool:
+    motion = task.controller.motion
+    if not motion.is_motion_task(task.name):
+        return False
+    data = data_of(task, group_of(task))
+    return bool(data.partners) and not data.suspended
+
+
+def _forget(task: Task, names: Iterable[str]) -> None:
+    motion = task.controller.motion
+    for other in task.controller.rapid_tasks.values():
+        group = motion.moved_by(other.name) if other.name.lower() in names else None
+        if group is not None:
+            data = data_of(task, group)
+            data.partners, data.suspended = frozenset(), False
+
+
+@builtin("SyncMoveOn")
+def sync_move_on(task: Task, identity: Ref, tasks: Ref, time_out: float | None) -> None:
+    """The robots stand, and all tasks of the list are here. ERR_SYNCMOVEON: \\TimeOut."""
+    group = moving_group(task)
+    if _partners(task):
+        raise FatalError(_REFUSED, "SyncMoveOn", "synchronised movement is on already")
+    members = _members(task, tasks)
+    wait_standing(task)
+    _meet(task, ("on", _point(task, identity)), members, time_out, "ERR_SYNCMOVEON")
+    data_of(task, group).partners = members
+
+
+@builtin("SyncMoveOff")
+def sync_move_off(task: Task, identity: Ref, time_out: float | None) -> None:
+    """The same at the end. ERR_SYNCMOVEOFF: \\TimeOut."""
+    moving_group(task)
+    members = _partners(task)
+    if not members:
+        raise FatalError(_REFUSED, "SyncMoveOff", "no synchronised movement is on")
+    wait_standing(task)
+    _meet(task, ("off", _point(task, identity)), members, time_out, "ERR_SYNCMOVEOFF")
+    _forget(task, {task.name.lower()})
+
+
+@builtin("SyncMoveUndo")
+def sync_move_undo(task: Task) -> None:
+    """Ends synchronised movement of all its tasks; without one nothing happens."""
+    moving_group(task)
+    _forget(task, _partners(task))
+
+
+@builtin("SyncMoveSuspend")
+def sync_move_suspend(task: Task) -> None:
+    """Moves are independent until SyncMoveResume, on the path level behind StorePath."""
+    _pause(task, suspended=True)
+
+
+@builtin("SyncMoveResume")
+def sync_move_resume(task: Task) -> None:
+    """Moves are synchronised again."""
+    _pause(task, suspended=False)
+
+
+def _pause(task: Task, *, suspended: bool) -> None:
+    group = moving_group(task)
+    data = data_of(task, group)
+    members = data.partners
+    name = "SyncMoveSuspend" if suspended else "SyncMoveResume"
+    if not members or group.path_level == 1 or data.suspended == suspended:
+        raise FatalError(_REFUSED, name, "it belongs to synchronised movement behind StorePath")
+    _meet(task, name, members, None, "ERR_SYNCMOVEON")
+    data.suspended = suspended
+
+
+@builtin("TasksInSync")
+def tasks_in_sync(task: Task, tasks: Ref) -> bool:
+    """Whether all tasks of the list move synchronously."""
+    names = {entry.taskname.lower() for entry in tasks.get().values()} - {""}
+    named = [t for t in task.controller.rapid_tasks.values() if t.name.lower() in names]
+    return bool(named) and all(_synchronised(t) for t in named)
+
+
+@builtin("IsSyncMoveOn")
+def is_sync_move_on(task: Task) -> bool:
+    """Whether the task's robot moves synchronously with others."""
+    return _synchronised(task)

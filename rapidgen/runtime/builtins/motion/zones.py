@@ -11,9 +11,9 @@ from rapidgen.axes.mapping import ABSENT
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.zones import Ball, BoxVolume, Cylinder, JointSpace, Shape, WorldZone
 from rapidgen.runtime.builtins.io import dionum
-from rapidgen.runtime.builtins.motion.task_group import geometry_of, group_of
+from rapidgen.runtime.builtins.motion.targets import geometry_of, group_of
 from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.motion_faults import NOT_ALLOWED, WORLD_ZONE
+from rapidgen.runtime.motion_interface import NOT_ALLOWED, WORLD_ZONE
 from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task

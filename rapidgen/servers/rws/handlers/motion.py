@@ -4,11 +4,10 @@ from typing import TYPE_CHECKING
 
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.arguments import joint_target
 from rapidgen.runtime.builtins.motion.positions import tool0
-from rapidgen.runtime.builtins.motion.targets import carrier_of, rob_target
+from rapidgen.runtime.builtins.motion.targets import carrier_of, joint_target, rob_target
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.robot_data import NO_OFFSETS
+from rapidgen.runtime.motion_interface import NO_OFFSETS
 from rapidgen.runtime.values import Value
 from rapidgen.servers.rws.handlers.tasks import find_task
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show

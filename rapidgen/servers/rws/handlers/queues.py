@@ -6,7 +6,7 @@ between clients it is any text of at most 444 bytes.
 
 from typing import TYPE_CHECKING
 
-from rapidgen.runtime.compiler.predefined import find_type
+from rapidgen.runtime.compiler.link import find_type
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.queues import Message
 from rapidgen.runtime.text import NotALiteral, parse_value

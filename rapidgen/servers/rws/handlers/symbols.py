@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.controller.views import TaskView
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.predefined import find_type
+from rapidgen.runtime.compiler.link import find_type
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
 from rapidgen.runtime.values import Type, Value

@@ -1,4 +1,4 @@
-"""What compiled code calls: arithmetic with RAPID's rules, references, loops."""
+"""Functions that compiled code calls."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass

@@ -1,13 +1,11 @@
-"""How what names stand for is kept: symbols of rapid/binding as types, data and routines of a task.
-
-Modules are linked into one Python namespace. Persistents, data of shared modules and record
-classes are common to all tasks.
-"""
+"""Linking: names of a task as types, data and routines."""
 
 from collections import Counter
+from functools import cache
 from math import prod
 
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
+from rapidgen.rapid.binding import constants
 from rapidgen.rapid.binding.names import (
     ModuleScope,
     Scope,
@@ -23,23 +21,194 @@ from rapidgen.rapid.binding.symbols import (
     Symbol,
     TypeSymbol,
 )
+from rapidgen.rapid.binding.types import array
 from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler import predefined
-from rapidgen.runtime.compiler.evaluate import evaluate
-from rapidgen.runtime.compiler.runtime import GlobalRef
+from rapidgen.runtime.compiler.support import GlobalRef
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine, formal
+from rapidgen.runtime.registry import bound
 from rapidgen.runtime.values import (
     ATOMIC,
     NUM,
+    TYPES,
     PersistentCell,
     Type,
     Value,
     make_array,
     make_record,
+    register_type,
 )
 from rapidgen.system.model import ModuleFile
+
+# -- Initial values --------------------------------------------------------------------------------
+#
+# Initial values of declarations: constant expressions as RAPID values [K §3.1-3.2].
+#
+# They are not compiled: backups hold a hundred thousand numbers. Aggregates and literals are made
+# here directly, whatever else is worked out by rapid/binding.
+
+
+def evaluate(node: n.Expression, kind: Type, dims: tuple[int, ...], scope: Scope) -> Value:
+    """The value of a constant expression of a known type. CannotCompile: it has none."""
+    if not dims and kind.kind == "num":
+        if isinstance(node, n.NumberLiteral):
+            return single(node.value)
+        if isinstance(node, n.Unary) and isinstance(node.operand, n.NumberLiteral):
+            value = single(node.operand.value)
+            return -value if node.operator == "-" else value
+    elif isinstance(node, n.Aggregate):
+        return _aggregate(node, kind, dims, scope)
+    try:
+        result = constants.evaluate(node, scope, array(kind.name, len(dims)))
+    except constants.NotConstant as error:
+        raise CannotCompile(str(error), error.node) from error
+    return build(kind, result, len(dims))
+
+
+def _aggregate(node: n.Aggregate, kind: Type, dims: tuple[int, ...], scope: Scope) -> Value:
+    members = node.members
+    if dims:
+        if len(members) != dims[0]:
+            raise CannotCompile(f"{len(members)} members for {dims[0]} elements", node)
+        inner = dims[1:]
+        return {i: evaluate(m, kind, inner, scope) for i, m in enumerate(members, start=1)}
+    if kind.kind != "record" or kind.make is None:
+        raise CannotCompile(f"an aggregate is no {kind.name}", node)
+    components = kind.components
+    if len(members) != len(components) and not scope.module.takes(kind.name, len(members)):
+        raise CannotCompile(f"{kind.name} has {len(components)} components", node)
+    return kind.make(
+        *[evaluate(m, inner, (), scope) for m, (_, inner) in zip(members, components, strict=False)]
+    )
+
+
+def build(kind: Type, value: signatures.Value | None, degree: int = 0) -> Value:
+    """A value of rapid/binding or the signature data (nested tuples) as a RAPID value."""
+    if value is None:
+        return kind.default()
+    if isinstance(value, tuple):
+        if degree:
+            return {i: build(kind, v, degree - 1) for i, v in enumerate(value, start=1)}
+        assert kind.make is not None
+        return kind.make(*[build(t, v) for (_, t), v in zip(kind.components, value, strict=False)])
+    if kind.kind == "num" and isinstance(value, int | float):
+        return single(value)
+    return value
+
+
+# -- Predefined names ------------------------------------------------------------------------------
+#
+# Predefined types, data and routines as symbols, from the signature data.
+
+
+class Opaque:
+    """A datum of a predefined type about which nothing more is known here."""
+
+    __slots__ = ("type", "value")
+
+    def __init__(self, type: str) -> None:
+        self.type = type
+        self.value: Value = None
+
+
+def unknown_type(name: str) -> Type:
+    """A type that nothing at hand declares: data of it are kept, and only handed on."""
+    return Type(name.lower(), "nonvalue", (), lambda: Opaque(name))
+
+
+@cache
+def find_type(name: str) -> Type | None:
+    """A predefined type by lower-case name, aliases resolved."""
+    base = signatures.alias(name)
+    if base is not None:
+        return _needed(base)
+    bound("")  # loading the built-ins registers their types
+    known = TYPES.get(name)
+    if known is not None:
+        return known
+    record = signatures.record(name)
+    if record is not None:
+        components = [(c, _needed(t)) for t, c in record.components]
+        made: Type = make_record(record.name, components).rapid_type
+        TYPES[name] = made
+        return made
+    kind = signatures.type_class(name)
+    if kind is None:
+        return None
+    return register_type(
+        name, lambda: Opaque(name), "semivalue" if kind == "semivalue" else "nonvalue"
+    )
+
+
+def _needed(name: str) -> Type:
+    result: Type | None = find_type(name.lower())
+    if result is None:
+        raise LookupError(f"the signature data use an unknown type {name}")
+    return result
+
+
+@cache
+def predefined_datum(key: str) -> Data | None:
+    """How a predefined datum is kept, by lower-case name: an atomic constant in the code."""
+    result = signatures.constant(key)
+    if result is None:
+        return None
+    kind = _needed(result.type)
+    if result.kind == "PERS":
+        return Data(result.name, "PERS", kind, (), "cell", f"p_{key}")
+    readonly = result.readonly
+    if readonly and kind.kind != "record":
+        return Data(
+            result.name,
+            "CONST",
+            kind,
+            (),
+            "inline",
+            "",
+            value=predefined_value(key),
+            readonly=readonly,
+        )
+    return Data(result.name, result.kind, kind, (), "global", f"p_{key}", readonly=readonly)
+
+
+def predefined_value(key: str) -> Value:
+    """The value that a predefined datum has at first."""
+    result = signatures.predefined()[key]
+    return build(_needed(result.type), result.value)
+
+
+@cache
+def predefined_routine(name: str) -> Routine | None:
+    """A built-in routine by lower-case name; `missing` when nothing is bound to it."""
+    signature = signatures.routine(name)
+    if signature is None:
+        return None
+    parameters = tuple(
+        formal(p, None if p.type.lower() in ("anytype", "switch") else _needed(p.type))
+        for p in signature.parameters
+    )
+    binding = bound(name)
+    return Routine(
+        signature.name,
+        signature.kind,
+        _needed(signature.type) if signature.type else None,
+        parameters,
+        f"B_{name}",
+        builtin=binding,
+        missing=binding is None and name not in signatures.marked("inline"),
+        lazy=signature.marks.get("lazy", ()),
+    )
+
+
+# -- Names of a task -------------------------------------------------------------------------------
+#
+# How what names stand for is kept: symbols of rapid/binding as types, data and routines of a task.
+#
+# Modules are linked into one Python namespace. Persistents, data of shared modules and record
+# classes are common to all tasks.
+
 
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
@@ -197,7 +366,7 @@ class Linker:
         """The type of data that need what nothing declares: nothing can look into them."""
         match = self.shared.unknown.get(name.lower())
         if match is None:
-            match = self.shared.unknown[name.lower()] = predefined.unknown_type(name)
+            match = self.shared.unknown[name.lower()] = unknown_type(name)
             option = name.lower() in signatures.option_names("types")
             self.faults.append(
                 error(
@@ -218,7 +387,7 @@ class Linker:
 
     def _type(self, symbol: TypeSymbol) -> Type | None:
         if symbol.module is None:
-            return predefined.find_type(symbol.name.lower())
+            return find_type(symbol.name.lower())
         if symbol not in self._types:
             self._types[symbol] = None  # no record holds itself
             self._types[symbol] = self._record(self._loaded[symbol.module], symbol)
@@ -253,7 +422,7 @@ class Linker:
         return self._routines[symbol]
 
     def _builtin(self, key: str) -> Routine | None:
-        result = predefined.routine(key)
+        result = predefined_routine(key)
         if result is not None and result.builtin is not None:
             self.space.setdefault(result.code, result.builtin.function)
         return result
@@ -409,10 +578,10 @@ class Linker:
             return Data(key, "VAR", kind, (), "global", f"c_{key}")
         if symbol.readonly and symbol.kind == "VAR":  # ERRNO, INTNO
             return Data(symbol.name, "VAR", NUM, (), "global", f"R.{key}", readonly=True)
-        result = predefined.datum(key)
+        result = predefined_datum(key)
         if result is None or result.storage == "inline":
             return result
-        value = predefined.value(key)
+        value = predefined_value(key)
         if result.storage == "cell":
             made = PersistentCell(result.name, result.type, (), value)
             value = self.shared.cells.setdefault(f" {key}", made)

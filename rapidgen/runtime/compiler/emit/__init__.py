@@ -1,0 +1,1 @@
+"""Python source of RAPID routines, by kind of tree node."""
