@@ -12,8 +12,8 @@ from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render
 if TYPE_CHECKING:
     from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.cell_setup import InferenceLog
+    from rapidgen.controller.inference.answers import Answer
     from rapidgen.controller.inference.cell import UndeclaredName
-    from rapidgen.controller.inference.dialog_answers import Said
 
 
 def chosen(
@@ -120,7 +120,7 @@ def inference_report(guessed: "InferenceLog") -> str:
     )
 
 
-def _counted(title: str, between: str, message: "Iterable[Said]") -> str:
+def _counted(title: str, between: str, message: "Iterable[Answer]") -> str:
     given = [
         f"{name}{between}{value if isinstance(value, str) else f'{value:g}'}"
         + (f" ({count} times)" if count > 1 else "")

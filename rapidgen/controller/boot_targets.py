@@ -12,7 +12,7 @@ from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
 from rapidgen.config.registry import is_path
 from rapidgen.controller.cell_setup import CellSetup, apply_cell, cameras_of, force_of
-from rapidgen.controller.inference.start_poses import stands, start_of, table_pose
+from rapidgen.controller.inference.robot import stands, start_of, table_pose
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics, of_unknown_payload
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
@@ -21,7 +21,7 @@ from rapidgen.system.releases import UNTOLD
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
     from rapidgen.controller.inference.cell import InferredCell
-    from rapidgen.controller.inference.robot_model import RobotCandidate
+    from rapidgen.controller.inference.robot import RobotCandidate
     from rapidgen.system.controller_cfg import ControllerCfg
 
 # Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
@@ -169,7 +169,7 @@ def _driver(
     config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], options: BootOptions
 ) -> Bootable:
     """A generated driver's robots are those of its configuration; they start at 0."""
-    from rapidgen.controller.cell import in_its_cell
+    from rapidgen.controller.cell_setup import in_its_cell
 
     if options.robot:
         raise refusal(
@@ -190,7 +190,7 @@ def _foreign(system: System, notes: list[Diagnostic] | None, options: BootOption
     system = _moving(system, robots)
     robot, model = options.robot, None
     if str(options.cell) == INFER and not robot and not system.robot_types:
-        from rapidgen.controller.inference.robot_model import infer_robot_model
+        from rapidgen.controller.inference.robot import infer_robot_model
 
         model = infer_robot_model(system, DEFAULT_ROBOT)
         robot = model.model if model is not None else ""

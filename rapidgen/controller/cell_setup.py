@@ -1,34 +1,105 @@
-"""What the description of a cell does to a controller: signals and data that its programs find,
-where its robots stand at first, and devices that answer signals."""
+"""The cell of a controller."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
+from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
-from rapidgen.machine.cameras import Camera, Seen
+from rapidgen.generate.context import data_of_another
 from rapidgen.machine.event_log import EventLog
-from rapidgen.machine.force import Measured
 from rapidgen.machine.io import IOSystem, SignalCondition
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
-from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.machine.sync_points import SyncPoints
+from rapidgen.machine.scheduler import S, Scheduler, SyncPoints
+from rapidgen.machine.sensors import Camera, Measured, Seen
 from rapidgen.motion.system import MotionSystem
+from rapidgen.rapid import parse
 from rapidgen.runtime.compiler.link import predefined_value
 from rapidgen.runtime.task.task import Task
-from rapidgen.system.model import ModuleFile, SignalSpec, System
+from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
-    from rapidgen.controller.inference.default_tools import DefaultedPersistent
-    from rapidgen.controller.inference.dialog_answers import Said
-    from rapidgen.controller.inference.polled_data import PolledData
-    from rapidgen.controller.inference.polled_signals import PolledSignals
-    from rapidgen.controller.inference.socket_peers import ExpectedMessages
+    from rapidgen.controller.inference.answers import Answer, PolledData, PolledSignals
+    from rapidgen.controller.inference.names import DefaultedPersistent
+    from rapidgen.controller.inference.peers import ExpectedMessages
     from rapidgen.controller.views import TaskView
+
+
+# -- Objects of the customer -----------------------------------------------------------------------
+#
+# What stands around a controller and is in none of its generated files.
+#
+# A configuration exposes signals of the cell to clients. They are the customer's: his own EIO.cfg
+# defines them, with units and bits, so that a generated one must not. Whoever boots a driver here
+# gets them as virtual signals of the types that the configuration names. So with a tool, a work
+# object or a load that a module of his declares.
+#
+# With `main: own` the customer has a `main` that calls the driver. Where his is not there, one that
+# does nothing else stands in for it.
+
+
+GROUP_BITS = 32
+"""Bits of an exposed group signal; the configuration does not tell how many there are."""
+_MAIN = ModuleFile(
+    "own_main",
+    "own_main.mod",
+    b"MODULE own_main\n    PROC main()\n        ROS_run;\n    ENDPROC\nENDMODULE\n",
+)
+
+
+def in_its_cell(system: System, config: RobotConfig) -> System:
+    """`system` with what `config` leaves to the customer: signals and, where it is own, `main`.
+
+    What the system has already stays as it is.
+    """
+    known = {signal.name.lower() for signal in system.signals}
+    exposed = tuple(
+        SignalSpec(signal.name, signal.kind, size=GROUP_BITS if signal.kind[0] == "G" else 1)
+        for signal in config.signals
+        if signal.name.lower() not in known
+    )
+    tasks = system.tasks if config.call_main else tuple(_with_main(t) for t in system.tasks)
+    tasks = tuple(_with_data(task, config) for task in tasks)
+    return replace(system, tasks=tasks, signals=(*system.signals, *exposed))
+
+
+def _with_main(task: TaskSpec) -> TaskSpec:
+    if not task.motion or any(_has_main(module) for module in task.modules):
+        return task
+    return replace(task, modules=(*task.modules, _MAIN))
+
+
+def _with_data(task: TaskSpec, config: RobotConfig) -> TaskSpec:
+    """A task with the data that its modules take from another module, unless one declares them."""
+    group = next((g for g in config.groups if g.task == task.name), None)
+    data = data_of_another(group) if group is not None and task.motion else []
+    if not data:
+        return task
+    known = {d.name.casefold() for m in task.modules for d in parse(m.data, path=m.path).data}
+    expected = [
+        f"    PERS {kind} {name} := {value};\n"
+        for kind, name, value in data
+        if name.casefold() not in known
+    ]
+    if not expected:
+        return task
+    text = f"MODULE own_data\n{''.join(expected)}ENDMODULE\n".encode("ascii")
+    return replace(task, modules=(*task.modules, ModuleFile("own_data", "own_data.mod", text)))
+
+
+def _has_main(module: ModuleFile) -> bool:
+    return any(r.name.casefold() == "main" for r in parse(module.data, path=module.path).routines)
+
+
+# -- Set-up ----------------------------------------------------------------------------------------
+#
+# What the description of a cell does to a controller: signals and data that its programs find,
+# where its robots stand at first, and devices that answer signals.
+
 
 GUESSED = 49_910
 """Event: an input that nobody drives became what a program waits for. The number is ours."""
@@ -72,11 +143,11 @@ class InferenceLog:
     """What happened because a cell is a guess; all grow while programs run."""
 
     is_guess: bool = False
-    answered: "list[Said]" = field(default_factory=list)
+    answered: "list[Answer]" = field(default_factory=list)
     """Signals and dialogs, and what they became because a program waited for it."""
-    missed: "list[Said]" = field(default_factory=list)
+    missed: "list[Answer]" = field(default_factory=list)
     """Places of moves to where the robot does not come as programmed, and how it went there."""
-    stopped: "list[Said]" = field(default_factory=list)
+    stopped: "list[Answer]" = field(default_factory=list)
     """Where a program stopped behind an answer and was started from main again, and why."""
 
 
@@ -234,11 +305,11 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
     if around.guessed:
         controller.io.on_awaited = answer
     if around.polled:
-        from rapidgen.controller.inference.polled_signals import InputSetter
+        from rapidgen.controller.inference.answers import InputSetter
 
         InputSetter(controller, around.polled, answered)
     if around.flags and controller.scheduler.clock == "virtual":
-        from rapidgen.controller.inference.polled_data import DataSetter
+        from rapidgen.controller.inference.answers import DataSetter
 
         DataSetter(controller, around.flags, answered)
     controller.io.divisors = around.divisors
@@ -251,11 +322,11 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
         and not controller.operator.present
         and controller.scheduler.clock == "virtual"
     ):
-        from rapidgen.controller.inference.dialog_answers import DialogResponder
+        from rapidgen.controller.inference.answers import DialogResponder
 
         DialogResponder(controller.operator, controller.scheduler, answered)
     if around.heard is not None and isinstance(controller.network, MemoryNetwork):
-        from rapidgen.controller.inference.socket_peers import SocketPeer
+        from rapidgen.controller.inference.peers import SocketPeer
 
         SocketPeer(controller, around.heard, answered)
     return guessed

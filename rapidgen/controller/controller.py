@@ -15,16 +15,13 @@ from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
 from rapidgen.controller.loading import ParseCache, configured, load
-from rapidgen.controller.operation import OperatingMode, Operation
-from rapidgen.controller.system_signals import SystemSignals
+from rapidgen.controller.operation import OperatingMode, Operation, SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView, unknown
 from rapidgen.machine.arc_equipment import ArcEquipment
-from rapidgen.machine.cameras import cameras
 from rapidgen.machine.cost_model import Costs
 from rapidgen.machine.egm import EgmSessions
 from rapidgen.machine.files import FileSystem
-from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.network.fault_injection import FaultyNetwork
 from rapidgen.machine.network.interface import Network
@@ -32,11 +29,10 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
-from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Scheduler
+from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Scheduler, SyncPoints
+from rapidgen.machine.sensors import ForceSensors, cameras
 from rapidgen.machine.smart_gripper import Hands
-from rapidgen.machine.sync_points import SyncPoints
-from rapidgen.machine.system_parameters import SystemParameters
-from rapidgen.machine.text_tables import TextTables
+from rapidgen.machine.system_parameters import SystemParameters, TextTables
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
@@ -310,7 +306,7 @@ class VirtualController:
         """
         if not isinstance(config, RobotConfig):
             return cls.boot(load_target([str(config)], BootOptions(overrides=overrides)), **options)
-        from rapidgen.controller.cell import in_its_cell
+        from rapidgen.controller.cell_setup import in_its_cell
         from rapidgen.generate import build, make_system
 
         options.setdefault("robots", tuple(config.groups))

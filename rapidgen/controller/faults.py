@@ -12,7 +12,7 @@ from typing import Literal, Protocol, TypeVar, get_args
 from rapidgen._reading import read_foreign
 from rapidgen.config.yaml_tree import MAX_BYTES, data_of
 from rapidgen.diagnostics import DiagnosticError, Span, refusal, suggest
-from rapidgen.machine.network.fault_rules import NetworkRule
+from rapidgen.machine.network.fault_injection import NetworkRule
 from rapidgen.machine.scheduler import S, Scheduler
 
 ControllerAction = Literal[

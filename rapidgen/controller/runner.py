@@ -1,8 +1,4 @@
-"""A controller with a power switch: what outlives a restart, and who runs what is booted.
-
-A restart makes a new `VirtualController` from the disks, the cfg database and the modules that
-lie in the tasks. Disks, cfg and clock stay; sockets, paths and program pointers do not.
-"""
+"""Runs of programs."""
 
 import shutil
 import tempfile
@@ -11,7 +7,7 @@ import uuid
 import weakref
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Final, Literal, NamedTuple
 
 from rapidgen._compat import Self, Unpack
 from rapidgen.controller.boot_targets import Bootable
@@ -26,6 +22,14 @@ from rapidgen.system.backup import backup_cfg
 from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import System
+
+# -- Runs ------------------------------------------------------------------------------------------
+#
+# A controller with a power switch: what outlives a restart, and who runs what is booted.
+#
+# A restart makes a new `VirtualController` from the disks, the cfg database and the modules that
+# lie in the tasks. Disks, cfg and clock stay; sockets, paths and program pointers do not.
+
 
 _NS = 1_000_000_000
 
@@ -192,3 +196,54 @@ class ControllerRunner:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+# -- Inferred cells --------------------------------------------------------------------------------
+#
+# Running a program in a guessed cell through, as an operator would: where it stops behind an
+# answer that was made up, it is started from main again, and hears the next one; behind a Stop it
+# goes on.
+
+
+_MOST: Final = 50
+"""Starts behind the first one."""
+Ended = Literal["finished", "time", "statements", "deadlock", "paused"]
+
+
+def run_past_stops(
+    controller: VirtualController, *, max_time: float, max_statements: int | None = None
+) -> Ended:
+    """`controller.run`, again and again while a task stops with an error and something was answered
+    since it was started; where that was is kept in `controller.guessed.stopped`. In a guessed cell
+    what stands at a Stop is started again, too.
+
+    `max_time` (s) is for all of it, `max_statements` for each start. The faults of the last start
+    are the tasks' own, as ever.
+    """
+    until = controller.now + max_time
+    guessed = controller.guessed
+    for starts in range(_MOST + 1):
+        answers = len(guessed.answered)
+        left = until - controller.now
+        finished = controller.run(max_time=left, max_statements=max_statements)
+        if starts == _MOST:
+            break
+        frames = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
+        if finished == "finished" and guessed.is_guess and frames and controller.now < until:
+            for top in (task.stack()[-1] for task in frames if task.stack()):
+                place = f"{Path(top.span.path).name}:{top.span.line}"
+                guessed.answered.append((f"Stop at {place}", "start"))
+            if not controller.start_program():
+                break
+            continue
+        faults = [task.fault for task in controller.tasks.values() if task.fault is not None]
+        if not faults or len(guessed.answered) == answers or controller.now >= until:
+            break
+        for fault in faults:
+            at = fault.span or (fault.stack[-1].span if fault.stack else None)
+            place = f"{Path(at.path).name}:{at.line}" if at is not None else ""
+            guessed.stopped.append((place, ": ".join(filter(None, fault.arguments)) or str(fault)))
+        controller.pp_to_main()
+        if not controller.start_program():
+            break
+    return finished

@@ -1,15 +1,4 @@
-"""Time, events and the one CPU that all processes (`process.py`) share.
-
-Everything of one controller runs on one thread: events are plain callbacks that never wait,
-processes are greenlets. `now` is integer nanoseconds. On the virtual clock time passes only by
-what processes are charged and by jumping to the next event; on the real clock the same
-accounting is held back to the wall clock, and the operating system's sockets are served
-between slices.
-
-A running process counts down `b`, the nanoseconds until anything can concern it: the next
-event, the end of its slice or of the run. `now` is therefore `deadline - b` while it runs, and
-compiled code needs one subtraction and one test for clock, preemption, traps and stops.
-"""
+"""Scheduler."""
 
 import heapq
 import os
@@ -20,10 +9,27 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from dataclasses import dataclass, field
+from datetime import datetime, timedelta
 from itertools import count
 from typing import Literal, Protocol, TypeAlias, get_args
 
 import greenlet
+
+# -- Scheduler -------------------------------------------------------------------------------------
+#
+# Time, events and the one CPU that all processes (`process.py`) share.
+#
+# Everything of one controller runs on one thread: events are plain callbacks that never wait,
+# processes are greenlets. `now` is integer nanoseconds. On the virtual clock time passes only by
+# what processes are charged and by jumping to the next event; on the real clock the same
+# accounting is held back to the wall clock, and the operating system's sockets are served
+# between slices.
+#
+# A running process counts down `b`, the nanoseconds until anything can concern it: the next
+# event, the end of its slice or of the run. `now` is therefore `deadline - b` while it runs, and
+# compiled code needs one subtraction and one test for clock, preemption, traps and stops.
+
 
 ClockKind: TypeAlias = Literal["virtual", "real"]
 Schedule: TypeAlias = Literal["round-robin", "random", "priorities"]
@@ -571,3 +577,58 @@ class Scheduler:
             self._fire_before(end)
         assert self._hub is not None
         self._hub.switch()
+
+
+# -- Date and time ---------------------------------------------------------------------------------
+#
+# The controller's date and time of day.
+#
+# On the real clock it is the machine's. On the virtual clock it is a fixed day plus the simulated
+# time, so that a run is the same every time.
+
+
+FIRST_DAY = datetime(2026, 1, 1, 8)
+
+
+def date_time(scheduler: Scheduler) -> datetime:
+    """Now, as the controller shows it."""
+    if scheduler.clock == "real":
+        return datetime.now()
+    return FIRST_DAY + timedelta(microseconds=scheduler.now // 1000)
+
+
+# -- Synchronisation points ------------------------------------------------------------------------
+#
+# Where tasks of one controller wait for each other.
+
+
+@dataclass(slots=True)
+class SyncPoint:
+    """Tasks that have come to one synchronisation point."""
+
+    members: frozenset[str]
+    arrived: set[str] = field(default_factory=set)
+    changed: WaitSet = field(default_factory=WaitSet)
+    complete: bool = False
+
+
+@dataclass(slots=True)
+class SyncMoveGroup:
+    """Tasks that have come to a move of one \\ID, and how long each of them would take (s)."""
+
+    times: dict[str, float] = field(default_factory=dict)
+    changed: WaitSet = field(default_factory=WaitSet)
+    longest: float | None = None
+    """Known when all have come."""
+
+
+class SyncPoints:
+    """The synchronisation points of one controller at which somebody waits."""
+
+    def __init__(self) -> None:
+        self.points: dict[tuple[object, frozenset[str]], SyncPoint] = {}
+        """WaitSyncTask and its like: by point and members."""
+        self.moves: dict[tuple[frozenset[str], float], SyncMoveGroup] = {}
+        """Moves of one \\ID: by partners and \\ID."""
+        self.any_task = False
+        """Whether tasks that are named and not there are left out (a guessed cell)."""

@@ -1,12 +1,18 @@
-"""System parameters as ReadCfgData sees them: what the virtual controller is made of.
+"""System parameters and text tables."""
 
-SYS and EIO are those of the system; of MOC there is ARM with the axes' limits (rad, m), since
-programs ask for them. A written value stays here: nothing is reconfigured by it.
-"""
+import re
 
 from rapidgen.config.model import GroupConfig, Joint
 from rapidgen.system import CfgText, System, eio_cfg, sys_cfg
 from rapidgen.system.cfg import Attribute, Instance, Scalar, Section, write_cfg
+
+# -- System parameters -----------------------------------------------------------------------------
+#
+# System parameters as ReadCfgData sees them: what the virtual controller is made of.
+#
+# SYS and EIO are those of the system; of MOC there is ARM with the axes' limits (rad, m), since
+# programs ask for them. A written value stays here: nothing is reconfigured by it.
+
 
 _Values = dict[str, Scalar | bool]
 
@@ -80,3 +86,56 @@ def arm_name(group: GroupConfig, joint: Joint) -> str:
     if len(external) == len(group.external_units):
         return group.external_units[external.index(joint)]
     return f"{group.external_units[0]}_{1 + external.index(joint)}"
+
+
+# -- Text tables -----------------------------------------------------------------------------------
+#
+# Text tables that programs install from files [K §15].
+
+
+_TABLE_NAME = re.compile(r"(\S.{0,79})::")
+_INDEX = re.compile(r"(\d+):")
+
+
+class TextTables:
+    """Installed text tables: names, numbers from 1, texts by index."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[str, int] = {}
+        self._texts: list[dict[int, str]] = []
+
+    def number(self, name: str) -> int | None:
+        """A table's number."""
+        return self._numbers.get(name)
+
+    def text(self, number: int, index: int) -> str | None:
+        """A text."""
+        if not 1 <= number <= len(self._texts):
+            return None
+        return self._texts[number - 1].get(index)
+
+    def install(self, text: str) -> None:
+        """Read a file of tables [K §15]; a table that exists is extended.
+
+        ValueError: a line that is none of those.
+        """
+        table: dict[int, str] | None = None
+        index: int | None = None
+        for number, line in enumerate(text.splitlines(), 1):
+            if index is not None and table is not None:
+                table[index] = line.replace("\\n", "\n")
+                index = None
+            elif not line.strip() or line.startswith("#"):
+                continue
+            elif match := _TABLE_NAME.fullmatch(line.strip()):
+                table = self._table(match[1])
+            elif (match := _INDEX.fullmatch(line.strip())) and table is not None:
+                index = int(match[1])
+            else:
+                raise ValueError(f"line {number}")
+
+    def _table(self, name: str) -> dict[int, str]:
+        number = self._numbers.setdefault(name, len(self._texts) + 1)
+        if number > len(self._texts):
+            self._texts.append({})
+        return self._texts[number - 1]

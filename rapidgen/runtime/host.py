@@ -5,21 +5,18 @@ from types import FrameType
 from typing import Literal, Protocol, TypeAlias
 
 from rapidgen.machine.arc_equipment import ArcEquipment
-from rapidgen.machine.cameras import Camera
 from rapidgen.machine.cost_model import Costs
 from rapidgen.machine.egm import EgmSessions
 from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.files import FileSystem
-from rapidgen.machine.force import ForceSensors
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
-from rapidgen.machine.scheduler import Scheduler
+from rapidgen.machine.scheduler import Scheduler, SyncPoints
+from rapidgen.machine.sensors import Camera, ForceSensors
 from rapidgen.machine.smart_gripper import Hands
-from rapidgen.machine.sync_points import SyncPoints
-from rapidgen.machine.system_parameters import SystemParameters
-from rapidgen.machine.text_tables import TextTables
+from rapidgen.machine.system_parameters import SystemParameters, TextTables
 from rapidgen.motion.group import MotionWaiter
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches

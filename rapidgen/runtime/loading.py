@@ -6,8 +6,8 @@ from pathlib import Path
 
 from rapidgen._reading import TooLarge, read_foreign
 from rapidgen.diagnostics import Severity
-from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import Directory, DiskFault, DiskReason, IODevice
+from rapidgen.machine.scheduler import date_time
 from rapidgen.runtime.compiler.program import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Origin
 from rapidgen.runtime.errors import RapidError

@@ -3,8 +3,7 @@
 import math
 import re
 
-from rapidgen.rapid.number_text import DNUM_DIGITS, NUM_DIGITS, number_text
-from rapidgen.rapid.numbers import MAX_STRING, single
+from rapidgen.rapid.numbers import DNUM_DIGITS, MAX_STRING, NUM_DIGITS, number_text, single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import DNUM, Record, Type, Value
 

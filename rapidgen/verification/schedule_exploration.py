@@ -21,7 +21,7 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Trace
-from rapidgen.machine.network.fault_rules import Direction, NetworkRule
+from rapidgen.machine.network.fault_injection import Direction, NetworkRule
 from rapidgen.system.model import System
 from rapidgen.verification.bench_pool import Boot
 from rapidgen.verification.history import PAIRED, STEPS, History

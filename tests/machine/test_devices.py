@@ -5,16 +5,13 @@ from datetime import datetime
 import pytest
 
 from rapidgen.machine.arc_equipment import REFERENCES, ArcEquipment
-from rapidgen.machine.calendar import FIRST_DAY, date_time
-from rapidgen.machine.cameras import Camera, Seen, cameras
 from rapidgen.machine.cost_model import Costs
 from rapidgen.machine.egm import MAX_IDENTITIES, EgmSessions
 from rapidgen.machine.event_log import Domain, EventLog, EventType
-from rapidgen.machine.force import ForceSensors, Measured
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.machine.sync_points import SyncPoints
-from rapidgen.machine.text_tables import TextTables
+from rapidgen.machine.scheduler import FIRST_DAY, S, Scheduler, SyncPoints, date_time
+from rapidgen.machine.sensors import Camera, ForceSensors, Measured, Seen, cameras
+from rapidgen.machine.system_parameters import TextTables
 from rapidgen.system.model import ArcSignals, SignalSpec, System, UdpDevice
 
 

@@ -2,8 +2,7 @@
 
 import pytest
 
-from rapidgen.machine.network.fault_injection import FaultyNetwork
-from rapidgen.machine.network.fault_rules import NetworkRule
+from rapidgen.machine.network.fault_injection import FaultyNetwork, NetworkRule
 from rapidgen.machine.network.interface import BUFFER, NetworkFault, NetworkReason
 from rapidgen.machine.network.memory import LATENCY, MemoryNetwork
 from rapidgen.machine.scheduler import MS, S, Scheduler

@@ -11,7 +11,7 @@ from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.generate import build, make_system
-from rapidgen.machine.network.fault_rules import NetworkRule
+from rapidgen.machine.network.fault_injection import NetworkRule
 from rapidgen.rapid import check, parse
 from rapidgen.verification.bench_pool import BenchPool
 from rapidgen.verification.model import Counterexample

@@ -4,8 +4,7 @@ ill."""
 import pytest
 
 from rapidgen.client import Robot
-from rapidgen.machine.network.fault_injection import FaultyNetwork
-from rapidgen.machine.network.fault_rules import NetworkRule
+from rapidgen.machine.network.fault_injection import FaultyNetwork, NetworkRule
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.viewer.socket_log import Interpreter, SocketPiece

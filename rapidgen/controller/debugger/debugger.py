@@ -12,9 +12,17 @@ from typing import Literal, TypeAlias
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.debugger import breakpoints as places
-from rapidgen.controller.debugger import pointers, values
+from rapidgen.controller.debugger import values
 from rapidgen.controller.debugger.breakpoints import Breakpoint, PlacedBreakpoint
-from rapidgen.controller.debugger.stack import Level, StackFrame, depth_here, frames_of, innermost
+from rapidgen.controller.debugger.stack import (
+    Level,
+    StackFrame,
+    depth_here,
+    frames_of,
+    innermost,
+    motion_pointer,
+    program_pointer,
+)
 from rapidgen.controller.debugger.values import DisplayedValue, NotPaused
 from rapidgen.machine.scheduler import S, Timer, WaitSet
 from rapidgen.rapid.syntax import nodes as n
@@ -370,11 +378,11 @@ class Debugger:
 
     def program_pointer(self, task: str) -> Location | None:
         """Where a task is in its program, not in a trap or an event routine; None: nowhere."""
-        return pointers.program_pointer(self._tasks[task])
+        return program_pointer(self._tasks[task])
 
     def motion_pointer(self, task: str) -> Location | None:
         """The move instruction of a task that its robot is executing; None: there is none."""
-        return pointers.motion_pointer(self._controller, task)
+        return motion_pointer(self._controller, task)
 
 
 def _hidden(module: LoadedModule) -> bool:

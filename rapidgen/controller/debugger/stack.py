@@ -1,10 +1,11 @@
-"""Call stacks of tasks with what their routines hold."""
+"""Call stacks and pointers of tasks."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from types import FrameType
 from typing import Literal, TypeAlias
 
+from rapidgen.controller.controller import VirtualController
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import CodeRole, LoadedModule, Routine
@@ -13,6 +14,11 @@ from rapidgen.runtime.task.calls import location, outwards
 from rapidgen.runtime.task.interrupts import EventRoutines, Interrupts
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Value
+
+# -- Stacks ----------------------------------------------------------------------------------------
+#
+# Call stacks of tasks with what their routines hold.
+
 
 Level: TypeAlias = Literal["program", "trap", "event"]
 """What a routine runs for: the program, an interrupt, or an event such as START."""
@@ -139,3 +145,22 @@ def loops_around(routine: Routine, token: int) -> tuple[n.For, ...]:
         if path is not None:
             return tuple(s for body, i in path[:-1] if isinstance(s := body[i], n.For))
     return ()
+
+
+# -- Pointers --------------------------------------------------------------------------------------
+#
+# Program pointer and motion pointer: what a task is about to execute, and what its robot does.
+
+
+def program_pointer(task: Task) -> Location | None:
+    """Where a task is in its program, not in a trap or an event routine; None: nowhere."""
+    frames = [frame for frame in frames_of(task) if frame.level == "program"]
+    return frames[-1].place if frames else None
+
+
+def motion_pointer(controller: VirtualController, task: str) -> Location | None:
+    """The move instruction of a task that its robot is executing; None: there is none."""
+    group = controller.motion.moved_by(task)
+    move = None if group is None else group.motion.move(controller.scheduler.now)
+    where = None if move is None or move.place is None else move.place()
+    return where if isinstance(where, Location) else None

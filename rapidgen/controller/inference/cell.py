@@ -18,16 +18,23 @@ from typing import Literal, cast
 
 from rapidgen.config.cell import CameraKeys, CellDescription, CellSignalKeys, ForceKeys, SeenKeys
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
-from rapidgen.controller.inference.default_tools import (
-    DefaultedPersistent,
-    find_defaulted_persistents,
+from rapidgen.controller.inference.answers import (
+    PolledData,
+    PolledSignals,
+    flags,
+    passed_arguments,
+    polled,
+    wait_conditions,
 )
-from rapidgen.controller.inference.missing_routines import absent
-from rapidgen.controller.inference.name_usage import passed, read, scoped
-from rapidgen.controller.inference.polled_data import PolledData, flags
-from rapidgen.controller.inference.polled_signals import PolledSignals, passed_arguments, polled
-from rapidgen.controller.inference.socket_peers import ExpectedMessages, expected_messages
-from rapidgen.controller.inference.wait_conditions import wait_conditions
+from rapidgen.controller.inference.names import (
+    DefaultedPersistent,
+    absent,
+    find_defaulted_persistents,
+    passed,
+    read,
+    scoped,
+)
+from rapidgen.controller.inference.peers import ExpectedMessages, expected_messages
 from rapidgen.diagnostics import Span
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.binding import (
@@ -40,8 +47,7 @@ from rapidgen.rapid.binding import (
     installed_objects,
 )
 from rapidgen.rapid.binding.expressions import declared_type
-from rapidgen.rapid.binding.names import called
-from rapidgen.rapid.binding.types import NUMBER
+from rapidgen.rapid.binding.names import NUMBER, called
 from rapidgen.rapid.builtins.signatures import type_class
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk

@@ -1,14 +1,9 @@
-"""A network that misbehaves by plan: wraps either implementation, on the controller's side.
-
-TCP loses nothing in the middle, so bytes are never dropped singly: they come in other pieces,
-later, or from some byte on not at all. Both directions of a connection that a rule concerns pass
-through queues here; all others go straight through.
-"""
+"""Network faults."""
 
 from collections import deque
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Literal
 
-from rapidgen.machine.network.fault_rules import NetworkRule
 from rapidgen.machine.network.interface import (
     BUFFER,
     Endpoint,
@@ -19,6 +14,45 @@ from rapidgen.machine.network.interface import (
     taken,
 )
 from rapidgen.machine.scheduler import S, Scheduler
+
+# -- Rules -----------------------------------------------------------------------------------------
+#
+# Rules of what goes wrong with connections, as data; `faulty.py` carries them out.
+
+
+NetworkAction = Literal["split", "merge", "delay", "reset", "half-open", "silent", "slow"]
+Direction = Literal["in", "out", "both"]
+
+
+@dataclass(frozen=True, slots=True)
+class NetworkRule:
+    """What happens to the connections of a port once `after` bytes have passed.
+
+    `port` 0 and `connection` 0 mean all; a direction is seen from the program (`in`: what it
+    receives). `bytes`: the size of the pieces (split) or bytes a second (slow). `seconds`: the
+    gap between pieces (split), how long bytes are gathered (merge) or held back (delay).
+    """
+
+    do: NetworkAction
+    port: int = 0
+    direction: Direction = "both"
+    connection: int = 0
+    after: int = 0
+    bytes: int = 1
+    seconds: float = 0.001
+
+    def concerns(self, port: int, connection: int) -> bool:
+        """Whether the rule is about that connection, counted from 1 for each port."""
+        return self.port in (0, port) and self.connection in (0, connection)
+
+
+# -- Injection -------------------------------------------------------------------------------------
+#
+# A network that misbehaves by plan: wraps either implementation, on the controller's side.
+#
+# TCP loses nothing in the middle, so bytes are never dropped singly: they come in other pieces,
+# later, or from some byte on not at all. Both directions of a connection that a rule concerns pass
+# through queues here; all others go straight through.
 
 
 class _Lane:

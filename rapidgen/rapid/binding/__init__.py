@@ -25,23 +25,21 @@ from rapidgen.rapid.binding.constants import NotConstant, constant, evaluate, si
 from rapidgen.rapid.binding.expressions import declared_type, root, type_of
 from rapidgen.rapid.binding.lookup import BoundModule
 from rapidgen.rapid.binding.names import (
-    ModuleScope,
-    RoutineScope,
-    Scope,
-    TaskScope,
-    builtin,
-    installed_objects,
-)
-from rapidgen.rapid.binding.symbols import (
     DATA,
     ROUTINES,
     TYPES,
     DataSymbol,
     LabelSymbol,
+    ModuleScope,
     ModuleSymbol,
+    RoutineScope,
     RoutineSymbol,
+    Scope,
     Symbol,
+    TaskScope,
     TypeSymbol,
+    builtin,
+    installed_objects,
 )
 
 __all__ = [

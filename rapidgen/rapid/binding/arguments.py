@@ -20,8 +20,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Final, Generic, Literal, Protocol, TypeVar
 
-from rapidgen.rapid.binding.symbols import DataSymbol
-from rapidgen.rapid.binding.types import NUMBER
+from rapidgen.rapid.binding.names import NUMBER, DataSymbol
 from rapidgen.rapid.syntax.nodes import Mode
 
 

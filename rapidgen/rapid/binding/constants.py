@@ -10,9 +10,7 @@ from collections.abc import Callable
 from math import isfinite
 from typing import Final
 
-from rapidgen.rapid.binding.names import Scope
-from rapidgen.rapid.binding.symbols import DataSymbol
-from rapidgen.rapid.binding.types import array, degree, element
+from rapidgen.rapid.binding.names import DataSymbol, Scope, array, degree, element
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.builtins.signatures import Value
 from rapidgen.rapid.numbers import single

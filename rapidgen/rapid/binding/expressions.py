@@ -5,16 +5,19 @@ Where an expression breaks a rule its type is None, as where something is not kn
 
 from typing import Final
 
-from rapidgen.rapid.binding.names import Scope, called
-from rapidgen.rapid.binding.symbols import DataSymbol, RoutineSymbol, Symbol
-from rapidgen.rapid.binding.types import (
+from rapidgen.rapid.binding.names import (
     AGGREGATE,
     EQUALITY,
     LOGICAL,
     NUMBER,
     RELATIONS,
+    DataSymbol,
+    RoutineSymbol,
+    Scope,
+    Symbol,
     arithmetic,
     array,
+    called,
     degree,
     element,
 )

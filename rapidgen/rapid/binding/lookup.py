@@ -10,8 +10,7 @@ from dataclasses import dataclass, field
 
 from rapidgen.diagnostics import Span
 from rapidgen.rapid.binding.constants import constant
-from rapidgen.rapid.binding.names import ModuleScope, Scope
-from rapidgen.rapid.binding.symbols import RoutineSymbol, Symbol
+from rapidgen.rapid.binding.names import ModuleScope, RoutineSymbol, Scope, Symbol
 from rapidgen.rapid.syntax.nodes import (
     AliasDeclaration,
     Argument,

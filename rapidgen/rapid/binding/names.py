@@ -1,59 +1,276 @@
-"""Which declaration a name means: the scopes of a task [K §2.12, 2.20, 4.3, 4.15, 5.2, 9.1, 13.1].
+"""Names: symbols, types as texts and the scopes of a task."""
 
-RAPID compares names without case. There is one space of names: a datum, a type, a routine and a
-module of the same name hide or hinder each other. A name stands for what the innermost of these
-scopes declares:
-
-1. a FOR loop: its variable, inside DO .. ENDFOR only;
-2. the routine: parameters and data, in the body and in all its handlers. Data of a routine know
-   only those that are declared above them. Labels are looked up by GOTO alone, in the whole
-   routine; they may not have the name of one of its data;
-3. the module: everything that it declares, LOCAL or not. References in declarations of the module
-   start here. A LOCAL object hides a global one of another module;
-4. the task: what its modules declare without LOCAL, and the modules' names. Of equal global names
-   the first that was loaded counts, and the clash is an error;
-5. installed modules (built in, or shared by all tasks): their global names. The program may hide
-   them. An installed module itself sees its own names, those of installed modules and what lies
-   further out, but never the program;
-6. what the configuration installs: signals, mechanical units, task identities; where a name is
-   called they hide no predefined routine (`called`): a signal may have the name of a function;
-7. the predefined data, types and routines of RAPID (`builtins/*.rapid`).
-
-A type behind aliases is found from the module that declares its object. What two tasks declare
-differently under one name has no known type where both are looked at together.
-
-Nothing here judges: a name that nothing declares is None, a type that is not known is None, and
-objects of a module or a task with the same name are kept as pairs in `clashes`.
-"""
-
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Final
+from typing import Final, Literal
 
-from rapidgen.rapid.binding.symbols import (
-    DataSymbol,
-    LabelSymbol,
-    ModuleSymbol,
-    RoutineSymbol,
-    Symbol,
-    TypeSymbol,
-)
-from rapidgen.rapid.binding.types import array, element
+from rapidgen.diagnostics import Span
 from rapidgen.rapid.builtins import signatures
-from rapidgen.rapid.builtins.signatures import TypeClass, Value
+from rapidgen.rapid.builtins.signatures import Signature, TypeClass, Value
 from rapidgen.rapid.syntax.nodes import (
     AliasDeclaration,
     DataDeclaration,
     Declaration,
+    Expression,
     For,
     Label,
+    Mode,
     Module,
+    Node,
     Parameter,
     RecordDeclaration,
     RoutineDeclaration,
 )
 from rapidgen.rapid.syntax.walk import walk
+
+# -- Types as texts --------------------------------------------------------------------------------
+#
+# Types as texts, and what the operators make of them [K §2.17, 3.11].
+#
+# A type is the lower-case name behind aliases, with `{*}`, `{*,*}` or `{*,*,*}` behind it for
+# arrays: `num`, `robtarget{*}`. None stands for a type that is not known.
+
+
+NUMBER: Final = "number"
+"""A number that may still become num or dnum: a literal, or sums of literals."""
+AGGREGATE: Final = "aggregate"
+NUMERIC: Final = frozenset((NUMBER, "num", "dnum"))
+ATOMIC: Final = frozenset(("num", "dnum", "bool", "string"))
+"""What surely has no components; of some installed types they are not known."""
+LOGICAL: Final = frozenset(("AND", "OR", "XOR", "NOT"))
+EQUALITY: Final = frozenset(("=", "<>"))
+RELATIONS: Final = frozenset(("<", "<=", ">", ">="))
+
+
+def array(base: str, degree: int) -> str:
+    """The type of an array of `base`."""
+    return base + "{" + ",".join("*" * degree) + "}" if degree else base
+
+
+def degree(type_name: str) -> int:
+    """Dimensions of a type."""
+    return type_name.count("*")
+
+
+def element(type_name: str) -> str:
+    """Type of an element of an array type, the type itself when it is no array."""
+    return type_name.partition("{")[0]
+
+
+def equal(left: str, right: str) -> bool:
+    """Whether types are equal; a literal number is what its partner is."""
+    if left == right:
+        return True
+    if left == NUMBER:
+        return right in NUMERIC
+    return right == NUMBER and left in NUMERIC
+
+
+def arithmetic(operator: str, left: str, right: str) -> str | None:
+    """Type of `left operator right`, or None when the operator does not take these."""
+    if left in NUMERIC and right in NUMERIC:
+        if not equal(left, right):
+            return None
+        return right if left == NUMBER else left
+    if operator in ("+", "-") and left == right == "pos":
+        return "pos"
+    if operator == "+" and left == right == "string":
+        return "string"
+    if operator == "*":
+        if left == right and left in ("pos", "orient"):
+            return left
+        if "pos" in (left, right) and {left, right} & {NUMBER, "num"}:
+            return "pos"
+    if operator == "/" and left == "pos" and right in (NUMBER, "num"):
+        return "pos"  # in no manual; programs of running cells have it [backup]
+    return None
+
+
+# -- Symbols ---------------------------------------------------------------------------------------
+#
+# What a name stands for. Symbols are made once and not changed.
+#
+# They are compared by identity. `module` is the scope that declares one; None for what is built
+# in or installed by the configuration. Names keep the spelling of the declaration.
+
+
+DataRole = Literal["VAR", "PERS", "CONST", "PARAMETER", "LOOP", "INSTALLED"]
+TypeRole = Literal["RECORD", "ALIAS", "TYPE"]
+Role = Literal[DataRole, TypeRole, "PROC", "FUNC", "TRAP", "MODULE", "LABEL"]
+
+ROUTINES: Final[frozenset[Role]] = frozenset(("PROC", "FUNC", "TRAP"))
+TYPES: Final[frozenset[Role]] = frozenset(("RECORD", "ALIAS", "TYPE"))
+DATA: Final[frozenset[Role]] = frozenset(("VAR", "PERS", "CONST", "PARAMETER", "LOOP", "INSTALLED"))
+
+
+@dataclass(slots=True, eq=False)
+class Symbol:
+    """One named thing."""
+
+    name: str
+    kind: Role
+    module: "ModuleScope | None" = None
+    local: bool = False
+    """Declared LOCAL."""
+    node: Node | None = None
+    """Its declaration; None for what is built in or installed."""
+
+    @property
+    def token(self) -> int:
+        """Index of the name in the declaring module's tokens; -1 where there is none."""
+        return -1
+
+    @property
+    def declared_at(self) -> Span | None:
+        """Place of the name in its declaration; None for built-in and installed objects."""
+        if self.module is None or self.token < 0:
+            return None
+        return self.module.tree.source.span(self.token, self.token)
+
+
+@dataclass(slots=True, eq=False)
+class DataSymbol(Symbol):
+    """A variable, persistent, constant, parameter, loop variable or installed object."""
+
+    node: DataDeclaration | Parameter | For | None = None
+    type: str = "num"
+    """As declared: before aliases, and without dimensions."""
+    degree: int = 0
+    routine: RoutineDeclaration | None = None
+    """Whose parameter, datum or loop variable it is; None for module data."""
+    readonly: bool = False
+    """A program cannot assign it: CONST, loop variables, ERRNO, INTNO."""
+
+    @property
+    def token(self) -> int:
+        """See `Symbol.token`."""
+        node = self.node
+        if node is None:
+            return -1
+        return node.first + 1 if isinstance(node, For) else node.name_token
+
+    @property
+    def mode(self) -> Mode:
+        """Of a parameter: how it is passed."""
+        return self.node.mode if isinstance(self.node, Parameter) else ""
+
+    @property
+    def optional(self) -> bool:
+        """Whether it is an optional parameter."""
+        return isinstance(self.node, Parameter) and self.node.optional
+
+    @property
+    def initial(self) -> Expression | None:
+        """Initial value of a declaration."""
+        return self.node.initial if isinstance(self.node, DataDeclaration) else None
+
+    @property
+    def dimensions(self) -> Sequence[Expression]:
+        """Sizes of a declaration; of an array parameter none, see `degree`."""
+        return self.node.dimensions if isinstance(self.node, DataDeclaration) else ()
+
+
+@dataclass(slots=True, eq=False)
+class RoutineSymbol(Symbol):
+    """A routine of the program (`node`) or a built-in one (`signature`)."""
+
+    node: RoutineDeclaration | None = None
+    type: str | None = None
+    """Type of a function's value, as declared."""
+    signature: Signature | None = None
+
+    @property
+    def token(self) -> int:
+        """See `Symbol.token`."""
+        return -1 if self.node is None else self.node.name_token
+
+    @property
+    def parameters(self) -> Sequence[Parameter] | None:
+        """In the order of the call; None when they are not known."""
+        if self.signature is not None:
+            return self.signature.parameters if self.signature.checked else None
+        if self.node is None or any(p.name.startswith("<") for p in self.node.parameters):
+            return None
+        return self.node.parameters
+
+
+@dataclass(slots=True, eq=False)
+class TypeSymbol(Symbol):
+    """A record, an alias or a predefined type; predefined records are of kind `TYPE`."""
+
+    node: RecordDeclaration | AliasDeclaration | None = None
+    base: str | None = None
+    """Of an alias: the type that it names."""
+    components: Sequence[tuple[str, str]] | None = None
+    """(type, name) of a record's components in order, as declared; None for what is no record."""
+    newer: int = 0
+    """So many of the last components are missing in values that older releases saved."""
+    partly: bool = False
+    """Not all names of the components of a predefined record are public."""
+
+    @property
+    def token(self) -> int:
+        """See `Symbol.token`."""
+        node = self.node
+        if isinstance(node, AliasDeclaration):
+            return node.last - 1
+        return -1 if node is None else node.first + 1 + bool(node.scope)
+
+
+@dataclass(slots=True, eq=False)
+class ModuleSymbol(Symbol):
+    """The name of a module: global in its task, and of use to nobody but a late call."""
+
+    node: Module | None = None
+
+    @property
+    def token(self) -> int:
+        """See `Symbol.token`."""
+        return -1 if self.node is None else self.node.first + 1
+
+
+@dataclass(slots=True, eq=False)
+class LabelSymbol(Symbol):
+    """A label of a routine."""
+
+    node: Label | None = None
+
+    @property
+    def token(self) -> int:
+        """See `Symbol.token`."""
+        return -1 if self.node is None else self.node.first
+
+
+# -- Scopes ----------------------------------------------------------------------------------------
+#
+# Which declaration a name means: the scopes of a task [K §2.12, 2.20, 4.3, 4.15, 5.2, 9.1, 13.1].
+#
+# RAPID compares names without case. There is one space of names: a datum, a type, a routine and a
+# module of the same name hide or hinder each other. A name stands for what the innermost of these
+# scopes declares:
+#
+# 1. a FOR loop: its variable, inside DO .. ENDFOR only;
+# 2. the routine: parameters and data, in the body and in all its handlers. Data of a routine know
+#    only those that are declared above them. Labels are looked up by GOTO alone, in the whole
+#    routine; they may not have the name of one of its data;
+# 3. the module: everything that it declares, LOCAL or not. References in declarations of the module
+#    start here. A LOCAL object hides a global one of another module;
+# 4. the task: what its modules declare without LOCAL, and the modules' names. Of equal global names
+#    the first that was loaded counts, and the clash is an error;
+# 5. installed modules (built in, or shared by all tasks): their global names. The program may hide
+#    them. An installed module itself sees its own names, those of installed modules and what lies
+#    further out, but never the program;
+# 6. what the configuration installs: signals, mechanical units, task identities; where a name is
+#    called they hide no predefined routine (`called`): a signal may have the name of a function;
+# 7. the predefined data, types and routines of RAPID (`builtins/*.rapid`).
+#
+# A type behind aliases is found from the module that declares its object. What two tasks declare
+# differently under one name has no known type where both are looked at together.
+#
+# Nothing here judges: a name that nothing declares is None, a type that is not known is None, and
+# objects of a module or a task with the same name are kept as pairs in `clashes`.
+
 
 _MAX_ALIASES: Final = 4
 Clash = tuple[Symbol, Symbol]

@@ -1,7 +1,7 @@
 """Arguments of calls against the routine's parameters [K §3.10, 5.1]."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import Final, Protocol
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import (
@@ -18,13 +18,13 @@ from rapidgen.rapid.binding import (
     root,
     type_of,
 )
-from rapidgen.rapid.binding.names import called
-from rapidgen.rapid.binding.types import array
+from rapidgen.rapid.binding.names import array, called
 from rapidgen.rapid.builtins.signatures import Version
 from rapidgen.rapid.checks.context import closest
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.syntax.nodes import (
     Argument,
+    Expression,
     FunctionCall,
     Index,
     LateCall,
@@ -37,9 +37,6 @@ from rapidgen.rapid.syntax.nodes import (
     Star,
 )
 from rapidgen.system.releases import ANY_MINOR
-
-if TYPE_CHECKING:
-    from rapidgen.rapid.checks.typing import TypeChecker
 
 _Call = FunctionCall | ProcedureCall | LateCall
 """Minor release that stands for a whole line of them."""
@@ -54,10 +51,33 @@ _MODES: Final = {
 }
 
 
+class ExpressionChecker(Protocol):
+    """Checks of expressions that a call needs; `typing.TypeChecker` implements them.
+
+    Calls contain expressions and expressions contain calls: the protocol keeps the two modules
+    from importing each other.
+    """
+
+    def used(self, node: Expression) -> None:
+        """Check an expression of any type."""
+
+    def expect(self, node: Expression, expected: str | None, place: str) -> str | None:
+        """Check that an expression has the type `expected`."""
+
+    def type_of(self, node: Expression) -> str | None:
+        """Return the type of an expression, None if it is unknown."""
+
+    def datum(self, node: Name | Index | Member, expected: str | None = None) -> str | None:
+        """Return the declared type of a data reference."""
+
+    def mismatch(self, node: Expression, expected: str, result: str, place: str) -> None:
+        """Report that types differ."""
+
+
 class CallChecker:
     """Checks calls of procedures and functions."""
 
-    def __init__(self, findings: Findings, types: "TypeChecker") -> None:
+    def __init__(self, findings: Findings, types: ExpressionChecker) -> None:
         self.findings = findings
         self.report, self.declared = findings.report, findings.declared
         self.types = types

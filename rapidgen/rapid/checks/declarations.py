@@ -4,8 +4,7 @@ from typing import Final
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import DataSymbol, RoutineScope, Symbol, TypeSymbol
-from rapidgen.rapid.binding.names import datum_symbol, parameter_symbol
-from rapidgen.rapid.binding.types import array
+from rapidgen.rapid.binding.names import array, datum_symbol, parameter_symbol
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.flow import FlowChecker
 from rapidgen.rapid.checks.labels import bodies, check_labels, flat

@@ -16,7 +16,7 @@ from rapidgen.rapid.binding import (
     Scope,
     Symbol,
 )
-from rapidgen.rapid.binding.types import AGGREGATE, element, equal
+from rapidgen.rapid.binding.names import AGGREGATE, element, equal
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.context import CheckContext, closest
 from rapidgen.rapid.syntax.nodes import Node

@@ -8,11 +8,11 @@ from typing import Final, cast
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import DataSymbol, RoutineScope, RoutineSymbol, Symbol
-from rapidgen.rapid.binding.types import AGGREGATE, degree
+from rapidgen.rapid.binding.names import AGGREGATE, degree
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.typing import TypeChecker
-from rapidgen.rapid.syntax.foreign_syntax import UNEQUAL, followed_by_unequal
+from rapidgen.rapid.syntax.errors import UNEQUAL, followed_by_unequal
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
     Assignment,

@@ -18,8 +18,7 @@ from rapidgen.rapid.binding import (
     root,
     sizes_of,
 )
-from rapidgen.rapid.binding.names import called
-from rapidgen.rapid.binding.types import (
+from rapidgen.rapid.binding.names import (
     AGGREGATE,
     ATOMIC,
     EQUALITY,
@@ -29,6 +28,7 @@ from rapidgen.rapid.binding.types import (
     RELATIONS,
     arithmetic,
     array,
+    called,
     degree,
     element,
     equal,

@@ -8,8 +8,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from rapidgen.rapid.syntax.scan import HEADER, LEAD, TOKENS
-from rapidgen.rapid.syntax.source import Encoding, Source
+from rapidgen.rapid.syntax.source import HEADER, LEAD, TOKENS, Encoding, Source
 
 NAME: Final = "a name"
 NUMBER: Final = "a number"

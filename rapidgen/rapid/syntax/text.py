@@ -18,8 +18,7 @@ from rapidgen.rapid.syntax.lexer import (
     number_value,
 )
 from rapidgen.rapid.syntax.nodes import Module
-from rapidgen.rapid.syntax.scan import TOUCHING
-from rapidgen.rapid.syntax.source import Source
+from rapidgen.rapid.syntax.source import TOUCHING, Source
 
 MAX_BYTES: Final = 8_000_000
 _HEAD: Final = 4096

@@ -11,8 +11,8 @@ from math import inf, radians
 from typing import Final
 
 from rapidgen.axes import frames
-from rapidgen.machine.cameras import Camera, Seen
 from rapidgen.machine.scheduler import S
+from rapidgen.machine.sensors import Camera, Seen
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_interface import NOT_SIMULATED

@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import IO
 
 from rapidgen._reading import read_foreign
-from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
 from rapidgen.machine.files import Directory, IODevice
+from rapidgen.machine.scheduler import date_time
 from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.builtins.operator import appended
 from rapidgen.runtime.errors import RapidError

@@ -4,8 +4,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from rapidgen.rapid.number_text import to_places
-from rapidgen.rapid.numbers import single
+from rapidgen.rapid.numbers import single, to_places
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import whole
 from rapidgen.runtime.registry import builtin, builtins

@@ -11,8 +11,7 @@ from types import MappingProxyType
 
 from rapidgen.machine.event_log import EventType
 from rapidgen.machine.scheduler import WaitSet
-from rapidgen.rapid.number_text import DNUM_DIGITS, number_text
-from rapidgen.rapid.numbers import MAX_STRING
+from rapidgen.rapid.numbers import DNUM_DIGITS, MAX_STRING, number_text
 from rapidgen.runtime.errors import RapidError, errnum
 from rapidgen.runtime.registry import Arguments, builtin, builtins, by_name
 from rapidgen.runtime.task.task import Task

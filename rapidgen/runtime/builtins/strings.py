@@ -7,8 +7,7 @@ outside is an error); which error that is: switch `argument_error`.
 from collections.abc import Callable
 from operator import add, eq, floordiv, ge, gt, le, lt, mod, mul, ne, sub
 
-from rapidgen.rapid.number_text import exponent_text, fixed_text
-from rapidgen.rapid.numbers import single
+from rapidgen.rapid.numbers import exponent_text, fixed_text, single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import byte_value, whole
 from rapidgen.runtime.registry import builtin, builtins

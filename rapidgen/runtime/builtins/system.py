@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from rapidgen._reading import read_foreign
 from rapidgen.config.model import GroupConfig
-from rapidgen.machine.calendar import date_time
+from rapidgen.machine.scheduler import date_time
 from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.errors import EndOfRun, FatalError, RapidError
 from rapidgen.runtime.loading import LARGEST_MODULE, file_path, spend, words_of

@@ -7,21 +7,19 @@ from math import prod
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.rapid.binding import constants
 from rapidgen.rapid.binding.names import (
+    DataSymbol,
     ModuleScope,
+    ModuleSymbol,
+    RoutineSymbol,
     Scope,
+    Symbol,
     TaskScope,
+    TypeSymbol,
+    array,
     builtin,
     called,
     installed_objects,
 )
-from rapidgen.rapid.binding.symbols import (
-    DataSymbol,
-    ModuleSymbol,
-    RoutineSymbol,
-    Symbol,
-    TypeSymbol,
-)
-from rapidgen.rapid.binding.types import array
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n

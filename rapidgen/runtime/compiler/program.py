@@ -9,7 +9,7 @@ from typing import Protocol, TypeAlias
 
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.binding.arguments import match
-from rapidgen.rapid.binding.symbols import Symbol
+from rapidgen.rapid.binding.names import Symbol
 from rapidgen.rapid.numbers import dnum
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.lexer import KEYWORDS

@@ -7,8 +7,7 @@ from types import CodeType, FrameType
 from typing import Final, Literal, TypeAlias
 
 from rapidgen.diagnostics import Span
-from rapidgen.rapid.binding.names import ModuleScope
-from rapidgen.rapid.binding.symbols import DataSymbol
+from rapidgen.rapid.binding.names import DataSymbol, ModuleScope
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.registry import Builtin
 from rapidgen.runtime.values import Type, Value

@@ -19,8 +19,7 @@ from rapidgen import __version__
 from rapidgen.axes.kinematics import Posture
 from rapidgen.config.manifest import group_to_manifest
 from rapidgen.controller.controller import VirtualController
-from rapidgen.controller.debugger.pointers import motion_pointer
-from rapidgen.controller.debugger.stack import StackFrame, frames_of, where_it_looks
+from rapidgen.controller.debugger.stack import StackFrame, frames_of, motion_pointer, where_it_looks
 from rapidgen.controller.debugger.values import NotPaused, evaluate
 from rapidgen.machine.event_log import Event
 from rapidgen.machine.io import Signal

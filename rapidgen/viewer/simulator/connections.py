@@ -4,8 +4,7 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 
 from rapidgen.controller.runner import ControllerRunner
-from rapidgen.machine.network.fault_injection import FaultyNetwork
-from rapidgen.machine.network.fault_rules import NetworkRule
+from rapidgen.machine.network.fault_injection import FaultyNetwork, NetworkRule
 from rapidgen.machine.network.interface import SocketAddress
 from rapidgen.machine.network.sockets import SocketDevice, SocketNews
 from rapidgen.viewer.messages import Request, ToPage

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 
 from rapidgen.axes import frames
-from rapidgen.controller.inference.move_targets import MoveTarget, move_targets
+from rapidgen.controller.inference.robot import MoveTarget, move_targets
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.compiler.symbols import LoadedModule

@@ -4,8 +4,7 @@ import pytest
 
 from rapidgen.controller.faults import ControllerRule, read_plan
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.machine.network.fault_injection import FaultyNetwork
-from rapidgen.machine.network.fault_rules import NetworkRule
+from rapidgen.machine.network.fault_injection import FaultyNetwork, NetworkRule
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.sockets import SocketDevice
 from rapidgen.runtime.errors import RapidError

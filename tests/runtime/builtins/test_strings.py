@@ -4,8 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rapidgen.rapid.number_text import number_text
-from rapidgen.rapid.numbers import single
+from rapidgen.rapid.numbers import number_text, single
 from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import (

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from rapidgen.axes.kinematics import Posture
-from rapidgen.machine.sync_points import SyncMoveGroup
+from rapidgen.machine.scheduler import SyncMoveGroup
 from rapidgen.motion.fault_reasons import MotionFault
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import (

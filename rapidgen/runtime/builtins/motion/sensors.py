@@ -3,8 +3,8 @@
 from typing import Final, cast, get_args
 
 from rapidgen.machine.egm import MAX_IDENTITIES, EgmSession, Guidance
-from rapidgen.machine.force import ForceSensor
 from rapidgen.machine.scheduler import S
+from rapidgen.machine.sensors import ForceSensor
 from rapidgen.runtime.builtins.motion.moves import cartesian_move, order
 from rapidgen.runtime.builtins.motion.positions import require_defined
 from rapidgen.runtime.builtins.motion.targets import group_of, moving_group

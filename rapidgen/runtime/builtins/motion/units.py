@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from rapidgen.config.model import Joint
-from rapidgen.machine.sync_points import SyncPoint
+from rapidgen.machine.scheduler import SyncPoint
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.control import wait_standing
 from rapidgen.runtime.builtins.motion.targets import data_of, group_of, moving_group

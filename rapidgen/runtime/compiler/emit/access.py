@@ -4,8 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from rapidgen.rapid.binding.names import RoutineScope
-from rapidgen.rapid.binding.symbols import Symbol, TypeSymbol
+from rapidgen.rapid.binding.names import RoutineScope, Symbol, TypeSymbol
 from rapidgen.rapid.numbers import EXACT
 from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.controller.backup_writer import back_up
+from rapidgen.controller.programs import back_up
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.servers.rws.disks import disk_path
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show

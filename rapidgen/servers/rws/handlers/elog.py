@@ -4,8 +4,8 @@ from dataclasses import replace
 from datetime import timedelta
 from typing import TYPE_CHECKING
 
-from rapidgen.machine.calendar import date_time
 from rapidgen.machine.event_log import Domain, Event
+from rapidgen.machine.scheduler import date_time
 from rapidgen.servers.rws.disks import disk_path
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.servers.rws.pagination import page

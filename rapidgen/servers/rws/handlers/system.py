@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.machine.calendar import date_time
+from rapidgen.machine.scheduler import date_time
 from rapidgen.servers.rws.default_cfg import OPTIONS
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves

@@ -1,26 +1,146 @@
-"""Routines that programs call and that are in no file, as stubs: a guess.
-
-Public modules call what stayed on the controller. A stub takes the arguments of its first call, by
-their types, and the optional ones of all further calls. It does nothing, and gives what RAPID makes
-of a declaration without a value: 0, FALSE, an empty text; where a robot stands for a target. A call
-whose arguments have no type that could be told, or a type of the program's own, gets no stub, and
-the task stops there as before.
-"""
+"""Names of a foreign program."""
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Final
 
-from rapidgen.controller.inference.name_usage import passed, read, scoped
 from rapidgen.diagnostics import Span
-from rapidgen.rapid.binding import ModuleScope, RoutineSymbol, Scope, constant
+from rapidgen.rapid.binding import ModuleScope, RoutineSymbol, Scope, constant, match
 from rapidgen.rapid.binding.expressions import declared_type, type_of
-from rapidgen.rapid.binding.names import called
-from rapidgen.rapid.binding.types import NUMBER, degree, element
+from rapidgen.rapid.binding.names import NUMBER, called, degree, element
 from rapidgen.rapid.builtins.signatures import type_class
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.rapid.syntax.walk import children
 from rapidgen.runtime import unsupported
+
+# -- Names and their use ---------------------------------------------------------------------------
+#
+# What programs make of the names in them: every node with the scope that it stands in, and the
+# type that an expression has by where it stands.
+
+
+_RULED: Mapping[str, str] = {"AND": "bool", "OR": "bool", "XOR": "bool", "DIV": "num", "MOD": "num"}
+"""What operands are by their operator alone."""
+
+
+def scoped(module: ModuleScope) -> Iterator[tuple[n.Node, Scope]]:
+    """Every node of a module, in the order of the text."""
+    stack: list[tuple[n.Node, Scope]] = [(d, module) for d in reversed(module.tree.declarations)]
+    while stack:
+        node, scope = stack.pop()
+        yield node, scope
+        inside = scope
+        if isinstance(node, n.RoutineDeclaration):
+            inside = module.routine(node)
+        elif isinstance(node, n.For) and not isinstance(scope, ModuleScope):
+            inside = scope.loop(node)
+        stack += [(child, inside) for child in reversed(list(children(node)))]
+
+
+def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
+    """Expressions in a node, and what they are by what stands beside them."""
+    match node:
+        case n.Binary():
+            ruled = _RULED.get(node.operator, "")
+            yield node.left, ruled or type_of(node.right, scope) or ""
+            yield node.right, ruled or type_of(node.left, scope) or ""
+        case n.Unary():
+            yield node.operand, "bool" if node.operator == "NOT" else "num"
+        case n.Branch() | n.CompactIf() | n.While():
+            yield node.condition, "bool"
+        case n.Assignment():
+            yield node.value, declared_type(node.target, scope) or ""
+            yield node.target, type_of(node.value, scope) or ""
+        case n.Test():
+            values = [value for case in node.cases for value in case.values]
+            yield node.subject, next(filter(None, (type_of(v, scope) for v in values)), "")
+        case n.For():
+            yield from ((end, "num") for end in (node.start, node.end))
+        case n.DataDeclaration():
+            yield from ((size, "num") for size in node.dimensions)
+            if node.initial is not None:
+                name = n.Name(node.name_token, node.name_token, node.name)
+                yield node.initial, declared_type(name, scope) or ""
+        case n.Index():
+            yield from ((index, "num") for index in node.indices)
+
+
+def passed(
+    arguments: list[n.Argument], routine: RoutineSymbol, scope: Scope
+) -> Iterator[tuple[n.Expression, str, str]]:
+    """Arguments of a known routine, with types (empty: any) and modes of their parameters."""
+    parameters = routine.parameters or ()
+    for pair in match(parameters, arguments, lambda _, alternatives: alternatives[0]).pairs:
+        value = pair.argument.value
+        if value is not None and pair.parameter >= 0:
+            expected = parameters[pair.parameter]
+            kind = (routine.module or scope.module).base(expected.type) or ""
+            is_any = kind == "anytype" or expected.dimensions
+            yield value, "" if is_any else kind, expected.mode
+
+
+# -- Default tools ---------------------------------------------------------------------------------
+#
+# Tools and work objects of a program that nothing in it gives a value: persistents whose other
+# half is in a task that is in no file. In a guessed cell the predefined ones stand in, tool0 and
+# wobj0; with all figures 0 no move and no CRobT would be possible.
+
+
+_STANDS: Final[Mapping[str, str]] = {"tooldata": "tool0", "wobjdata": "wobj0"}
+
+
+@dataclass(frozen=True, slots=True)
+class DefaultedPersistent:
+    """A persistent of a module, and the predefined datum that stands in for it."""
+
+    task: str
+    module: str
+    name: str
+    stands: str
+
+
+def find_defaulted_persistents(
+    tasks: Iterable[tuple[str, Iterable[ModuleScope]]],
+) -> dict[DefaultedPersistent, tuple[str, Span]]:
+    """All in the modules of tasks, each with its type and where it is declared."""
+    result: dict[DefaultedPersistent, tuple[str, Span]] = {}
+    filled: set[str] = set()
+    for task, modules in tasks:
+        for module in modules:
+            filled |= set(_filled(module))
+            for one in module.tree.data:
+                kind = one.type.lower()
+                if one.kind == "PERS" and kind in _STANDS and not (one.initial or one.dimensions):
+                    row = DefaultedPersistent(task, module.tree.name, one.name, _STANDS[kind])
+                    result[row] = kind, module.tree.source.span(one.name_token, one.name_token)
+    return {row: at for row, at in result.items() if row.name.casefold() not in filled}
+
+
+def _filled(module: ModuleScope) -> Iterator[str]:
+    """Data of a module that have a value, or get one, whole or in part."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.DataDeclaration) and node.initial is not None:
+            yield node.name.casefold()
+        elif isinstance(node, n.Assignment):
+            target = node.target
+            while isinstance(target, n.Index | n.Member):
+                target = target.base
+            if isinstance(target, n.Name):
+                yield target.name.casefold()
+
+
+# -- Missing routines ------------------------------------------------------------------------------
+#
+# Routines that programs call and that are in no file, as stubs: a guess.
+#
+# Public modules call what stayed on the controller. A stub takes the arguments of its first call,
+# by their types, and the optional ones of all further calls. It does nothing, and gives what RAPID
+# makes of a declaration without a value: 0, FALSE, an empty text; where a robot stands for a
+# target. A call whose arguments have no type that could be told, or a type of the program's own,
+# gets no stub, and the task stops there as before.
+
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
 _Call = n.ProcedureCall | n.FunctionCall | n.LateCall

@@ -1,0 +1,332 @@
+"""Robot of a foreign program."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from rapidgen.axes import frames
+from rapidgen.axes.default_postures import usual_start
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import AxisConfiguration, Kinematics
+from rapidgen.axes.mapping import ABSENT, JointMap
+from rapidgen.config import shipped_names
+from rapidgen.config.model import GroupConfig
+from rapidgen.config.model_cache import shipped_groups
+from rapidgen.config.variant_group import group_of
+from rapidgen.config.variant_library import variants
+from rapidgen.diagnostics import refusal
+from rapidgen.rapid import Dialect, parse
+from rapidgen.rapid.binding import (
+    DataSymbol,
+    ModuleScope,
+    NotConstant,
+    Scope,
+    TaskScope,
+    constant,
+    evaluate,
+    match,
+)
+from rapidgen.rapid.binding.names import RoutineSymbol, called
+from rapidgen.rapid.builtins.signatures import Value
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.system.model import System
+
+# -- Move targets ----------------------------------------------------------------------------------
+#
+# Where the moves of a program go, as far as that can be told without running it: the targets and
+# axes that its modules declare or write out, in the work objects that the moves name.
+
+
+@dataclass(frozen=True, slots=True)
+class MoveTarget:
+    """What one move goes to: the TCP in the world (m), or axes as RAPID's robax and extax (deg,
+    mm)."""
+
+    name: str
+    """Of the datum; empty for what is written out."""
+    line: int
+    tool: Pose
+    """The TCP in the flange."""
+    place: Pose | None = None
+    configuration: AxisConfiguration = (0, 0, 0, 0)
+    external: tuple[float, ...] = ()
+    axes: tuple[float, ...] = ()
+
+
+def move_targets(module: ModuleScope, *, roughly: bool = False) -> Iterator[MoveTarget]:
+    """What the moves of a module go to, in the order of its lines.
+
+    `roughly`: what Offs and RelTool shift by something that cannot be told is where it was.
+    """
+    for routine in module.tree.routines:
+        scope = module.routine(routine)
+        for node in walk(routine):
+            symbol = called(scope.find(node.name)) if isinstance(node, n.ProcedureCall) else None
+            if isinstance(node, n.ProcedureCall) and isinstance(symbol, RoutineSymbol):
+                line = module.tree.source.line(node.first)
+                result = _meant(node, symbol, scope, line, roughly)
+                if result is not None:
+                    yield result
+
+
+def _meant(
+    node: n.ProcedureCall, symbol: RoutineSymbol, scope: Scope, line: int, roughly: bool
+) -> MoveTarget | None:
+    """What one call goes to; None where it is no move, or its target is not known before."""
+    parameters = symbol.parameters or ()
+    names = [p.name.lower() for p in parameters]
+    if symbol.module is not None or not {"topoint", "tojointpos"} & {*names}:
+        return None
+    given = {
+        names[pair.parameter]: pair.argument.value
+        for pair in match(parameters, node.arguments, lambda _, ways: ways[0]).pairs
+        if pair.parameter >= 0
+    }
+    tool = _declared(given.get("tool"), scope, "tooldata")
+    carried = _frame(tool[1]) if tool else frames.IDENTITY
+    point = given.get("topoint") or given.get("tojointpos")
+    name = point.name if isinstance(point, n.Name) else ""
+    target = _declared(given.get("topoint"), scope, "robtarget", roughly)
+    if not target:
+        axes = _declared(given.get("tojointpos"), scope, "jointtarget")
+        if not axes:
+            return None
+        return MoveTarget(name, line, carried, external=_numbers(axes[1]), axes=_numbers(axes[0]))
+    wobj = _declared(given.get("wobj"), scope, "wobjdata")
+    held = (tool and not tool[0]) or (wobj and wobj[0])
+    if held or not any(_numbers(target[1])):
+        return None  # The place is where another robot holds the part, or there is none.
+    pose = _pose(*target[:2])
+    if wobj:
+        pose = frames.compose(frames.compose(_frame(wobj[3]), _frame(wobj[4])), pose)
+    cf1, cf4, cf6, cfx = map(int, _numbers(target[2]))
+    return MoveTarget(name, line, carried, pose, (cf1, cf4, cf6, cfx), _numbers(target[3]))
+
+
+def _numbers(value: Value) -> tuple[float, ...]:
+    parts = value if isinstance(value, tuple) else ()
+    return tuple(part for part in parts if isinstance(part, int | float))
+
+
+def _frame(value: Value) -> Pose:
+    place, turn = value if isinstance(value, tuple) else ((), ())
+    return _pose(place, turn)
+
+
+def _pose(place: Value, turn: Value) -> Pose:
+    x, y, z = (value / 1000 for value in _numbers(place))
+    w, i, j, k = _numbers(turn)
+    turned = (w, i, j, k) if any((w, i, j, k)) else (1.0, 0.0, 0.0, 0.0)
+    return (x, y, z), frames.normalise(turned)
+
+
+def _declared(
+    node: n.Expression | None, scope: Scope, kind: str, roughly: bool = False
+) -> tuple[Value, ...]:
+    """The initial value of a datum, or what stands there; of `Offs` with constants the place.
+    Empty: it cannot be told."""
+    if isinstance(node, n.FunctionCall) and node.name.lower() in ("offs", "reltool"):
+        first, *remaining = (argument.value for argument in node.arguments)
+        base = _declared(first, scope, kind, roughly)
+        offsets = [constant(v, scope) for v in remaining if v is not None]
+        report = node.name.lower() == "offs" and all(isinstance(v, int | float) for v in offsets)
+        if not base or not report:
+            return base if roughly else ()
+        places = zip(_numbers(base[0]), _numbers(tuple(v or 0 for v in offsets)), strict=True)
+        return (tuple(a + b for a, b in places), *base[1:])
+    symbol = scope.find(node.name) if isinstance(node, n.Name) else None
+    result: Value = ()
+    try:
+        if isinstance(symbol, DataSymbol) and symbol.initial is not None:
+            inside = symbol.module if symbol.routine is None and symbol.module else scope
+            result = evaluate(symbol.initial, inside, kind)
+        elif isinstance(node, n.Aggregate):
+            result = evaluate(node, scope, kind)
+    except NotConstant:
+        return ()
+    return result if isinstance(result, tuple) else ()
+
+
+# -- Robot model -----------------------------------------------------------------------------------
+#
+# The robot that a program without a controller seems to be written for: that which reaches its
+# targets, in the configurations that they name and with the tools and work objects that it
+# declares.
+
+
+_MOST: Final = 24
+"""Targets that are tried."""
+_UNUSED: Final = 8e9
+_ARM: Final = 0.9
+"""m that an arm of seven axes reaches; a value of eax_a farther out is of an external axis."""
+_SEVEN_AXES: Final = "irb14000"
+_ORIGIN: Final = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class FlangeTarget:
+    """Where a program wants the flange (m), in what configuration; or its axes, as RAPID's
+    robax (deg, mm)."""
+
+    flange: Pose | None
+    configuration: AxisConfiguration = (0, 0, 0, 0)
+    arm_angle: float | None = None
+    """What eax_a may be of an arm with seven axes; None: it is not."""
+    axes: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class RobotCandidate:
+    """A model, and how many of the targets it reaches."""
+
+    model: str
+    reached: int
+    targets: int
+
+
+def infer_robot_model(system: System, default: str) -> RobotCandidate | None:
+    """The first model that reaches most of what the programs of `system` aim at: `default`, the
+    shipped ones, known variants. None: they aim at nothing that can be told."""
+    result = list(dict.fromkeys(aims(system)))
+    tried = result[:: 1 + len(result) // _MOST]
+    if not tried:
+        return None
+    # Programs written by other tools give 0 to axes that a robot does not have.
+    if all(aim.arm_angle is not None for aim in tried) and any(aim.arm_angle for aim in tried):
+        return RobotCandidate(_SEVEN_AXES, len(tried), len(tried))
+    best: RobotCandidate | None = None
+    for name, group in _candidates(default):
+        reached = _reached(group, tried)
+        if best is None or reached > best.reached:
+            best = RobotCandidate(name, reached, len(tried))
+        if reached == len(tried):
+            break
+    return best
+
+
+def _candidates(default: str) -> Iterator[tuple[str, GroupConfig]]:
+    for name in dict.fromkeys((default, *shipped_names())):
+        if name != _SEVEN_AXES:
+            yield name, shipped_groups(name)[0]
+    for variant in variants():
+        group = None if variant.model else group_of(variant)
+        if group is not None:
+            yield variant.name, group
+
+
+def _reached(group: GroupConfig, tried: Sequence[FlangeTarget]) -> int:
+    kinematics = Kinematics.of(group)
+    if kinematics is None or not kinematics.is_closed_form:
+        return 0
+    near = usual_start(group)
+    return sum(1 for aim in tried if _reaches(group, kinematics, aim, near))
+
+
+def _reaches(
+    group: GroupConfig, kinematics: Kinematics, aim: FlangeTarget, near: tuple[float, ...]
+) -> bool:
+    if aim.flange is not None:
+        result = kinematics.solutions(aim.flange, near, aim.configuration)
+        return kinematics.fitting(result, aim.configuration, "turn") is not None
+    # Of the axes beside the arm nothing is asked: they stay.
+    expected = JointMap.of(group).from_rapid(aim.axes, (ABSENT,) * 6, near)
+    return all(
+        joint.lower - 1e-6 <= value <= joint.upper + 1e-6
+        for joint, value in zip(group.joints, expected, strict=True)
+        if joint.axis.startswith("rax")
+    )
+
+
+def aims(system: System) -> Iterator[FlangeTarget]:
+    """What the moves of all tasks aim at, where that can be told without running them."""
+    for spec in system.tasks:
+        task = TaskScope()
+        dialect = Dialect(system.robotware, some=not system.robotware_told)
+        scopes = [task.add(parse(f.data, path=f.path, dialect=dialect)) for f in spec.modules]
+        for scope in scopes:
+            yield from map(_aim, move_targets(scope, roughly=True))
+
+
+def _aim(result: MoveTarget) -> FlangeTarget:
+    if result.place is None:
+        return FlangeTarget(None, axes=result.axes)
+    flange = frames.compose(result.place, frames.invert(result.tool))
+    eax_a = result.external[0]
+    near = abs(eax_a) < _UNUSED and frames.distance(result.place[0], _ORIGIN) < _ARM
+    return FlangeTarget(flange, result.configuration, eax_a if near else None)
+
+
+# -- Start poses -----------------------------------------------------------------------------------
+#
+# Where the robot of somebody else's program stands when the controller is switched on.
+#
+# With all axes at 0 most arms have their wrist in a singularity, where no real one waits for a
+# program: the first MoveL would fail. A driver's robot starts at 0 as its own tests want it.
+
+
+def table_pose(group: GroupConfig) -> tuple[float, float, float]:
+    """Where a table may stand that the robot reaches: below its flange at the usual start, at a
+    third of the height. The origin for a model without geometry."""
+    kinematics = Kinematics.of(group)
+    if kinematics is None:
+        return (0.0, 0.0, 0.0)
+    (x, y, z), _ = kinematics.forward(usual_start(group))
+    return (x, y, z / 3)
+
+
+def stands(group: GroupConfig) -> Mapping[str, str]:
+    """Where the robot stands at first as RAPID's robtarget (in world and flange) and jointtarget;
+    none for a model without geometry."""
+    kinematics = Kinematics.of(group)
+    if kinematics is None:
+        return {}
+    posture = usual_start(group)
+    place, turn = kinematics.forward(posture)
+    robax, extax = JointMap.of(group).to_rapid(posture)
+    robtarget = (
+        [round(1000 * value, 3) for value in place],
+        [round(value, 6) for value in turn],
+        list(kinematics.configuration(posture)),
+        list(extax),
+    )
+    return {"robtarget": f"{list(robtarget)}", "jointtarget": f"{[list(robax), list(extax)]}"}
+
+
+def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[float, ...]:
+    """`values` (deg, mm: robot axes, then external ones, each that the group has) as `usual_start`.
+
+    `where` says who gave them. DiagnosticError RG435: too few, too many, or outside the range.
+    """
+    joints = sorted(group.joints, key=lambda joint: joint.axis.replace("rax", "0"))
+    names = ", ".join(joint.axis for joint in joints)
+    if len(values) != len(joints):
+        raise refusal(
+            "RG435",
+            None,
+            f"{where} has {len(values)} values, {group.task} has {len(joints)} axes",
+            f"one for each of {names}, deg or mm",
+        )
+    result = {}
+    for joint, value in zip(joints, values, strict=True):
+        turning = joint.kind == "revolute"
+        result[joint.axis] = math.radians(value) if turning else value / 1000
+        if not joint.lower - 1e-9 <= result[joint.axis] <= joint.upper + 1e-9:
+            low, high = (
+                f"{math.degrees(b) if turning else b * 1000:g}" for b in (joint.lower, joint.upper)
+            )
+            raise refusal(
+                "RG435",
+                None,
+                f"{where}: {joint.axis} at {value:g} is outside of {low} to {high}",
+                f"the limits are those of {group.model or group.name}",
+            )
+    return tuple(result[joint.axis] for joint in group.joints)
+
+
+def shown(group: GroupConfig, posture: Sequence[float]) -> str:
+    """A posture as RAPID has it: `[0,0,0,0,30,0]`, deg and mm, and external axes behind."""
+    robax, extax = JointMap.of(group).to_rapid(posture)
+    there = [f"{value:g}" for value in extax if value < 1e9]
+    return f"[{','.join(f'{v:g}' for v in robax)}]" + (f" [{','.join(there)}]" if there else "")
