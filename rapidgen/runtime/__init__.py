@@ -1,1 +1,1 @@
-"""RAPID while it runs: values, errors, compiler, tasks, built-ins."""
+"""Execution of RAPID: values, errors, compiler, tasks, built-ins."""

@@ -1,1 +1,4 @@
-"""Built-in routines by theme; every module here is loaded by registry.py."""
+"""Built-in routines by theme.
+
+registry.py imports every module of this package.
+"""

@@ -1,9 +1,12 @@
-"""Cameras of integrated vision (option 1341-1), which answer by the description of a cell.
+"""Cameras of integrated vision (option 1341-1).
 
-Sources: 3HAC050917 CamReqImage, CamGetResult and their kin as remembered [mem]; arguments of
-CamGetResult and CamGetParameter [code]: TechnoX/ABB-YUMI-LIB, umairfaisal/Snakes-and-Ladders. How
-long an image and a job take is ours. A camera starts in run mode; jobs are loaded and parameters
-written in program mode only. Without a word about what it sees it stops the program.
+The description of a cell defines what a camera sees. An image of a camera without a description
+stops the program.
+
+Sources: 3HAC050917 for CamReqImage, CamGetResult and related instructions as remembered [mem];
+arguments of CamGetResult and CamGetParameter [code]: TechnoX/ABB-YUMI-LIB,
+umairfaisal/Snakes-and-Ladders. The durations of an image and a job are assumptions of this project.
+A camera starts in run mode; programs load jobs and write parameters in program mode only.
 """
 
 from functools import partial
@@ -29,7 +32,7 @@ _LONGEST: Final = 120.0
 
 
 def _camera(task: Task, device: Value) -> Camera:
-    """ERR_CAM_NOT_ON_NETWORK: a cameradev that is no camera of the controller."""
+    """Return the camera of a cameradev, or raise ERR_CAM_NOT_ON_NETWORK."""
     match = task.controller.cameras.get(device.value.lower())
     if match is None:
         raise RapidError("ERR_CAM_NOT_ON_NETWORK", device.value)
@@ -38,7 +41,7 @@ def _camera(task: Task, device: Value) -> Camera:
 
 @builtin("CamSetProgramMode")
 def cam_set_program_mode(task: Task, device: Value) -> None:
-    """What is not fetched is lost."""
+    """Switch to program mode; pending results are lost."""
     camera = _camera(task, device)
     camera.running = False
     camera.results.clear()
@@ -46,7 +49,7 @@ def cam_set_program_mode(task: Task, device: Value) -> None:
 
 @builtin("CamSetRunMode")
 def cam_set_run_mode(task: Task, device: Value) -> None:
-    """Images can be asked for."""
+    """Switch to run mode, which permits image requests."""
     _camera(task, device).running = True
 
 
@@ -61,7 +64,10 @@ def _in_program_mode(task: Task, device: Value) -> Camera:
 def cam_load_job(
     task: Task, device: Value, job: str, keep: bool | None, time_out: float | None
 ) -> None:
-    """ERR_CAM_NO_PROGMODE; ERR_CAM_MAXTIME: it takes longer than \\MaxTime."""
+    """Load a job and wait for it.
+
+    Raises ERR_CAM_NO_PROGMODE, and ERR_CAM_MAXTIME after \\MaxTime.
+    """
     camera = _in_program_mode(task, device)
     allowed = inf if time_out is None else time_out
     task.wait_for(lambda: False, on=(), timeout=min(_JOB, allowed))
@@ -72,7 +78,7 @@ def cam_load_job(
 
 @builtin("CamStartLoadJob")
 def cam_start_load_job(task: Task, device: Value, job: str, keep: bool | None) -> None:
-    """The same without waiting. ERR_CAM_NO_PROGMODE."""
+    """Load a job without waiting, or raise ERR_CAM_NO_PROGMODE."""
     camera = _in_program_mode(task, device)
     camera.job = ""
     task.scheduler.after(round(_JOB * S), partial(_load, camera, job, keep))
@@ -96,7 +102,10 @@ def cam_wait_load_job(task: Task, device: Value) -> None:
 def cam_req_image(
     task: Task, device: Value, scene: Ref | None, keep: bool | None, complete: bool | None
 ) -> None:
-    """Ask for an image. ERR_CAM_NO_RUNMODE; FatalError: nothing tells what the camera sees."""
+    """Request an image, or raise ERR_CAM_NO_RUNMODE.
+
+    FatalError: the cell has no description for this camera.
+    """
     camera = _camera(task, device)
     if not camera.running:
         raise RapidError("ERR_CAM_NO_RUNMODE", camera.name)
@@ -119,7 +128,10 @@ def cam_req_image(
 def cam_get_result(
     task: Task, device: Value, target: Ref, scene: float | None, time_out: float | None
 ) -> None:
-    """Fetch a result. ERR_CAM_NO_MORE_DATA: all are fetched; ERR_CAM_MAXTIME: no image came."""
+    """Fetch a result.
+
+    ERR_CAM_NO_MORE_DATA: no result is left; ERR_CAM_MAXTIME: no image arrived.
+    """
     camera = _camera(task, device)
     expected = None if scene is None else int(scene)
 
@@ -138,7 +150,7 @@ def cam_get_result(
 
 @builtin("CamNumberOfResults")
 def cam_number_of_results(task: Task, device: Value, scene: float | None) -> int:
-    """How many are not fetched."""
+    """Return the number of pending results."""
     return len(_of_scene(_camera(task, device), None if scene is None else int(scene)))
 
 
@@ -147,7 +159,7 @@ def _of_scene(camera: Camera, scene: int | None) -> list[tuple[int, Seen]]:
 
 
 def _filled(made: Value, camera: Camera, scene: int, seen: Seen) -> Value:
-    """A cameratarget with what was seen."""
+    """Return a cameratarget with the values of a result."""
     turn = frames.about((0.0, 0.0, 1.0), radians(seen.angle))
     made.name, made.type, made.cameraname, made.sceneid = seen.name, seen.type, camera.name, scene
     made.cframe = Pose(Pos(*map(single, seen.place)), Orient(*map(single, turn)))
@@ -160,19 +172,19 @@ def _filled(made: Value, camera: Camera, scene: int, seen: Seen) -> Value:
 
 @builtin("CamFlush")
 def cam_flush(task: Task, device: Value) -> None:
-    """Results that are not fetched are lost."""
+    """Discard all pending results."""
     _camera(task, device).results.clear()
 
 
 @builtin("CamGetName")
 def cam_get_name(task: Task, device: Value) -> str:
-    """Name of the camera behind a cameradev."""
+    """Return the name of the camera of a cameradev."""
     return _camera(task, device).name
 
 
 @builtin("CamGetLoadedJob")
 def cam_get_loaded_job(task: Task, device: Value) -> str:
-    """Name of the job; empty: none is loaded."""
+    """Return the name of the loaded job, empty without one."""
     return _camera(task, device).job
 
 
@@ -180,7 +192,10 @@ def cam_get_loaded_job(task: Task, device: Value) -> str:
 def cam_get_parameter(
     task: Task, device: Value, name: str, number: Ref | None, flag: Ref | None, text: Ref | None
 ) -> None:
-    """ERR_CAM_GET_MISMATCH: nobody described or wrote that parameter."""
+    """Read a parameter.
+
+    ERR_CAM_GET_MISMATCH: neither the description nor the program defines it.
+    """
     camera = _camera(task, device)
     value = camera.parameters.get(name.lower(), 0.0 if camera.is_guess else None)
     if value is None:
@@ -202,7 +217,10 @@ def cam_set_parameter(
     flag: bool | None,
     text: str | None,
 ) -> None:
-    """ERR_CAM_NO_PROGMODE; ERR_CAM_SET_MISMATCH: a text that is no number is not kept here."""
+    """Write a parameter.
+
+    Raises ERR_CAM_NO_PROGMODE, and ERR_CAM_SET_MISMATCH for text that is not a number.
+    """
     camera = _in_program_mode(task, device)
     arguments = next((value for value in (number, flag, text) if value is not None), 0)
     try:
@@ -215,7 +233,10 @@ def cam_set_parameter(
 def cam_set_exposure(
     task: Task, device: Value, time: float | None, brightness: float | None, contrast: float | None
 ) -> None:
-    """They are kept as parameters; what is seen does not depend on them. ERR_CAM_NO_PROGMODE."""
+    """Store exposure values as parameters, or raise ERR_CAM_NO_PROGMODE.
+
+    They do not change the result of an image.
+    """
     camera = _in_program_mode(task, device)
     arguments = {"exposuretime": time, "brightness": brightness, "contrast": contrast}
     camera.parameters.update({n: v for n, v in arguments.items() if v is not None})

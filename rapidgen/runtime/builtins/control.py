@@ -23,14 +23,20 @@ LONGEST_WAIT = 9_999_999
 
 @builtin("Stop")
 def stop(task: Task, no_regain: bool | None, all_move_tasks: bool | None) -> None:
-    """Stop: the movement in progress ends first, then the program stands [S4 2-Stop-1]."""
+    """Stop: finish the current movement, then stop the program.
+
+    Source: [S4 2-Stop-1].
+    """
     wait_standing(task)
     task.stop_here()
 
 
 @builtin("ExitCycle")
 def exit_cycle(task: Task) -> None:
-    """ExitCycle: back to main's first statement; data and interrupts stay."""
+    """ExitCycle: return to the first statement of main.
+
+    Data and interrupts keep their state.
+    """
     raise ExitCycle
 
 
@@ -38,7 +44,10 @@ def exit_cycle(task: Task) -> None:
 def system_stop_action(
     task: Task, stop: bool | None, stop_block: bool | None, halt: bool | None
 ) -> None:
-    """SystemStopAction: all NORMAL tasks stop; \\Halt switches the motors off, too."""
+    """SystemStopAction: stop all NORMAL tasks.
+
+    \\Halt also switches the motors off.
+    """
     if halt:
         task.controller.set_motors(False)
     else:
@@ -50,7 +59,7 @@ def system_stop_action(
 
 @builtin("BookErrNo")
 def book_err_no(task: Task, name: Ref) -> None:
-    """BookErrNo: a free error number above the system's own."""
+    """BookErrNo: reserve an error number above the system's numbers."""
     booked = task.controller.booked
     number = FIRST_BOOKED_ERROR + len(booked)
     booked.add(number)
@@ -59,13 +68,13 @@ def book_err_no(task: Task, name: Ref) -> None:
 
 @builtin("SkipWarn")
 def skip_warn(task: Task) -> None:
-    """SkipWarn: the handled error leaves no warning in the log [K §7.5]."""
+    """SkipWarn: suppress the warning of the handled error [K §7.5]."""
     task.errors.skip_warning = True
 
 
 @builtin("ResetRetryCount")
 def reset_retry_count(task: Task) -> None:
-    """ResetRetryCount: in a handler, gives the statement all its retries again."""
+    """ResetRetryCount: reset the retry counter of the statement."""
     task.errors.retry_base = task.errors.retry_number
 
 
@@ -73,7 +82,10 @@ def reset_retry_count(task: Task) -> None:
 def raise_to_user(
     task: Task, go_on: bool | None, break_off: bool | None, number: float | None
 ) -> None:
-    """RaiseToUser: the error at hand goes to the nearest handler outside NOSTEPIN [K §7.3]."""
+    """RaiseToUser: raise the current error in the user's routine.
+
+    The nearest handler outside NOSTEPIN receives it [K §7.3].
+    """
     error = RapidError(int(number) if number is not None else task.errno)
     error.raised = True
     task.errors.raise_in_user_code(error, resume=bool(go_on))
@@ -81,7 +93,7 @@ def raise_to_user(
 
 @builtin("ErrRaise")
 def err_raise(task: Task, name: str, number: float, *arguments: str) -> None:
-    """ErrRaise: an error of the program's own, with texts for the log."""
+    """ErrRaise: raise an error of the program, with texts for the log."""
     task.controller.log.error(
         80_000 + int(number) % 10_000, name, *[a for a in arguments if a], task=task.name
     )
@@ -94,7 +106,10 @@ def err_raise(task: Task, name: str, number: float, *arguments: str) -> None:
 
 @builtin("CallByVar")
 def call_by_var(task: Task, name: str, number: float) -> None:
-    """CallByVar: procedure `name` + number, without arguments [S4 2-CallByVar-1]."""
+    """CallByVar: call procedure `name` + number [S4 2-CallByVar-1].
+
+    The procedure has no arguments.
+    """
     if number != int(number) or number < 0:
         raise RapidError("ERR_ARGVALERR")
     task.late(f"{name}{int(number)}", None, ())
@@ -104,7 +119,10 @@ def call_by_var(task: Task, name: str, number: float) -> None:
 
 
 def wait_standing(task: Task) -> None:
-    """Wait until the task's robot stands; at once for a task without one."""
+    """Wait for standstill of the task's robot.
+
+    Returns at once for a task without a robot.
+    """
     group = task.controller.motion.moved_by(task.name)
     if group is not None:
         group.wait_standing(task)
@@ -112,7 +130,10 @@ def wait_standing(task: Task) -> None:
 
 @builtin("WaitTime")
 def wait_time(task: Task, in_pos: bool | None, seconds: float) -> None:
-    """WaitTime: \\InPos counts from standstill; 0 gives the other tasks a turn."""
+    """WaitTime: wait for a number of seconds.
+
+    \\InPos counts from standstill. A time of 0 lets the other tasks run.
+    """
     if in_pos:
         wait_standing(task)
     if not seconds >= 0:
@@ -133,9 +154,10 @@ def wait_until(
     poll_rate: float | None,
     *_dialog: object,
 ) -> None:
-    """WaitUntil: looks at once, then every 0.1 s, or at every change (dialect).
+    """WaitUntil: wait for a condition.
 
-    Past \\MaxTime: \\TimeFlag becomes TRUE, else ERR_WAIT_MAXTIME [S4 2-WaitUntil-1].
+    The task evaluates it at once, then every 0.1 s or at every change (dialect). After \\MaxTime,
+    \\TimeFlag becomes TRUE, or the task raises ERR_WAIT_MAXTIME [S4 2-WaitUntil-1].
     """
     if in_pos:
         wait_standing(task)
@@ -162,7 +184,7 @@ def _until(condition: Condition) -> str:
 
 
 def _hold(task: Task, condition: Condition, end: int | None, rate: float) -> bool:
-    """Wait until the condition holds; False: `end` (ns) came first."""
+    """Wait for a condition; return False after `end` (ns)."""
     scheduler = task.scheduler
     woken = task.controller.dialect.wait_until == "event" and bool(condition.watched)
     while not condition():
@@ -179,7 +201,10 @@ def _hold(task: Task, condition: Condition, end: int | None, rate: float) -> boo
 
 @builtin("TestAndSet")
 def test_and_set(task: Task, flag: Ref) -> bool:
-    """TestAndSet: TRUE and set, when it was FALSE; nothing can come between."""
+    """TestAndSet: set a flag and return TRUE if it was FALSE.
+
+    The test and the write are one atomic step.
+    """
     in_use: bool = flag.get()
     if in_use:
         return False
@@ -189,7 +214,7 @@ def test_and_set(task: Task, flag: Ref) -> bool:
 
 @builtin("WaitTestAndSet")
 def wait_test_and_set(task: Task, flag: Ref) -> None:
-    """WaitTestAndSet: waits for FALSE, then sets TRUE in the same step."""
+    """WaitTestAndSet: wait for FALSE, then set TRUE atomically."""
     watched = (flag.cell,) if flag.cell is not None else ()
     task.wait_for(
         lambda: not flag.get(), on=watched, why=lambda: "WaitTestAndSet waits for its flag"
@@ -216,9 +241,9 @@ _VALUE_FUNCTIONS: dict[str, Callable[..., Value]] = {
     "EventType": _event,
     "ExecLevel": lambda task: 2 if task.events.running else int(task.in_trap),
     "ExecHandler": lambda task: _handler(task.errors),
-    # Whether PP was moved: here only a RESET event says so.
+    # The virtual controller reports a moved program pointer in RESET events only.
     "IsStopStateEvent": lambda task, _moved, _to_main: task.events.running == "RESET",
-    # Aliases are told by their base.
+    # An alias is reported by its base type.
     "Type": lambda _task, data, _base_name: data.type.name,
 }
 builtins(_VALUE_FUNCTIONS)
@@ -236,7 +261,10 @@ RUN_CONT_CYCLE = 1
 
 @builtin("GetTaskName")
 def get_task_name(task: Task, number: Ref | None, mechanical: Ref | None) -> str:
-    """GetTaskName: the own name; \\TaskNo and \\MecTaskNo count from 1."""
+    """GetTaskName: return the name of the task.
+
+    \\TaskNo and \\MecTaskNo count from 1.
+    """
     tasks = list(task.controller.rapid_tasks.values())
     if number is not None:
         number.set(tasks.index(task) + 1)
@@ -248,14 +276,17 @@ def get_task_name(task: Task, number: Ref | None, mechanical: Ref | None) -> str
 
 @builtin("RobName")
 def rob_name(task: Task) -> str:
-    """RobName: the task's robot, or an empty string."""
+    """RobName: return the task's robot, or an empty string."""
     group = task.controller.motion.moved_by(task.name)
     return "" if group is None else group.config.mechanical_unit
 
 
 @builtin("MotionPlannerNo")
 def motion_planner_no(task: Task) -> int:
-    """MotionPlannerNo: number of the task's group from 1; 0 without one."""
+    """MotionPlannerNo: return the number of the group, from 1.
+
+    Returns 0 for a task without a group.
+    """
     motion = task.controller.motion
     group = motion.moved_by(task.name)
     return 0 if group is None else list(motion.groups.values()).index(group) + 1
@@ -277,7 +308,7 @@ _CHECKED = {"NORMAL": 14, "STATIC": 15, "SEMISTATIC": 16}
 """TSP_NORMAL_CHECKED, TSP_STATIC_CHECKED, TSP_SEMISTATIC_CHECKED [mem]."""
 
 
-# Programs run continuously here, and no task is switched off; \\Main changes neither.
+# The virtual controller runs programs continuously and has all tasks on; \\Main has no effect.
 _TASK_FUNCTIONS: dict[str, Callable[..., Value]] = {
     "OpMode": lambda task: OP_MODES.get(task.controller.mode, OP_MAN_TEST),
     "RunMode": lambda _task, _main: RUN_CONT_CYCLE,

@@ -1,8 +1,9 @@
 """Files and folders.
 
 Sources: S4 reference, pages Open to ReadBin [manual]: no mode switch means \\Write, \\Bin alone
-reads and writes from the end, a line longer than 80 characters comes in pieces, the end of a file
-is the string EOF, 9.999E36 or -1. \\Line, \\Status and the layout of WriteAnyBin are ours.
+reads and writes from the end, a line longer than 80 characters is read in pieces, the end of a file
+is the string EOF, 9.999E36 or -1. \\Line, \\Status and the layout of WriteAnyBin are assumptions of
+this project.
 """
 
 import os
@@ -80,14 +81,14 @@ def open_file(
 
 @builtin("Close", cost="socket")
 def close_file(task: Task, device: IODevice) -> None:
-    """Close a file; nothing when it is closed."""
+    """Close a file; do nothing if it is closed."""
     was_written = device.file is not None and device.writable
     task.controller.files.release(device)
     _stamp(task, device.path, written=was_written)
 
 
 def _stamp(task: Task, path: Path, *, written: bool) -> None:
-    """Give a written file the controller's own time."""
+    """Set the time of a written file to the controller's time."""
     if written and task.scheduler.clock == "virtual" and path.exists():
         time = date_time(task.scheduler).timestamp()
         os.utime(path, (time, time))
@@ -150,7 +151,7 @@ def write_raw_bytes(task: Task, device: IODevice, raw: RawBytes, count: float | 
 
 @builtin("WriteAnyBin", cost="socket")
 def write_any_bin(task: Task, device: IODevice, argument: object) -> None:
-    """Write a value of any type so that ReadAnyBin reads it back."""
+    """Write a value of any type, to be read by ReadAnyBin."""
     value, kind = value_of(argument)
     body = _encoded(value, kind)
     label = _label(kind, dimensions(value)).encode("latin-1")
@@ -159,7 +160,10 @@ def write_any_bin(task: Task, device: IODevice, argument: object) -> None:
 
 @builtin("ReadAnyBin", cost="socket")
 def read_any_bin(_task: Task, device: IODevice, argument: object, _time: float | None) -> None:
-    """Read a value that WriteAnyBin wrote; ERR_RANYBIN_CHK when it is of another type."""
+    """Read a value written by WriteAnyBin.
+
+    ERR_RANYBIN_CHK: the value has another type.
+    """
     target = target_of(argument)
     file = _reader(device, binary=True)
     head = file.read(5)
@@ -218,7 +222,10 @@ def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tup
 
 
 def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | None:
-    """Through the next delimiter, at most 80 characters; None at the end of the file."""
+    """Read up to the next delimiter, at most 80 characters.
+
+    Returns None at the end of the file.
+    """
     text = bytearray()
     while len(text) < MAX_STRING:
         byte = file.read(1)
@@ -241,7 +248,7 @@ def read_str(
     _time: float | None,
     line_number: float | None,
 ) -> str:
-    """The next line, or the string EOF."""
+    """Return the next line, or the string EOF."""
     file = _reader(device)
     alone = task.controller.dialect.delimiters == "alone"
     ends = (delimiters + "\n" * (not alone) if delimiters else "\n").encode("latin-1")
@@ -258,7 +265,7 @@ def read_str(
 
 @builtin("ReadNum", cost="socket")
 def read_num(_task: Task, device: IODevice, delimiters: str | None, _time: float | None) -> float:
-    """The number on the next line, or 9.999E36 at the end."""
+    """Return the number on the next line, or 9.999E36 at the end."""
     ends = ("\n" + (delimiters or "")).encode("latin-1")
     text = _line(_reader(device), ends)
     if text is None:
@@ -272,7 +279,7 @@ def read_num(_task: Task, device: IODevice, delimiters: str | None, _time: float
 
 @builtin("ReadStrBin", cost="socket")
 def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | None) -> str:
-    """The next so many bytes as a string, or the string EOF."""
+    """Return the next bytes as a string, or the string EOF."""
     number = whole(count, "ERR_ARGVALERR")
     if not 0 <= number <= MAX_STRING:
         raise RapidError("ERR_ARGVALERR", f"{number} characters")
@@ -285,7 +292,7 @@ def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | Non
 
 @builtin("RemoveDir", cost="socket")
 def remove_dir(task: Task, path: str) -> None:
-    """Remove an empty folder; a disk itself stays."""
+    """Remove an empty folder, except the root of a disk."""
     place = file_path(task, path)
     if place.parent == task.controller.files.folder:
         raise RapidError("ERR_FILEACC", f"{path} is a disk")
@@ -294,14 +301,14 @@ def remove_dir(task: Task, path: str) -> None:
 
 @builtin("RenameFile", cost="socket")
 def rename_file(task: Task, old: str, new: str) -> None:
-    """Give a file another name; ERR_FILEEXIST when that is taken."""
+    """Rename a file; ERR_FILEEXIST: the new name exists."""
     source, target = _pair(task, old, new)
     _disk(lambda: source.rename(target), old)
 
 
 @builtin("CopyFile", cost="socket")
 def copy_file(task: Task, old: str, new: str) -> None:
-    """Copy a file; ERR_FILEEXIST when the name is taken."""
+    """Copy a file; ERR_FILEEXIST: the new name exists."""
     source, target = _pair(task, old, new)
     try:
         data = read_foreign(source, task.controller.files.room)
@@ -338,7 +345,7 @@ def is_file(
     block: bool | None,
     char: bool | None,
 ) -> bool:
-    """Whether there is such a file, of that kind if one is named."""
+    """Return True if a file exists, and has the given kind."""
     place = file_path(task, path)
     if directory:
         return place.is_dir()
@@ -358,7 +365,7 @@ def fs_size(
     kilobytes: bool | None,
     megabytes: bool | None,
 ) -> float:
-    """Size of a disk, or what is free on it."""
+    """Return the size of a disk, or its free space."""
     file_path(task, name)
     size = DISK if total else task.controller.files.room
     return single(size / (1_048_576 if megabytes else 1024 if kilobytes else 1))
@@ -366,7 +373,10 @@ def fs_size(
 
 @builtin("FileTime", cost="socket")
 def file_time(task: Task, path: str, *parts: Value) -> float:
-    """Seconds since 1970; a num resolves 128 s today, \\StrDig every one."""
+    """Return the time of a file in seconds since 1970.
+
+    A num has a resolution of 128 s today; \\StrDig has 1 s.
+    """
     return single(file_time_dnum(task, path, *parts))
 
 
@@ -379,7 +389,7 @@ def file_time_dnum(
     status: bool | None,
     digits: Ref | None,
 ) -> int:
-    """Seconds since 1970."""
+    """Return the time of a file in seconds since 1970."""
     result = _status(task, path)
     seconds = int(result.st_atime if access else result.st_ctime if status else result.st_mtime)
     if status and task.scheduler.clock == "virtual":
@@ -399,7 +409,7 @@ def _status(task: Task, path: str) -> os.stat_result:
 
 @builtin("OpenDir", cost="socket")
 def open_dir(task: Task, device: Directory, path: str) -> None:
-    """Begin to read a folder's names."""
+    """Open a folder for ReadDir."""
     task.controller.files.release(device)
     place = file_path(task, path)
     if not place.is_dir():
@@ -416,7 +426,10 @@ def open_dir(task: Task, device: Directory, path: str) -> None:
 
 @builtin("ReadDir", cost="socket")
 def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
-    """The next name, `.` and `..` among them; FALSE when there is none left."""
+    """Return the next name, including `.` and `..`.
+
+    Returns FALSE after the last one.
+    """
     if device.names is None:
         raise RapidError("ERR_FILEACC", "the folder is not open")
     if not device.names:
@@ -434,7 +447,7 @@ def _refill(raw: RawBytes, device: IODevice) -> None:
     raw.data[:] = _reader(device, binary=True).read(CAPACITY)
 
 
-# What a serial line has received is dropped by ClearIOBuff: a file has nothing to drop.
+# ClearIOBuff discards received data of a serial line. A file has none.
 _FILES: dict[str, Callable[..., Value]] = {
     "Rewind": lambda _, device: _opened(device).seek(0),
     "ClearIOBuff": lambda _, device: _opened(device),

@@ -1,4 +1,7 @@
-"""Ordering interrupts [K §8; S4 datasys 2-ISignalDI, 2-ITimer, 2-IDisable; 1A/184 IPers]."""
+"""Instructions that order interrupts.
+
+Sources: K §8; S4 datasys 2-ISignalDI, 2-ITimer, 2-IDisable; 1A/184 IPers.
+"""
 
 from collections.abc import Callable
 
@@ -20,7 +23,7 @@ EDGE = 2
 
 
 class TrapData:
-    """What GetTrapData fills."""
+    """The result of GetTrapData."""
 
     __slots__ = ("event",)
 
@@ -33,7 +36,10 @@ register_type("trapdata", TrapData)
 
 @builtin("ISleep")
 def i_sleep(task: Task, interrupt: Ref) -> None:
-    """ISleep: events are ignored for good until IWatch; not for safe interrupts."""
+    """ISleep: ignore events until IWatch.
+
+    Not permitted for safe interrupts.
+    """
     match = task.interrupts.find(interrupt.get())
     if match.safe:
         raise RapidError("ERR_INOISSAFE")
@@ -42,26 +48,29 @@ def i_sleep(task: Task, interrupt: Ref) -> None:
 
 @builtin("IWatch")
 def i_watch(task: Task, interrupt: Ref) -> None:
-    """IWatch: events count again."""
+    """IWatch: stop ignoring events."""
     task.interrupts.find(interrupt.get()).asleep = False
 
 
 @builtin("IDelete")
 def i_delete(task: Task, interrupt: Ref) -> None:
-    """IDelete: order and connection go; a number that is not connected is left alone."""
+    """IDelete: remove an interrupt's order and connection.
+
+    Does nothing for a number that is not connected.
+    """
     task.interrupts.delete(interrupt.get())
     interrupt.set(0)
 
 
 @builtin("IDisable")
 def i_disable(task: Task) -> None:
-    """IDisable: events of the task queue."""
+    """IDisable: queue the events of the task."""
     task.interrupts.disabled = True
 
 
 @builtin("IEnable")
 def i_enable(task: Task) -> None:
-    """IEnable: what queued runs at once, in order."""
+    """IEnable: execute the queued events at once, in order."""
     task.interrupts.disabled = False
     task.process_pending()
 
@@ -70,7 +79,10 @@ def i_enable(task: Task) -> None:
 def i_timer(
     task: Task, single: bool | None, safe: bool | None, seconds: float, interrupt: Ref
 ) -> None:
-    """ITimer: first after one period; the next is counted from the event, not from the trap."""
+    """ITimer: order an interrupt after a period.
+
+    Later periods count from the previous event, not from the trap.
+    """
     shortest = SHORTEST_SINGLE_TIMER if single or safe else SHORTEST_TIMER
     if task.controller.dialect.shortest_timer == "any":
         shortest = _FINEST_TIMER
@@ -98,7 +110,10 @@ def i_timer(
 
 @builtin("IPers")
 def i_pers(task: Task, single: bool | None, safe: bool | None, name: Ref, interrupt: Ref) -> None:
-    """IPers: fires when the value changes, whoever writes it; storing the same is no change."""
+    """IPers: order an interrupt for each change of a persistent.
+
+    A write of the same value is not a change. The writing task does not matter.
+    """
     cell = name.cell
     if cell is None or not name.whole:
         raise FatalError(40_303, "IPers takes a whole persistent", name.name)
@@ -129,7 +144,10 @@ def i_signal_digital(
     value: float,
     interrupt: Ref,
 ) -> None:
-    """On the edge to 0, to 1, or on both (2 = edge); a level is no edge."""
+    """Order an interrupt for the edge to 0, to 1 or both (2 = edge).
+
+    A level is not an edge.
+    """
     if value not in (0, 1, EDGE):
         raise RapidError("ERR_ARGVALERR")
     order = _order(task, interrupt, single, safe)
@@ -141,7 +159,7 @@ def i_signal_digital(
 def i_signal_group(
     task: Task, single: bool | None, safe: bool | None, signal: AnySignal, interrupt: Ref
 ) -> None:
-    """On every change."""
+    """Order an interrupt for every change of a group signal."""
     order = _order(task, interrupt, single, safe)
     _on_change(task, signal, order, lambda _: True)
 
@@ -178,9 +196,10 @@ def i_signal_analogue(
     downwards: bool | None,
     interrupt: Ref,
 ) -> None:
-    """While the condition holds, fire whenever the value moved by more than the delta.
+    """Order interrupts for changes of an analogue signal.
 
-    The first event may come at once, when the condition holds already.
+    While the condition is true, each change by more than the delta is an event. If the condition is
+    already true, the first event occurs at once.
     """
     order = _order(task, interrupt, single, safe)
     source = signal.signal
@@ -221,7 +240,10 @@ def i_signal_analogue(
 
 @builtin("IError")
 def i_error(task: Task, domain: float, number: float | None, kind: float, interrupt: Ref) -> None:
-    """IError: an event of a domain (0: any) and type (0: any) was logged."""
+    """IError: order an interrupt for logged events.
+
+    Domain 0 and type 0 mean all.
+    """
     order = _order(task, interrupt, None, None)
 
     def look(event: Event) -> None:
@@ -238,7 +260,7 @@ def i_error(task: Task, domain: float, number: float | None, kind: float, interr
 
 @builtin("GetTrapData")
 def get_trap_data(task: Task, data: TrapData) -> None:
-    """GetTrapData: only in a trap."""
+    """GetTrapData: read the data of the current trap."""
     if not task.in_trap:
         raise FatalError(40_304, "GetTrapData stands only in a trap")
     data.event = task.interrupts.trap_data
@@ -254,7 +276,7 @@ def read_err_data(
     title: Ref | None,
     *texts: Ref | None,
 ) -> None:
-    """ReadErrData: what the event that caused the trap says."""
+    """ReadErrData: read the event that caused the trap."""
     event = data.event
     if event is None:
         raise FatalError(40_305, "There is no error in the trap data")

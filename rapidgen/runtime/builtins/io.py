@@ -1,4 +1,4 @@
-"""Signals, I/O units and cyclic conditions."""
+"""signal of the configuration, 2: alias of one, 0: not connected [mem]."""
 
 from collections.abc import Callable, Iterator
 from typing import Final
@@ -26,7 +26,10 @@ _DEFAULT_PULSE = 0.2
 
 
 def dionum(task: Task, value: float) -> int:
-    """A digital value: anything but 0 and 1 is an error [S4 dionum], or counts as 1 (dialect)."""
+    """Return a digital value of 0 or 1.
+
+    Other values raise an error [S4 dionum], or count as 1 (dialect).
+    """
     if value not in (0, 1):
         if task.controller.dialect.dionum == "nonzero":
             return 1
@@ -45,7 +48,10 @@ _BEYOND = {"A": "ERR_AO_LIM", "G": "ERR_GO_LIM"}
 
 
 def fitting(signal: Signal, value: float) -> float:
-    """`value`, which fits the signal. ERR_AO_LIM, ERR_GO_LIM, ERR_ARGVALERR: it does not."""
+    """Return `value` if the signal can represent it.
+
+    Raises ERR_AO_LIM, ERR_GO_LIM or ERR_ARGVALERR.
+    """
     try:
         signal.fit(value)
     except ValueError as error:
@@ -84,14 +90,14 @@ builtins(_WRITING)
 
 @builtin("InvertDO")
 def invert_do(task: Task, signal: AnySignal) -> None:
-    """Turn a digital output over."""
+    """Invert a digital output."""
     target = _writable(signal)
     task.controller.io.set(target, 1 - target.value)
 
 
 @builtin("PulseDO")
 def pulse_do(task: Task, high: bool | None, length: float | None, signal: AnySignal) -> None:
-    """Invert a digital output for a while; the program goes on at once."""
+    """Invert a digital output for a time; do not wait."""
     seconds = _DEFAULT_PULSE if length is None else _duration(task, length, "PLength")
     task.controller.io.pulse(_writable(signal), seconds, high=bool(high))
 
@@ -141,7 +147,10 @@ for _name in ("DOutput", "DInput", "AOutput", "AInput", "GOutput", "GInput"):
 
 @builtin("AliasIO")
 def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
-    """Connect a declared signal with one of the configuration, given itself or by name."""
+    """Connect a declared signal with a signal of the configuration.
+
+    The program names the signal by itself or by its name.
+    """
     given: str | AnySignal = source if isinstance(source, Signal | SignalAlias) else source.get()
     if isinstance(given, str) and not task.controller.dialect.alias_by_name:
         raise FatalError(40_214, "AliasIO takes a signal", f"'{given}' is a text")
@@ -159,8 +168,7 @@ def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
 
 @builtin("GetSignalOrigin")
 def get_signal_origin(_task: Task, signal: AnySignal, name: Ref) -> int:
-    """Whether a signal is the configuration's (1), an alias of one (2), or none (0) [mem]; its
-    name there."""
+    """Return the origin of a signal and its configured name."""
     if isinstance(signal, Signal):
         name.set(signal.name)
         return 1
@@ -170,7 +178,7 @@ def get_signal_origin(_task: Task, signal: AnySignal, name: Ref) -> int:
 
 @builtin("AliasIOReset")
 def alias_io_reset(_task: Task, target: SignalAlias) -> None:
-    """Take the connection of an alias away."""
+    """Remove the connection of an alias."""
     if isinstance(target, SignalAlias):
         target.target = None
 
@@ -271,12 +279,11 @@ def _relation(
 
 # -- I/O units -------------------------------------------------------------------------------------
 #
-# I/O units: those that the signals of the configuration are on, switched off and on.
+# Source: S4 datasys 2-IODisable, 2-IOEnable, 3HAC16581-1 IOUnitState [manual]; numbers of the
+# states from installed modules [code].
 #
-# Sources: S4 datasys 2-IODisable, 2-IOEnable, 3HAC16581-1 IOUnitState [manual]; numbers of the
-# states as installed modules have them [code]. A unit runs unless a program has disabled it. Not
-# simulated: that signals of a disabled unit are not there; nothing is on the wire that could fail
-# in time.
+# A unit runs unless a program has disabled it. Signals of a disabled unit remain usable, because no
+# bus exists that could fail.
 
 
 _STATES: Final = {
@@ -289,7 +296,7 @@ IOUNIT_LOG_STATE_DISABLED and _ENABLED; IOUNIT_DISABLE and IOUNIT_RUNNING withou
 
 
 def _known(task: Task, name: str) -> str:
-    """ERR_NAME_INVALID: there is no such unit."""
+    """Return the configured name of a unit, or raise ERR_NAME_INVALID."""
     io = task.controller.io
     if not io.is_unit(name):
         raise RapidError("ERR_NAME_INVALID", f"no I/O unit '{name}'")
@@ -298,19 +305,19 @@ def _known(task: Task, name: str) -> str:
 
 @builtin("IOEnable")
 def io_enable(task: Task, name: str, _max_time: float) -> None:
-    """Switch a unit on."""
+    """Enable a unit."""
     task.controller.io.disabled.discard(_known(task, name))
 
 
 @builtin("IODisable")
 def io_disable(task: Task, name: str, _max_time: float) -> None:
-    """Switch a unit off."""
+    """Disable a unit."""
     task.controller.io.disabled.add(_known(task, name))
 
 
 @builtin("IOUnitState")
 def io_unit_state(task: Task, name: str, phys: bool | None, logic: bool | None) -> float:
-    """How a unit is."""
+    """Return the state of a unit."""
     disabled, running = _STATES["Phys" if phys else "Logic" if logic else ""]
     return disabled if _known(task, name) in task.controller.io.disabled else running
 
@@ -324,9 +331,9 @@ def io_unit_state(task: Task, name: str, phys: bool | None, logic: bool | None) 
 def setup_cyclic_bool(
     task: Task, flag: Ref, condition: Condition, signal: AnySignal | None
 ) -> None:
-    """Evaluate a condition on signals and persistents from now on.
+    """Evaluate a condition on signals and persistents cyclically.
 
-    ERR_ARGVALERR: it calls a function of the program, or there are 60 already.
+    ERR_ARGVALERR: the condition calls a function of the program, or 60 conditions exist.
     """
     if condition.calls:
         raise RapidError("ERR_ARGVALERR", "the condition calls a function of the program")
@@ -340,7 +347,10 @@ def setup_cyclic_bool(
 
 @builtin("RemoveCyclicBool")
 def remove_cyclic_bool(task: Task, flag: Ref | None, name: str | None) -> None:
-    """The persistent keeps its value. ERR_ARGVALERR: it has no condition in this task."""
+    """Remove the condition of a persistent, which keeps its value.
+
+    ERR_ARGVALERR: the persistent has no condition in this task.
+    """
     expected = _condition_name(flag, name)
     if not task.cyclic.remove(expected):
         raise RapidError("ERR_ARGVALERR", f"{expected} is no cyclic bool")
@@ -348,26 +358,29 @@ def remove_cyclic_bool(task: Task, flag: Ref | None, name: str | None) -> None:
 
 @builtin("RemoveAllCyclicBool")
 def remove_all_cyclic_bool(task: Task, all_tasks: bool | None) -> None:
-    """Those of this task, or of all."""
+    """Remove the conditions of this task, or of all tasks."""
     for every in _all(task) if all_tasks else (task.cyclic,):
         every.clear()
 
 
 @builtin("GetMaxNumberOfCyclicBool")
 def get_max_number_of_cyclic_bool(_task: Task) -> int:
-    """How many there may be in all tasks."""
+    """Return the maximum number of conditions in all tasks."""
     return MOST
 
 
 @builtin("GetNumberOfCyclicBool")
 def get_number_of_cyclic_bool(task: Task) -> int:
-    """How many there are in all tasks."""
+    """Return the number of conditions in all tasks."""
     return sum(len(every.known) for every in _all(task))
 
 
 @builtin("GetNextCyclicBool")
 def get_next_cyclic_bool(task: Task, place: Ref, name: Ref) -> bool:
-    """The next one behind a place, which is 0 at first; FALSE: there are no more."""
+    """Return the next condition after a position that starts at 0.
+
+    Returns FALSE after the last one.
+    """
     names = [c.flag.name for every in _all(task) for c in every.known.values()]
     at = int(place.get())
     if not 0 <= at < len(names):
@@ -381,7 +394,10 @@ def get_next_cyclic_bool(task: Task, place: Ref, name: Ref) -> bool:
 def is_cyclic_bool(
     task: Task, flag: Ref | None, name: str | None, reference: Value, task_name: str | None
 ) -> bool:
-    """Whether a persistent has a condition, in this task or in a named one. ERR_TASKNAME."""
+    """Return True if a persistent has a condition.
+
+    The task is this one or a named one. Raises ERR_TASKNAME.
+    """
     expected = task_name if task_name is not None else reference.value if reference else task.name
     for other in task.controller.rapid_tasks.values():
         if other.name.lower() == str(expected).lower():

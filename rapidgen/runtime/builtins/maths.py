@@ -57,7 +57,10 @@ def _within_one(value: float) -> float:
 
 
 def _rounded(value: float, decimals: float | None, *, truncate: bool = False) -> float:
-    """To so many decimals (0), half away from zero, or cut towards zero."""
+    """Round to a number of decimals, or truncate.
+
+    Halves are rounded away from zero; truncation is towards zero.
+    """
     places = 0 if decimals is None else whole(decimals, "ERR_ARGVALERR")
     if not 0 <= places <= 15:
         raise RapidError("ERR_ARGVALERR", f"\\Dec:={places}")
@@ -106,7 +109,7 @@ def add(
 
 @builtin("TryInt", pure=True)
 def try_int(_task: Task, num: float | None, dnum: float | None) -> None:
-    """ERR_INT_NOTVAL when the value is not whole."""
+    """Raise ERR_INT_NOTVAL if the value is not whole."""
     value = num if num is not None else dnum
     assert value is not None
     whole(value, "ERR_INT_NOTVAL")
@@ -114,7 +117,10 @@ def try_int(_task: Task, num: float | None, dnum: float | None) -> None:
 
 @builtin("DnumToNum", pure=True)
 def dnum_to_num(_task: Task, value: float, integer: bool | None) -> float:
-    """The nearest num; \\Integer insists on a whole number that a num holds exactly."""
+    """Return the nearest num.
+
+    \\Integer requires a whole number that a num represents exactly.
+    """
     if integer:
         number = whole(value, "ERR_INT_NOTVAL")
         if not _SMALLEST_NUM_INTEGER <= number <= _LARGEST_NUM_INTEGER:
@@ -126,7 +132,7 @@ def dnum_to_num(_task: Task, value: float, integer: bool | None) -> float:
         raise RapidError("ERR_ARGVALERR", f"{value:g} does not fit a num") from error
 
 
-# Num or dnum, whichever is given.
+# The argument is a num or a dnum.
 _COUNTING: dict[str, Callable[..., Value]] = {
     "Incr": lambda _, num, dnum: _increase(_target(num, dnum), 1),
     "Decr": lambda _, num, dnum: _increase(_target(num, dnum), -1),
@@ -157,9 +163,9 @@ _Rows = dict[int, dict[int, float]]
 def matrix_solve(
     _task: Task, a: _Rows, m: float | None, n: float | None, b: dict[int, float], x: Ref
 ) -> None:
-    """A * x = b: exactly for a square A, by least squares for one with more rows.
+    """Solve A * x = b, by least squares if A has more rows.
 
-    ERR_ARGVALERR: sizes do not fit, or the columns of A depend on each other.
+    ERR_ARGVALERR: the sizes do not match, or the columns of A are linearly dependent.
     """
     import numpy as np
 
@@ -178,7 +184,7 @@ def matrix_solve(
 def matrix_solve_qr(
     _task: Task, a: _Rows, m: float | None, n: float | None, q: Ref, r: Ref
 ) -> None:
-    """A = Q * R with Q (m x m) orthogonal and R (m x n) upper triangular."""
+    """Compute A = Q * R: Q (m x m) orthogonal, R (m x n) triangular."""
     import numpy as np
 
     left, right = np.linalg.qr(_matrix(a, m, n), mode="complete")
@@ -197,7 +203,10 @@ def matrix_svd(
     v: Ref,
     economy: bool | None,
 ) -> None:
-    """A = U * diag(S) * V'; the singular values fall. \\Econ: U and V without surplus columns."""
+    """Compute A = U * diag(S) * V' with falling singular values.
+
+    \\Econ: U and V without surplus columns.
+    """
     import numpy as np
 
     left, size, right = np.linalg.svd(_matrix(a, m, n), full_matrices=not economy)
@@ -207,7 +216,7 @@ def matrix_svd(
 
 
 def _matrix(a: _Rows, m: float | None, n: float | None) -> "ndarray":
-    """The first m rows and n columns. ERR_ARGVALERR: there are not so many."""
+    """Return the first m rows and n columns, or raise ERR_ARGVALERR."""
     import numpy as np
 
     rows = len(a) if m is None else int(m)

@@ -25,11 +25,11 @@ from rapidgen.runtime.values import PersistentCell, Ref, ValueRef, copy_value, r
 
 
 _LOAD_RATE = 1_000_000
-"""Bytes of a module that StartLoad reads in a second, while the program goes on."""
+"""Bytes per second that StartLoad reads while the program continues."""
 
 
 class LoadSession:
-    """A `loadsession`: what StartLoad has ordered, if anything."""
+    """A `loadsession`: the module ordered by StartLoad."""
 
     __slots__ = ("dynamic", "ready_at", "words")
 
@@ -52,7 +52,7 @@ def load(task: Task, dynamic: bool | None, path: str, file: str | None, check: b
 def unload(
     task: Task, _if_changed: bool | None, save: bool | None, path: str, file: str | None
 ) -> None:
-    """Unload what the same words have loaded."""
+    """Unload a module by the arguments that loaded it."""
     loading.unload(task, loading.words_of(path, file), save_first=bool(save))
 
 
@@ -60,7 +60,10 @@ def unload(
 def start_load(
     task: Task, dynamic: bool | None, path: str, file: str | None, session: LoadSession
 ) -> None:
-    """Order a module; whether its file exists only WaitLoad says [S4 WaitLoad]."""
+    """Order a module to be loaded.
+
+    WaitLoad reports a missing file [S4 WaitLoad].
+    """
     if session.words is not None:
         raise RapidError("ERR_LOADNO_INUSE")
     session.words = loading.words_of(path, file)
@@ -80,7 +83,7 @@ def wait_load(
     session: LoadSession,
     check: bool | None,
 ) -> None:
-    """Wait for an ordered module and link it; another one may go first."""
+    """Wait for an ordered module and link it; optionally unload another one."""
     if session.words is None:
         raise RapidError("ERR_LOADNO_NOUSE")
     task.sleep(max(0, session.ready_at - task.scheduler.now) / 1e9)
@@ -92,7 +95,7 @@ def wait_load(
 
 @builtin("CancelLoad", cost="socket")
 def cancel_load(_task: Task, session: LoadSession) -> None:
-    """Take an order back."""
+    """Cancel an order."""
     if session.words is None:
         raise RapidError("ERR_LOADNO_NOUSE")
     session.words = None
@@ -107,7 +110,10 @@ def save(
     path: str | None,
     file: str | None,
 ) -> None:
-    """Save a module, of this task or another, with the present values of its persistents."""
+    """Save a module of any task.
+
+    The file contains the present values of the module's persistents.
+    """
     owner = task_named(task, reference, name)
     loading.save(owner, module, loading.words_of(path or "", file))
 
@@ -120,20 +126,23 @@ def erase_module(task: Task, module: str) -> None:
 
 @builtin("ModExist", cost="string")
 def mod_exist(task: Task, module: str) -> bool:
-    """Whether the task has a module of that name, or has loaded one."""
+    """Return True if the task has a module of that name or path."""
     known = task.program.modules.get(module.lower())
     return known is not None and (task.controller.dialect.modules_told or known.origin is not None)
 
 
 @builtin("ModTime", cost="string")
 def mod_time(task: Task, module: str, digits: Ref | None) -> float:
-    """Time of a module's file; a num resolves 128 s today, \\StrDig every one."""
+    """Return the time of a module's file.
+
+    A num has a resolution of 128 s today; \\StrDig has 1 s.
+    """
     return single(mod_time_dnum(task, module, digits))
 
 
 @builtin("ModTimeDnum", cost="string")
 def mod_time_dnum(task: Task, module: str, digits: Ref | None) -> int:
-    """Time of a module's file."""
+    """Return the time of a module's file."""
     seconds = loading.time(task, module)
     if digits is not None:
         digits.set(str(seconds))
@@ -142,14 +151,17 @@ def mod_time_dnum(task: Task, module: str, digits: Ref | None) -> int:
 
 @builtin("CheckProgRef", cost="socket")
 def check_prog_ref(task: Task) -> None:
-    """ERR_LINKREF when the program calls what does not exist."""
+    """Raise ERR_LINKREF if the program calls an undefined routine."""
     missing = missing_routines(task.program)
     if missing:
         raise RapidError("ERR_LINKREF", missing[0].message)
 
 
 def task_named(task: Task, reference: object, name: str | None) -> RapidTask:
-    """The task of \\TaskRef or \\TaskName, else this one; ERR_TASKNAME: there is none."""
+    """Return the task of \\TaskRef or \\TaskName, or this task.
+
+    Raises ERR_TASKNAME for an unknown task.
+    """
     expected = name if reference is None else getattr(reference, "value", None)
     if expected is None:
         return task
@@ -172,7 +184,7 @@ _ELEMENT = re.compile(r"(\w+)\{([\d,\s]+)\}")
 
 
 class DataPosition:
-    """A `datapos`: the module in which what was found lies."""
+    """A `datapos`: the module that contains a found datum."""
 
     __slots__ = ("module",)
 
@@ -189,7 +201,7 @@ register_type("datapos", DataPosition)
 def _data_ref(
     task: RapidTask, module: LoadedModule | None, name: str
 ) -> tuple[Data, Ref | PersistentCell]:
-    """Data of a task by name, or ERR_SYM_ACCESS."""
+    """Return the data of a task by name, or raise ERR_SYM_ACCESS."""
     program = task.program
     data = program.find_data(module, name.lower())
     if data is None:
@@ -206,8 +218,10 @@ def _data_ref(
 def _reached(
     task: Task, block: DataPosition | None, reference: object, task_name: str | None, name: str
 ) -> tuple[Data, Ref | PersistentCell]:
-    """Data by name, of this task or of the one that is named: there only persistents are seen
-    [mem], anything else is ERR_SYM_ACCESS."""
+    """Return data by name, of this task or of a named task.
+
+    In another task only persistents are visible [mem]; other names raise ERR_SYM_ACCESS.
+    """
     owner = task_named(task, reference, task_name)
     data, result = _data_ref(owner, block.module if block is not None else None, name)
     if owner is not task and not task.controller.dialect.data_of_tasks:
@@ -240,7 +254,7 @@ def get_data_val(
     task_name: str | None,
     argument: object,
 ) -> None:
-    """The value of data whose name is a string; an element as `name{i}`."""
+    """Return the value of data by name, or of an element `name{i}`."""
     target = target_of(argument)
     plain, indices = _indices(name)
     _, source = _reached(task, block, reference, task_name, plain)
@@ -260,7 +274,7 @@ def set_data_val(
     task_name: str | None,
     argument: object,
 ) -> None:
-    """Give data whose name is a string a value; constants are ERR_SYM_ACCESS."""
+    """Set data by name; constants raise ERR_SYM_ACCESS."""
     value = target_of(argument)
     plain, indices = _indices(name)
     data, target = _reached(task, block, reference, task_name, plain)
@@ -283,7 +297,10 @@ def set_data_val(
 
 
 def _fitting(task: RapidTask, pattern: str) -> Callable[[str], object]:
-    """Whether a name fits a regular expression: whole, or by some part of it."""
+    """Return a function that matches names with a regular expression.
+
+    The expression matches the complete name or a part of it.
+    """
     try:
         compiled = re.compile(pattern, re.IGNORECASE)
     except re.error as error:
@@ -295,7 +312,10 @@ def _fitting(task: RapidTask, pattern: str) -> Callable[[str], object]:
 def _declared(
     task: RapidTask, type_: str, module: str, pattern: str
 ) -> Iterator[tuple[LoadedModule, n.DataDeclaration, Data]]:
-    """Module data of a type (all for an empty one) whose names fit a regular expression."""
+    """Iterate over module data of a type whose names match.
+
+    An empty type name means all types.
+    """
     fits = _fitting(task, pattern)
     for loaded in tuple(task.program.modules.values()):
         if module and loaded.name.lower() != module.lower():
@@ -311,7 +331,10 @@ def _declared(
 
 
 def _predefined(task: Task, type_: str, pattern: str, kinds: set[str]) -> Iterator[Data]:
-    """Predefined data of a type (all for an empty one) that nothing in the program hides."""
+    """Iterate over predefined data that the program does not hide.
+
+    An empty type name means all types.
+    """
     fits = _fitting(task, pattern)
     for key, known in signatures.predefined().items():
         if type_ and known.type.lower() != type_.lower():
@@ -340,7 +363,10 @@ def set_data_search(
     global_: bool | None,
     local: bool | None,
 ) -> None:
-    """Begin a search: kinds, place and scope narrow it, none of them means all."""
+    """Begin a search, restricted by kinds, location and scope.
+
+    Without restrictions it covers all data.
+    """
     kinds = {k for k, expected in (("PERS", pers), ("VAR", var), ("CONST", const)) if expected}
     result: list[tuple[LoadedModule | None, Data]] = [
         (module, data)
@@ -358,7 +384,10 @@ def set_data_search(
 
 @builtin("GetNextSym", cost="string")
 def get_next_sym(task: Task, name: Ref, block: DataPosition, recursive: bool | None) -> bool:
-    """The next find of the search, on its level or below it; FALSE when there is none left."""
+    """Return the next result of a search.
+
+    The search covers its level, or also the levels below. Returns FALSE after the last result.
+    """
     below = recursive or task.searched_module or task.controller.dialect.next_symbol == "below"
     for module, data in task.found:
         if below or module is None:
@@ -377,7 +406,7 @@ def set_all_data_val(
     _hidden: bool | None,
     argument: object,
 ) -> None:
-    """Give all module data of a type (and name) one value; constants stay."""
+    """Set all module data of a type (and name) except constants."""
     value = target_of(argument)
     for module, _, data in list(_declared(task, type_, "", pattern or "")):
         _, target = _data_ref(task, module, data.name)
@@ -394,7 +423,7 @@ _ACTIVE = {"tooldata": "tool0", "wobjdata": "wobj0", "loaddata": "load0"}
 def get_sys_data(
     task: Task, reference: object, task_name: str | None, target: Ref, name: Ref | None
 ) -> None:
-    """The tool, work object or payload that is active, by the type of the target."""
+    """Return the active tool, work object or payload, by target type."""
     owner = task_named(task, reference, task_name)
     kind = target.type.name
     if kind not in _ACTIVE:
@@ -414,7 +443,10 @@ def get_sys_data(
 
 
 def _name_of(task: RapidTask, kind: str, value: object) -> str:
-    """Name of the persistent that holds a value: the very one, else one that is equal."""
+    """Return the name of the persistent that contains a value.
+
+    The persistent that is the object itself precedes one with an equal value.
+    """
     equal = ""
     for module, _, data in _declared(task, kind, "", ""):
         held = _data_ref(task, module, data.name)[1].get()
@@ -427,7 +459,7 @@ def _name_of(task: RapidTask, kind: str, value: object) -> str:
 
 @builtin("SetSysData", cost="string")
 def set_sys_data(task: Task, source: Ref, name: str | None) -> None:
-    """Make a tool, work object or payload the active one."""
+    """Activate a tool, work object or payload."""
     kind = source.type.name
     if kind not in _ACTIVE:
         raise RapidError("ERR_SYMBOL_TYPE", kind)

@@ -1,8 +1,8 @@
-"""The operator window, the dialogs of the FlexPendant, and messages to the event log.
+"""Operator window, FlexPendant dialogs and event log messages.
 
-Sources: S4 reference, pages TPWrite, TPReadNum, TPReadFK, ErrWrite [manual]; the UI* dialogs by
-the names and errors of 3HAC16581-1. A dialog that is broken off raises its error, or puts the
-number into \\BreakFlag and goes on. \\DefaultBtn is what such a message box then returns [mem].
+Sources: S4 reference, pages TPWrite, TPReadNum, TPReadFK, ErrWrite [manual]; names and errors of
+the UI* dialogs from 3HAC16581-1. A dialog that a break condition ends raises its error, or stores
+the number in \\BreakFlag and continues. A message box then returns \\DefaultBtn [mem].
 """
 
 import math
@@ -27,7 +27,7 @@ _RESULTS = {
     "Yes": 6,
     "No": 7,
 }
-"""btnres by what the button says."""
+"""Values of btnres by button text."""
 _BUTTONS: dict[int, tuple[str, ...]] = {
     -1: (),
     0: ("OK",),
@@ -50,7 +50,7 @@ _PROCESS_DOMAIN = 110_000
 
 
 def appended(task: Task, text: str, *values: Value) -> str:
-    """`text` with a value in the standard format behind it (TPWrite, Write)."""
+    """Return `text` followed by a value in the standard format."""
     num, boolean, pos, orient, dnum = values
     complete = task.controller.dialect.whole_text == "all"
     if num is not None:
@@ -65,7 +65,7 @@ def appended(task: Task, text: str, *values: Value) -> str:
 
 @builtin("TPWrite", cost="string")
 def tp_write(task: Task, text: str, *values: Value) -> None:
-    """Show a text, with a value behind it if one is given."""
+    """Show a text, followed by a value if present."""
     task.controller.operator.write(task.name, appended(task, text, *values))
 
 
@@ -86,11 +86,11 @@ _BREAKS = (
     ("DOBreak", "DOPassive", "ERR_TP_DOBREAK"),
     ("PersBoolBreak", "PersBoolPassive", "ERR_TP_PERSBOOLBREAK"),
 )
-"""What breaks a dialog off, the switch that inverts it, and its error."""
+"""Break conditions of a dialog: argument, inverting switch, error."""
 
 
 def _reason(arguments: Arguments) -> str | None:
-    """The error of a break that is there now."""
+    """Return the error of a break condition that is true."""
     for name, passive, error in _BREAKS:
         source = arguments[name]
         if source is not None:
@@ -101,7 +101,7 @@ def _reason(arguments: Arguments) -> str | None:
 
 
 def _sources(arguments: Arguments) -> list[WaitSet]:
-    """What can bring a break."""
+    """Return the wait sets of the break conditions."""
     signals, flag = (arguments["DIBreak"], arguments["DOBreak"]), arguments["PersBoolBreak"]
     result: list[WaitSet] = [s.signal.changed for s in signals if s is not None]
     if flag is not None and flag.cell is not None:
@@ -118,7 +118,7 @@ def _ask(
     choices: Mapping[str, float] = MappingProxyType({}),
     proposed: str = "",
 ) -> Value:
-    """The answer to a dialog; None when it was broken off and \\BreakFlag tells."""
+    """Return the answer to a dialog, None after a break with \\BreakFlag."""
     operator, active, flag = (
         task.controller.operator,
         arguments["UIActiveSignal"],
@@ -168,7 +168,7 @@ def _choose(
 
 
 def _one_of(choices: Mapping[str, float]) -> Callable[[str], float]:
-    """Accept a choice by its text or by its number."""
+    """Return a function that accepts a choice by text or number."""
 
     def check(value: str) -> float:
         for text, number in choices.items():
@@ -219,7 +219,7 @@ def tp_read_num(task: Task, dialog: str, arguments: Arguments) -> None:
 
 @by_name("TPReadFK", cost="string")
 def tp_read_fk(task: Task, dialog: str, arguments: Arguments) -> None:
-    """Ask for one of five keys; one without a text is dead."""
+    """Show five keys; one without a text has no effect."""
     texts = [arguments[f"TPFK{i}"] for i in range(1, 6)]
     keys = {text: float(i) for i, text in enumerate(texts, 1) if text.strip()}
     value = _choose(task, dialog, arguments["TPText"], arguments, keys)
@@ -228,7 +228,7 @@ def tp_read_fk(task: Task, dialog: str, arguments: Arguments) -> None:
 
 
 def _text(arguments: Arguments) -> str:
-    """Header and message, line by line."""
+    """Return header and message, line by line."""
     lines = arguments.get("MsgArray")
     parts = [
         arguments["Header"],
@@ -250,7 +250,7 @@ def _buttons(buttons: float | None, array: Mapping[int, str] | None) -> dict[str
 
 @by_name("UIMsgBox", cost="string")
 def ui_msg_box(task: Task, dialog: str, arguments: Arguments) -> None:
-    """Show a box with buttons and wait for one."""
+    """Show a message box with buttons and wait for one."""
     value = _choose(task, dialog, _text(arguments), arguments, _buttons(arguments["Buttons"], None))
     if arguments["Result"] is not None:
         arguments["Result"].set(0 if value is None else value)
@@ -258,14 +258,14 @@ def ui_msg_box(task: Task, dialog: str, arguments: Arguments) -> None:
 
 @by_name("UIMessageBox", cost="string")
 def ui_message_box(task: Task, dialog: str, arguments: Arguments) -> float:
-    """Show a box with buttons; which one was pressed."""
+    """Show a message box and return the pressed button."""
     choices = _buttons(arguments["Buttons"], arguments["BtnArray"])
     default = arguments["DefaultBtn"]
     return _else(_choose(task, dialog, _text(arguments), arguments, choices, default), default)
 
 
 def _else(value: Value, default: float | None) -> float:
-    """The number that was answered, or what stands for none."""
+    """Return the entered number, or the default without an answer."""
     if isinstance(value, float | int):
         return value
     return 0 if default is None else default
@@ -273,7 +273,7 @@ def _else(value: Value, default: float | None) -> float:
 
 @by_name("UINumEntry", "UIDnumEntry", "UINumTune", "UIDnumTune", cost="string")
 def ui_num_entry(task: Task, dialog: str, arguments: Arguments) -> float:
-    """Ask for a number, which may be tuned from an initial one."""
+    """Request a number, optionally starting from an initial value."""
     initial, low, high = arguments["InitValue"], arguments["MinValue"], arguments["MaxValue"]
     integer = bool(arguments.get("AsInteger"))
     if initial is not None and integer and initial != int(initial):
@@ -291,7 +291,7 @@ def ui_num_entry(task: Task, dialog: str, arguments: Arguments) -> float:
 
 @by_name("UIAlphaEntry", cost="string")
 def ui_alpha_entry(task: Task, dialog: str, arguments: Arguments) -> str:
-    """Ask for a text."""
+    """Request a text."""
     initial = arguments["InitString"] or ""
     value = _ask(task, dialog, _text(arguments), arguments, _a_text, proposed=initial)
     return value if isinstance(value, str) else initial
@@ -299,7 +299,7 @@ def ui_alpha_entry(task: Task, dialog: str, arguments: Arguments) -> str:
 
 @by_name("UIListView", cost="string")
 def ui_list_view(task: Task, dialog: str, arguments: Arguments) -> float:
-    """Ask for one of a list's items."""
+    """Request an item of a list."""
     items, buttons, array = arguments["ListItems"], arguments["Buttons"], arguments["BtnArray"]
     choices = {item.text: float(i) for i, item in items.items() if item.text}
     default = arguments["DefaultIndex"]
@@ -319,7 +319,7 @@ def ui_msg_write(task: Task, _dialog: str, arguments: Arguments) -> None:
 
 @builtin("UIShow", cost="string")
 def ui_show(task: Task, assembly: str, *_arguments: object) -> None:
-    """Start an application on the FlexPendant: there is none here that could."""
+    """Start a FlexPendant application; the virtual controller has none."""
     if not task.controller.operator.present:
         raise RapidError("ERR_TP_NO_CLIENT")
     raise RapidError("ERR_UISHOW_FATAL", f"{assembly} cannot run on a virtual controller")
@@ -345,7 +345,7 @@ def _logged(
 def err_write(
     task: Task, warning: bool | None, info: bool | None, header: str, *reasons: str | None
 ) -> None:
-    """Write a message of the user's own: 80001 error, 80002 \\W, 80003 \\I."""
+    """Write a message of the user: 80001 error, 80002 \\W, 80003 \\I."""
     _logged(task, None, warning, info, header, reasons)
 
 
@@ -353,7 +353,7 @@ def err_write(
 def err_log(
     task: Task, number: float, warning: bool | None, info: bool | None, *arguments: str
 ) -> None:
-    """Write a message whose text is in a file: here its number and its arguments."""
+    """Write a message of an external text file by number and arguments."""
     if not (4800 <= number <= 4814 or 5000 <= number <= 9999):
         raise RapidError("ERR_ARGVALERR", f"{number:g} is no ErrorId")
     _logged(task, _PROCESS_DOMAIN + int(number), warning, info, "ErrLog", arguments)
@@ -361,6 +361,9 @@ def err_log(
 
 @builtin("EventLog", cost="string")
 def event_log(task: Task, domain: float, number: float, kind: float, *arguments: str) -> None:
-    """The same for any domain and type, as ABB's own drivers call it [code HandDriver.sys]."""
+    """Write a message of any domain and type.
+
+    ABB's drivers call it with these arguments [code HandDriver.sys].
+    """
     code = int(domain) * 10_000 + int(number)
     _logged(task, code, kind == EventType.WARNING, kind == EventType.INFO, "EventLog", arguments)

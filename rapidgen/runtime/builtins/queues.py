@@ -1,7 +1,8 @@
-"""RAPID message queues: RMQFindSlot to IRMQMessage. See `queues.py`.
+"""RAPID message queues: RMQFindSlot to IRMQMessage.
 
-Sources: 3HAC16581-1's arguments and error names [manual]. Without \\TimeOut RMQReadWait waits for
-ever; how long RMQSendWait does is the switch `queue_patience`.
+See `rapidgen/runtime/queues.py` for the queues. Sources: 3HAC16581-1's arguments and error names
+[manual]. Without \\TimeOut, RMQReadWait waits without limit; the switch `queue_patience` limits
+RMQSendWait.
 """
 
 from rapidgen.runtime.errors import RapidError
@@ -31,7 +32,10 @@ def _message(task: Task, argument: object, user: float | None) -> Message:
 
 @builtin("RMQFindSlot", cost="string")
 def rmq_find_slot(task: Task, slot: Slot, name: str) -> None:
-    """The queue of a name; ERR_RMQ_NAME when no task has it, or its RmqType is None."""
+    """Find the queue of a name.
+
+    ERR_RMQ_NAME: no such task, or its RmqType is None.
+    """
     for other in task.controller.rapid_tasks.values():
         if QueueSystem.slot_name(other.name).lower() == name.lower() and other.spec.queue.open:
             slot.name = QueueSystem.slot_name(other.name)
@@ -41,7 +45,10 @@ def rmq_find_slot(task: Task, slot: Slot, name: str) -> None:
 
 @builtin("RMQGetSlotName", cost="string")
 def rmq_get_slot_name(_task: Task, slot: Slot) -> str:
-    """Name of a queue; ERR_RMQ_INVALID when the slot was never found."""
+    """Return the name of a queue.
+
+    ERR_RMQ_INVALID: RMQFindSlot has not set the slot.
+    """
     if not slot.name:
         raise RapidError("ERR_RMQ_INVALID")
     return slot.name
@@ -49,7 +56,7 @@ def rmq_get_slot_name(_task: Task, slot: Slot) -> str:
 
 @builtin("RMQSendMessage", cost="string")
 def rmq_send_message(task: Task, slot: Slot, argument: object, user: float | None) -> None:
-    """Send a value; does not wait."""
+    """Send a value without waiting."""
     _queues(task).send(slot.name, _message(task, argument, user))
 
 
@@ -97,7 +104,7 @@ def _time(timeout: float | None, default: float | None) -> float | None:
 
 @builtin("RMQGetMessage", cost="string")
 def rmq_get_message(task: Task, box: MessageBox) -> None:
-    """The first message, taken out of the queue; ERR_RMQ_NOMSG."""
+    """Remove and return the first message, or raise ERR_RMQ_NOMSG."""
     messages = _own(task).messages
     if not messages:
         raise RapidError("ERR_RMQ_NOMSG")
@@ -141,7 +148,7 @@ def rmq_get_msg_header(
 
 @builtin("RMQGetMsgData", cost="string")
 def rmq_get_msg_data(_task: Task, box: MessageBox, argument: object) -> None:
-    """The value of a message; ERR_RMQ_VALUE or ERR_RMQ_DIM when it does not fit."""
+    """Return the value of a message, or raise ERR_RMQ_VALUE or ERR_RMQ_DIM."""
     message, target = _held(box), target_of(argument)
     if message.type.name != target.type.name:
         raise RapidError("ERR_RMQ_VALUE", f"the message is a {message.type.name}")
@@ -152,7 +159,7 @@ def rmq_get_msg_data(_task: Task, box: MessageBox, argument: object) -> None:
 
 @builtin("RMQEmptyQueue", cost="string")
 def rmq_empty_queue(task: Task) -> None:
-    """Throw all messages away."""
+    """Discard all messages."""
     _own(task).messages.clear()
 
 

@@ -1,7 +1,7 @@
-"""PackRawBytes and its family, and the bit functions of bytes and dnums.
+"""PackRawBytes and related routines; bit functions of bytes and dnums.
 
-Sources: [manual 3HAC16581-1] for the packing rules; abb_driver [code] for a copy out of an
-empty container, motion_program_exec [code] for \\ASCII:=0.
+Sources: [manual 3HAC16581-1] for the packing rules; abb_driver [code] for a copy out of an empty
+container, motion_program_exec [code] for \\ASCII:=0.
 """
 
 from collections.abc import Callable
@@ -123,7 +123,7 @@ def _no_format(name: str) -> FatalError:
 
 @builtin("ClearRawBytes", cost="string")
 def clear_raw_bytes(_task: Task, raw: RawBytes, from_index: float | None) -> None:
-    """Set bytes to 0; the valid length becomes `from_index` - 1 at most."""
+    """Clear bytes; the valid length becomes at most `from_index` - 1."""
     start = 1 if from_index is None else whole(from_index, "ERR_OUTOFBND")
     if not 1 <= start <= CAPACITY:
         raise RapidError("ERR_OUTOFBND", f"\\FromIndex:={start}")
@@ -139,9 +139,9 @@ def copy_raw_bytes(
     to_index: float,
     count: float | None,
 ) -> None:
-    """Copy valid bytes; what would lie behind the container's end is left out.
+    """Copy valid bytes up to the end of the container.
 
-    Nothing is copied, and nothing is wrong, when there is nothing from `from_index` on.
+    If no byte follows `from_index`, the instruction does nothing.
     """
     start, place = whole(from_index, "ERR_OUTOFBND"), whole(to_index, "ERR_OUTOFBND")
     if not 1 <= start <= CAPACITY or not 1 <= place <= CAPACITY:
@@ -172,7 +172,7 @@ def _bits(value: float) -> int:
 
 
 def _lowest(size: float | None) -> int:
-    """The mask of \\Size bits, all 52 without it."""
+    """Return the mask of \\Size bits, by default all 52."""
     return _MASK if size is None else (1 << _steps(size, DNUM_BITS, 1)) - 1
 
 

@@ -1,8 +1,8 @@
-"""The SmartGripper of a YuMi: Hand_Initialize to Hand_GetVacuumPressure2, g_Init to g_GetPressure2.
+"""SmartGripper of a YuMi: Hand_Initialize to g_GetPressure2.
 
-Source: its driver HandDriver.sys [code kth-ros-pkg/yumi]: what is checked, waited for and raised,
-and for how long. A task has the hand of its robot: of ROB_L the left one, of ROB_R the right one,
-else the first task the right and the second the left one.
+Source: its driver HandDriver.sys [code kth-ros-pkg/yumi] for checks, waits, errors and times. A
+task uses the hand of its robot: ROB_L the left one, ROB_R the right one. Otherwise the first task
+uses the right hand and the second the left one.
 """
 
 from collections.abc import Callable
@@ -62,7 +62,7 @@ def _initialise(
     limit: float | None,
     calibrate: bool | None,
 ) -> None:
-    """Speed 25 mm/s, force 20 N and range 25 mm where nothing else is given."""
+    """Initialise with 25 mm/s, 20 N and 25 mm as defaults."""
     _set_speed(task, _SPEEDS[1] if speed is None else speed)
     _set_force(task, _FORCES[1] if force is None else force)
     hand = _hand(task)
@@ -72,7 +72,7 @@ def _initialise(
 
 
 def _calibrate(task: Task, jog: bool | None, grip: bool | None = None) -> None:
-    """Where the fingers are is 0 from now on; \\Jog closes them before."""
+    """Make the finger position the new 0; \\Jog closes the fingers first."""
     if jog or grip:
         _jog(Command.JOG_CLOSE)(task)
         task.sleep(_JOG_BEGINS)
@@ -83,7 +83,7 @@ def _calibrate(task: Task, jog: bool | None, grip: bool | None = None) -> None:
 
 
 def _cast(task: Task, side: str) -> None:
-    """This task has that hand from now on. ERR_ARGVALERR: neither L nor R."""
+    """Assign a hand to this task. ERR_ARGVALERR: neither L nor R."""
     if side not in ("L", "R"):
         raise RapidError("ERR_ARGVALERR", side)
     task.controller.hands.chosen[task.name] = side
@@ -97,7 +97,10 @@ def _send(task: Task, code: float) -> None:
 
 
 def _wait_for(task: Task, state: float, seconds: float | None = None) -> None:
-    """ERR_HAND_WRONGSTATE: an error, or not within 5 s."""
+    """Wait for a state.
+
+    ERR_HAND_WRONGSTATE: an error, or not within 5 s.
+    """
     hand = _hand(task)
     task.wait_for(
         lambda: hand.state in (state, HandState.ERROR),
@@ -110,7 +113,7 @@ def _wait_for(task: Task, state: float, seconds: float | None = None) -> None:
 
 def _jog(code: Command) -> Callable[[Task], None]:
     def jog(task: Task) -> None:
-        """To the end, or to what is there; stands then."""
+        """Move to the end or to contact, then stand still."""
         hand = _hand(task)
         hand.order(Command.READY)
         hand.order(code)
@@ -127,7 +130,7 @@ def _stop(task: Task) -> None:
 
 
 def _in_range(task: Task, place: float) -> float:
-    """ERR_HAND_AUGOUTOFRANGE: below 0, or beyond the range."""
+    """Raise ERR_HAND_AUGOUTOFRANGE below 0 or above the range."""
     if not 0 <= round(place, 1) <= task.controller.hands.limits[_hand(task).side]:
         raise RapidError("ERR_HAND_AUGOUTOFRANGE", f"{place:g} mm")
     return round(place, 1)
@@ -152,7 +155,7 @@ def _move_to(task: Task, place: float, no_wait: bool | None) -> None:
 
 
 def _completed(task: Task, precise: bool | None, place: float | None = None) -> None:
-    """ERR_HAND_FAILEDMOVEPOS: not there, and not within 1 mm."""
+    """Raise ERR_HAND_FAILEDMOVEPOS if the target is over 1 mm away."""
     hand = _hand(task)
     try:
         _wait_for(task, HandState.COMPLETED)
@@ -164,10 +167,10 @@ def _completed(task: Task, precise: bool | None, place: float | None = None) -> 
 
 @by_name("Hand_GripInward", "Hand_GripOutward", "g_GripIn", "g_GripOut")
 def grip(task: Task, name: str, arguments: Arguments) -> None:
-    """Until something is between the fingers (in them), or they are at their end.
+    """Grip outwards or inwards until contact or the end of travel.
 
-    ERR_HAND_NOTCALIBRATED; ERR_HAND_FAILEDGRIPINWARD: \\targetPos lies behind; with \\posAlowance
-    ERR_HAND_FAILEDGRIPPOS: not there; ERR_HAND_WRONGSTATE: not within 5 s.
+    Raises ERR_HAND_NOTCALIBRATED; ERR_HAND_FAILEDGRIPINWARD: \\targetPos is in the other direction;
+    ERR_HAND_FAILEDGRIPPOS: not reached within \\posAlowance; ERR_HAND_WRONGSTATE: not within 5 s.
     """
     hand, inward = _calibrated(task), "in" in name.lower().split("grip")[1]
     _set_force(task, _FORCES[1] if arguments["holdForce"] is None else arguments["holdForce"])
@@ -192,7 +195,10 @@ def grip(task: Task, name: str, arguments: Arguments) -> None:
 
 def _vacuum_on(cup: int) -> Callable[[Task, float | None], None]:
     def switch(task: Task, threshold: float | None) -> None:
-        """The air goes off before. ERR_HAND_FAILEDVACUUM: not below \\threshold kPa within 1 s."""
+        """Switch the blow-off air off and the vacuum on.
+
+        ERR_HAND_FAILEDVACUUM: not below \\threshold kPa within 1 s.
+        """
         hand = _hand(task)
         hand.switch("blow", cup, False)
         hand.switch("vacuum", cup, True)
@@ -206,7 +212,7 @@ def _vacuum_on(cup: int) -> Callable[[Task, float | None], None]:
 
 def _blow_on(cup: int) -> Callable[[Task], None]:
     def switch(task: Task) -> None:
-        """The vacuum goes off before."""
+        """Switch the vacuum off and the blow-off air on."""
         hand = _hand(task)
         hand.switch("vacuum", cup, False)
         hand.switch("blow", cup, True)

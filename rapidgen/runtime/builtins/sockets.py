@@ -1,9 +1,9 @@
 """SocketCreate to SocketReceiveFrom.
 
 Sources: 3HAC16581-1 as quoted on CSDN [manual] for limits, default times and ERR_SOCK_CLOSED;
-abb_driver and open_abb [code] for states and buffers. Remembered only [mem]: a send that
-finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switches:
-`refused_connect`, `failed_connect`, `receive_timeout`, `send_attends`, `sockets_limited`.
+abb_driver and open_abb [code] for states and buffers. Remembered only [mem]: a send without buffer
+space for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switches: `refused_connect`,
+`failed_connect`, `receive_timeout`, `send_attends`, `sockets_limited`.
 """
 
 from collections.abc import Callable
@@ -50,7 +50,7 @@ def _error(fault: NetworkFault) -> RapidError:
 
 
 def _lost(task: Task, socket: SocketDevice, fault: NetworkFault) -> RapidError:
-    """The connection is gone: from now on the program sees a closed socket."""
+    """Close a lost connection and return its RAPID error."""
     if fault.reason in (NetworkReason.RESET, NetworkReason.CLOSED):
         task.controller.sockets.release(socket, abort=True)
     return _error(fault)
@@ -89,7 +89,7 @@ def _stream(socket: SocketDevice) -> Endpoint:
 
 @builtin("SocketCreate", cost="socket")
 def socket_create(task: Task, socket: SocketDevice, udp: bool | None) -> None:
-    """A fresh socket; ERR_SOCK_UNSPEC when it is in use or all are."""
+    """Create a socket; ERR_SOCK_UNSPEC: in use, or none is left."""
     if socket.status is not SocketStatus.CLOSED:
         raise RapidError("ERR_SOCK_UNSPEC", "the socket is in use")
     table = task.controller.sockets
@@ -102,7 +102,7 @@ def socket_create(task: Task, socket: SocketDevice, udp: bool | None) -> None:
 
 @builtin("SocketBind", cost="socket")
 def socket_bind(task: Task, socket: SocketDevice, address: str, port: float) -> None:
-    """Take a port of the controller."""
+    """Bind a socket to a port of the controller."""
     _require(socket, udp=socket.udp)
     if socket.status is not SocketStatus.CREATED:
         raise RapidError("ERR_SOCK_IS_BOUND")
@@ -115,7 +115,7 @@ def socket_bind(task: Task, socket: SocketDevice, address: str, port: float) -> 
 
 @builtin("SocketListen", cost="socket")
 def socket_listen(task: Task, socket: SocketDevice) -> None:
-    """Let clients connect."""
+    """Accept connections from now on."""
     _require(socket)
     if socket.status is SocketStatus.CONNECTED:
         raise RapidError("ERR_SOCK_IS_CONN")
@@ -182,7 +182,10 @@ def socket_accept(
 def socket_connect(
     task: Task, socket: SocketDevice, address: str, port: float, time: float | None
 ) -> None:
-    """Connect to a server. For what a failure leaves see `Switches.failed_connect`."""
+    """Connect to a server.
+
+    See `Switches.failed_connect` for the socket's state after a failure.
+    """
     _require(socket)
     if socket.status is SocketStatus.CONNECTED:
         raise RapidError("ERR_SOCK_IS_CONN")
@@ -241,7 +244,7 @@ def _payload(
 
 @builtin("SocketSend", cost="socket")
 def socket_send(task: Task, socket: SocketDevice, *content: Value) -> None:
-    """Send bytes; waits while the connection has no room for them."""
+    """Send bytes; wait while the connection has no buffer space."""
     payload = _payload(*content)
     endpoint = _stream(socket)
     network = task.controller.network
@@ -283,7 +286,7 @@ def socket_receive(task: Task, _name: str, arguments: Arguments) -> None:
 
 
 def _receive(task: Task, arguments: Arguments, endpoint: Endpoint, *, exact: bool) -> None:
-    """Wait for bytes and put them where the program wants them."""
+    """Wait for bytes and store them in the argument."""
     text, raw, data = arguments["Str"], arguments["RawData"], arguments["Data"]
     limit = _limit(text, raw, data, arguments["ReadNoOfBytes"])
     received = _wait_for_bytes(task, arguments, endpoint, limit, exact=exact)
@@ -335,7 +338,7 @@ def _wait_for_bytes(
 
 
 def _asked(network: Network, listener: Endpoint) -> int:
-    """The port that a program asked for, wherever the system put it."""
+    """Return the port of the program, before any port mapping."""
     ports = (port for port, at in network.listeners.items() if at == listener.local)
     return next(ports, listener.local[1])
 
@@ -365,7 +368,7 @@ def _limit(
 
 @builtin("SocketPeek", cost="socket")
 def socket_peek(task: Task, socket: SocketDevice) -> int:
-    """Number of bytes that wait."""
+    """Return the number of received bytes."""
     endpoint = _stream(socket) if not socket.udp else _datagrams(task, socket)
     try:
         waiting = task.controller.network.receive(endpoint, BUFFER, peek=True)
@@ -410,7 +413,7 @@ def socket_send_to(
 
 @by_name("SocketReceiveFrom", cost="socket")
 def socket_receive_from(task: Task, _name: str, arguments: Arguments) -> None:
-    """Wait for one datagram; what does not fit is lost, as with every BSD socket."""
+    """Wait for one datagram; the excess is lost, as with BSD sockets."""
     endpoint = _datagrams(task, arguments["Socket"])
     _receive(task, arguments, endpoint, exact=False)
     sender = endpoint.sender or ("", 0)
@@ -418,7 +421,7 @@ def socket_receive_from(task: Task, _name: str, arguments: Arguments) -> None:
     arguments["RemotePort"].set(sender[1])
 
 
-# SocketGetStatus is the program's own view: a peer that vanished still shows as connected.
+# SocketGetStatus reports the program's view: a peer that disappeared still shows as connected.
 _PLAIN: dict[str, Callable[..., Value]] = {
     "SocketClose": lambda task, socket: task.controller.sockets.release(socket),
     "SocketGetStatus": lambda _task, socket: int(socket.status),

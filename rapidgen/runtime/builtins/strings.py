@@ -1,7 +1,7 @@
 """Strings and conversions.
 
-Sources: the S4 reference's page of each name for the edges (positions from 1, a position
-outside is an error); which error that is: switch `argument_error`.
+Sources: the S4 reference's page of each name for the limits (positions count from 1, an outside
+position is an error); the switch `argument_error` selects the error.
 """
 
 from collections.abc import Callable
@@ -33,14 +33,14 @@ def _place(text: str, position: float) -> int:
 
 
 def _search_place(task: Task, text: str, position: float) -> int:
-    """Where a search begins; see `Switches.find_behind`."""
+    """Return the start of a search; see `Switches.find_behind`."""
     after = task.controller.dialect.find_behind == "none" and position == len(text) + 1
     return len(text) + 1 if after else _place(text, position)
 
 
 @builtin("StrPart", cost="string", pure=True)
 def str_part(_task: Task, text: str, position: float, length: float) -> str:
-    """A part; ERR_OUTOFBND when it sticks out [S4 StrPart]."""
+    """Return a part, or raise ERR_OUTOFBND [S4 StrPart]."""
     count = whole(length, "ERR_OUTOFBND")
     start = _place(text, position)
     if count < 0 or start - 1 + count > len(text):
@@ -50,7 +50,10 @@ def str_part(_task: Task, text: str, position: float, length: float) -> str:
 
 @builtin("StrFind", cost="string", pure=True)
 def str_find(task: Task, text: str, position: float, set_: str, not_in: bool | None) -> int:
-    """First position from there whose character is (not) in the set; length + 1 if none."""
+    """Return the first position with a character (not) in the set.
+
+    Returns length + 1 without a match.
+    """
     for place in range(_search_place(task, text, position), len(text) + 1):
         if (text[place - 1] in set_) != bool(not_in):
             return place
@@ -59,17 +62,20 @@ def str_find(task: Task, text: str, position: float, set_: str, not_in: bool | N
 
 @builtin("StrMatch", cost="string", pure=True)
 def str_match(task: Task, text: str, position: float, pattern: str) -> int:
-    """First position from there where the pattern begins; length + 1 if none."""
+    """Return the first position of the pattern.
+
+    Returns length + 1 without a match.
+    """
     result = text.find(pattern, _search_place(task, text, position) - 1)
     return result + 1 if result >= 0 else len(text) + 1
 
 
 @builtin("StrMap", cost="string", pure=True)
 def str_map(_task: Task, text: str, source: str, target: str) -> str:
-    """Each character of `source` replaced by its counterpart in `target`.
+    """Replace each character of `source` by that of `target`.
 
-    One that has none is copied, as what is not in `source` [S4 StrMap]: STR_LOWER has two
-    letters more than STR_UPPER.
+    A character of `source` without a counterpart stays, like characters outside `source` [S4
+    StrMap]: STR_LOWER has two letters more than STR_UPPER.
     """
     paired = min(len(source), len(target))
     return text.translate(str.maketrans(source[:paired], target[:paired]))
@@ -77,7 +83,10 @@ def str_map(_task: Task, text: str, source: str, target: str) -> str:
 
 @builtin("StrOrder", cost="string", pure=True)
 def str_order(_task: Task, one: str, two: str, order: str) -> bool:
-    """Whether `one` does not come behind `two`; characters without a rank come last."""
+    """Return True if `one` precedes or equals `two` in an order.
+
+    Characters without a rank come last.
+    """
 
     def ranks(text: str) -> list[tuple[int, int]]:
         return [(order.find(c) if c in order else len(order), ord(c)) for c in text]
@@ -88,7 +97,10 @@ def str_order(_task: Task, one: str, two: str, order: str) -> bool:
 
 @builtin("StrToVal", cost="string")
 def str_to_val(_task: Task, text: str, argument: object) -> bool:
-    """Read a literal of the target's type; FALSE leaves the target as it was [S4 StrToVal]."""
+    """Parse a literal of the target's type.
+
+    FALSE leaves the target unchanged [S4 StrToVal].
+    """
     target = target_of(argument)
     try:
         value = parse_value(text, target.type, target.dims)
@@ -100,7 +112,7 @@ def str_to_val(_task: Task, text: str, argument: object) -> bool:
 
 @builtin("ValToStr", cost="string")
 def val_to_str(task: Task, argument: object) -> str:
-    """The text of any value; ERR_STRTOOLNG over 80 characters."""
+    """Return the text of any value; ERR_STRTOOLNG over 80 characters."""
     return limited(
         value_text(*value_of(argument), complete=task.controller.dialect.whole_text == "all")
     )
@@ -108,7 +120,7 @@ def val_to_str(task: Task, argument: object) -> str:
 
 @builtin("StrFormat", cost="string", pure=True)
 def str_format(_task: Task, text: str, *arguments: str | None) -> str:
-    """`{1}` to `{5}` replaced by the arguments."""
+    """Replace `{1}` to `{5}` by the arguments."""
     for i, argument in enumerate(arguments, 1):
         if argument is not None:
             text = text.replace(f"{{{i}}}", argument)
@@ -143,7 +155,7 @@ def str_to_byte(
     binary: bool | None,
     char: bool | None,
 ) -> int:
-    """A byte from its text: decimal by default."""
+    """Return the byte of a text, decimal by default."""
     if char:
         if len(text) != 1:
             raise RapidError("ERR_ARGVALERR", "\\Char takes one character")
@@ -163,7 +175,10 @@ def byte_to_str(
     binary: bool | None,
     char: bool | None,
 ) -> str:
-    """A byte's text: decimal by default. For \\Char see `Switches.byte_to_str`."""
+    """Return the text of a byte, decimal by default.
+
+    See `Switches.byte_to_str` for \\Char.
+    """
     byte = byte_value(data)
     if hexadecimal:
         return f"{byte:02X}"
@@ -198,7 +213,7 @@ _CALCULATIONS: dict[float, Callable[[int, int], int]] = {
 
 @builtin("StrDigCmp", cost="string", pure=True)
 def str_dig_cmp(_task: Task, one: str, relation: float, two: str) -> bool:
-    """Compare two whole numbers held as digits."""
+    """Compare two whole numbers given as digits."""
     a, b = _digits(one), _digits(two)
     if int(relation) not in _RELATIONS:
         raise RapidError("ERR_ARGVALERR", f"{relation:g} is no opnum")
@@ -207,7 +222,7 @@ def str_dig_cmp(_task: Task, one: str, relation: float, two: str) -> bool:
 
 @builtin("StrDigCalc", cost="string", pure=True)
 def str_dig_calc(_task: Task, one: str, operation: float, two: str) -> str:
-    """Calculate with whole numbers held as digits."""
+    """Calculate with whole numbers given as digits."""
     a, b = _digits(one), _digits(two)
     if operation not in _CALCULATIONS:
         raise RapidError("ERR_ARGVALERR", f"{operation:g} is no opcalc")
@@ -223,7 +238,7 @@ def str_dig_calc(_task: Task, one: str, operation: float, two: str) -> str:
 
 
 def _number(value: float, decimals: float, exponent: bool | None) -> str:
-    """A number with so many decimals, rounded half away from zero."""
+    """Return a number with decimals, halves rounded away from zero."""
     return limited((exponent_text if exponent else fixed_text)(value, _decimals(decimals)))
 
 

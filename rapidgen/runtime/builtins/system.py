@@ -17,10 +17,9 @@ from rapidgen.runtime.values import Ref, Value, register_type
 
 # -- Clocks ----------------------------------------------------------------------------------------
 #
-# Stop watches, date and time, and what the controller tells about itself.
+# Stop watches, date and time.
 #
-# Sources: S4 reference, pages clock, ClkStart to ClkRead, CDate, CTime, GetTime [manual]; the form
-# of GetSysInfo's texts is remembered only [mem].
+# Sources: S4 reference, pages clock, ClkStart to ClkRead, CDate, CTime, GetTime [manual].
 
 
 _MS = 1_000_000
@@ -31,7 +30,7 @@ _LONGEST = 4_294_967
 
 
 class StopWatch:
-    """A `clock`: what it has measured, and since when it runs (ns), if it does."""
+    """A `clock`: its measured time, and its start (ns) while it runs."""
 
     __slots__ = ("measured", "started")
 
@@ -40,7 +39,7 @@ class StopWatch:
         self.started: int | None = None
 
     def read(self, now: int) -> int:
-        """Nanoseconds; ERR_OVERFLOW beyond 49 days."""
+        """Return nanoseconds; ERR_OVERFLOW beyond 49 days."""
         total = self.measured + (0 if self.started is None else now - self.started)
         if total > _LONGEST * _S:
             raise RapidError("ERR_OVERFLOW", "a clock holds 49 days")
@@ -52,14 +51,14 @@ register_type("clock", StopWatch)
 
 @builtin("ClkReset")
 def clk_reset(_task: Task, clock: StopWatch) -> None:
-    """Stop and set to 0."""
+    """Stop and reset to 0."""
     clock.measured = 0
     clock.started = None
 
 
 @builtin("ClkStart")
 def clk_start(task: Task, clock: StopWatch) -> None:
-    """Run on from where it stands."""
+    """Continue from the current value."""
     clock.read(task.scheduler.now)
     if clock.started is None:
         clock.started = task.scheduler.now
@@ -67,14 +66,14 @@ def clk_start(task: Task, clock: StopWatch) -> None:
 
 @builtin("ClkStop")
 def clk_stop(task: Task, clock: StopWatch) -> None:
-    """Stop; the value stays."""
+    """Stop and keep the value."""
     clock.measured = clock.read(task.scheduler.now)
     clock.started = None
 
 
 @builtin("ClkRead")
 def clk_read(task: Task, clock: StopWatch, high_resolution: bool | None) -> float:
-    """Seconds, in steps of 1 ms (1 µs with \\HighRes)."""
+    """Return seconds in steps of 1 ms (1 µs with \\HighRes)."""
     step = _US if high_resolution else _MS
     return single(clock.read(task.scheduler.now) // step * step / _S)
 
@@ -83,7 +82,7 @@ def clk_read(task: Task, clock: StopWatch, high_resolution: bool | None) -> floa
 def get_time(
     task: Task, weekday: bool | None, hour: bool | None, minute: bool | None, second: bool | None
 ) -> int:
-    """One part of date and time; Monday is 1."""
+    """Return one part of date and time; Monday is 1."""
     now = date_time(task.scheduler)
     if weekday:
         return now.isoweekday()
@@ -105,10 +104,8 @@ builtins(_SHOWN, cost="string")
 
 # -- System information and text tables ------------------------------------------------------------
 #
-# What the controller tells about itself, and its text tables.
-#
-# Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the form of its texts is
-# remembered only [mem].
+# Sources: [K §15] for text tables; GetSysInfo's switches from 3HAC16581-1, the format of its texts
+# is remembered only [mem].
 
 
 _SERIAL = "00-00000"
@@ -126,10 +123,10 @@ def get_sys_info(
     language: bool | None,
     system_name: bool | None,
 ) -> str:
-    """One fact about the controller.
+    """Return one property of the controller.
 
-    Forms of versions as backups keep what controllers answered (COMPAS RRC [code]):
-    `ROBOTWARE_6.04.1027` and `6.04.01.00`; there is no build number here.
+    Version formats are those of controllers as backups contain them (COMPAS RRC [code]):
+    `ROBOTWARE_6.04.1027` and `6.04.01.00`; the virtual controller has no build number.
     """
     system = task.controller.system
     major, minor = system.robotware
@@ -169,7 +166,7 @@ def text_tab_install(task: Task, file: str) -> None:
 
 @builtin("TextTabGet", cost="string")
 def text_tab_get(task: Task, name: str) -> int:
-    """A table's number; ERR_TXTNOEXIST when there is none."""
+    """Return the number of a table, or raise ERR_TXTNOEXIST."""
     number = task.controller.texts.number(name)
     if number is None:
         raise RapidError("ERR_TXTNOEXIST", f"no text table '{name}'")
@@ -178,7 +175,7 @@ def text_tab_get(task: Task, name: str) -> int:
 
 @builtin("TextGet", cost="string")
 def text_get(task: Task, table: float, index: float) -> str:
-    """A text of a table; ERR_TXTNOEXIST when there is none."""
+    """Return a text of a table, or raise ERR_TXTNOEXIST."""
     expected = whole(index, "ERR_ARGVALERR")
     text = task.controller.texts.text(whole(table, "ERR_ARGVALERR"), expected)
     if text is None:
@@ -193,20 +190,20 @@ _INFORMATION: dict[str, Callable[..., Value]] = {
 }
 builtins(_INFORMATION, cost="string")
 builtin("RobOS")(lambda _task: False)
-builtin("IsBrakeCheckActive")(lambda _task: False)  # no brake is checked here
+builtin("IsBrakeCheckActive")(lambda _task: False)  # The virtual controller has no brake check.
 
 
 # -- Configuration ---------------------------------------------------------------------------------
 #
-# ReadCfgData and its family, and WarmStart.
+# ReadCfgData and related routines, and WarmStart.
 #
-# Sources: 3HAC16581-1's arguments and error names [manual]. \ListNo: the number of one of several
-# instances that a path stands for (`/EIO/EIO_CROSS`: they have no names); behind it stands the
-# number of the next one. How they are counted: switch `list_number`.
+# Sources: 3HAC16581-1's arguments and error names [manual]. \ListNo selects one of several
+# instances of a path without names (`/EIO/EIO_CROSS`) and then receives the number of the next one.
+# The switch `list_number` selects the first number.
 
 
 def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | int | float | bool]:
-    """Attributes of the instance; `number` goes on to the next one.
+    """Return attributes of an instance; advance `number`.
 
     ERR_CFG_NOTFND, ERR_CFG_OUTOFBND: the list has no such instance.
     """
@@ -229,7 +226,7 @@ def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | in
 def read_cfg_data(
     task: Task, path: str, attribute: str, argument: object, number: Ref | None
 ) -> None:
-    """A system parameter; an absent flag is FALSE."""
+    """Read a system parameter; an absent flag is FALSE."""
     target = target_of(argument)
     value = _attributes(task, path, number).get(attribute.lower())
     kind = target.type.kind
@@ -251,7 +248,7 @@ def read_cfg_data(
 def write_cfg_data(
     task: Task, path: str, attribute: str, argument: object, number: Ref | None
 ) -> None:
-    """Change a system parameter; only ReadCfgData sees it."""
+    """Write a system parameter, visible to ReadCfgData only."""
     attributes = _attributes(task, path, number)
     before = attributes.get(attribute.lower())
     value, _ = value_of(argument)
@@ -276,6 +273,6 @@ def save_cfg_data(task: Task, path: str, file: str | None, domain: str) -> None:
 
 @builtin("WarmStart", cost="socket")
 def warm_start(task: Task) -> None:
-    """Restart the controller, as after a power failure."""
+    """Restart the controller as after a power failure."""
     task.scheduler.after(0, task.controller.power_loss)
     raise EndOfRun

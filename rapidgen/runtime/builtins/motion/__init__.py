@@ -1,1 +1,1 @@
-"""Built-ins that move robots and settle how they move."""
+"""Built-ins for movements and their settings."""

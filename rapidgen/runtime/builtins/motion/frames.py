@@ -57,7 +57,7 @@ def _pose(frame: Frame) -> Value:
 
 @builtin("Offs", pure=True)
 def offs(_task: Task, point: Value, x: float, y: float, z: float) -> Value:
-    """Shifted along the axes of the object frame; the rest stays."""
+    """Return a target shifted along the axes of the object frame."""
     moved = point.copy()
     moved.trans = _pos(frames.add(_vector(point.trans), (x, y, z)))
     return moved
@@ -74,7 +74,10 @@ def rel_tool(
     ry: float | None,
     rz: float | None,
 ) -> Value:
-    """Shifted in the target's own frame, then turned about x, new y, new z."""
+    """Return a target shifted and rotated in its own frame.
+
+    The rotation is about x, then the new y, then the new z.
+    """
     position, q = _frame(point)
     moved = point.copy()
     moved.trans = _pos(frames.add(position, frames.rotate(q, (dx, dy, dz))))
@@ -89,9 +92,10 @@ def rel_tool(
 def mir_pos(
     _task: Task, point: Value, plane: Value, work_object: Value, mirror_y: bool | None
 ) -> Value:
-    """Mirrored in the xy plane of the plane's object frame; configuration as it was.
+    """Return a target mirrored in the xy plane of an object frame.
 
-    z and x of the tool are mirrored (\\MirY: z and y); the third axis keeps it right-handed.
+    The mirror inverts z and x of the tool (\\MirY: z and y); the third axis keeps the frame
+    right-handed. The configuration does not change.
     """
     mirror = frames.compose(_frame(plane.uframe), _frame(plane.oframe))
     holder = frames.IDENTITY
@@ -117,9 +121,9 @@ def mir_pos(
 def o_rob_t(
     task: Task, point: Value, in_displacement: bool | None, in_offsets: bool | None
 ) -> Value:
-    """Without the program displacement and the offsets of external axes.
+    """Return a target without displacement and external offsets.
 
-    \\InPDisp takes off only the offsets, \\InEOffs only the displacement (S4 datasys 3-ORobT).
+    \\InPDisp removes only the offsets, \\InEOffs only the displacement (S4 datasys 3-ORobT).
     """
     group = group_of(task)
     moved = point.copy()
@@ -143,9 +147,10 @@ def o_rob_t(
 
 @builtin("DefFrame", pure=True)
 def def_frame(_task: Task, p1: Value, p2: Value, p3: Value, origin: float | None) -> Value:
-    """A frame from a point on its x axis, another one, and one on the positive y side.
+    """Return a frame defined by three points.
 
-    Its origin is the first point, the second, or (3) below the third on the x axis.
+    The points are one on the x axis, another one on it, and one on the positive y side. The origin
+    is the first point, the second, or (3) the foot of the third on the x axis.
     """
     first, second, third = (_vector(p.trans) for p in (p1, p2, p3))
     _, turned = _through(p1.trans, p2.trans, p3.trans)
@@ -169,7 +174,10 @@ def _through(first: Value, second: Value, third: Value) -> Frame:
 def def_d_frame(
     _task: Task, old1: Value, old2: Value, old3: Value, new1: Value, new2: Value, new3: Value
 ) -> Value:
-    """The displacement that takes three old points to three new ones; the first is exact."""
+    """Return the displacement from three old points to three new ones.
+
+    The first point matches exactly.
+    """
     old = _through(old1.trans, old2.trans, old3.trans)
     new = _through(new1.trans, new2.trans, new3.trans)
     return _pose(frames.compose(new, frames.invert(old)))
@@ -179,7 +187,10 @@ def def_d_frame(
 def def_acc_frame(
     _task: Task, first: Value, second: Value, count: float, worst: Ref, mean: Ref
 ) -> Value:
-    """The displacement that fits a list of points to another one best (least squares)."""
+    """Return the displacement from one list of points to another.
+
+    It minimises the sum of squares.
+    """
     number = int(count)
     if number != count or not 3 <= number <= min(len(first), len(second)):
         raise RapidError("ERR_FRAME", f"{count:g} points")
@@ -200,7 +211,10 @@ def def_acc_frame(
 def euler_zyx(
     _task: Task, x: bool | None, y: bool | None, z: bool | None, rotation: Value
 ) -> float:
-    """One of the three angles, -180 to 180 degrees. ERR_ARGVALERR without exactly one switch."""
+    """Return one Euler angle in -180 to 180 degrees.
+
+    ERR_ARGVALERR: the call does not have exactly one switch.
+    """
     if (bool(x), bool(y), bool(z)).count(True) != 1:
         raise RapidError("ERR_ARGVALERR", "one of \\X, \\Y, \\Z")
     about_z, about_y, about_x = frames.to_zyx(quaternion(rotation))
@@ -237,7 +251,10 @@ _LARGEST_RANDOM = 32_767
 
 @builtin("Rand")
 def rand(task: Task) -> int:
-    """A whole number from 0 to 32767, drawn from the controller's seed."""
+    """Return a random whole number from 0 to 32767.
+
+    The generator uses the controller's seed.
+    """
     return task.scheduler.rng.randint(0, _LARGEST_RANDOM)
 
 
@@ -252,9 +269,10 @@ def fit_sphere(
     largest: Ref | None,
     worst: Ref | None,
 ) -> None:
-    """The sphere through 4 to 100 points, by least squares.
+    """Fit a sphere to 4 to 100 points by least squares.
 
-    ERR_FIT_TOO_FEW_POINTS, ERR_FIT_TOO_MANY_POINTS, ERR_FIT_POINTS_IN_LINE (also in a plane).
+    Raises ERR_FIT_TOO_FEW_POINTS, ERR_FIT_TOO_MANY_POINTS, ERR_FIT_POINTS_IN_LINE (also for points
+    in a plane).
     """
     used = [points[i] for i in range(1, (len(points) if count is None else int(count)) + 1)]
     if len(used) < 4:
@@ -284,7 +302,10 @@ def fit_circle(
     largest: Ref | None,
     worst: Ref | None,
 ) -> None:
-    """The circle through 3 to 100 points of space. Errors as of FitSphere [mem]."""
+    """Fit a circle to 3 to 100 points in space.
+
+    Errors are those of FitSphere [mem].
+    """
     used = [points[i] for i in range(1, (len(points) if count is None else int(count)) + 1)]
     if len(used) < 3:
         raise RapidError("ERR_FIT_TOO_FEW_POINTS", f"{len(used)} of 3")
@@ -313,9 +334,10 @@ def m_tool_tcp_calib(
     largest: Ref,
     mean: Ref,
 ) -> None:
-    """The TCP that four postures hold at one place of the world, by least squares, mm.
+    """Compute a TCP from four postures by least squares, in mm.
 
-    Of the tool only the position changes. ERR_ARGVALERR: the postures do not turn the tool.
+    All postures have the TCP at one place in the world. Only the tool's position changes.
+    ERR_ARGVALERR: the postures do not rotate the tool.
     """
     group = group_of(task)
     kinematics = geometry_of(group)

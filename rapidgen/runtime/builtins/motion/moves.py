@@ -62,7 +62,10 @@ from rapidgen.runtime.values import Value
 
 
 def common(task: Task, group: MotionGroup, arguments: Arguments) -> dict[str, Value]:
-    """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
+    """Return the parameters common to all moves to a robtarget.
+
+    Without a `Zone` argument (searches) the move ends in a stop point.
+    """
     tool = arguments["Tool"].get()
     work_object = arguments["WObj"].get() if arguments["WObj"] is not None else None
     carrier = carrier_of(group, tool, work_object)
@@ -86,7 +89,10 @@ def common(task: Task, group: MotionGroup, arguments: Arguments) -> dict[str, Va
 def joint_move(
     task: Task, arguments: Arguments, events: tuple[PathEvent, ...] = (), *, checked: bool = True
 ) -> tuple[MotionGroup, Move]:
-    """To a robtarget with all axes together; not `checked`: in the nearest configuration."""
+    """Return a joint move to a robtarget.
+
+    Without `checked` the nearest configuration applies.
+    """
     group = moving_group(task)
     kinematics = geometry_of(group)
     shared = common(task, group, arguments)
@@ -102,7 +108,7 @@ def joint_move(
 def cartesian_move(
     task: Task, arguments: Arguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
-    """To a robtarget on a line, or on the circle through `CirPoint`."""
+    """Return a linear move, or a circular one through `CirPoint`."""
     group = moving_group(task)
     kinematics = geometry_of(group)
     shared = common(task, group, arguments)
@@ -135,9 +141,10 @@ def cartesian_move(
 
 
 def together(task: Task, group: MotionGroup, move: Move, identity: float | None) -> Move:
-    """The move with the time that it takes in synchronised movement; else as it is.
+    """Return the move with its time in synchronised movement.
 
-    FatalError: \\ID is missing in synchronised movement.
+    A move without synchronisation does not change. FatalError: \\ID is missing in synchronised
+    movement.
     """
     data = data_of(task, group)
     if not data.partners or data.suspended:
@@ -170,13 +177,15 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
 
 # -- Path ------------------------------------------------------------------------------------------
 #
-# A move is made, joined with those of other robots, and put on the path.
+# A move instruction creates a move, synchronises it with the moves of other robots, and appends it
+# to the path.
 #
-# A guessed robot does not come everywhere. With robot, tool and table made up, a place out of reach
-# or in another configuration says more of the guess than of the program: the move then goes to the
-# same place with all axes together, in the nearest configuration, and where no posture reaches it
-# the robot stays, and what the move does on its way is done there. Each is told
-# (`MotionSystem.on_missed`). A robot that somebody chose stops the program, as controllers do.
+# An inferred robot cannot reach every target. Robot, tool and table are assumptions, so an
+# unreachable target or configuration says more about the inference than about the program. The move
+# then goes to the same target by joint interpolation in the nearest configuration. If no posture
+# reaches the target, the robot does not move, but the events of the move occur.
+# `MotionSystem.on_missed` reports each case. A robot chosen by the user stops the program, as on a
+# controller.
 
 
 Maker: TypeAlias = Callable[[Task, Arguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
@@ -188,7 +197,10 @@ _STOPS = frozenset((NOT_COMPATIBLE, OUT_OF_RANGE, SINGULARITY, CIRCLE_UNCERTAIN)
 def order(
     task: Task, arguments: Arguments, make: Maker, events: tuple[PathEvent, ...] = ()
 ) -> MotionGroup:
-    """Execute a move instruction; the group that moves. Raises what the planner refuses."""
+    """Execute a move instruction and return the group that moves.
+
+    Raises the errors of the planner.
+    """
     try:
         return _put(task, arguments, *make(task, arguments, events))
     except (MotionFault, RapidError, FatalError) as raised:
@@ -213,7 +225,10 @@ def _put(task: Task, arguments: Arguments, group: MotionGroup, move: Move) -> Mo
 
 
 def _goes_by_its_axes(task: Task, arguments: Arguments, events: tuple[PathEvent, ...]) -> bool:
-    """Whether a target is reached that way; one of axes is not."""
+    """Return True if a target is reachable by joint interpolation only.
+
+    False for joint targets.
+    """
     if "ToPoint" not in arguments:
         return False
     try:
@@ -224,7 +239,7 @@ def _goes_by_its_axes(task: Task, arguments: Arguments, events: tuple[PathEvent,
 
 
 def _is_of_place(fault: RapidError | FatalError) -> bool:
-    """Whether it is about where the robot can come, and not about the way of asking."""
+    """Return True if a fault concerns the target, not the instruction."""
     if isinstance(fault, RapidError):
         return fault.number in _PLACES
     return fault.event in _STOPS
@@ -235,7 +250,7 @@ def bind(
     make: Maker,
     events_of: Callable[[Task, Arguments], tuple[PathEvent, ...]] = lambda _task, _given: (),
 ) -> None:
-    """Bind a move instruction to what makes its move and its events on the path."""
+    """Bind a move instruction to functions for its move and events."""
 
     @by_name(name, cost="move")
     def execute(task: Task, _name: str, arguments: Arguments) -> None:
@@ -255,14 +270,18 @@ def bind(
 
 @by_name("MoveAbsJ", cost="move")
 def move_abs_j(task: Task, _name: str, arguments: Arguments) -> None:
-    """All axes to where a jointtarget says."""
+    """Move all axes to a jointtarget."""
     order(task, arguments, absolute_move)
 
 
 def absolute_move(
     task: Task, arguments: Arguments, _events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
-    """Displacement does not count here, offsets of external axes do (S4 datasys 2-MoveAbsJ-3)."""
+    """Return a joint move to a jointtarget.
+
+    The program displacement has no effect here; offsets of external axes do (S4 datasys
+    2-MoveAbsJ-3).
+    """
     group = moving_group(task)
     modal, data = group.modal, data_of(task, group)
     offsets = NO_OFFSETS if arguments["NoEOffs"] else data.external_offset
@@ -282,13 +301,16 @@ def absolute_move(
 @by_name("MoveExtJ", cost="move")
 @planned
 def move_ext_j(task: Task, _name: str, arguments: Arguments) -> None:
-    """Robot axes stay where the path ends, and only the speeds of external axes count."""
+    """Move external axes only.
+
+    Robot axes stay at the end of the path, and only the speeds of external axes apply.
+    """
     group, move, _ = external_move(task, arguments)
     group.move(task, together(task, group, move, arguments["ID"]))
 
 
 def external_move(task: Task, arguments: Arguments) -> tuple[MotionGroup, JointMove, Offsets]:
-    """A move of external axes alone, and the offsets that it heeds."""
+    """Return a move of external axes, and the offsets that apply."""
     group = moving_group(task)
     ends = group.path_target
     offsets = data_of(task, group).external_offset if arguments["UseEOffs"] else NO_OFFSETS
@@ -311,7 +333,7 @@ def _joint_move(
     speed: MoveSpeed,
     carrier: MoveFrames,
 ) -> JointMove:
-    """Without a `Zone` (searches) it ends in a stop point."""
+    """Return a joint move; without `Zone` (searches) to a stop point."""
     stop = arguments.get("Inpos")
     return JointMove(
         target=target,
@@ -329,7 +351,10 @@ def _joint_move(
 
 
 def _setting(task: Task, arguments: Arguments) -> tuple[PathEvent]:
-    """The output changes in the middle of the corner, at a stop point on arrival."""
+    """Return the event that sets an output.
+
+    It occurs in the middle of the corner, or on arrival at a stop point.
+    """
     signal, value = arguments["Signal"].signal, arguments["Value"]
     expected = fitting(signal, arguments["Dvalue"] if value is None else value)
     io = task.controller.io
@@ -337,7 +362,10 @@ def _setting(task: Task, arguments: Arguments) -> tuple[PathEvent]:
 
 
 def _calling(task: Task, arguments: Arguments) -> tuple[PathEvent]:
-    """The procedure runs when the task next attends, as a trap would; not inside a trap."""
+    """Return the event that calls a procedure.
+
+    The procedure runs at the task's next statement, as a trap does, and never inside a trap.
+    """
     name = arguments["ProcName"]
     routine = task.program.find_routine(None, name.lower())
     if not isinstance(routine, Routine) or routine.kind != "PROC":

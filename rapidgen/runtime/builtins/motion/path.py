@@ -26,7 +26,7 @@ OTHER_TASK = "other task"
 
 
 def reason_of(task: Task) -> str:
-    """Under which name a task stops and starts a robot."""
+    """Return the stop owner of a task, for stopping and starting a robot."""
     motion = task.controller.motion
     if motion.is_motion_task(task.name):
         return MOVE_TASK
@@ -43,7 +43,7 @@ def _groups(task: Task, all_tasks: bool | None) -> Iterable[MotionGroup]:
 
 @builtin("StopMove", cost="call")
 def stop_move(task: Task, quick: bool | None, all_tasks: bool | None) -> None:
-    """Brakes on the path and stays; the program goes on (S4 datasys 2-StopMove-1)."""
+    """Brake on the path; the program continues (S4 datasys 2-StopMove-1)."""
     groups = tuple(_groups(task, all_tasks))
     for group in groups:
         group.stop(reason_of(task), quick=bool(quick))
@@ -54,7 +54,7 @@ def stop_move(task: Task, quick: bool | None, all_tasks: bool | None) -> None:
 
 @builtin("StartMove", cost="call")
 def start_move(task: Task, all_tasks: bool | None) -> None:
-    """Takes back the stop of this kind of task; moves when no other holds.
+    """Cancel the stop of this kind of task; move if no other stop remains.
 
     ERR_PATHDIST: more than 10 mm or 20 degrees off the path (S4 datasys 2-StartMove-1).
     """
@@ -69,14 +69,20 @@ def start_move(task: Task, all_tasks: bool | None) -> None:
 
 @builtin("StartMoveRetry", cost="call")
 def start_move_retry(task: Task) -> None:
-    """StartMove and RETRY in one, in an ERROR handler only [manual 3HAC050917]."""
+    """Execute StartMove and RETRY, in an ERROR handler only.
+
+    Source: [manual 3HAC050917].
+    """
     start_move(task, None)
     task.errors.retry_here()
 
 
 @builtin("StopMoveReset", cost="call")
 def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
-    """Takes back the stop without moving: what is left of the path is gone (`stop_move_reset`)."""
+    """Cancel the stop without movement.
+
+    The remaining path is discarded (`stop_move_reset`).
+    """
     for group in _groups(task, all_tasks):
         if group.settings.stop_move_reset == "releases":
             group.release(reason_of(task))
@@ -84,7 +90,10 @@ def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
 
 @builtin("IsStopMoveAct")
 def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None) -> bool:
-    """Whether a StopMove of a motion task, or of another task, holds the robot."""
+    """Return True if a StopMove stops the robot.
+
+    \\FromMoveTask and \\FromNonMoveTask select the kind of the stopping task.
+    """
     reasons = group_of(task).stop_reasons
     other = any(reason.startswith(OTHER_TASK) for reason in reasons)
     if from_move:
@@ -97,7 +106,7 @@ def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None
 @builtin("RestoPath")
 @planned
 def resto_path(task: Task) -> None:
-    """Brings the stored path back; StartMove sets the robot going on it."""
+    """Restore the stored path; StartMove continues the movement."""
     group_of(task).restore_path(reason_of(task))
 
 
@@ -113,11 +122,11 @@ builtins(_PLAIN)
 
 # -- Process errors, servo signals -----------------------------------------------------------------
 #
-# Errors of a process that runs while the robot moves, and what its axes carry.
+# Process errors during movements, and payloads of axes.
 #
-# Sources: [K §7.4] for ProcerrRecovery, which stops the movement; 3HAC050917 for arguments. There
-# are no dynamics: torques are 0, loads change nothing. gizatt/ABB-IRB140 [code] for the arguments
-# of TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
+# Sources: [K §7.4] for ProcerrRecovery, which stops the movement; 3HAC050917 for arguments. The
+# model has no dynamics: torques are 0, loads have no effect. gizatt/ABB-IRB140 [code] for the
+# arguments of TestSignDefine, its twelve channels and the signal numbers of a force sensor.
 
 
 _CHANNELS = range(1, 13)
@@ -130,7 +139,10 @@ _FORCES = range(201, 213)
 def procerr_recovery(
     task: Task, origin: bool | None, last: bool | None, _signal: bool | None
 ) -> None:
-    """Stop the movement and raise ERR_PATH_STOP where the robot is moved from; only in a trap."""
+    """Stop the movement and raise ERR_PATH_STOP in the moving routine.
+
+    Permitted in a trap only.
+    """
     if not task.in_trap or origin == last:
         raise FatalError(
             NOT_ALLOWED,
@@ -146,14 +158,17 @@ def procerr_recovery(
 
 
 def _owner(group: MotionGroup) -> tuple[str, str]:
-    """Module and routine of the move that made the path; empty when there is no path."""
+    """Return module and routine of the current path's move.
+
+    Both are empty without a path.
+    """
     place = group.legs[0].move.place if group.legs else None
     result = place() if place is not None else None
     return (result.module, result.routine) if isinstance(result, Location) else ("", "")
 
 
 def _axis(group: MotionGroup, number: float) -> int:
-    """The axis of a number from 1; ERR_AXIS_PAR."""
+    """Return the axis of a number from 1, or raise ERR_AXIS_PAR."""
     if number != int(number) or not 1 <= number <= len(group.config.joints):
         raise RapidError("ERR_AXIS_PAR", f"axis {number:g}")
     return int(number)
@@ -161,7 +176,10 @@ def _axis(group: MotionGroup, number: float) -> int:
 
 @builtin("MechUnitLoad")
 def mech_unit_load(task: Task, _unit: Value, axis: float, load: Ref) -> None:
-    """Payload of an external mechanical unit. FatalError: it is undefined."""
+    """Set the payload of an external mechanical unit.
+
+    FatalError: the load is undefined.
+    """
     group = group_of(task)
     require_defined(task, group, load.get(), "the load of MechUnitLoad")
     data_of(task, group).extra[f"load of axis {int(axis)}"] = load.get().copy()
@@ -169,7 +187,7 @@ def mech_unit_load(task: Task, _unit: Value, axis: float, load: Ref) -> None:
 
 @builtin("GetMotorTorque")
 def get_motor_torque(task: Task, _unit: Value, axis: float) -> float:
-    """0 Nm. ERR_AXIS_PAR."""
+    """Return 0 Nm, or raise ERR_AXIS_PAR."""
     _axis(group_of(task), axis)
     return 0.0
 
@@ -186,9 +204,10 @@ def define_test_signal(
     axis: float,
     _sample: float,
 ) -> None:
-    """A signal of the servos for a channel. ERR_ARGVALERR: no such channel; ERR_AXIS_PAR.
+    """Assign a servo signal to a channel.
 
-    FatalError: a signal of which nobody knows what it shows.
+    ERR_ARGVALERR: invalid channel; ERR_AXIS_PAR: invalid axis; FatalError: a signal without a
+    public description.
     """
     if channel not in _CHANNELS:
         raise RapidError("ERR_ARGVALERR", f"channel {channel:g}")
@@ -204,7 +223,7 @@ def define_test_signal(
 
 @builtin("TestSignRead")
 def read_test_signal(task: Task, channel: float) -> float:
-    """The value of a channel. ERR_ARGVALERR: none is defined for it."""
+    """Return the value of a channel, or raise ERR_ARGVALERR."""
     value = task.controller.test_signals.get(int(channel))
     if value is None:
         raise RapidError("ERR_ARGVALERR", f"channel {channel:g} has no signal")
@@ -213,5 +232,5 @@ def read_test_signal(task: Task, channel: float) -> float:
 
 @builtin("TestSignReset")
 def reset_test_signals(task: Task) -> None:
-    """All channels are free."""
+    """Remove the signals of all channels."""
     task.controller.test_signals.clear()

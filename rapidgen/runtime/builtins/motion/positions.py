@@ -43,17 +43,17 @@ _CONFIGURATION_ERRORS = {"limit": "ERR_ROBLIMIT", "reach": "ERR_OUTSIDE_REACH", 
 
 
 def tool0() -> Value:
-    """tooldata of the flange."""
+    """Return tooldata of the flange."""
     return ToolData(True, _identity(), load0())
 
 
 def load0() -> Value:
-    """loaddata of next to nothing."""
+    """Return loaddata of a minimal load."""
     return LoadData(_NEXT_TO_NOTHING, Pos(0, 0, _NEXT_TO_NOTHING), Orient(1, 0, 0, 0))
 
 
 def wobj0() -> Value:
-    """wobjdata of the world."""
+    """Return wobjdata of the world."""
     return WobjData(False, True, "", _identity(), _identity())
 
 
@@ -64,9 +64,10 @@ def _identity() -> Value:
 def carrier_for(
     task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None
 ) -> MoveFrames:
-    """Frames of the given tool and object; those left out are the active ones.
+    """Return the frames of a tool and a work object.
 
-    With a tool given, a work object left out is still the active one (S4 datasys 3-CRobT-1).
+    A missing argument means the active one, also the work object if the tool is given (S4 datasys
+    3-CRobT-1).
     """
     data = data_of(task, group)
     return carrier_of(
@@ -77,14 +78,17 @@ def carrier_for(
 
 
 def here_of(task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None) -> Value:
-    """The TCP now as a robtarget, in the displaced frame of an object."""
+    """Return the current TCP as a robtarget in a displaced object frame."""
     carrier = carrier_for(task, group, tool, work_object)
     return rob_target(group, group.positions(), carrier, data_of(task, group).external_offset)
 
 
 @builtin("CJointT")
 def c_joint_t(task: Task, reference: Value, name: str | None) -> Value:
-    """Arm-side angles and external axes now; external axes in the shifted frame."""
+    """Return current arm-side angles and external axes.
+
+    External axes include their offsets.
+    """
     group = named_group(task, reference, name)
     return joint_target(group.map, group.positions(), data_of(task, group).external_offset)
 
@@ -93,19 +97,22 @@ def c_joint_t(task: Task, reference: Value, name: str | None) -> Value:
 def c_rob_t(
     task: Task, reference: Value, name: str | None, tool: Ref | None, work_object: Ref | None
 ) -> Value:
-    """The TCP now, in the displaced object frame."""
+    """Return the current TCP in the displaced object frame."""
     group = named_group(task, reference, name)
     return here_of(task, group, tool, work_object)
 
 
 @builtin("CPos")
 def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Value:
-    """Position of `CRobT`."""
+    """Return the position of `CRobT`."""
     return here_of(task, group_of(task), tool, work_object).trans
 
 
 def _computed(task: Task) -> MotionGroup:
-    """The group to compute for. ERR_NOT_MOVETASK: `calc_in_background` says no."""
+    """Return the group for a computation.
+
+    ERR_NOT_MOVETASK: the switch `calc_in_background` forbids it.
+    """
     moves = task.controller.motion.is_motion_task(task.name)
     if not moves and not task.controller.dialect.calc_in_background:
         raise RapidError("ERR_NOT_MOVETASK")
@@ -114,7 +121,7 @@ def _computed(task: Task) -> MotionGroup:
 
 @builtin("CalcRobT")
 def calc_rob_t(task: Task, joints: Value, tool: Ref, work_object: Ref | None) -> Value:
-    """The robtarget of a jointtarget."""
+    """Return the robtarget of a jointtarget."""
     group = _computed(task)
     offsets = data_of(task, group).external_offset
     posture = target_of(joints, group.map, group.positions(), offsets)
@@ -130,10 +137,10 @@ def calc_joint_t(
     work_object: Ref | None,
     number: Ref | None,
 ) -> Value:
-    """The jointtarget of a robtarget, in the configuration that it programs.
+    """Return the jointtarget of a robtarget in its configuration.
 
-    ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached). Which of
-    them a configuration is that the place has not is a switch.
+    Raises ERR_ROBLIMIT or ERR_OUTSIDE_REACH; with \\ErrorNumber it returns the number instead (0:
+    reachable). A switch decides which of them an impossible configuration raises.
     """
     group = _computed(task)
     here = group.positions()
@@ -145,7 +152,7 @@ def calc_joint_t(
         for joint, new, old in zip(group.config.joints, requested, here, strict=True)
     )
     expected = configuration_of(target.robconf) if group.modal.check_joint else None
-    # \UseCurWObjPos: where the object's unit is now, not where the target wants it.
+    # \UseCurWObjPos uses the present position of the object's unit, not that of the target.
     placed = _carrier(group, tool, work_object).at(here if current else near)
     flange = placed.flange(frame(target))
     try:
@@ -173,14 +180,14 @@ def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> MoveFram
 
 @builtin("CTool")
 def c_tool(task: Task, reference: Value, name: str | None) -> Value:
-    """Tool of the last move."""
+    """Return the tool of the last move."""
     tool: Value = data_of(task, named_group(task, reference, name)).tool or tool0()
     return tool.copy()
 
 
 @builtin("CWObj")
 def c_wobj(task: Task, reference: Value, name: str | None) -> Value:
-    """Work object of the last move."""
+    """Return the work object of the last move."""
     data = data_of(task, named_group(task, reference, name))
     work_object: Value = data.work_object or wobj0()
     return work_object.copy()
@@ -188,12 +195,13 @@ def c_wobj(task: Task, reference: Value, name: str | None) -> Value:
 
 # -- Loads -----------------------------------------------------------------------------------------
 #
-# Loads that a robot carries: one that is undefined stops the program, one too heavy is reported.
+# An undefined load stops the program; a load that is too heavy is reported.
 #
-# Loads change no motion here, but a controller's motion and collision detection depend on them.
-# Event 41438 was seen at EGMActJoint with a load of 0 kg (ros-industrial/abb_libegm, issue 73);
-# that a negative mass has it at every move and in GripLoad is from memory [mem]: `undefined_load`.
-# A mass of 0 in a move is taken: no source says that a controller refuses it.
+# Loads do not change motion here, but motion and collision detection of a controller depend on
+# them. Event 41438 was observed at EGMActJoint with a load of 0 kg (ros-industrial/abb_libegm,
+# issue 73). Remembered only [mem]: a negative mass raises it at every move and in GripLoad
+# (`undefined_load`). A move accepts a mass of 0, because no source says that a controller rejects
+# it.
 
 
 _UNDEFINED: Final = 41_438
@@ -201,12 +209,15 @@ _GRIPPED: Final = "GripLoad"
 
 
 def payload_of(task: RapidTask, group: MotionGroup) -> Value:
-    """The active payload: what GripLoad or SetSysData set, None: nothing since PP to main."""
+    """Return the active payload.
+
+    GripLoad or SetSysData set it; None: not set since PP to main.
+    """
     return data_of(task, group).extra.get(_GRIPPED)
 
 
 def carry(task: RapidTask, group: MotionGroup, load: Value, what: str) -> None:
-    """Make a payload the active one. FatalError: it is undefined."""
+    """Activate a payload. FatalError: it is undefined."""
     require_defined(task, group, load, what)
     data_of(task, group).extra[_GRIPPED] = load.copy()
 
@@ -214,7 +225,10 @@ def carry(task: RapidTask, group: MotionGroup, load: Value, what: str) -> None:
 def require_defined(
     task: RapidTask, group: MotionGroup, load: Value, what: str, *, zero: bool = True
 ) -> None:
-    """FatalError: a mass is negative or no number; without `zero` also if it is 0."""
+    """Raise FatalError if a mass is negative or not a number.
+
+    Without `zero` a mass of 0 is an error as well.
+    """
     if load.mass >= 0 if zero else load.mass > 0:
         return
     title, text = "Undefined load", f"{what} has a mass of {load.mass:g} kg"
@@ -224,10 +238,10 @@ def require_defined(
 
 
 def check_loads(task: Task, group: MotionGroup, arguments: Arguments) -> None:
-    """What a move carries; more than the robot's payload is reported once for each change.
+    """Check the loads of a move.
 
-    FatalError: a load is undefined. With \\TLoad that is all of it, unless it is load0
-    (3HAC050917, MoveL).
+    A load above the robot's payload is reported once per change. FatalError: a load is undefined.
+    \\TLoad is the total load unless it is load0 (3HAC050917, MoveL).
     """
     total = arguments["TLoad"].get() if arguments.get("TLoad") is not None else None
     if total is not None and total != load0():
@@ -243,7 +257,7 @@ def check_loads(task: Task, group: MotionGroup, arguments: Arguments) -> None:
     if mass == data.carried:
         return
     data.carried = mass
-    # The payload of a guessed robot says nothing of the program.
+    # The payload of an inferred robot is an assumption.
     if task.controller.motion.on_missed is not None:
         return
     for doubt in mass_doubts(mass, arm_of(group.config)):
@@ -267,7 +281,10 @@ def _part_of_vmax(place: int) -> Callable[[Task], Value]:
 
 
 def _corner_path_warning(task: Task, warning: bool) -> None:
-    """Whether corners that become stop points are told (50024), until PP to main."""
+    """Enable the report of corners that become stop points (50024).
+
+    The setting applies until PP to main.
+    """
     group_of(task).modal.corner_warning = warning
 
 

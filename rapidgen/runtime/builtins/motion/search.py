@@ -20,12 +20,12 @@ from rapidgen.runtime.values import Ref, Value
 
 # -- Searches --------------------------------------------------------------------------------------
 #
-# SearchL, SearchC and SearchExtJ: a move that watches a signal.
+# SearchL, SearchC and SearchExtJ: moves that monitor a signal.
 #
-# Source: S4 datasys 2-SearchL. \Stop brakes hard, \PStop and \SStop on the path as a normal
-# stop, without a switch and with \Sup the robot goes on to its target. The move ends in a stop
-# point, the point of the hit is where the TCP was when the signal changed. In a step a search
-# without a hit stops the program, no handler gets it.
+# Source: S4 datasys 2-SearchL. \Stop brakes hard, \PStop and \SStop brake on the path as a normal
+# stop. Without a switch and with \Sup the robot continues to its target. The move ends in a stop
+# point. The result is the TCP at the time of the signal change. In a step, a search without a hit
+# stops the program; its handler does not receive the error.
 
 
 _REASON = "search"
@@ -35,7 +35,7 @@ _NO_HIT = 49_906
 
 @dataclass(frozen=True, slots=True)
 class _Edges:
-    """Which changes count."""
+    """Signal changes that count as a hit."""
 
     rising: bool
     falling: bool
@@ -55,7 +55,7 @@ class _Hits:
     found: list[Posture] = field(default_factory=list)
 
     def changed(self) -> None:
-        """The watched thing has changed."""
+        """Record a change of the monitored signal."""
         now = self.read()
         before, self.last = self.last, now
         if (now and not before and self.edges.rising) or (
@@ -64,7 +64,7 @@ class _Hits:
             self.hit()
 
     def hit(self) -> None:
-        """Keep the place, and stop when that is wanted."""
+        """Record the position, and stop if the instruction requires it."""
         self.found.append(self.group.positions())
         if self.halt is not None and len(self.found) == 1:
             self.halt()
@@ -85,7 +85,7 @@ def _edges(arguments: Arguments) -> _Edges:
 
 
 def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callable[[], bool]]:
-    """What to watch, and how to read it."""
+    """Return the wait set of a search, and the function that reads it."""
     if signal is not None:
         source = signal.signal
         return source.changed, lambda: bool(source.value)
@@ -98,7 +98,10 @@ def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callab
 @by_name("SearchL", "SearchC", cost="move")
 @planned
 def search(task: Task, _name: str, arguments: Arguments) -> None:
-    """Moves, and keeps where the TCP was at the hit. ERR_WHLSEARCH: none, ERR_SIGSUPSEARCH."""
+    """Move, and store the TCP at the hit.
+
+    Raises ERR_WHLSEARCH without a hit, and ERR_SIGSUPSEARCH.
+    """
     group, move = cartesian_move(task, arguments)
     place = _first_hit(task, group, move, arguments)
     offsets = data_of(task, group).external_offset
@@ -108,14 +111,14 @@ def search(task: Task, _name: str, arguments: Arguments) -> None:
 @by_name("SearchExtJ", cost="move")
 @planned
 def search_ext_j(task: Task, _name: str, arguments: Arguments) -> None:
-    """The same with external axes alone; keeps where all axes were."""
+    """Search with external axes; store the position of all axes."""
     group, move, offsets = external_move(task, arguments)
     place = _first_hit(task, group, move, arguments)
     arguments["SearchJointPos"].set(joint_target(group.map, place, offsets))
 
 
 def _first_hit(task: Task, group: MotionGroup, expected: Move, arguments: Arguments) -> Posture:
-    """Make the move, and stop it as is asked for; where the axes were at the first hit."""
+    """Execute the move, stop it as requested, and return the first hit."""
     move = together(task, group, expected, arguments["ID"])
     edges, hard = _edges(arguments), bool(arguments["Stop"])
     change, read = _source(arguments["Signal"], arguments["PersBool"])
@@ -160,9 +163,9 @@ def _first_hit(task: Task, group: MotionGroup, expected: Move, arguments: Argume
 # ContactL, lead-through, GetJointData.
 #
 # Sources: 3HAC050917 for ContactL and GetJointData, programs for their arguments [code yumipy];
-# that SetLeadThrough \On orders StopMove, \Off ClearPath and StartMove [manual, in public notes].
-# There are no dynamics: torques are 0, and a robot touches something when a test says so
-# (`controller.motion.group(name).touch()`).
+# SetLeadThrough \On executes StopMove, \Off ClearPath and StartMove [manual, in public notes]. The
+# model has no dynamics: torques are 0. A test simulates contact by
+# `controller.motion.group(name).touch()`.
 
 
 _LED = "LeadThrough"
@@ -172,9 +175,9 @@ _CONTACT = "contact"
 @by_name("ContactL", cost="move")
 @planned
 def contact_l(task: Task, _name: str, arguments: Arguments) -> None:
-    """On a line until the robot touches something; what is left of the line goes.
+    """Move linearly until contact; discard the rest of the line.
 
-    ERR_CONTACTL: it has come to the end without, and \\DesiredTorque is given [mem].
+    ERR_CONTACTL: no contact before the target, with \\DesiredTorque [mem].
     """
     group, move = cartesian_move(task, _without_zone(arguments))
     touched: list[bool] = []
@@ -198,7 +201,10 @@ def contact_l(task: Task, _name: str, arguments: Arguments) -> None:
 
 
 def _without_zone(arguments: Arguments) -> dict[str, Value]:
-    """It ends in a stop point: the program has to know whether there was contact."""
+    """Return the arguments without a zone.
+
+    A stop point lets the program evaluate the contact.
+    """
     return {name: value for name, value in arguments.items() if name != "Zone"}
 
 
@@ -211,7 +217,7 @@ def set_lead_through(
     no_start: bool | None,
     no_clear: bool | None,
 ) -> None:
-    """The robot yields to hands, or holds its place again."""
+    """Enable or disable lead-through."""
     group = group_of(task)
     data_of(task, group).extra[_LED] = not off
     if off:
@@ -225,7 +231,10 @@ def set_lead_through(
 
 @builtin("IsLeadThrough")
 def is_lead_through(task: Task, unit: Value, active: bool | None, _set: bool | None) -> bool:
-    """Whether lead-through is set; \\Active: and the robot stands, so that it yields."""
+    """Return True if lead-through is enabled.
+
+    \\Active: also requires standstill, so that the robot can be moved by hand.
+    """
     group = group_of(task) if unit is None else unit_group(task, unit)
     led = bool(data_of(task, group).extra.get(_LED))
     return led and (group.is_standing or not active)
@@ -241,7 +250,10 @@ def get_joint_data(
     torque: Ref | None,
     outer_torque: Ref | None,
 ) -> None:
-    """Place and speed of an axis now, deg or mm and per s; its torques, 0 Nm. ERR_AXIS_PAR."""
+    """Return position and speed of an axis, in deg or mm and per second.
+
+    Torques are 0 Nm. Raises ERR_AXIS_PAR.
+    """
     group, joint = unit_axis(task, unit, axis)
     now = task.scheduler.now
     current, before = (_axis(group, joint.axis, time) for time in (now, now - MS))

@@ -17,13 +17,14 @@ from rapidgen.runtime.values import LoadData, Pos, Ref, Value, register_type
 
 # -- Externally guided motion ----------------------------------------------------------------------
 #
-# Externally guided motion (options 689-1 and 3124-1) of a controller whose partner is silent.
+# Externally guided motion (options 689-1 and 3124-1) of a controller without a communication
+# partner.
 #
-# Source, unless another is named: manual 3HAC073318, chapters 2 and 5. Identities, states, modes
-# and refusals are a controller's; a datagram is neither sent nor read, so a robot that is to be
-# guided stands where it is, and its task waits as for a socket. EGMSetupAI, EGMSetupAO, EGMSetupGI,
-# EGMSetupLTAPP, EGMActMove, EGMMoveL and EGMMoveC stop the program: a signal or a path would have
-# to be followed.
+# Source, unless stated otherwise: manual 3HAC073318, chapters 2 and 5. Identities, states, modes
+# and errors are those of a controller. The virtual controller neither sends nor reads datagrams. A
+# robot under guidance stands still, and its task waits as for a socket. EGMSetupAI, EGMSetupAO,
+# EGMSetupGI, EGMSetupLTAPP, EGMActMove, EGMMoveL and EGMMoveC stop the program, because they
+# require a signal or a path to follow.
 
 
 _MISMATCH: Final = 41_826
@@ -34,7 +35,7 @@ _DISCONNECTED, _CONNECTED, _RUNNING = range(3)
 
 
 class EgmIdentity:
-    """An egmident: what EGMGetId has put into it."""
+    """An egmident: the identity assigned by EGMGetId."""
 
     __slots__ = ("session",)
 
@@ -50,7 +51,10 @@ def _refused(text: str, *, event: int = GUIDED, title: str = "EGM not possible")
 
 
 def _session(task: Task, identity: EgmIdentity) -> EgmSession:
-    """FatalError: it is no motion task, or the identity was not taken, or was given back."""
+    """Return the session of an identity.
+
+    FatalError: not a motion task, or the identity is not assigned.
+    """
     moving_group(task)
     if identity.session is None:
         raise _refused("EGMGetId comes first")
@@ -58,7 +62,7 @@ def _session(task: Task, identity: EgmIdentity) -> EgmSession:
 
 
 def _set_up(task: Task, identity: EgmIdentity) -> EgmSession:
-    """FatalError: nothing was set up."""
+    """Return a session after its set-up, or raise FatalError."""
     session = _session(task, identity)
     if session.device is None:
         raise _refused("EGMSetupUC comes first")
@@ -67,7 +71,10 @@ def _set_up(task: Task, identity: EgmIdentity) -> EgmSession:
 
 @builtin("EGMGetId")
 def egm_get_id(task: Task, identity: EgmIdentity) -> None:
-    """The same variable keeps its own. FatalError: all four are in use [GoFa 7.21]."""
+    """Assign an identity; a variable keeps its identity.
+
+    FatalError: all four identities are in use [GoFa 7.21].
+    """
     moving_group(task)
     if identity.session is not None:
         return
@@ -81,7 +88,7 @@ def egm_get_id(task: Task, identity: EgmIdentity) -> None:
 
 @builtin("EGMReset")
 def egm_reset(task: Task, identity: EgmIdentity) -> None:
-    """Give it back; one that was not taken is left alone."""
+    """Release an identity; ignore one that is not assigned."""
     moving_group(task)
     if identity.session is not None:
         task.controller.egm.free(identity.session)
@@ -90,7 +97,10 @@ def egm_reset(task: Task, identity: EgmIdentity) -> None:
 
 @builtin("EGMGetState")
 def egm_get_state(_task: Task, identity: EgmIdentity) -> int:
-    """DISCONNECTED without EGMGetId, RUNNING while positions would go out or in."""
+    """Return the state of an identity.
+
+    DISCONNECTED without EGMGetId, RUNNING while a controller would exchange positions.
+    """
     if identity.session is None:
         return _DISCONNECTED
     return _RUNNING if identity.session.running else _CONNECTED
@@ -98,9 +108,12 @@ def egm_get_state(_task: Task, identity: EgmIdentity) -> int:
 
 @by_name("EGMSetupUC")
 def egm_setup_uc(task: Task, _name: str, arguments: Arguments) -> None:
-    """FatalError: there is no such device. Without a mode positions are streamed only, as a public
-    program for that alone has it [code: rparak/ABB_EGM_Motion_Mirroring]. How long a silent partner
-    is waited for without \\CommTimeout is the switch `egm_patience`."""
+    """Set up a session with a UdpUc device. FatalError: unknown device.
+
+    Without a mode the session only streams positions, as a public program uses it [code:
+    rparak/ABB_EGM_Motion_Mirroring]. The switch `egm_patience` is the time limit without
+    \\CommTimeout.
+    """
     session = _session(task, arguments["EGMid"])
     modes = [mode for mode in get_args(Guidance) if arguments[mode]]
     device = task.controller.egm.device(arguments["UCDevice"])
@@ -119,7 +132,10 @@ def egm_setup_uc(task: Task, _name: str, arguments: Arguments) -> None:
 
 @by_name("EGMActJoint", "EGMActPose")
 def egm_act(task: Task, name: str, arguments: Arguments) -> None:
-    """The last one counts. FatalError: it was set up for something else, its load is undefined."""
+    """Activate a session; the last activation applies.
+
+    FatalError: the set-up has another mode, or the load is undefined.
+    """
     session = _set_up(task, arguments["EGMid"])
     expected: Guidance = "Joint" if name == "EGMActJoint" else "Pose"
     if session.guidance is None:
@@ -133,7 +149,7 @@ def egm_act(task: Task, name: str, arguments: Arguments) -> None:
 
 
 def _check_load(task: Task, name: str, arguments: Arguments) -> None:
-    """A load of 0 kg is refused here (ros-industrial/abb_libegm, issue 73)."""
+    """Reject a load of 0 kg (ros-industrial/abb_libegm, issue 73)."""
     group = moving_group(task)
     if arguments["TLoad"] is not None:
         require_defined(task, group, arguments["TLoad"].get(), f"\\TLoad of {name}", zero=False)
@@ -147,23 +163,23 @@ def _mismatch(text: str) -> FatalError:
 
 @builtin("EGMStreamStart")
 def egm_stream_start(task: Task, identity: EgmIdentity, _rate: float | None) -> None:
-    """Positions would go out; nobody has to read them."""
+    """Start the position stream, which has no reader here."""
     _set_up(task, identity).streaming = True
 
 
 @builtin("EGMStreamStop")
 def egm_stream_stop(task: Task, identity: EgmIdentity) -> None:
-    """They would no longer."""
+    """Stop the position stream."""
     _set_up(task, identity).streaming = False
 
 
 @by_name("EGMRunJoint", "EGMRunPose")
 def egm_run(task: Task, name: str, arguments: Arguments) -> None:
-    """Without the switch of an axis nothing is to move and the program goes on; else it waits for
-    a partner who never comes.
+    """Run a session.
 
-    ERR_UDPUC_COMM: \\CommTimeout has passed. FatalError: the mode is another, the robot moves, or
-    \\CommTimeout has passed behind \\NoWaitCond.
+    Without an axis switch the session has no motion and the program continues. Otherwise the task
+    waits for a partner that never sends. ERR_UDPUC_COMM: after \\CommTimeout. FatalError: another
+    mode, a moving robot, or \\CommTimeout after \\NoWaitCond.
     """
     session = _set_up(task, arguments["EGMid"])
     expected: Guidance = "Joint" if name == "EGMRunJoint" else "Pose"
@@ -186,7 +202,7 @@ def egm_run(task: Task, name: str, arguments: Arguments) -> None:
 
 
 def _await(task: Task, session: EgmSession, name: str) -> None:
-    """Until EGMStop in a trap. ERR_UDPUC_COMM."""
+    """Wait for EGMStop in a trap, or raise ERR_UDPUC_COMM."""
     try:
         finished = task.wait_for(
             lambda: not session.guided,
@@ -207,7 +223,10 @@ def _silent(task: Task, session: EgmSession) -> None:
 
 @builtin("EGMWaitCond")
 def egm_wait_cond(task: Task, identity: EgmIdentity, _time: float | None) -> None:
-    """Until what EGMRunJoint \\NoWaitCond began has come to its end. A silence is fatal there."""
+    """Wait for the end of EGMRunJoint \\NoWaitCond.
+
+    A communication timeout is fatal there.
+    """
     session = _set_up(task, identity)
     if session.guided:
         task.wait_for(
@@ -219,27 +238,32 @@ def egm_wait_cond(task: Task, identity: EgmIdentity, _time: float | None) -> Non
 
 @builtin("EGMStop")
 def egm_stop(task: Task, identity: EgmIdentity, _mode: float, _ramp_out: float | None) -> None:
-    """Guiding ends, and with it EGMRunJoint, from whose trap this is called. The robot has stayed
-    at its start, so neither mode moves it."""
+    """End guidance, and with it the interrupted EGMRunJoint.
+
+    The robot never left its start, so both modes keep its position.
+    """
     _session(task, identity).end()
 
 
 # -- Force control ---------------------------------------------------------------------------------
 #
-# Force control (option 661-2), which answers by the description of a cell.
+# Force control (option 661-2), with readings from the description of a cell.
 #
 # Sources: names [manual 3HAC083267]; arguments [code]: public programs that polish and press with
-# FCPress1LStart, FCPressL, FCPressEnd, read FCGetForce and calibrate by FCLoadID. That a sensor
-# which is not calibrated stops the program is theirs, too (event 50323). FCPressC is as FCPressL
-# [mem]. Nothing is touched: the robot goes where the program says, and a force is what the file
-# says. Searching by force (FCRefStart) stops the program.
+# FCPress1LStart, FCPressL, FCPressEnd, read FCGetForce and calibrate by FCLoadID. A sensor without
+# calibration stops the program (event 50323), also from these programs. FCPressC corresponds to
+# FCPressL [mem]. No contact is simulated: the robot follows the programmed path, and the forces are
+# those of the description. Search by force (FCRefStart) stops the program.
 
 
 _UNCALIBRATED: Final = 50_323
 
 
 def _sensor(task: Task) -> ForceSensor:
-    """FatalError: nothing tells what the sensor measures."""
+    """Return the sensor of a task.
+
+    FatalError: the cell has no description of its readings.
+    """
     result = task.controller.force.of(group_of(task).name)
     if result.measured.readings is None:
         raise FatalError(
@@ -261,7 +285,7 @@ def _calibrated(task: Task) -> ForceSensor:
 
 @builtin("FCCalib")
 def fc_calib(task: Task, load: Value, _recovery: bool | None) -> None:
-    """The robot stands, and the load of the tool is taken off from now on."""
+    """Calibrate at standstill; later readings exclude the tool load."""
     group_of(task).wait_standing(task)
     _sensor(task).calibrated = True
 
@@ -276,7 +300,10 @@ def fc_load_id(
     quiet: bool | None,
     error: Ref | None,
 ) -> Value:
-    """The load of the description; axes 5 and 6, which a robot would turn for it, stand."""
+    """Return the load of the description.
+
+    A real robot moves axes 5 and 6 for the measurement; this one stands still.
+    """
     group_of(task).wait_standing(task)
     result = _sensor(task).measured
     if error is not None:
@@ -288,7 +315,7 @@ def fc_load_id(
 
 @builtin("FCGetForce")
 def fc_get_force(task: Task, tool: Ref | None, wobj: Ref | None, contact: bool | None) -> Value:
-    """The next reading, in whatever frame it is asked for."""
+    """Return the next reading; the frame has no effect."""
     vector = find_type("fcforcevector")
     assert vector is not None
     assert vector.make is not None
@@ -299,14 +326,14 @@ def fc_get_force(task: Task, tool: Ref | None, wobj: Ref | None, contact: bool |
 def fc_act(
     task: Task, tool: Ref, wobj: Ref | None, reference: float | None, turn: Value | None
 ) -> None:
-    """Force control is active; the robot stands until it is told to press or to search."""
+    """Activate force control; the robot waits for press or search."""
     group_of(task).wait_standing(task)
     _calibrated(task).controls = True
 
 
 @builtin("FCDeact")
 def fc_deact(task: Task) -> None:
-    """The robot is held in its position again."""
+    """Deactivate force control."""
     group_of(task).wait_standing(task)
     sensor = _sensor(task)
     sensor.controls = sensor.pressing = False
@@ -314,15 +341,17 @@ def fc_deact(task: Task) -> None:
 
 @builtin("FCIsForceMode")
 def fc_is_force_mode(task: Task) -> bool:
-    """Whether force control is active."""
+    """Return True if force control is active."""
     return _sensor(task).controls
 
 
 @by_name("FCPress1LStart", "FCPressL", "FCPressC", "FCPressEnd", cost="move")
 @planned
 def press(task: Task, name: str, arguments: Arguments) -> None:
-    """A line or a circle of a path with a process force, as programmed. FatalError: FCPressL and
-    its kin without a start."""
+    """Move on a line or circle with a process force.
+
+    FatalError: FCPressL and related instructions without a start.
+    """
     sensor = _calibrated(task)
     if name != "FCPress1LStart" and not sensor.pressing:
         raise FatalError(

@@ -1,7 +1,7 @@
-"""Settings of motion: VelSet, AccSet, ConfL, program displacement and their relatives.
+"""Motion settings: VelSet, AccSet, ConfL, program displacement.
 
-Sources: S4 datasys 2-VelSet, 2-AccSet, 2-ConfL, 2-PDispOn, 2-EOffsOn and 1-motsetdata;
-3HAC050917 for SpeedRefresh and CSpeedOverride.
+Sources: S4 datasys 2-VelSet, 2-AccSet, 2-ConfL, 2-PDispOn, 2-EOffsOn and 1-motsetdata; 3HAC050917
+for SpeedRefresh and CSpeedOverride.
 """
 
 from collections.abc import Callable
@@ -36,7 +36,10 @@ _LEAST_ACCELERATION = 0.1
 
 @builtin("VelSet")
 def vel_set(task: Task, override: float, limit: float) -> None:
-    """Override in percent of all speeds and of \\T; ceiling of the TCP in mm/s, not with \\T."""
+    """Set the speed override in percent and the TCP limit in mm/s.
+
+    The override applies to all speeds and to \\T, the limit not to \\T.
+    """
     if not 0 < override <= 100 or limit <= 0:
         raise RapidError("ERR_ARGVALERR", f"VelSet {override:g}, {limit:g}")
     modal = group_of(task).modal
@@ -46,9 +49,9 @@ def vel_set(task: Task, override: float, limit: float) -> None:
 
 @builtin("AccSet")
 def acc_set(task: Task, acceleration: float, ramp: float, _final: float | None) -> None:
-    """Percent of acceleration and of the rate at which it builds up; at least 20 and 10.
+    """Set acceleration and ramp in percent, at least 20 and 10.
 
-    Source: S4 datasys 2-AccSet-1. \\FinePointRamp has no effect: ramps are the same all over.
+    Source: S4 datasys 2-AccSet-1. \\FinePointRamp has no effect: all ramps are equal.
     """
     if not 0 <= acceleration <= 100 or not 0 <= ramp <= 100:
         raise RapidError("ERR_ARGVALERR", f"AccSet {acceleration:g}, {ramp:g}")
@@ -59,8 +62,10 @@ def acc_set(task: Task, acceleration: float, ramp: float, _final: float | None) 
 
 @builtin("SpeedRefresh")
 def speed_refresh(task: Task, override: float) -> None:
-    """Percent, at once, for the move under way, and for what else is a matter of the switches
-    `refresh_lasts`, `refresh_standing`. ERR_SPEED_REFRESH_LIM outside 0 to 100.
+    """Set the speed override in percent at once.
+
+    It applies to the current move; the switches `refresh_lasts` and `refresh_standing` decide the
+    rest. ERR_SPEED_REFRESH_LIM: outside 0 to 100.
     """
     if not 0 <= override <= 100:
         raise RapidError("ERR_SPEED_REFRESH_LIM", f"{override:g}")
@@ -69,7 +74,10 @@ def speed_refresh(task: Task, override: float) -> None:
 
 @builtin("CSpeedOverride")
 def c_speed_override(task: Task, own: bool | None) -> float:
-    """Percent: the controller's override, \\CTask: with the program's own."""
+    """Return the controller's override in percent.
+
+    \\CTask: includes the override of the program.
+    """
     group = group_of(task)
     fraction = group.override * (group.refresh if own else 1.0)
     return single(round(fraction * 100, 3))
@@ -77,7 +85,7 @@ def c_speed_override(task: Task, own: bool | None) -> float:
 
 @builtin("SingArea")
 def sing_area(task: Task, wrist: bool | None, lock_axis_4: bool | None, _off: bool | None) -> None:
-    """What linear and circular moves do about singularities of the wrist."""
+    """Select the behaviour of linear and circular moves at singularities."""
     modal = group_of(task).modal
     modal.singularities = Singularities.OFF
     if wrist:
@@ -94,9 +102,10 @@ def path_acc_lim(
     limits_fall: bool,
     fall: float | None,
 ) -> None:
-    """m/s^2 of the TCP along its path. One value holds for both: profiles are symmetric.
+    """Limit the TCP acceleration along the path, in m/s^2.
 
-    ERR_ARGVALERR: a limit without a value of at least 0.1 (switch `argument_error`).
+    One value applies to both limits: profiles are symmetric. ERR_ARGVALERR: a limit below 0.1 or
+    without a value (switch `argument_error`).
     """
     result = []
     for expected, value in ((limits_rise, rise), (limits_fall, fall)):
@@ -109,9 +118,10 @@ def path_acc_lim(
 
 @builtin("WorldAccLim")
 def world_acc_lim(task: Task, limit: float | None, _off: bool | None) -> None:
-    """m/s^2 of the TCP in the world, turning included. ERR_ARGVALERR: below 0.1.
+    """Limit the TCP acceleration in the world, in m/s^2.
 
-    FatalError: the model has no geometry.
+    The limit includes the acceleration of turns. ERR_ARGVALERR: below 0.1. FatalError: the model
+    has no geometry.
     """
     group = group_of(task)
     if limit is None:
@@ -133,9 +143,9 @@ def cir_path_mode(
     wrist46: bool | None,
     wrist56: bool | None,
 ) -> None:
-    """How the tool turns on circles.
+    """Select the tool orientation on circles.
 
-    FatalError: circles made by two wrist axes are not simulated.
+    FatalError: the model does not simulate circles made by two wrist axes.
     """
     if wrist45 or wrist46 or wrist56:
         raise FatalError(NOT_SIMULATED, "CirPathMode by wrist axes is not simulated")
@@ -149,10 +159,11 @@ def cir_path_mode(
 
 @builtin("SpeedLimAxis")
 def speed_lim_axis(task: Task, unit: Value, number: float, speed: float) -> None:
-    """deg/s or mm/s of an axis while the system input LimitSpeed is set [mem].
+    """Limit an axis speed while LimitSpeed is set, in deg/s or mm/s [mem].
 
-    0: none, as the robots of ETH's cell have it for axes 2 and 3 (tetov/compas_rcf [code]).
-    ERR_SPEEDLIM_VALUE: negative; ERR_AXIS_PAR: no such axis of the unit.
+    A value of 0 means no limit, as the robots of ETH's cell use it for axes 2 and 3
+    (tetov/compas_rcf [code]). ERR_SPEEDLIM_VALUE: negative; ERR_AXIS_PAR: the unit has no such
+    axis.
     """
     if speed < 0:
         raise RapidError("ERR_SPEEDLIM_VALUE", f"{speed:g}")
@@ -166,9 +177,9 @@ def speed_lim_axis(task: Task, unit: Value, number: float, speed: float) -> None
 
 @builtin("SpeedLimCheckPoint")
 def speed_lim_check_point(task: Task, speed: float) -> None:
-    """mm/s of the TCP while the system input LimitSpeed is set [mem].
+    """Limit the TCP speed while LimitSpeed is set, in mm/s [mem].
 
-    Other check points (elbow, wrist) are not looked at. ERR_SPEEDLIM_VALUE: not positive.
+    The limit ignores other check points (elbow, wrist). ERR_SPEEDLIM_VALUE: not positive.
     """
     if speed <= 0:
         raise RapidError("ERR_SPEEDLIM_VALUE", f"{speed:g}")
@@ -186,9 +197,10 @@ def p_disp_on(
     tool: Ref,
     work_object: Ref | None,
 ) -> None:
-    """Adds the way from the programmed to the executed point (without one: to where it is).
+    """Add the displacement from the programmed to the executed point.
 
-    \\Rot: the executed point in the displaced frame becomes the programmed one in the old.
+    Without an executed point the current position applies. \\Rot: the executed point in the
+    displaced frame becomes the programmed one in the old frame.
     """
     group = group_of(task)
     modal = group.modal
@@ -204,7 +216,7 @@ def p_disp_on(
 
 @builtin("EOffsOn")
 def e_offs_on(task: Task, executed: Value, programmed: Value) -> None:
-    """Adds, for each external axis, the executed minus the programmed value."""
+    """Add executed minus programmed value to each external axis."""
     group = group_of(task)
     data = data_of(task, group)
     offsets = data.external_offset
@@ -229,7 +241,7 @@ def _offset(task: Task, values: Offsets) -> None:
 
 
 def _modal(name: str, value: Callable[..., object]) -> Callable[..., None]:
-    """Sets a modal setting to what its arguments mean."""
+    """Return a built-in that sets a modal setting from its arguments."""
     return lambda task, *arguments: setattr(group_of(task).modal, name, value(*arguments))
 
 
@@ -252,7 +264,10 @@ builtins(_PLAIN)
 def motion_sup(
     task: Task, _on: bool | None, off: bool | None, tune: float | None, _stay: bool | None
 ) -> None:
-    """Collision detection: nothing collides here. ERR_ARGVALERR outside 1 to 300 %."""
+    """Accept settings of collision detection, which is not simulated.
+
+    ERR_ARGVALERR: outside 1 to 300 %.
+    """
     if tune is not None and not 1 <= tune <= 300:
         raise RapidError("ERR_ARGVALERR", f"\\TuneValue:={tune:g}")
     data_of(task, group_of(task)).extra["MotionSup"] = not off
@@ -260,20 +275,23 @@ def motion_sup(
 
 @builtin("GripLoad")
 def grip_load(task: Task, load: Ref) -> None:
-    """Loads change no kinematics, and there is no dynamic model. FatalError: it is undefined."""
+    """Activate a payload. FatalError: it is undefined.
+
+    Loads do not change kinematics, and the model has no dynamics.
+    """
     carry(task, group_of(task), load.get(), "the load of GripLoad")
 
 
 @builtin("CLoad")
 def c_load(task: Task, reference: Value, name: str | None) -> Value:
-    """What GripLoad set, else load0."""
+    """Return the payload of GripLoad, or load0."""
     load: Value = payload_of(task, named_group(task, reference, name)) or load0()
     return load.copy()
 
 
 @builtin("SoftAct")
 def soft_act(task: Task, unit: Value, number: float, softness: float, ramp: float | None) -> None:
-    """A soft servo yields to contact: nothing is in contact here.
+    """Accept soft servo settings; no contact is simulated.
 
     ERR_ARGVALERR: softness outside 0 to 100 %, ramp below 100 % (S4 overview p.5-22).
     """
@@ -285,7 +303,7 @@ def soft_act(task: Task, unit: Value, number: float, softness: float, ramp: floa
 
 @builtin("SoftDeact")
 def soft_deact(task: Task, ramp: float | None) -> None:
-    """All axes are stiff again. ERR_ARGVALERR: ramp below 100 %."""
+    """Make all axes stiff. ERR_ARGVALERR: ramp below 100 %."""
     if ramp is not None and ramp < 100:
         raise RapidError("ERR_ARGVALERR", f"SoftDeact {ramp:g}")
     extra = data_of(task, group_of(task)).extra
@@ -295,7 +313,10 @@ def soft_deact(task: Task, ramp: float | None) -> None:
 
 @builtin("PathResol")
 def path_resol(task: Task, percent: float) -> None:
-    """Profiles are exact at any resolution. ERR_ARGVALERR outside 25 to 400 %."""
+    """Accept a path resolution; profiles are exact at any value.
+
+    ERR_ARGVALERR: outside 25 to 400 %.
+    """
     if not 25 <= percent <= 400:
         raise RapidError("ERR_ARGVALERR", f"PathResol {percent:g}")
     data_of(task, group_of(task)).extra["PathResol"] = percent

@@ -54,7 +54,7 @@ from rapidgen.runtime.values import (
 
 
 def here(task: Task) -> Callable[[], object] | None:
-    """Where the task is, to be looked up only when somebody asks."""
+    """Return a function that looks up the task's location on demand."""
     codes = task.program.codes
     frame: FrameType | None = sys._getframe(1)
     while frame is not None:
@@ -66,7 +66,7 @@ def here(task: Task) -> Callable[[], object] | None:
 
 
 def group_of(task: RapidTask) -> MotionGroup:
-    """The group that the task moves or is connected to. FatalError: there is none."""
+    """Return the group that a task moves or uses, or raise FatalError."""
     group = task.controller.motion.of_task(task.name)
     if group is None:
         raise FatalError(NO_UNIT, "No mechanical unit", f"{task.name} is connected to no robot")
@@ -74,18 +74,18 @@ def group_of(task: RapidTask) -> MotionGroup:
 
 
 def data_of(task: RapidTask, group: MotionGroup) -> RobotData:
-    """What programs have set for a robot."""
+    """Return the settings of programs for a robot."""
     return task.controller.robot_data[group.name]
 
 
 @planned
 def geometry_of(group: MotionGroup) -> Kinematics:
-    """The kinematics of a robot. FatalError: its model has none."""
+    """Return the kinematics of a robot. FatalError: no geometry."""
     return group.geometry()
 
 
 def moving_group(task: Task) -> MotionGroup:
-    """The same for move instructions, which only a motion task may execute."""
+    """Return the group of a motion task, for move instructions."""
     if not task.controller.motion.is_motion_task(task.name):
         raise FatalError(NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves")
     if task.interrupts.process_error is not None:
@@ -94,10 +94,10 @@ def moving_group(task: Task) -> MotionGroup:
 
 
 def named_group(task: Task, reference: Value, name: str | None) -> MotionGroup:
-    """The group of \\TaskRef or \\TaskName, else the task's own.
+    """Return the group of \\TaskRef or \\TaskName, or the task's group.
 
-    ERR_TASKNAME: no such task, which in a guessed cell is the own one; ERR_NOT_MOVETASK: it moves
-    nothing.
+    ERR_TASKNAME: no such task, which in an inferred cell means the calling task; ERR_NOT_MOVETASK:
+    it is not a motion task.
     """
     expected = name if reference is None else reference.value
     if expected is None:
@@ -126,7 +126,10 @@ STOP_TIME = 2
 
 
 def speed_of(data: Value, tcp: float | None, modal: ModalSettings) -> MoveSpeed:
-    """speeddata with \\V and VelSet: the override scales all parts, the limit only the TCP's."""
+    """Return speeds of speeddata, \\V and VelSet.
+
+    The override scales all parts, the limit only that of the TCP.
+    """
     fraction = modal.speed_override
     return MoveSpeed(
         tcp=min((data.v_tcp if tcp is None else tcp) * fraction / 1000, modal.speed_limit),
@@ -137,7 +140,10 @@ def speed_of(data: Value, tcp: float | None, modal: ModalSettings) -> MoveSpeed:
 
 
 def time_of(time: float | None, group: MotionGroup) -> float | None:
-    """\\T with VelSet: half the override, twice the time. ERR_ARGVALERR: not positive."""
+    """Return the time \\T scaled by VelSet, in seconds.
+
+    Half the override doubles the time. ERR_ARGVALERR: not positive.
+    """
     if time is None:
         return None
     if time <= 0:
@@ -146,7 +152,7 @@ def time_of(time: float | None, group: MotionGroup) -> float | None:
 
 
 def zone_of(data: Value, radius: float | None, stop: Value = None) -> Zone:
-    """zonedata with \\Z; \\Inpos makes any zone a stop point."""
+    """Return the zone of zonedata and \\Z; \\Inpos means a stop point."""
     if data.finep or stop is not None:
         return Zone(fine=True)
     tcp = data.pzone_tcp if radius is None else radius
@@ -163,7 +169,7 @@ def zone_of(data: Value, radius: float | None, stop: Value = None) -> Zone:
 
 
 def dwell_of(stop: Value) -> float:
-    """s that the program waits after a stop point with \\Inpos."""
+    """Return the dwell time in seconds after a stop point with \\Inpos."""
     if stop is None:
         return 0.0
     time = stop.stoptime if stop.type == STOP_TIME else stop.inpos.mintime
@@ -176,19 +182,22 @@ def target_of(
     default: Posture,
     offsets: Offsets = NO_OFFSETS,
 ) -> Posture:
-    """A jointtarget as controller values. `offsets` shift external axes; 9E9 keeps `default`."""
+    """Return a jointtarget as controller values.
+
+    `offsets` shift external axes; 9E9 keeps `default`.
+    """
     return axes.from_rapid(data.robax.values(), external_values(data.extax, offsets), default)
 
 
 def external_values(data: Value, offsets: Offsets) -> tuple[float, ...]:
-    """extjoint with offsets added where an axis is used."""
+    """Return the values of an extjoint plus offsets, for used axes."""
     return tuple(
         v if v > ABSENT / 2 else v + o for v, o in zip(data.values(), offsets, strict=True)
     )
 
 
 def joint_target(axes: JointMap, posture: Posture, offsets: Offsets = NO_OFFSETS) -> Value:
-    """A posture as a fresh jointtarget."""
+    """Return a posture as a new jointtarget."""
     robot, external = axes.to_rapid(posture)
     return JointTarget(
         RobJoint(*map(single, robot)),
@@ -197,7 +206,10 @@ def joint_target(axes: JointMap, posture: Posture, offsets: Offsets = NO_OFFSETS
 
 
 def external_target(external: tuple[float, ...], offsets: Offsets) -> Value:
-    """External axes in RAPID units as a fresh extjoint, without the offsets."""
+    """Return external axes in RAPID units as a new extjoint.
+
+    The result excludes the offsets.
+    """
     return ExtJoint(
         *(
             single(v) if v > ABSENT / 2 else single(v - o)
@@ -207,10 +219,10 @@ def external_target(external: tuple[float, ...], offsets: Offsets) -> Value:
 
 
 def quaternion(data: Value) -> Quaternion:
-    """An orient as a unit quaternion. ERR_ILLQUAT: too far from unit length.
+    """Return an orient as a unit quaternion, or raise ERR_ILLQUAT.
 
-    Up to 1e-5 off in the sum of squares it is normalised silently, up to 0.1 too (the manual
-    sends the user to NOrient), above it is unusable (S4 datasys 1-orient-1).
+    The sum of squares may differ from 1 by 0.1. The function normalises it without a report; above
+    1e-5 the manual recommends NOrient (S4 datasys 1-orient-1).
     """
     q = (data.q1, data.q2, data.q3, data.q4)
     if abs(sum(v * v for v in q) - 1.0) > 0.1:
@@ -219,13 +231,13 @@ def quaternion(data: Value) -> Quaternion:
 
 
 def frame(data: Value) -> Frame:
-    """A pose in m."""
+    """Return a pose with the position in m."""
     t = data.trans
     return (t.x / 1000, t.y / 1000, t.z / 1000), quaternion(data.rot)
 
 
 def pose(frame_: Frame) -> Value:
-    """A frame as a fresh pose in mm."""
+    """Return a frame as a new pose in mm."""
     (x, y, z), q = frame_
     return Pose(Pos(single(x * 1000), single(y * 1000), single(z * 1000)), Orient(*map(single, q)))
 
@@ -236,10 +248,11 @@ def pose(frame_: Frame) -> Value:
 
 
 def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> MoveFrames:
-    """Frames of tooldata and wobjdata (None: wobj0) with the program displacement.
+    """Return the frames of tooldata and wobjdata with the displacement.
 
-    Exactly one of them is held by the robot (S4 datasys 2-MoveAbsJ-3). With ufprog FALSE the user
-    frame is that of the unit `ufmec`, and uframe does not count (S4 datasys 1-wobjdata).
+    None means wobj0. The robot carries exactly one of tool and object (S4 datasys 2-MoveAbsJ-3).
+    With ufprog FALSE the user frame is that of the unit `ufmec`, and uframe has no effect (S4
+    datasys 1-wobjdata).
     """
     held = work_object is not None and work_object.robhold
     if bool(tool.robhold) == bool(held):
@@ -264,7 +277,10 @@ def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> MoveFrame
 
 
 def _unit(group: MotionGroup, work_object: Value) -> MovingFrame:
-    """What carries an object. FatalError: held by the robot too, or of unknown geometry."""
+    """Return the frame of the unit that carries an object.
+
+    FatalError: the robot also carries it, or the unit's geometry is unknown.
+    """
     if work_object.robhold:
         raise FatalError(
             FRAMES_CONTRADICT,
@@ -283,7 +299,10 @@ def _unit(group: MotionGroup, work_object: Value) -> MovingFrame:
 
 
 def external_posture(group: MotionGroup, data: Value, offsets: Offsets) -> Posture:
-    """The path's end with the external axes of an extjoint (deactivated ones as they are)."""
+    """Return the path's end with the external axes of an extjoint.
+
+    Deactivated axes keep their position.
+    """
     ends = group.path_target
     values = external_values(data, offsets)
     requested = group.map.from_rapid((0.0,) * 6, values, ends)
@@ -296,7 +315,7 @@ def external_posture(group: MotionGroup, data: Value, offsets: Offsets) -> Postu
 
 
 class NoConfiguration(FatalError):
-    """A place has no posture with the configuration that is asked for: moves stop there."""
+    """No posture at a place has the required configuration."""
 
     __slots__ = ()
 
@@ -312,11 +331,12 @@ def joints_for(
     check: ConfigurationCheck,
     current: Posture,
 ) -> Posture:
-    """The posture for a flange pose: that of the wanted configuration, or the closest one.
+    """Return the posture for a flange pose.
 
-    External axes are those of `near`; of an arm with seven axes its seventh value is the arm angle
-    that the target asks for, unless it is that of `current`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an
-    axis outside its range in every posture); NoConfiguration: not with this one.
+    It has the required configuration, or is the closest one. External axes are those of `near`. The
+    seventh value of a seven-axis arm is the arm angle of the target, or else that of `current`.
+    Raises ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis is outside its range in every posture) and
+    NoConfiguration.
     """
     place = kinematics.seventh
     arm_angle = None
@@ -344,7 +364,7 @@ def joints_for(
 
 
 def with_arm_angle(kinematics: Kinematics, posture: Posture) -> Posture:
-    """A posture with the arm angle in the place of the seventh axis, where there is one."""
+    """Return a posture with the arm angle in place of the seventh axis."""
     place = kinematics.seventh
     if place < 0:
         return posture
@@ -352,14 +372,14 @@ def with_arm_angle(kinematics: Kinematics, posture: Posture) -> Posture:
 
 
 def configuration_of(data: Value) -> AxisConfiguration:
-    """confdata"""
+    """Return the configuration of confdata."""
     return int(data.cf1), int(data.cf4), int(data.cf6), int(data.cfx)
 
 
 def rob_target(
     group: MotionGroup, posture: Posture, carrier: MoveFrames, offsets: Offsets
 ) -> Value:
-    """A posture as a fresh robtarget in the frames of a tool and an object."""
+    """Return a posture as a new robtarget in a tool and an object frame."""
     kinematics = geometry_of(group)
     (x, y, z), q = carrier.at(posture).pose(kinematics.forward(posture))
     if q[0] < 0:

@@ -34,18 +34,18 @@ from rapidgen.runtime.values import Ref, Value, register_type
 
 @dataclass(slots=True)
 class TriggData:
-    """A triggdata: an event that TriggIO or a relative has prepared, and that TriggL fires."""
+    """A triggdata: an event prepared by TriggIO, fired by TriggL."""
 
     event: PathEvent | None = None
 
     def set(
         self, where: MeasuredFrom, amount: float, act: Callable[[], None], lag: float = 0.0
     ) -> None:
-        """Prepare: `amount` m or s, see PathEvent."""
+        """Prepare the event; `amount` is in m or s, see PathEvent."""
         self.event = PathEvent(where, amount, act, lag)
 
     def take(self, event: PathEvent | None) -> None:
-        """The same event as another one, or none."""
+        """Copy the event of another triggdata, or none."""
         self.event = event
 
 
@@ -56,7 +56,10 @@ _RELATIONS = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
 
 
 def _where(arguments: Arguments) -> tuple[MeasuredFrom, float]:
-    """The place, and m from there or (\\Time) s. ERR_ARGVALERR: negative."""
+    """Return the reference of a place, and m or (\\Time) s from it.
+
+    ERR_ARGVALERR: negative.
+    """
     distance = arguments["Distance"]
     if distance < 0:
         raise RapidError("ERR_ARGVALERR", f"Distance {distance:g}")
@@ -71,14 +74,15 @@ def _inhibited(arguments: Arguments) -> bool:
 
 
 def _first(arguments: Arguments, *names: str) -> Value:
-    """The argument that there is of several alternatives."""
+    """Return the one present argument of several alternatives."""
     return next((arguments[name] for name in names if arguments[name] is not None), None)
 
 
 def _output(task: Task, arguments: Arguments) -> Callable[[], None]:
-    """Sets an output; inhibited, 0 or the given value is written (S4 datasys 2-TriggIO-4).
+    """Return a function that sets an output.
 
-    ERR_AO_LIM, ERR_GO_LIM: the value does not fit the signal.
+    While inhibited, it writes 0 or the given value (S4 datasys 2-TriggIO-4). Raises ERR_AO_LIM or
+    ERR_GO_LIM if the signal cannot represent the value.
     """
     chosen = _first(arguments, "DOp", "GOp", "AOp")
     value = _first(arguments, "SetValue", "SetDvalue") or 0.0
@@ -99,21 +103,24 @@ def _output(task: Task, arguments: Arguments) -> Callable[[], None]:
 
 @by_name("TriggIO")
 def trigg_io(task: Task, _name: str, arguments: Arguments) -> None:
-    """An output at a place."""
+    """Prepare an output at a place."""
     where = _where(arguments)
     arguments["TriggData"].set(*where, _output(task, arguments))
 
 
 @by_name("TriggEquip")
 def trigg_equip(task: Task, _name: str, arguments: Arguments) -> None:
-    """An output at a place, earlier by the equipment's lag (negative: later)."""
+    """Prepare an output earlier by the equipment's lag.
+
+    A negative lag means later.
+    """
     where = _where(arguments)
     arguments["TriggData"].set(*where, _output(task, arguments), arguments["EquipLag"])
 
 
 @by_name("TriggInt")
 def trigg_int(task: Task, _name: str, arguments: Arguments) -> None:
-    """An interrupt at a place. ERR_UNKINO: not connected."""
+    """Prepare an interrupt at a place. ERR_UNKINO: not connected."""
     where = _where(arguments)
     ordered = task.interrupts.find(arguments["Interrupt"].get())
 
@@ -126,7 +133,10 @@ def trigg_int(task: Task, _name: str, arguments: Arguments) -> None:
 
 @by_name("TriggCheckIO")
 def trigg_check_io(task: Task, _name: str, arguments: Arguments) -> None:
-    """Looks at a signal at a place; when the relation does not hold, an interrupt (and a stop)."""
+    """Prepare a check of a signal at a place.
+
+    If the relation is false, an interrupt occurs (and a stop).
+    """
     where = _where(arguments)
     ordered = task.interrupts.find(arguments["Interrupt"].get())
     relation, signal = arguments["Relation"], arguments["Signal"]
@@ -148,7 +158,7 @@ def trigg_check_io(task: Task, _name: str, arguments: Arguments) -> None:
 
 
 def prepared(_task: Task, arguments: Arguments, first: str = "Trigg_1") -> tuple[PathEvent, ...]:
-    """The events that an instruction names. FatalError: a triggdata without one."""
+    """Return the events of an instruction. FatalError: not prepared."""
     array = arguments.get("TriggArray")
     if array is not None:
         held = array.get() if isinstance(array, Ref) else array
@@ -179,12 +189,12 @@ bind("TriggJ", joint_move, prepared)  # distances are approximate, as on a contr
 
 # -- Arc welding -----------------------------------------------------------------------------------
 #
-# Arc welding: ArcLStart, ArcL, ArcLEnd, ArcCStart, ArcC, ArcCEnd, and moves between seams.
+# Arc welding: ArcLStart, ArcL, ArcLEnd, ArcCStart, ArcC, ArcCEnd, and moves between welds.
 #
-# Source: [manual] 3HAC050988 for phases and arguments, where no public text has it [mem]. On the
-# way to a start the argument Speed holds, on a seam the welddata's weld_speed; in stop points the
-# robot stands for the phases of seamdata, in fly-by points the arc changes in the middle of the
-# corner. Weaving, tracking and heating move nothing here: the event log says so.
+# Source: [manual] 3HAC050988 for phases and arguments, otherwise [mem]. The argument Speed applies
+# on the way to a start, weld_speed of welddata during a weld. In stop points the robot waits for
+# the phases of seamdata; in fly-by points the arc changes in the middle of the corner. Weaving,
+# tracking and heating have no effect here; the event log says so.
 
 
 _ON_SEAM = "on a seam"
@@ -195,7 +205,10 @@ def _equipment(task: Task) -> ArcEquipment:
 
 
 def _data(task: Task, arc: Value) -> dict[str, float]:
-    """arcdata by component. ERR_AO_LIM, ERR_GO_LIM: it does not fit the cell's signals."""
+    """Return arcdata by component.
+
+    Raises ERR_AO_LIM or ERR_GO_LIM if the cell's signals cannot represent a value.
+    """
     result = dict(zip(arc.fields, arc.values(), strict=True))
     for use, component in REFERENCES.items():
         signal = _equipment(task).signal(use)
@@ -207,13 +220,13 @@ def _data(task: Task, arc: Value) -> dict[str, float]:
 @by_name("ArcLStart", "ArcL", "ArcLEnd", "ArcCStart", "ArcC", "ArcCEnd", cost="move")
 @planned
 def weld(task: Task, name: str, arguments: Arguments) -> None:
-    """A line or a circle of a seam. ERR_ARGVALERR: weld_speed is 0."""
+    """Weld a line or circle. ERR_ARGVALERR: weld_speed is 0."""
     arc, seam = _equipment(task), arguments["Seam"]
     data = _data(task, arguments["Weld"].main_arc)
     begins, ends = name.endswith("Start"), name.endswith("End")
     welds = not arc.inhibited
     _tell_what_is_left_out(task, arguments)
-    # A start in a corner is behind the program before it is behind the robot.
+    # The program passes a start in a corner before the robot does.
     on_seam = data_of(task, moving_group(task)).extra
     if welds and not begins and not on_seam.get(_ON_SEAM):
         _ignite(task, seam, data, 0.0)
@@ -251,7 +264,10 @@ def _burn(arc: ArcEquipment, data: dict[str, float]) -> None:
 
 
 def _ignite(task: Task, seam: Value, data: dict[str, float], purged: float) -> None:
-    """Gas for what is left of the purge and for the preflow, then the arc; the robot stands."""
+    """Purge, apply gas preflow and ignite the arc at standstill.
+
+    `purged` seconds of the purge are already over.
+    """
     group_of(task).wait_standing(task)
     arc = _equipment(task)
     arc.set_gas(True)
@@ -263,7 +279,10 @@ def _ignite(task: Task, seam: Value, data: dict[str, float], purged: float) -> N
 
 
 def _finish(task: Task, seam: Value) -> None:
-    """Cooling, filling of the crater, burn-back, roll-back, gas behind; the robot stands."""
+    """Cool, fill the crater, burn back, roll back and apply post-flow.
+
+    The robot stands still meanwhile.
+    """
     arc = _equipment(task)
     if seam.cool_time > 0:
         arc.set_arc(False)

@@ -22,10 +22,10 @@ from rapidgen.runtime.values import Ref, Value
 
 
 def _axes_of(group: MotionGroup, unit: str) -> tuple[str, ...] | None:
-    """External axes of a mechanical unit; None: it is none of this group's external ones.
+    """Return external axes of a mechanical unit, None if unknown.
 
-    The configuration names units and axes in order: with one axis for each they belong
-    together, otherwise the last unit has all that are left.
+    The configuration lists units and axes in order. If each unit has one axis, they correspond;
+    otherwise the last unit has all remaining axes.
     """
     names = [name.lower() for name in group.config.external_units]
     if unit.lower() not in names:
@@ -36,7 +36,10 @@ def _axes_of(group: MotionGroup, unit: str) -> tuple[str, ...] | None:
 
 
 def _external(task: Task, unit: Value) -> tuple[MotionGroup, tuple[str, ...]]:
-    """Group and axes of an external unit. FatalError: the robot itself stays active."""
+    """Return group and axes of an external unit.
+
+    FatalError: the robot itself cannot be deactivated.
+    """
     for group in task.controller.motion.groups.values():
         axes = _axes_of(group, unit.value)
         if axes is not None:
@@ -45,7 +48,7 @@ def _external(task: Task, unit: Value) -> tuple[MotionGroup, tuple[str, ...]]:
 
 
 def unit_group(task: Task, unit: Value) -> MotionGroup:
-    """The group that a mechanical unit belongs to. ERR_AXIS_PAR: there is none."""
+    """Return the group of a mechanical unit, or raise ERR_AXIS_PAR."""
     for group in task.controller.motion.groups.values():
         own = unit.value.lower() == group.config.mechanical_unit.lower()
         if own or _axes_of(group, unit.value) is not None:
@@ -54,9 +57,9 @@ def unit_group(task: Task, unit: Value) -> MotionGroup:
 
 
 def unit_axis(task: Task, unit: Value, number: float) -> tuple[MotionGroup, Joint]:
-    """The axis of a mechanical unit (None: the task's own robot) by its number from 1.
+    """Return the axis of a mechanical unit by its number from 1.
 
-    ERR_AXIS_PAR: the unit has no such axis.
+    None means the task's robot. ERR_AXIS_PAR: the unit has no such axis.
     """
     group = group_of(task) if unit is None else unit_group(task, unit)
     axes = None if unit is None else _axes_of(group, unit.value)
@@ -70,7 +73,7 @@ def unit_axis(task: Task, unit: Value, number: float) -> tuple[MotionGroup, Join
 
 @builtin("ActUnit")
 def act_unit(task: Task, unit: Value) -> None:
-    """Waits for standstill, then the unit's axes move with the others."""
+    """Wait for standstill, then activate the axes of a unit."""
     group, axes = _external(task, unit)
     group.wait_standing(task)
     group.inactive.difference_update(axes)
@@ -78,7 +81,10 @@ def act_unit(task: Task, unit: Value) -> None:
 
 @builtin("DeactUnit")
 def deact_unit(task: Task, unit: Value) -> None:
-    """Waits for standstill, then the unit's axes stay. ERR_AXIS_ACT on a stored path."""
+    """Wait for standstill, then deactivate the axes of a unit.
+
+    ERR_AXIS_ACT: the path is a stored one.
+    """
     group, axes = _external(task, unit)
     if group.path_level > 1:
         raise RapidError("ERR_AXIS_ACT", "between StorePath and RestoPath")
@@ -88,7 +94,7 @@ def deact_unit(task: Task, unit: Value) -> None:
 
 @builtin("IsMechUnitActive")
 def is_mech_unit_active(task: Task, unit: Value) -> bool:
-    """Whether a unit is active; a robot always is."""
+    """Return True if a unit is active; a robot always is."""
     for group in task.controller.motion.groups.values():
         axes = _axes_of(group, unit.value)
         if axes is not None:
@@ -110,7 +116,10 @@ def get_next_mech_unit(
     drive: Ref | None,
     may_deactivate: Ref | None,
 ) -> bool:
-    """The next unit of the list: 0 begins it. FALSE behind the last one."""
+    """Return the next unit of the list, which starts at 0.
+
+    Returns FALSE after the last one.
+    """
     motion = task.controller.motion
     units = [
         (group, unit, place)
@@ -156,10 +165,10 @@ _REFUSED = 49_910
 
 
 def _members(task: Task, tasks: Ref) -> frozenset[str]:
-    """Lower-case names of a task list; rows with an empty name are none [code].
+    """Return lower-case names of a task list without empty rows [code].
 
-    ERR_TASKNAME: an unknown task, or the own one is not in its list; in a guessed cell unknown
-    tasks are left out.
+    ERR_TASKNAME: an unknown task, or a list without the calling task. An inferred cell ignores
+    unknown tasks.
     """
     members = frozenset(entry.taskname.lower() for entry in tasks.get().values()) - {""}
     known = {t.name.lower() for t in task.controller.rapid_tasks.values()}
@@ -178,7 +187,7 @@ def _missing(absent: frozenset[str]) -> str:
 def _meet(
     task: Task, point: object, members: frozenset[str], time_out: float | None, error: str
 ) -> None:
-    """Wait until all members are at the point; `error` when `time_out` s passed first."""
+    """Wait for all members at a point; raise `error` after `time_out` s."""
     meetings = task.controller.meetings.points
     meeting = meetings.setdefault((point, members), SyncPoint(members))
     own = task.name.lower()
@@ -203,7 +212,7 @@ def _meet(
 
 
 def _point(task: Task, identity: Value) -> str:
-    """A syncident is known by the name of its variable, the same in each task."""
+    """Return the name of a syncident variable, which identifies it."""
     program = task.program
     for module in program.modules.values():
         for key in module.declarations:
@@ -216,7 +225,10 @@ def _point(task: Task, identity: Value) -> str:
 def wait_sync_task(
     task: Task, in_pos: bool | None, identity: Ref, tasks: Ref, time_out: float | None
 ) -> None:
-    """Until every task of the list waits at the point of that name. ERR_WAITSYNCTASK: \\TimeOut."""
+    """Wait until all tasks of the list reach the point of that name.
+
+    ERR_WAITSYNCTASK: after \\TimeOut.
+    """
     if in_pos:
         wait_standing(task)
     members = _members(task, tasks)
@@ -249,7 +261,10 @@ def _forget(task: Task, names: Iterable[str]) -> None:
 
 @builtin("SyncMoveOn")
 def sync_move_on(task: Task, identity: Ref, tasks: Ref, time_out: float | None) -> None:
-    """The robots stand, and all tasks of the list are here. ERR_SYNCMOVEON: \\TimeOut."""
+    """Wait for all tasks of the list at standstill, then synchronise.
+
+    ERR_SYNCMOVEON: after \\TimeOut.
+    """
     group = moving_group(task)
     if _partners(task):
         raise FatalError(_REFUSED, "SyncMoveOn", "synchronised movement is on already")
@@ -261,7 +276,10 @@ def sync_move_on(task: Task, identity: Ref, tasks: Ref, time_out: float | None) 
 
 @builtin("SyncMoveOff")
 def sync_move_off(task: Task, identity: Ref, time_out: float | None) -> None:
-    """The same at the end. ERR_SYNCMOVEOFF: \\TimeOut."""
+    """Wait for all tasks, then end synchronisation.
+
+    ERR_SYNCMOVEOFF: after \\TimeOut.
+    """
     moving_group(task)
     members = _partners(task)
     if not members:
@@ -273,20 +291,23 @@ def sync_move_off(task: Task, identity: Ref, time_out: float | None) -> None:
 
 @builtin("SyncMoveUndo")
 def sync_move_undo(task: Task) -> None:
-    """Ends synchronised movement of all its tasks; without one nothing happens."""
+    """End synchronised movement of all its tasks, if active."""
     moving_group(task)
     _forget(task, _partners(task))
 
 
 @builtin("SyncMoveSuspend")
 def sync_move_suspend(task: Task) -> None:
-    """Moves are independent until SyncMoveResume, on the path level behind StorePath."""
+    """Make moves independent until SyncMoveResume.
+
+    The instruction is permitted on the path level after StorePath.
+    """
     _pause(task, suspended=True)
 
 
 @builtin("SyncMoveResume")
 def sync_move_resume(task: Task) -> None:
-    """Moves are synchronised again."""
+    """Synchronise moves again."""
     _pause(task, suspended=False)
 
 
@@ -303,7 +324,7 @@ def _pause(task: Task, *, suspended: bool) -> None:
 
 @builtin("TasksInSync")
 def tasks_in_sync(task: Task, tasks: Ref) -> bool:
-    """Whether all tasks of the list move synchronously."""
+    """Return True if all tasks of the list move synchronously."""
     names = {entry.taskname.lower() for entry in tasks.get().values()} - {""}
     named = [t for t in task.controller.rapid_tasks.values() if t.name.lower() in names]
     return bool(named) and all(_synchronised(t) for t in named)
@@ -311,5 +332,5 @@ def tasks_in_sync(task: Task, tasks: Ref) -> bool:
 
 @builtin("IsSyncMoveOn")
 def is_sync_move_on(task: Task) -> bool:
-    """Whether the task's robot moves synchronously with others."""
+    """Return True if the task's robot moves synchronously."""
     return _synchronised(task)

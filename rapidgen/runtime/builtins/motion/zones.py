@@ -1,7 +1,7 @@
-"""World zones: WZBoxDef to WZLimJointDef, WZDOSet, WZLimSup, WZEnable, WZDisable, WZFree.
+"""World zones: shapes, outputs and supervision (WZBoxDef to WZFree).
 
-Source: [manual] 3HAC050917 (RobotWare 6) for arguments and effects; how many zones there may be,
-and that a side of 10 mm and a radius of 5 mm are the least, [mem].
+Source: [manual] 3HAC050917 (RobotWare 6) for arguments and effects. Remembered only [mem]: the
+maximum number of zones, the minimum side of 10 mm and the minimum radius of 5 mm.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ _LEAST_SIDE, _LEAST_RADIUS = 10.0, 5.0
 
 
 class ShapeData:
-    """A shapedata: what one of the WZ...Def has put into it."""
+    """A shapedata: the result of a WZ...Def instruction."""
 
     __slots__ = ("zone",)
 
@@ -61,7 +61,7 @@ def box(
     one: Value,
     other: Value,
 ) -> None:
-    """A box between two corners, in any order. FatalError: a side is too short."""
+    """Define a box between two corners. FatalError: a side is too short."""
     corners = list(zip(_metres(one), _metres(other), strict=True))
     if any(abs(a - b) < _LEAST_SIDE / 1000 for a, b in corners):
         raise _refused(f"a side of the box is shorter than {_LEAST_SIDE:g} mm")
@@ -79,7 +79,10 @@ def cylinder(
     radius: float,
     height: float,
 ) -> None:
-    """A cylinder upwards from the middle of its bottom; of negative height downwards."""
+    """Define a cylinder upwards from the centre of its bottom.
+
+    A negative height means downwards.
+    """
     if radius < _LEAST_RADIUS or abs(height) < _LEAST_SIDE:
         raise _refused(f"a cylinder of radius {radius:g} and height {height:g} mm is too small")
     _put(shape, inside, outside, Cylinder(_metres(centre), radius / 1000, height / 1000))
@@ -94,7 +97,7 @@ def sphere(
     centre: Value,
     radius: float,
 ) -> None:
-    """A sphere."""
+    """Define a sphere."""
     if radius < _LEAST_RADIUS:
         raise _refused(f"a sphere of radius {radius:g} mm is too small")
     _put(shape, inside, outside, Ball(_metres(centre), radius / 1000))
@@ -105,7 +108,10 @@ def _unused(value: float) -> bool:
 
 
 def _space(group: MotionGroup, low: list[float], high: list[float]) -> JointSpace:
-    """Of RAPID values of rax_1 to eax_f; infinite: not supervised."""
+    """Return a space of RAPID values of rax_1 to eax_f.
+
+    An infinite limit disables supervision of the axis.
+    """
     names = [f"rax_{k}" for k in range(1, 7)] + [f"eax_{c}" for c in "abcdef"]
     zero = (0.0,) * len(group.config.joints)
     ends = []
@@ -129,7 +135,10 @@ def home_joints(
     middle: Value,
     delta: Value,
 ) -> None:
-    """Axes within a distance of a posture; 9E9 in one of both: the axis is not supervised."""
+    """Define an axis space around a posture.
+
+    9E9 in one of both values disables supervision of the axis.
+    """
     low, high = [], []
     for value, path in zip(_axes(middle), _axes(delta), strict=True):
         if _unused(value) or _unused(path):
@@ -152,7 +161,10 @@ def limited_joints(
     low: Value,
     high: Value,
 ) -> None:
-    """Axes between two postures; 9E9 or -9E9: no limit on that side."""
+    """Define an axis space between two postures.
+
+    9E9 or -9E9 means no limit on that side.
+    """
     lows = [-inf if _unused(v) else v for v in _axes(low)]
     highs = [inf if _unused(v) else v for v in _axes(high)]
     if any(a >= b for a, b in zip(lows, highs, strict=True)):
@@ -213,8 +225,11 @@ def set_output(
     signal: AnySignal,
     value: float,
 ) -> None:
-    """An output has the value in the zone (\\Before: where the robot could not stop before it
-    any more, too), and the opposite one elsewhere."""
+    """Set an output while the robot is inside the zone.
+
+    Outside it has the opposite value. \\Before: also set it where the robot can no longer stop
+    before the zone.
+    """
     if not inside and not before:
         raise _refused("\\Inside or \\Before has to be given")
     expected, io, target = dionum(task, value), task.controller.io, signal.signal
@@ -229,7 +244,7 @@ def set_output(
 def supervise(
     task: Task, temporary: bool | None, stationary: bool | None, datum: Ref, shape: ShapeData
 ) -> None:
-    """The robot stops on its path before the zone, and the program with it."""
+    """Stop robot and program on the path before the zone."""
     controller, group = task.controller, group_of(task)
 
     def act(reached: bool) -> None:
@@ -246,7 +261,10 @@ def supervise(
 
 
 def _temporary(task: Task, datum: Ref) -> int:
-    """The number of a zone that may be changed. FatalError: it is a stationary one."""
+    """Return the number of a temporary zone.
+
+    FatalError: the zone is stationary.
+    """
     number = int(datum.get().wz)
     if task.controller.motion.zones.is_stationary(number):
         raise _refused(f"zone {number} is stationary: it stays until the next warm start")
@@ -265,7 +283,10 @@ def _switch(on: bool) -> Callable[[Task, Ref], None]:
 
 @builtin("WZFree")
 def free(task: Task, datum: Ref) -> None:
-    """Forgets a zone; of a datum without one nothing happens. Its output stays as it is."""
+    """Remove a zone; its output keeps its value.
+
+    Does nothing for a datum without a zone.
+    """
     task.controller.motion.zones.drop(_temporary(task, datum))
     changed = datum.get().copy()
     changed.wz = 0

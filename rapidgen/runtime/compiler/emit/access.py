@@ -1,4 +1,10 @@
-"""Access to data: compiled expressions, copies and references."""
+"""Access to data: compiled expressions, copies and references.
+
+A compiled expression is Python source together with all that its users must know: RAPID type, cost,
+whether it can fail, what it touches, and the range of a whole number. Operators combine these
+properties (`take`), so that the writer can pay for a statement once and omit roundings, copies and
+guards that have no effect.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -21,15 +27,15 @@ from rapidgen.runtime.values import BOOL, NUM, Type, attribute
 
 # -- Compiled expressions --------------------------------------------------------------------------
 #
-# What the parts of the compiler share: options, compiled expressions, the routine at hand.
+# Options, compiled expressions and the routine in progress, shared by all parts of the emitter.
 
 
 UNBOUNDED = 1 << 60
 """Upper end of the range of a whole number of which only the lower end is known."""
 
 SILENT, SHARED, CALLS = 0, 1, 2
-"""What an expression touches: the routine's own data; data that traps or others see; calls
-that may wait, so that the budget has to be written back around them."""
+"""Effects of an expression: it uses only the routine's data; data visible to traps or other tasks;
+or calls that may wait, which need the budget written back around them."""
 
 
 @dataclass(slots=True)
@@ -51,13 +57,13 @@ class CompiledExpression:
     exact: bool = False
     """A num that is already rounded."""
     fresh: bool = False
-    """A record or array that nobody else holds."""
+    """A record or array without another reference."""
     risky: bool = False
     """May leave the range of IEEE single."""
     literal: bool = False
 
     def take(self, *parts: "CompiledExpression") -> "CompiledExpression":
-        """Add what the operands cost and touch."""
+        """Add costs and effects of operands."""
         for part in parts:
             self.ops += part.ops
             self.cost += part.cost
@@ -69,13 +75,13 @@ class CompiledExpression:
 def failing(
     error: str, name: str = "", kind: Type = NUM, dims: tuple[int, ...] = ()
 ) -> CompiledExpression:
-    """An expression that fails when it is reached; `name` is what is not there."""
+    """Return an expression that raises an error for `name` when executed."""
     inside = f"{error!r}, {name!r}" if name else repr(error)
     return CompiledExpression(f"FAIL({inside})", kind, dims, fails=True, effect=SHARED, exact=True)
 
 
 def calling(code: str, kind: Type, *parts: CompiledExpression, cost: int = 0) -> CompiledExpression:
-    """A call that may wait and fail."""
+    """Return a call that may wait and fail."""
     e = CompiledExpression(code, kind, cost=cost, exact=True).take(*parts)
     e.effect, e.fails = CALLS, True
     return e
@@ -83,10 +89,10 @@ def calling(code: str, kind: Type, *parts: CompiledExpression, cost: int = 0) ->
 
 @dataclass(slots=True)
 class Options:
-    """How routines are compiled."""
+    """Compiler options."""
 
     accounting: str = "block"
-    """`none` (nothing interrupts), `block` or `statement`."""
+    """`none` (no interruption), `block` or `statement`."""
     statement: int = 5_000
     operator: int = 1_000
     call: int = 5_000
@@ -99,7 +105,7 @@ class Options:
 
 
 def same_type(a: Type, b: Type) -> bool:
-    """Type equality after aliases [K §2.17]."""
+    """Return True if types are equal after aliases [K §2.17]."""
     return a is b or a.name == b.name
 
 
@@ -110,7 +116,7 @@ CompileExpression: TypeAlias = (
 
 @dataclass(slots=True, eq=False)
 class Unit:
-    """The routine that is being compiled, and what names in it stand for."""
+    """The routine in progress, and the meaning of names in it."""
 
     linker: Linker
     module: LoadedModule
@@ -120,35 +126,37 @@ class Unit:
     compile: CompileExpression
     """expressions.compile_expression: operands are compiled by way of it."""
     names: RoutineScope
-    """What names stand for where the compiler is: in the routine, or in a FOR of it."""
+    """The current scope: the routine, or a FOR inside it."""
     boxed: set[str]
     """Locals that are passed by reference, lower case."""
     locals: dict[Symbol, Data] = field(default_factory=dict)
-    """How parameters, data and loop variables are kept."""
+    """Storage of parameters, data and loop variables."""
     globals_written: set[str] = field(default_factory=set)
     temporaries: int = 0
 
     def temporary(self) -> str:
-        """A fresh Python name."""
+        """Return a new Python name."""
         self.temporaries += 1
         return f"_{self.temporaries}"
 
     def data(self, name: str) -> Data | None:
-        """What a name stands for when it is a datum."""
+        """Return the datum of a name, None for other names."""
         symbol = self.names.find(name)
         if symbol is None:
             return None
         return self.locals.get(symbol) or self.linker.datum(symbol)
 
     def routine_named(self, name: str) -> Routine | None:
-        """What a name stands for when it is a routine."""
+        """Return the routine of a name, None for other names."""
         return self.linker.routine(self.names.find(name))
 
     def expression(
         self, node: n.Expression, expected: Type | None = None, dims: tuple[int, ...] = ()
     ) -> CompiledExpression:
-        """Compile an expression to a value (signals are read); `expected` types aggregates and
-        literals."""
+        """Compile an expression to a value; signals are read.
+
+        `expected` gives aggregates and literals their type.
+        """
         e = self.compile(self, node, expected, dims)
         if e.type.kind == "semivalue":
             value = CompiledExpression(
@@ -160,7 +168,7 @@ class Unit:
     def value_of(
         self, node: n.Expression, kind: Type, dims: tuple[int, ...] = (), what: str = "value"
     ) -> CompiledExpression:
-        """Compile an expression that has to have a given type."""
+        """Compile an expression of a required type."""
         e = self.expression(node, kind, dims)
         if not same_type(e.type, kind):
             raise CannotCompile(f"the {what} is {e.type.name}, not {kind.name}", node)
@@ -187,7 +195,10 @@ _SMALLEST = "1.1754943508222875e-38"
 
 
 def rounded(e: CompiledExpression, kind: Type) -> str:
-    """Code of `e` as a num that is stored, passed or returned: rounded where it has to be."""
+    """Return code of `e` as a num for a store, a parameter or a result.
+
+    The code rounds only where the value may not be a single.
+    """
     if kind.kind != "num" or e.exact:
         return e.code
     if e.whole and e.range is not None and e.range[0] >= -EXACT and e.range[1] <= EXACT:
@@ -201,10 +212,10 @@ def rounded(e: CompiledExpression, kind: Type) -> str:
 
 
 def store_lines(target: str, e: CompiledExpression, kind: Type, *, keep: bool = False) -> list[str]:
-    """Statements that store `e` in a simple Python target, rounded.
+    """Return statements that store `e`, rounded, in a simple Python target.
 
-    Rounding splits at 24 bits (Veltkamp), which is exact inside the normal range; what may
-    leave it is tested, and NaN takes the slow way, too.
+    Rounding splits at 24 bits (Veltkamp), which is exact in the normal range. A test follows where
+    a value may leave the range; NaN fails the test as well.
     """
     if kind.kind != "num" or e.exact:
         return [f"{target} = {e.code}"]
@@ -218,7 +229,7 @@ def store_lines(target: str, e: CompiledExpression, kind: Type, *, keep: bool = 
         return lines if held == target else [*lines, f"{target} = {held}"]
     if not e.risky:
         return [f"{target} = (_t := (_y := {e.code}) * 536870913.0) - (_t - _y)"]
-    # A failing store leaves the target as it was; without ERROR nobody sees a local again.
+    # A failing store must not change the target. Without ERROR the local is not read again.
     held = "_x" if keep else target
     lines = [
         f"{held} = (_t := (_y := {e.code}) * 536870913.0) - (_t - _y)",
@@ -230,7 +241,10 @@ def store_lines(target: str, e: CompiledExpression, kind: Type, *, keep: bool = 
 
 
 def by_value(e: CompiledExpression, kind: Type) -> str:
-    """Code of a value that the receiver may keep: rounded, or copied."""
+    """Return code of a value that the receiver may keep.
+
+    Numbers are rounded, records and arrays copied.
+    """
     if e.dims or kind.kind == "record":
         if e.fresh:
             return e.code
@@ -239,7 +253,10 @@ def by_value(e: CompiledExpression, kind: Type) -> str:
 
 
 def _normal(code: str) -> str:
-    """Test whether a rounded value is a normal single, or 0; evaluates `code` first and once."""
+    """Return a test that a rounded value is a normal single or 0.
+
+    The test evaluates `code` first and once.
+    """
     name = "_x" if ":=" in code else code
     return (
         f"{_SMALLEST} <= {code} <= {_LARGEST} or -{_LARGEST} <= {name} <= -{_SMALLEST}"
@@ -254,7 +271,7 @@ def _normal(code: str) -> str:
 
 @dataclass(slots=True)
 class DataReference:
-    """A data reference: a whole datum, an element or a component."""
+    """A reference to a whole datum, an element or a component."""
 
     data: Data
     e: CompiledExpression
@@ -262,7 +279,7 @@ class DataReference:
     holder: str
     """Container of the last element or component; empty for a whole datum."""
     key: str
-    """Index code or attribute behind the container."""
+    """Code of the index, or the attribute, within the container."""
     member: bool
     cell: str
     """Code of its cell (may be None at run time), or empty."""
@@ -271,12 +288,12 @@ class DataReference:
 
     @property
     def atomic(self) -> bool:
-        """A single num, dnum, bool or string."""
+        """True for a single num, dnum, bool or string."""
         return not self.e.dims and self.e.type.kind in ("num", "dnum", "bool", "string")
 
 
 def read(unit: Unit, data: Data) -> CompiledExpression:
-    """Read a whole datum."""
+    """Return a whole datum as an expression."""
     code, effect, fails = _kept(data)
     kind, dims = data.type, data.dims
     if data.storage == "inline":
@@ -300,7 +317,7 @@ def read(unit: Unit, data: Data) -> CompiledExpression:
 
 
 def _kept(data: Data) -> tuple[str, int, bool]:
-    """Code of what keeps a datum, its effect, and whether reaching it may fail."""
+    """Return code of a datum's storage, its effect and its risk."""
     effect = SHARED if data.storage in ("global", "cell") and data.kind != "CONST" else 0
     if data.storage in ("ref", "object"):
         effect = SHARED
@@ -310,21 +327,24 @@ def _kept(data: Data) -> tuple[str, int, bool]:
 
 
 def undeclared(unit: Unit, node: n.Node) -> str:
-    """The first name of a datum in an expression or statement that nothing declares, or "".
+    """Return the first undeclared name in an expression or statement.
 
-    Statements inside are left out: each finds its own.
+    Returns "" without one. Nested statements report their own names.
     """
     for part in walk_own(node):
         if isinstance(part, n.Name):
             symbol = unit.names.find(part.name)
-            # A signal that is not here may have the name of a predefined type.
+            # An unknown signal may have the name of a predefined type.
             if symbol is None or (isinstance(symbol, TypeSymbol) and symbol.module is None):
                 return part.name
     return ""
 
 
 def unknown_type(unit: Unit, node: n.Node) -> str:
-    """The first datum in a statement whose type nothing declares, as text, or ""."""
+    """Return the first datum in a statement with an undeclared type.
+
+    Returns a text, "" without one.
+    """
     for part in walk_own(node):
         data = unit.data(part.name) if isinstance(part, n.Name) else None
         if data is not None and data.type.name in unit.linker.shared.unknown:
@@ -333,7 +353,7 @@ def unknown_type(unit: Unit, node: n.Node) -> str:
 
 
 def place_of(unit: Unit, node: n.Expression) -> DataReference | None:
-    """The data reference that `node` is; None for any other expression."""
+    """Return the data reference of `node`, None for other expressions."""
     match node:
         case n.Parenthesis():
             return None
@@ -377,7 +397,7 @@ def _cell(data: Data) -> str:
 def reference(
     unit: Unit, node: n.Expression, parameter: FormalParameter, *, builtin: bool
 ) -> CompiledExpression:
-    """Pass `node` to a VAR, PERS, INOUT or REF parameter."""
+    """Compile `node` for a VAR, PERS, INOUT or REF parameter."""
     place = place_of(unit, node)
     mode = parameter.mode
     if place is None:
@@ -406,7 +426,10 @@ def reference(
 
 
 def _check_mode(data: Data, mode: n.Mode, node: n.Expression) -> None:
-    """The table of K §5.1; what only run time knows is left to ASVAR and ASPERS."""
+    """Check an access mode by the table of K §5.1.
+
+    ASVAR and ASPERS check at run time what depends on the caller.
+    """
     if mode in ("REF", ""):
         return
     if data.readonly:
@@ -449,7 +472,7 @@ def _reference_code(
 
 
 def _boxed(unit: Unit, node: n.Expression, parameter: FormalParameter) -> CompiledExpression:
-    """A value for a REF or anytype parameter that is no datum."""
+    """Return a box for an expression passed to REF or anytype."""
     e = unit.expression(node, parameter.type)
     t = unit.linker.keep(e.type)
     name = node.name if isinstance(node, n.Name) else ""

@@ -1,4 +1,10 @@
-"""Expressions, operators and calls as Python source."""
+"""Expressions, operators and calls as Python source.
+
+The compiler tracks the range of whole numbers through operators. A result inside +-2^24 is an exact
+single, so that its store needs no rounding; this is the largest single gain in speed. A function of
+the program runs through the same call path as a procedure, built-ins get all parameters by
+position.
+"""
 
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
@@ -38,7 +44,7 @@ POS, ORIENT = TYPES["pos"], TYPES["orient"]
 
 
 def unary(unit: Unit, node: n.Unary, expected: Type | None) -> CompiledExpression:
-    """NOT, + and -."""
+    """Compile NOT, + and -."""
     if node.operator == "NOT":
         inner = unit.value_of(node.operand, BOOL, (), "operand of NOT")
         return CompiledExpression(f"(not {inner.code})", BOOL, ops=1).take(inner)
@@ -66,7 +72,7 @@ def unary(unit: Unit, node: n.Unary, expected: Type | None) -> CompiledExpressio
 
 
 def binary(unit: Unit, node: n.Binary, expected: Type | None) -> CompiledExpression:
-    """Compile an operator between two operands; `want` types literals."""
+    """Compile an operator with two operands; `expected` types literals."""
     operator = node.operator
     if operator in ("AND", "OR", "XOR"):
         left = unit.value_of(node.left, BOOL, (), f"left operand of {operator}")
@@ -107,7 +113,7 @@ def binary(unit: Unit, node: n.Binary, expected: Type | None) -> CompiledExpress
 def _operands(
     unit: Unit, node: n.Binary, want: Type | None
 ) -> tuple[CompiledExpression, CompiledExpression]:
-    """Both operands; a literal takes the type of the other one."""
+    """Compile both operands; a literal takes the type of the other one."""
     expected = want if want is not None and want.kind in ("num", "dnum") else None
     if want is not None and want.name == "pos" and node.has_type_of_place:
         return unit.expression(node.left, want), unit.expression(node.right, want)
@@ -185,7 +191,10 @@ def _arithmetic(
 
 
 def _integer(unit: Unit, operator: str, left: CompiledExpression, right: CompiledExpression) -> str:
-    """DIV or MOD; a whole left and a positive literal right side need no call."""
+    """Compile DIV or MOD.
+
+    A whole left operand and a positive literal on the right need no call.
+    """
     dialect = unit.options.dialect
     plain = dialect.integer_division == "truncate" and dialect.negative_mod == "allow"
     if plain and left.whole and right.range is not None and right.range[0] > 0 and right.whole:
@@ -198,19 +207,22 @@ def _integer(unit: Unit, operator: str, left: CompiledExpression, right: Compile
 
 
 def _is_counted(e: CompiledExpression) -> bool:
-    """Whether a dnum holds the result whatever it is."""
+    """Return True if a dnum represents every possible result."""
     return e.range is not None and e.range[0] >= -_COUNTED and e.range[1] <= _COUNTED
 
 
 def _is_exact(e: CompiledExpression) -> bool:
-    """Whether no single would have to be rounded."""
+    """Return True if no single needs rounding."""
     return e.whole and e.range is not None and e.range[0] >= -EXACT and e.range[1] <= EXACT
 
 
 def _grows(
     operator: str, left: CompiledExpression, right: CompiledExpression, e: CompiledExpression
 ) -> bool:
-    """Whether a whole result may leave the range of a single: not by adding something small."""
+    """Return True if a whole result may leave the range of a single.
+
+    Sums with small operands do not count.
+    """
     if e.range is not None and max(abs(e.range[0]), abs(e.range[1])) < UNBOUNDED:
         return False
     return operator == "*" or not (_is_exact(left) or _is_exact(right))
@@ -244,16 +256,18 @@ _FAULTS = {
 def _matched(
     unit: Unit, routine: Routine, arguments: list[n.Argument], node: n.Node
 ) -> list[n.Argument | None]:
-    """Arguments in the order of the parameters; None where a parameter gets none.
+    """Return arguments in the order of the parameters.
 
-    An order that only the checker minds is taken; of alternatives run time finds two.
+    None marks a parameter without an argument. The compiler accepts an order that only the checker
+    reports. Of alternatives, run time finds duplicates.
     """
     parameters = routine.parameters
     result = match(parameters, arguments, lambda a, among: _meant(unit, parameters, a, among))
     for pair in result.pairs:
         argument = pair.argument
         for misfit in pair.misfits:
-            # Of two conditional arguments for one parameter one may be absent: run time tells.
+            # One of two conditional arguments for a parameter may be absent: a check at run time
+            # decides.
             if misfit not in _FAULTS or (
                 misfit is ArgumentFault.TWICE and argument.kind == "conditional"
             ):
@@ -268,7 +282,7 @@ def _matched(
 def _meant(
     unit: Unit, parameters: Sequence[FormalParameter], argument: n.Argument, among: Sequence[int]
 ) -> int:
-    """Which of several required alternatives a positional argument means: by its type."""
+    """Return the alternative of a positional argument by its type."""
     if argument.value is None:
         return among[0]
     place = place_of(unit, argument.value)
@@ -302,7 +316,7 @@ def pass_argument(
 def _conditional(
     unit: Unit, parameter: FormalParameter, argument: n.Argument, *, builtin: bool
 ) -> CompiledExpression:
-    """`\\Opt?par`: passes the caller's optional parameter on, or its absence."""
+    """Compile `\\Opt?par`: pass an optional parameter, or its absence."""
     node = argument.value
     data = unit.data(node.name) if isinstance(node, n.Name) else None
     if data is None or not data.optional:
@@ -356,7 +370,10 @@ def call(
 
 
 def _condition_code(unit: Unit, node: n.Expression | None, e: CompiledExpression) -> str:
-    """WaitUntil looks at its condition again: it gets a function, and what it reads."""
+    """Compile the condition of WaitUntil as a function.
+
+    WaitUntil evaluates it repeatedly and needs the data that it reads.
+    """
     watched, reads = [], []
     for part in walk(node) if node is not None else ():
         if not isinstance(part, n.Name):
@@ -391,7 +408,7 @@ _READING = frozenset(("dinput", "doutput", "ginput", "goutput", "ainput", "aoutp
 
 
 def _awaited(unit: Unit, node: n.Expression | None, *, holds: bool) -> Iterator[str]:
-    """Comparisons of signals in a condition that is to hold, or not to."""
+    """Iterate over comparisons of signals in an expected condition."""
     match node:
         case n.Parenthesis():
             yield from _awaited(unit, node.inner, holds=holds)
@@ -411,7 +428,7 @@ def _awaited(unit: Unit, node: n.Expression | None, *, holds: bool) -> Iterator[
 
 
 def _signal(unit: Unit, node: n.Expression) -> str:
-    """The signal that an expression reads; empty: none."""
+    """Return the signal that an expression reads, "" without one."""
     if isinstance(node, n.FunctionCall) and node.name.lower() in _READING and node.arguments:
         node = node.arguments[0].value or node
     data = unit.data(node.name) if isinstance(node, n.Name) else None
@@ -467,7 +484,7 @@ def _only_argument(unit: Unit, node: n.FunctionCall) -> n.Expression:
 
 
 def _present(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
-    """Present: of a parameter; TRUE for anything that is always there [K §11]."""
+    """Compile Present: TRUE for data that always exist [K §11]."""
     argument = _only_argument(unit, node)
     data = unit.data(argument.name) if isinstance(argument, n.Name) else None
     if data is None or not data.optional:
@@ -476,7 +493,7 @@ def _present(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
 
 
 def _dim(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
-    """Dim: a constant when the sizes are known."""
+    """Compile Dim: a constant if the sizes are known."""
     if len(node.arguments) != 2:
         return None
     array, number = (a.value for a in node.arguments)
@@ -500,7 +517,7 @@ def _dim(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
 
 
 def _abs(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
-    """Abs."""
+    """Compile Abs."""
     e = unit.value_of(_only_argument(unit, node), NUM, (), "argument")
     limits = None
     if e.range is not None:
@@ -518,7 +535,7 @@ def _abs(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
 
 
 def _str_len(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
-    """StrLen."""
+    """Compile StrLen."""
     e = unit.value_of(_only_argument(unit, node), STRING, (), "argument")
     cost = int(50_000 * unit.options.builtin_scale)
     result = CompiledExpression(
@@ -530,7 +547,10 @@ def _str_len(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
 def _string_function(
     unit: Unit, node: n.FunctionCall, code: str, kinds: tuple[Type, ...]
 ) -> CompiledExpression | None:
-    """A string function of runtime.py with required arguments only; else the built-in."""
+    """Compile a string function of support.py.
+
+    Only required arguments are possible; other calls use the built-in.
+    """
     if len(node.arguments) != len(kinds) or any(a.kind != "required" for a in node.arguments):
         return None
     parts = [
@@ -546,7 +566,7 @@ def _string_function(
 
 
 def _str_part(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
-    """StrPart."""
+    """Compile StrPart."""
     return _string_function(unit, node, "PARTOF", (STRING, NUM, NUM))
 
 
@@ -560,23 +580,26 @@ def _position(unit: Unit, node: n.FunctionCall, code: str) -> CompiledExpression
 
 
 def _str_find(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
-    """StrFind without the switch; one character needs no set."""
+    """Compile StrFind without the switch.
+
+    One character needs no set.
+    """
     last = node.arguments[-1].value if node.arguments else None
     single = isinstance(last, n.StringLiteral) and len(last.value) == 1
     e = _position(unit, node, "FIND1" if single else "FINDSET")
-    if e is None:  # with \NotInSet the built-in gives an int, too
+    if e is None:  # With \NotInSet the built-in also returns an int.
         e = call(unit, _builtin(unit, node), node)
         e.whole, e.range, e.exact = True, (1, 81), True
     return e
 
 
 def _str_match(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
-    """StrMatch."""
+    """Compile StrMatch."""
     return _position(unit, node, "FIND1")
 
 
 def _is_pers(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
-    """IsPers: of an INOUT parameter only run time knows [K §11]."""
+    """Compile IsPers: run time decides for an INOUT parameter [K §11]."""
     place = place_of(unit, _only_argument(unit, node))
     if place is None:
         return CompiledExpression("False", BOOL, cost=unit.options.call)
@@ -589,7 +612,7 @@ def _is_pers(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
 
 
 def _is_var(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
-    """IsVar."""
+    """Compile IsVar."""
     place = place_of(unit, _only_argument(unit, node))
     if place is None or place.data.kind == "CONST":
         return CompiledExpression("False", BOOL, cost=unit.options.call)
@@ -598,7 +621,7 @@ def _is_var(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
 
 
 def _arg_name(unit: Unit, node: n.FunctionCall) -> CompiledExpression:
-    """ArgName: of a parameter; its name is all that is passed on."""
+    """Compile ArgName, which receives only the name of a parameter."""
     first = node.arguments[0].value if node.arguments else None
     if not isinstance(first, n.Name):
         raise CannotCompile("ArgName takes a parameter", node)
@@ -632,7 +655,7 @@ _INLINE: dict[str, Inline] = {
 
 
 def function_call(unit: Unit, node: n.FunctionCall, expected: Type | None) -> CompiledExpression:
-    """Compile the call of a function; one that does not exist fails when it is reached."""
+    """Compile a function call; an unknown function fails when executed."""
     routine = unit.routine_named(node.name)
     if routine is None or routine.kind != "FUNC":
         if node.name.lower() in unsupported.option_routines():
@@ -651,7 +674,7 @@ def function_call(unit: Unit, node: n.FunctionCall, expected: Type | None) -> Co
 def compile_expression(
     unit: Unit, node: n.Expression, expected: Type | None, dims: tuple[int, ...]
 ) -> CompiledExpression:
-    """Compile any expression; a signal comes as the signal itself."""
+    """Compile any expression; a signal yields the signal itself."""
     match node:
         case n.NumberLiteral():
             return _number(unit, node, expected)
@@ -712,7 +735,7 @@ def _is_undeclared(base: CompiledExpression) -> bool:
 
 
 def _undeclared(base: CompiledExpression, expected: Type | None) -> CompiledExpression:
-    """A part of what nothing declares: of the type that its place wants."""
+    """Return a part of undeclared data, of the type of its place."""
     return CompiledExpression(
         base.code, expected or NUM, fails=True, effect=base.effect, exact=True
     )

@@ -1,4 +1,13 @@
-"""A RAPID routine as a Python function."""
+"""A RAPID routine as a Python function.
+
+An analysis before emission collects two facts. Locals passed by reference need a box; all others
+are plain Python locals. Locals whose every store is a whole number stay Python ints without
+rounding. The second fact is a greatest fixed point: the analysis assumes it for all candidates and
+removes contradicted ones until no store contradicts.
+
+The order of emission matters: the body comes first, because it decides which nonlocal names,
+handlers and nested functions the header needs.
+"""
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -33,7 +42,7 @@ from rapidgen.runtime.values import ATOMIC, NUM, Type, Value
 
 
 class RoutineFacts:
-    """What a routine's text says about its own variables."""
+    """Facts about the local variables of a routine."""
 
     def __init__(
         self, routine: n.RoutineDeclaration, find: Callable[[str], Routine | None]
@@ -41,7 +50,7 @@ class RoutineFacts:
         self.by_reference: set[str] = set()
         """Locals that are arguments of reference parameters, lower case."""
         self.stores: dict[str, list[n.Expression | None]] = {}
-        """What is assigned to whole locals; None = something unknown."""
+        """Values stored in whole locals; None: an unknown value."""
         self.loops: list[n.For] = []
         self.goto: set[str] = set()
         for at in walk(routine):
@@ -74,7 +83,7 @@ class RoutineFacts:
         parameters = routine.parameters
 
         def by_reference(_argument: n.Argument, among: Sequence[int]) -> int:
-            """Any of the alternatives may be meant."""
+            """Return an alternative passed by reference, if any."""
             return next((i for i in among if parameters[i].mode), among[0])
 
         for pair in match(parameters, at.arguments, by_reference).pairs:
@@ -82,7 +91,7 @@ class RoutineFacts:
                 self._by_reference(pair.argument.value)
 
     def _step(self, at: n.ProcedureCall | n.FunctionCall, key: str) -> None:
-        """Incr and its kin are assignments."""
+        """Treat Incr and related instructions as assignments."""
         if key not in marked("steps") or not at.arguments:
             return
         target = at.arguments[0].value
@@ -99,10 +108,10 @@ class RoutineFacts:
 
 
 class IntegerLocals:
-    """Which locals and loop variables hold whole numbers only, and which none below zero.
+    """Locals and loop variables with whole numbers, or none below zero.
 
-    Both are the largest sets that agree with every store; `initial` are the candidates with
-    their initial values, `constant(name)` gives the value of a num constant, or None.
+    Both sets are the largest ones consistent with every store. `initial` contains the candidates
+    and their initial values, `constant(name)` returns the value of a num constant or None.
     """
 
     def __init__(
@@ -183,14 +192,14 @@ class IntegerLocals:
 
 # -- Variables -------------------------------------------------------------------------------------
 #
-# Parameters and data of a routine: how each is kept, and the Python that makes it.
+# Storage of parameters and data of a routine, and the Python code that creates them.
 
 
 SWITCH = Type("switch", "bool")
 
 
 def header(unit: Unit) -> str:
-    """Parameters of the Python function."""
+    """Return the parameters of the Python function."""
     absent = False
     names = []
     for parameter in unit.routine.parameters:
@@ -200,7 +209,7 @@ def header(unit: Unit) -> str:
 
 
 def declare(unit: Unit, w: Writer, facts: RoutineFacts) -> None:
-    """Enter parameters and data into the unit, and write what makes them."""
+    """Enter parameters and data into the unit, and emit their creation."""
     for parameter in unit.routine.parameters:
         _parameter(unit, w, parameter)
     candidates: dict[str, int] = {}
@@ -271,7 +280,7 @@ def _variable(
         data.storage = "box"
         w.emit(f"{data.code} = BOX({value!r}, {linker.keep(kind)}, (), {d.name!r})")
     else:
-        # Where statements are reported, somebody may set it to anything.
+        # With tracing, a debugger may store any value.
         data.whole = key in complete.whole and kind.kind == "num" and not unit.options.tracing
         if data.whole and key in complete.natural:
             data.range = (0, UNBOUNDED)
@@ -281,7 +290,7 @@ def _variable(
 def _fresh(
     unit: Unit, d: n.DataDeclaration, kind: Type, dims: tuple[int, ...], value: Value
 ) -> str:
-    """What makes a record, an array or an object for each call."""
+    """Return code that creates a record, array or object per call."""
     linker = unit.linker
     if d.initial is None and not dims and kind.make is not None:
         return f"{linker.keep(kind.make)}()"
@@ -299,20 +308,23 @@ def _fresh(
 
 @lru_cache(maxsize=4096)
 def _code(text: str, file: str) -> CodeType:
-    """CPython's code; controllers that are booted anew with the same modules share it."""
+    """Compile Python source.
+
+    Controllers booted with the same modules share the code object.
+    """
     return compile(text, file, "exec", dont_inherit=True)
 
 
 class RoutineCompiler:
-    """Puts the Python of one routine together: header, handlers, statements.
+    """Assembles the Python of one routine: header, handlers, statements.
 
-    `parameters`, `variables` and `body` are its own; whoever goes on in its middle replaces them.
+    Subclasses for resumption replace `parameters`, `variables` and `body`.
     """
 
     def __init__(
         self, linker: Linker, routine: Routine, options: Options, entry: str, file: str
     ) -> None:
-        """`entry` names the Python function, `file` its code."""
+        """Set the name of the Python function (`entry`) and of its `file`."""
         node = routine.node
         module = routine.module
         assert node is not None
@@ -329,7 +341,7 @@ class RoutineCompiler:
         self.body: Callable[[], None] = lambda: self.emitter.statements(node.body)
 
     def link(self) -> tuple[Callable[..., Value], Compiled]:
-        """The function, defined in the namespace. CannotCompile."""
+        """Return the function, defined in the namespace. CannotCompile."""
         code, compiled = self._compile()
         space = self.unit.linker.space
         exec(code, space)
@@ -407,7 +419,10 @@ class RoutineCompiler:
             w.depth -= deeper
 
     def _handlers(self, node: n.RoutineDeclaration, top: list[CodeLine]) -> list[CodeLine]:
-        """Functions of ERROR and UNDO; one that is made once goes before `top`."""
+        """Emit functions of ERROR and UNDO.
+
+        Code that runs once goes before `top`.
+        """
         lines: list[CodeLine] = []
         if node.error is not None:
             handler = self.emitter.handler(HANDLER, node.error.body, CodeRole.HANDLER)
@@ -425,7 +440,10 @@ class RoutineCompiler:
         return lines
 
     def _recovery_list(self, handler: n.ErrorHandler) -> list[CodeLine]:
-        """`_l()` gives the numbers of ERROR (list), for its own errors and for long jumps."""
+        """Emit `_l()`, which returns the numbers of ERROR (list).
+
+        The list applies to the routine's own errors and to long jumps.
+        """
         w = self.emitter.w
         w.token = handler.first
         if handler.numbers is None:

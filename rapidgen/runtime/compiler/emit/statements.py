@@ -1,4 +1,9 @@
-"""Statements as Python source."""
+"""Statements as Python source.
+
+Each function takes the emitter and one node. It compiles the expressions, pays their cost, then
+emits guarded lines. A store to a persistent wakes the tasks that wait for it, after the store and
+outside the guard.
+"""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -31,7 +36,7 @@ from rapidgen.runtime.values import BOOL, NUM, STRING, Type
 
 
 def _target(unit: Unit, node: n.Expression) -> DataReference:
-    """A datum that may be assigned."""
+    """Return a datum that the program may assign."""
     if isinstance(node, n.Placeholder):
         raise CannotCompile("a placeholder is no datum", node)
     place = place_of(unit, node)
@@ -43,7 +48,7 @@ def _target(unit: Unit, node: n.Expression) -> DataReference:
 
 
 def assignment(emitter: Emitter, node: n.Assignment) -> None:
-    """`:=`, by value."""
+    """Compile `:=`, by value."""
     if isinstance(node.target, n.Placeholder):
         emitter.simple(failing("ERR_EXECPHR"))
         return
@@ -55,7 +60,7 @@ def assignment(emitter: Emitter, node: n.Assignment) -> None:
 
 
 def _store(emitter: Emitter, place: DataReference, value: CompiledExpression) -> None:
-    """Assign a compiled value to a place and wake who watches it."""
+    """Assign a compiled value to a place and wake its waiters."""
     kind, data = place.e.type, place.data
     total = CompiledExpression("", kind).take(place.e, value)
     if place.holder or data.storage not in ("local", "global"):
@@ -125,7 +130,7 @@ def _kept(data: Data) -> str:
 
 
 def _through(temporary: str, target: str, value: CompiledExpression, kind: Type) -> list[str]:
-    """Store by way of a temporary when the value has to be tested."""
+    """Store through a temporary if the value needs a test."""
     lines = store_lines(temporary, value, kind)
     if len(lines) == 1:
         return [target + lines[0].removeprefix(temporary)]
@@ -133,7 +138,7 @@ def _through(temporary: str, target: str, value: CompiledExpression, kind: Type)
 
 
 def _inside(place: DataReference) -> bool:
-    """Whether the last index is known to lie in the array."""
+    """Return True if the last index is inside the array for certain."""
     limits = place.index_range
     dims = place.data.dims
     return limits is not None and bool(dims) and limits[0] >= 1 and limits[1] <= dims[-1]
@@ -149,7 +154,7 @@ def _array_lines(emitter: Emitter, place: DataReference, value: CompiledExpressi
 
 
 def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
-    """Incr, Decr, Add and Clear are assignments."""
+    """Compile Incr, Decr, Add and Clear as assignments."""
     arguments = [a.value for a in node.arguments if a.value is not None]
     if not arguments:
         raise CannotCompile(f"{node.name} takes an argument", node)
@@ -180,7 +185,7 @@ def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
 
 
 def connect(emitter: Emitter, node: n.Connect) -> None:
-    """CONNECT: the interrupt's number is stored in its variable."""
+    """Compile CONNECT: store the interrupt's number in its variable."""
     place = _target(emitter.unit, node.target)
     trap = emitter.unit.routine_named(node.trap)
     if trap is None or trap.kind != "TRAP":
@@ -211,13 +216,13 @@ def if_statement(
     branches: Sequence[tuple[n.Expression, Sequence[n.Statement]]],
     otherwise: Sequence[n.Statement] | None,
 ) -> None:
-    """IF: also the compact one."""
+    """Compile IF, also the compact form."""
     conditions = [emitter.unit.condition(c) for c, _ in branches]
     _select(emitter, [c.code for c in conditions], conditions, [b for _, b in branches], otherwise)
 
 
 def test_statement(emitter: Emitter, node: n.Test) -> None:
-    """TEST: its subject is looked at once."""
+    """Compile TEST; the subject is evaluated once."""
     subject = emitter.unit.expression(node.subject)
     name = emitter.unit.temporary()
     codes, parts = [], []
@@ -245,9 +250,9 @@ def _select(
     bodies: list[Sequence[n.Statement]],
     otherwise: Sequence[n.Statement] | None,
 ) -> None:
-    """Run the first body whose condition holds.
+    """Emit the first body whose condition is true.
 
-    The statement pays for its first condition; each branch for those looked at after it.
+    The statement pays for its first condition, each branch for the conditions evaluated after it.
     """
     w = emitter.w
     everything = CompiledExpression("", BOOL).take(*conditions)
@@ -274,7 +279,7 @@ def _branch(emitter: Emitter, body: Sequence[n.Statement], looked: int) -> None:
     w = emitter.w
     if looked and emitter.options.accounting != "none":
         w.depth += 1
-        # A program that stops here has chosen already.
+        # A program stopped here has already chosen the branch.
         w.token = _first(body, w.token)
         w.cost(looked)
         if emitter.options.accounting == "statement":
@@ -284,12 +289,12 @@ def _branch(emitter: Emitter, body: Sequence[n.Statement], looked: int) -> None:
 
 
 def _first(body: Sequence[n.Statement], otherwise: int) -> int:
-    """Token of the first statement of a list."""
+    """Return the token of the first statement of a list."""
     return next((s.first for s in body if not isinstance(s, n.Label)), otherwise)
 
 
 def while_loop(emitter: Emitter, node: n.While) -> None:
-    """WHILE."""
+    """Compile WHILE."""
     w = emitter.w
     condition = emitter.unit.condition(node.condition)
     if condition.effect == SILENT and not condition.fails:
@@ -313,8 +318,10 @@ def while_loop(emitter: Emitter, node: n.While) -> None:
 
 
 def _silent_while(emitter: Emitter, node: n.While, condition: CompiledExpression) -> None:
-    """A condition that nothing outside can see is paid after it was looked at: together
-    with what begins the pass, or with what follows the loop."""
+    """Compile a WHILE whose condition has no visible effect.
+
+    Its cost is paid together with the start of the pass, or with the statements after the loop.
+    """
     w = emitter.w
     w.close()
     w.emit(f"while {condition.code}:")
@@ -326,7 +333,7 @@ def _silent_while(emitter: Emitter, node: n.While, condition: CompiledExpression
 
 
 def for_loop(emitter: Emitter, node: n.For) -> None:
-    """FOR: limits and step are worked out once [K §4.15]."""
+    """Compile FOR: limits and step are evaluated once [K §4.15]."""
     w = emitter.w
     start = emitter.unit.value_of(node.start, NUM, (), "start")
     end = emitter.unit.value_of(node.end, NUM, (), "end")
@@ -356,7 +363,7 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
     w.depth += 1
     complete = start.whole and (step is None or step.whole)
     with loop_bound(emitter.unit, node, complete=complete, limits=limits):
-        # A program that stops here is in the pass already.
+        # A program stopped here is already in the pass.
         w.token = _first(node.body, node.first)
         w.cost(emitter.options.statement)
         if emitter.options.accounting == "statement":
@@ -368,7 +375,10 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
 def loop_bound(
     unit: Unit, node: n.For, *, complete: bool, limits: tuple[int, int] | None
 ) -> Iterator[None]:
-    """The variable of a FOR stands for a Python local, and hides what has its name."""
+    """Bind the variable of a FOR to a Python local.
+
+    It hides other names.
+    """
     outer, unit.names = unit.names, unit.names.loop(node)
     variable = unit.names.names[node.variable.lower()]
     unit.locals[variable] = Data(
@@ -388,14 +398,14 @@ def loop_bound(
 
 
 def loop_variable(node: n.For) -> str:
-    """The Python local of a FOR, the same wherever its routine is compiled."""
+    """Return the Python local of a FOR, equal in all compilations."""
     return f"l{node.first}_{node.variable.lower()}"
 
 
 def _limits(
     start: CompiledExpression, end: CompiledExpression, step: CompiledExpression | None
 ) -> tuple[int, int] | None:
-    """Range of a loop variable."""
+    """Return the range of a loop variable."""
     if start.range is None or end.range is None or not (start.whole and end.whole):
         return None
     if step is not None and not step.whole:
@@ -409,7 +419,10 @@ def _limits(
 
 
 def late_call(emitter: Emitter, node: n.LateCall) -> None:
-    """`%name% arguments;` [K §4.5]: arguments are thunks, by value and by reference."""
+    """Compile `%name% arguments;` [K §4.5].
+
+    Arguments are thunks, by value and by reference.
+    """
     unit = emitter.unit
     name = unit.value_of(node.procedure, STRING)
     parts, codes = [name], []
@@ -449,7 +462,7 @@ def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[CompiledExpre
 
 
 def _reference(unit: Unit, place: DataReference) -> str:
-    """A lambda that makes a Ref to a place, or None for what cannot be one."""
+    """Return a lambda that makes a Ref to a place, or None."""
     data, e = place.data, place.e
     if data.readonly or e.type.kind in ("nonvalue", "semivalue"):
         return "None"
@@ -471,7 +484,7 @@ def _reference(unit: Unit, place: DataReference) -> str:
 
 
 def compile_statement(emitter: Emitter, node: n.Statement) -> None:
-    """Compile a statement where it stands."""
+    """Compile a statement."""
     w = emitter.w
     match node:
         case n.Assignment():

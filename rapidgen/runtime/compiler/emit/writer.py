@@ -1,4 +1,11 @@
-"""Python text under construction: lines, costs and error guards."""
+"""Python text under construction: lines, costs and error guards.
+
+Costs are paid before the statements of a block run. A block is a sequence of statements that touch
+only the routine's data, with at most one other statement at its end. If the budget is too small for
+the block, `polls` charges it statement by statement, so that block and statement accounting give
+exactly the same times. An error in the middle of a block refunds the statements after it (`refunds`
+by line).
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -21,17 +28,12 @@ from rapidgen.runtime.values import NUM
 
 # -- Lines and costs -------------------------------------------------------------------------------
 #
-# Python text under construction: lines, the RAPID they come from, and what they are charged.
-#
-# Costs are paid before the statements of a block run. A block is a run of statements that touch
-# only the routine's own data, with at most one other statement as its last. When the budget does
-# not last for the block, `polls` charges it statement by statement, so that block and statement
-# accounting tell exactly the same times.
+# Lines, their RAPID tokens and their costs.
 
 
 INDENT = " "
 _BUDGET_LINES = frozenset({"b = R.b", "R.b = b", "else: b = R.b", "b += @REFUND@"})
-"""What nobody needs without accounting."""
+"""Lines without effect if there is no accounting."""
 _FILLED = frozenset({"b += @REFUND@", "b -= @OWN@", "b = R.charge_again(b, @REST@)"})
 """Lines with a cost that is known when the block is."""
 
@@ -57,14 +59,14 @@ class CodeLine:
     charge: bool = False
     """This is where the block is paid."""
     synced: bool = False
-    """The budget was written back before; whoever raised knows better what is left."""
+    """The budget is already written back; the raising function knows the remaining budget."""
     leave: str = ""
-    """Of a charge: how RETURN of an ERROR (list) leaves, where a long jump may end here."""
+    """For a charge: the RETURN of an ERROR (list) that a long jump may enter here."""
 
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """How far a writer is."""
+    """A position of a writer."""
 
     lines: int
     depth: int
@@ -74,7 +76,7 @@ class Mark:
 
 
 class Writer:
-    """Collects lines."""
+    """A collector of lines."""
 
     def __init__(self, accounting: str) -> None:
         self.lines: list[CodeLine] = []
@@ -95,12 +97,12 @@ class Writer:
         self.lines.append(CodeLine(self.depth, text, self.token, block, paid, False, self.synced))
 
     def mark(self) -> "Mark":
-        """What is written so far, for `back_to`."""
+        """Return the current position, for `back_to`."""
         costs = len(self._block.costs) if self._block is not None else 0
         return Mark(len(self.lines), self.depth, self.leave, self._block, costs)
 
     def back_to(self, marker: "Mark") -> None:
-        """Forget what was written since."""
+        """Discard all lines after a position."""
         del self.lines[marker.lines :]
         self.depth, self.leave, self.synced, self._block = (
             marker.depth,
@@ -112,13 +114,13 @@ class Writer:
             del marker.block.costs[marker.costs :]
 
     def cut(self, marker: int) -> list[CodeLine]:
-        """Take off the lines from a place on."""
+        """Remove and return the lines from a position on."""
         lines = self.lines[marker:]
         del self.lines[marker:]
         return lines
 
     def cost(self, amount: int) -> None:
-        """The next lines belong to a statement of this cost."""
+        """Charge the next lines to a statement of this cost."""
         if self._accounting == "none":
             return
         if self._block is None or self._accounting == "statement":
@@ -128,11 +130,14 @@ class Writer:
         self._block.costs.append(amount)
 
     def close(self) -> None:
-        """End the block: what follows is paid on its own."""
+        """End the block; the next lines are paid separately."""
         self._block = None
 
     def render(self) -> tuple[str, list[int], dict[int, int], set[int]]:
-        """Python text; tokens by line (from 1); refunds by line; lines that are synced."""
+        """Return Python text, tokens, refunds and synchronised lines.
+
+        Tokens and refunds are by line, from 1.
+        """
         text: list[str] = []
         tokens = [0]
         refunds: dict[int, int] = {}
@@ -152,7 +157,7 @@ class Writer:
                 if not line.leave:
                     add(line.depth, f"if b < 0: b = {poll}", line.token)
                     continue
-                # A trap is served here: its long jump may end in this routine [K §7.2].
+                # A trap runs here, and its long jump may end in this routine [K §7.2].
                 add(line.depth, "if b < 0:", line.token)
                 add(line.depth + 1, f"try: b = {poll}", line.token)
                 add(line.depth + 1, "except ERRS as _e:", line.token)
@@ -191,10 +196,10 @@ LARGEST_DEPTH = 50
 
 @dataclass(slots=True, eq=False)
 class PythonFunction:
-    """A Python function that is being written: of a routine, a handler or a part."""
+    """A Python function in progress: of a routine, a handler or a part."""
 
     depth: int
-    """Indentation of its own statements."""
+    """Indentation of its statements."""
     handler: CodeRole
     """HANDLER or UNDO inside a handler, ROUTINE in the body."""
     guarded: bool
@@ -212,12 +217,12 @@ class PythonFunction:
     """Functions for its statements that are nested too deeply."""
 
     def state(self) -> tuple[int, dict[str, tuple[str, int]], int, bool, int]:
-        """What a statement changes, for `go_back`."""
+        """Return the state that a statement changes, for `go_back`."""
         labels = dict(self.label_states)
         return len(self.nesting), labels, self.jumps_out, self.uses_jump, len(self.apart)
 
     def go_back(self, state: tuple[int, dict[str, tuple[str, int]], int, bool, int]) -> None:
-        """Forget a statement that could not be written."""
+        """Restore the state before a statement that cannot be compiled."""
         nesting, self.label_states, self.jumps_out, self.uses_jump, apart = state
         del self.nesting[nesting:]
         del self.apart[apart:]
@@ -227,17 +232,17 @@ CompileStatement: TypeAlias = "Callable[[Emitter, n.Statement], None]"
 
 
 class Emitter:
-    """Writes the statements of one routine."""
+    """An emitter for the statements of one routine."""
 
     def __init__(self, unit: Unit, compile: CompileStatement, goto: set[str]) -> None:
-        """`compile` is statements.compile_statement; `goto` are labels that a GOTO names."""
+        """Take `statements.compile_statement` and the labels of GOTOs."""
         self.unit = unit
         self.options = unit.options
         self.w = Writer(unit.options.accounting)
         self.function = PythonFunction(1, CodeRole.ROUTINE, unit.node.error is not None)
         self.roles: dict[str, CodeRole] = {}
         self.resumed: set[int] = set()
-        """Tokens of FORs that go on behind the value that their variable has."""
+        """Tokens of FORs that continue after the current value of their variable."""
         self._compile = compile
         self._goto = goto
 
@@ -268,7 +273,7 @@ class Emitter:
             self._refuse(node, fault)
 
     def _refuse(self, node: n.Statement, fault: CannotCompile) -> None:
-        """In place of a statement that breaks a rule: the fault, when it is reached."""
+        """Emit the fault of an invalid statement, raised when executed."""
         name = undeclared(self.unit, node)
         if name:
             self.simple(failing("ERR_REFUNKDAT", name))
@@ -279,21 +284,21 @@ class Emitter:
         self.simple(calling(f"R.refuse({reason!r}, {span})", NUM))
 
     def pay(self, e: CompiledExpression) -> None:
-        """Charge a statement whose expressions cost what `e` says."""
+        """Charge a statement for the expressions `e`."""
         options = self.options
         self.w.cost(options.statement + e.ops * options.operator + e.cost)
 
     def simple(self, e: CompiledExpression, *lines: str) -> None:
-        """Pay, guard and emit the Python of a simple statement: by default `e` itself."""
+        """Pay for, guard and emit a simple statement, by default `e`."""
         self.pay(e)
         self.guard(e, lines or [e.code])
         if e.effect != SILENT:
             self.w.close()
 
     def guard(self, e: CompiledExpression, lines: Sequence[str], *, skip: str = "") -> None:
-        """Emit lines; inside a routine with ERROR, in a try that calls its handler.
+        """Emit lines, in a routine with ERROR within a try.
 
-        `skip` is what TRYNEXT does instead.
+        The except branch calls the handler. `skip` is the effect of TRYNEXT.
         """
         w = self.w
         calls = e.effect == CALLS
@@ -357,7 +362,7 @@ class Emitter:
     # -- lists -----------------------------------------------------------------------------------
 
     def statements(self, body: Sequence[n.Statement]) -> None:
-        """Compile a statement list, as a state machine when GOTO enters its labels."""
+        """Compile a statement list, with GOTO labels as a state machine."""
         labels = [s.name.lower() for s in body if isinstance(s, n.Label)]
         if any(label in self._goto for label in labels):
             self._state_machine(body, labels)
@@ -366,7 +371,7 @@ class Emitter:
             self.statement(statement)
 
     def block_of(self, body: Sequence[n.Statement]) -> None:
-        """Compile an indented statement list that is paid on its own."""
+        """Compile an indented statement list that is paid separately."""
         self.w.depth += 1
         self._filled(lambda: self.statements(body))
         self.w.depth -= 1
@@ -374,9 +379,9 @@ class Emitter:
     def loop_body(
         self, body: Sequence[n.Statement], finish: CompiledExpression | None = None, token: int = 0
     ) -> None:
-        """The statements of a loop (already indented), and the jumps that leave it.
+        """Emit the statements of a loop (already indented), and its exits.
 
-        `finish` is paid at the end of each pass, for the statement at `token`.
+        The statement at `token` pays `finish` at the end of each pass.
         """
         function = self.function
         outer, function.jumps_out = function.jumps_out, 0
@@ -394,7 +399,7 @@ class Emitter:
         self._after_loop(outer)
 
     def _filled(self, write: Callable[[], None]) -> None:
-        """Write a block that may come out empty."""
+        """Emit a block that may be empty."""
         w = self.w
         marker = len(w.lines)
         write()
@@ -436,14 +441,14 @@ class Emitter:
         self._after_loop(outer)
 
     def _after_loop(self, outer: int) -> None:
-        """Behind a Python loop: `_j` was set by a GOTO inside that has further to go."""
+        """Emit the continuation after a Python loop: `_j` is set by a GOTO in it."""
         w, function = self.w, self.function
         leaving, function.jumps_out = function.jumps_out, max(outer, function.jumps_out - 1)
         if not leaving:
             return
         w.emit("if _j:")
         w.depth += 1
-        if leaving == 1:  # here is the state machine that has the label
+        if leaving == 1:  # this level has the state machine with the label
             w.emit("_j = False")
             w.emit("continue")
         else:
@@ -452,7 +457,7 @@ class Emitter:
         function.uses_jump = True
 
     def goto(self, node: n.Goto) -> None:
-        """Leave Python loops one by one up to the state machine that has the label."""
+        """Leave Python loops one by one up to the label's state machine."""
         w, function = self.w, self.function
         label = node.name.lower()
         match = function.label_states.get(label)
@@ -476,7 +481,7 @@ class Emitter:
     # -- functions inside ------------------------------------------------------------------------
 
     def handler(self, name: str, body: Sequence[n.Statement], role: CodeRole) -> list[CodeLine]:
-        """A handler as a nested function that shares the routine's variables."""
+        """Emit a handler as a nested function that shares the variables."""
         w, node = self.w, self.unit.node
         w.token = body[0].first if body else node.name_token
         inner = PythonFunction(self.function.depth + 1, role, False, self.function)
@@ -484,16 +489,16 @@ class Emitter:
         return self._defined(name, role, inner, lines, node.last)
 
     def _too_deep(self, node: n.Statement) -> bool:
-        """Whether a statement has to become a function of its own: beyond what Python takes."""
+        """Return True if a statement exceeds Python's nesting limits."""
         function = self.function
         nested, depth = len(function.nesting), self.w.depth - function.depth
         deep = nested >= LARGEST_NEST or depth >= LARGEST_DEPTH
         return deep and isinstance(node, n.For | n.While | n.If | n.Test) and not _leaves(node)
 
     def _set_apart(self, node: n.Statement) -> None:
-        """Compile a statement as a function of its own inside the one around.
+        """Compile a statement as a nested function.
 
-        It returns 2 when RETURN was executed, in a handler also 0, 1 and 3 for the other ways out.
+        It returns 2 for RETURN; in a handler also 0, 1 and 3 for the other exits.
         """
         w, outer = self.w, self.function
         w.close()
@@ -512,7 +517,7 @@ class Emitter:
         w.emit("if _k == 2: return R.ret" if outer.outer is None else "if _k != 4: return _k")
 
     def _written(self, inner: PythonFunction, write: Callable[[], None]) -> list[CodeLine]:
-        """What `write` emits into a function inside the present one."""
+        """Return the lines that `write` emits into a nested function."""
         w, outer = self.w, self.function
         marker = len(w.lines)
         self.function = inner
@@ -526,7 +531,7 @@ class Emitter:
     def _defined(
         self, name: str, role: CodeRole, inner: PythonFunction, body: list[CodeLine], last: int
     ) -> list[CodeLine]:
-        """A function that returns 4 at its end, where the token is `last`."""
+        """Emit a function that returns 4 at its end (token `last`)."""
         w = self.w
         marker = len(w.lines)
         self.roles[name] = role
@@ -549,7 +554,7 @@ class Emitter:
 
 
 def _leaves(node: n.Statement) -> bool:
-    """Whether a GOTO leaves a statement."""
+    """Return True if a GOTO leaves a statement."""
     parts = list(walk(node))
     own = {part.name.lower() for part in parts if isinstance(part, n.Label)}
     return any(isinstance(part, n.Goto) and part.name.lower() not in own for part in parts)
