@@ -45,7 +45,7 @@ from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 if TYPE_CHECKING:
     from rapidgen.client.rws import AsyncController, Controller
 
-# Whoever wants to read it says where it goes; nobody else is bothered.
+# Log records go nowhere unless the application configures a handler.
 logging.getLogger("rapidgen").addHandler(logging.NullHandler())
 
 __all__ = [

@@ -1,4 +1,7 @@
-"""Where a robot is: `HOST`, `HOST:MOTION,STATE[,CONTROL]` or a configuration's ports."""
+"""Address of a robot: `HOST`, `HOST:MOTION,STATE[,CONTROL]`.
+
+Ports that the address does not name come from the configuration.
+"""
 
 import ipaddress
 import re
@@ -9,7 +12,7 @@ from rapidgen.config.model import Ports
 from rapidgen.wire.simple_message.spec import Port
 
 _FORM = re.compile(
-    # An IPv6 address, or a name whose parts are as long as names may be.
+    # An IPv6 address, or a host name with labels of at most the permitted length.
     r"(?P<host>\[[0-9A-Fa-f:.%\w-]+\]|(?=[^:]{1,253}(?::|$))\w[\w-]{0,62}(?:\.\w[\w-]{0,62})*)"
     r"(?::(?P<motion>\d{1,5})(?:,(?P<state>\d{1,5})(?:,(?P<control>\d{1,5}))?)?)?",
     re.ASCII,
@@ -19,7 +22,10 @@ LOOPBACK = "127.0.0.1"
 
 @dataclass(frozen=True, slots=True)
 class Address:
-    """A host with the ports of one motion group; `control` 0: none, or nobody knows which."""
+    """A host with the ports of one motion group.
+
+    `control` is 0 if there is no control port or its number is unknown.
+    """
 
     host: str
     motion: int = int(Port.MOTION)
@@ -33,21 +39,24 @@ class Address:
         return f"{host}:{self.motion},{self.state}{control}"
 
     def port(self, which: Port) -> int:
-        """The number of a port of this group. Raises ConnectionFailed where nobody knows it."""
+        """Return a port of this group. Raises ConnectionFailed if it is unknown."""
         number = {Port.MOTION: self.motion, Port.STATE: self.state, Port.CONTROL: self.control}[
             which
         ]
         if not number:
             raise ConnectionFailed.because(
                 "RG601",
-                f"nobody knows the {which.name.lower()} port of {self}",
-                "tell it too: HOST:MOTION,STATE,CONTROL",
+                f"the {which.name.lower()} port of {self} is unknown",
+                "give its number: HOST:MOTION,STATE,CONTROL",
             )
         return number
 
     @property
     def is_loopback(self) -> bool:
-        """Whether the host is this machine for certain: no name is looked up but `localhost`."""
+        """True if the host is certainly this machine.
+
+        Resolves no host name; `localhost` is recognised by its text.
+        """
         if self.host == "localhost":
             return True
         try:
@@ -57,11 +66,11 @@ class Address:
 
 
 def parse_address(text: str, ports: Ports | None = None) -> Address:
-    """`HOST[:MOTION[,STATE[,CONTROL]]]`; what is not said is taken from `ports`.
+    """Parse `HOST[:MOTION[,STATE[,CONTROL]]]`; `ports` fills the gaps.
 
-    A lone motion port is followed by the state port two above it, as 11000 by 11002. The control
-    port moves along with the others: where they are moved alike it is too, else it is not known.
-    Raises InvalidTarget (RG607).
+    A single motion port is followed by the state port two above it, as 11000 by 11002. The control
+    port moves with the others if both have moved by the same amount, else it is unknown. Raises
+    InvalidTarget (RG607).
     """
     match = _FORM.fullmatch(text.strip())
     own = ports or Ports()
@@ -82,7 +91,7 @@ def parse_address(text: str, ports: Ports | None = None) -> Address:
 
 
 def _control(own: Ports, motion: int, state: int) -> int:
-    """The control port behind a motion and a state port, 0: nobody knows."""
+    """Infer the control port from motion and state port; 0 if unknown."""
     moved = motion - own.motion
     if not own.control or state - own.state != moved:
         return 0

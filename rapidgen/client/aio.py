@@ -1,6 +1,6 @@
-"""`AsyncRobot`: the same surface on asyncio, also on a loop whose clock is simulated.
+"""`AsyncRobot`: the client for asyncio, also on a simulated clock.
 
-Only `create_connection`, `time`, `create_future` and `call_later` of the running loop are used.
+Uses only `create_connection`, `time`, `create_future` and `call_later` of the running loop.
 """
 
 import asyncio
@@ -38,24 +38,24 @@ from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
 _SLICE = 0.1
-"""s: time itself is looked at this often while nothing comes."""
+"""s between two checks of the clock while no data arrives."""
 _BREATH = 64
 """Frames after which a sender lets the others of its loop do something."""
 
 
 class _Link(asyncio.Protocol):
-    """One connection as asyncio sees it."""
+    """One connection as an asyncio protocol."""
 
     def __init__(self, loop: "AsyncFlowRunner", port: Port) -> None:
         self.port = port
         self.transport: asyncio.Transport | None = None
-        self.room = asyncio.Event()
-        self.room.set()
+        self.is_writable = asyncio.Event()
+        self.is_writable.set()
         self._loop = loop
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self.transport = cast("asyncio.Transport", transport)
-        # Nothing may lie in a buffer of ours: a STOP would have to wait behind it.
+        # The transport must not buffer: a STOP would wait for the buffered bytes.
         self.transport.set_write_buffer_limits(high=0)
         self._loop.opened(self)
 
@@ -66,14 +66,14 @@ class _Link(asyncio.Protocol):
         why = "the controller closed it"
         if isinstance(exc, OSError):
             why = os_reason(exc)
-        self.room.set()
+        self.is_writable.set()
         self._loop.lost(self, why)
 
     def pause_writing(self) -> None:
-        self.room.clear()
+        self.is_writable.clear()
 
     def resume_writing(self) -> None:
-        self.room.set()
+        self.is_writable.set()
 
 
 class AsyncFlowRunner:
@@ -112,7 +112,7 @@ class AsyncFlowRunner:
                 failure = raised
 
     def _pump(self) -> None:
-        """Send what is due, as far as there is room for it."""
+        """Send the frames that are due, as far as the buffer is empty."""
         core = self.core
         stops = core.unmonitored_stops()
         for port, link in self._links.items():
@@ -120,7 +120,7 @@ class AsyncFlowRunner:
                 continue
             if port in stops:
                 link.transport.write(STOP_FRAME)
-            while link.room.is_set() and (data := core.due(port)) is not None:
+            while link.is_writable.is_set() and (data := core.due(port)) is not None:
                 link.transport.write(data)
         if core.is_busy and self._timer is None and self._loop is not None:
             self._timer = self._loop.call_later(_SLICE, self._tick)
@@ -149,7 +149,7 @@ class AsyncFlowRunner:
                 if link is None or link.transport is None:
                     effect.failures[port] = self.core.disconnected()
                 else:
-                    # Behind at most the rest of one frame: senders wait for an empty buffer.
+                    # At most the rest of one frame is queued: senders wait for an empty buffer.
                     link.transport.write(effect.data)
             return True
         link = self._links.get(effect.port)
@@ -166,15 +166,15 @@ class AsyncFlowRunner:
             if self._links.get(link.port) is not link:
                 raise self.core.disconnected()
             transport.write(data[at : at + FRAME_BYTES])
-            if not link.room.is_set():
-                await self._room(link, effect.timeout)
+            if not link.is_writable.is_set():
+                await self._wait_writable(link, effect.timeout)
             elif count % _BREATH == 0:
                 await asyncio.sleep(0)
 
-    async def _room(self, link: _Link, timeout: float) -> None:
+    async def _wait_writable(self, link: _Link, timeout: float) -> None:
         try:
             async with deadline.timeout(timeout):
-                await link.room.wait()
+                await link.is_writable.wait()
         except TimeoutError as error:
             raise RobotTimeout.because(
                 "RG603", f"the controller took no byte for {timeout:g} s", "look at it"
@@ -263,15 +263,18 @@ def _wake(waiter: "asyncio.Future[None]") -> None:
 
 
 class AsyncExecution(ExecutionApi[AsyncFlowRunner]):
-    """As `Execution`; its methods are awaited."""
+    """`Execution` with awaitable methods."""
 
 
 class AsyncProgramRun(RunApi[AsyncFlowRunner]):
-    """As `ProgramRun`; its methods are awaited."""
+    """`ProgramRun` with awaitable methods."""
 
 
 class AsyncStream(StreamApi[AsyncFlowRunner]):
-    """As `Stream`; its methods are awaited, and the block is `async with robot.stream()`."""
+    """`Stream` with awaitable methods.
+
+    The block is `async with robot.stream()`.
+    """
 
     async def __aenter__(self) -> Self:
         return self
@@ -287,9 +290,10 @@ class AsyncStream(StreamApi[AsyncFlowRunner]):
         points: Iterable[tuple[float, Sequence[float]]]
         | AsyncIterable[tuple[float, Sequence[float]]],
     ) -> None:
-        """Add points (time, joints) from an iterable, also one without end, batch by batch.
+        """Add points (time, joints) from an iterable, batch by batch.
 
-        Those of an asynchronous one, which may let itself be waited for, go one by one.
+        The iterable may be infinite. Points of an asynchronous iterable, which may wait for each,
+        are added one by one.
         """
         if isinstance(points, AsyncIterable):
             async for time, joints in points:
@@ -300,7 +304,10 @@ class AsyncStream(StreamApi[AsyncFlowRunner]):
 
 
 class AsyncRobot(RobotApi[AsyncFlowRunner, AsyncExecution, AsyncStream, AsyncProgramRun]):
-    """One motion group of a robot; see `Robot`, whose arguments and methods it has."""
+    """One motion group of a robot on asyncio.
+
+    Arguments and methods are those of `Robot`.
+    """
 
     _carrier_type = AsyncFlowRunner
     _execution_type = AsyncExecution
@@ -325,6 +332,6 @@ class AsyncRobot(RobotApi[AsyncFlowRunner, AsyncExecution, AsyncStream, AsyncPro
             warnings.warn(unfinished, RuntimeWarning, stacklevel=2)
 
     async def states(self, timeout: float | None = None) -> AsyncIterator[State]:
-        """Each new state as it comes; `timeout` s for each."""
+        """Yield each new state; wait at most `timeout` s for each."""
         while True:
             yield await self.next_state(timeout)

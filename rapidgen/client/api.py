@@ -1,8 +1,7 @@
-"""The methods of both clients, once: each is a flow, with its signature and its docstring.
+"""Methods that both clients share, each a flow with its docstring.
 
-`Robot` waits for a method's outcome (`threads`), `AsyncRobot` gives it to be awaited (`aio`); so
-do their `Execution` and `Stream`. Beside it they have only what is said otherwise: `with` and
-`async with`, and iterators.
+`Robot` waits for a method's outcome (`sync`), `AsyncRobot` returns an awaitable (`aio`); so do
+their `Execution` and `Stream`. The clients themselves add `with`, `async with` and iterators only.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -36,11 +35,11 @@ P = ParamSpec("P")
 T = TypeVar("T")
 Owner = TypeVar("Owner")
 MakeCore = Callable[[Callable[[], float]], Core]
-"""A core on a clock, which gives s."""
+"""A core on a clock that returns s."""
 
 
 class FlowRunner(Protocol):
-    """Carries out flows for a core: by the caller's thread, or on the caller's loop."""
+    """A runner of flows: on the caller's thread or on the caller's loop."""
 
     core: Core
     guard: AbstractContextManager[object]
@@ -50,7 +49,10 @@ class FlowRunner(Protocol):
 
 
 def _on_axes(group: Group, joints: Sequence[float]) -> tuple[float, ...]:
-    """Axis values of joints. Raises InvalidProgram for what are no joints of the robot."""
+    """Map joints to axis values.
+
+    Raises InvalidProgram for values that are not joints of the robot.
+    """
     values = joints_of(joints)
     if len(values) != len(group.names):
         raise InvalidProgram.because(
@@ -77,7 +79,7 @@ C_co = TypeVar("C_co", bound=FlowRunner, covariant=True)
 
 
 class JobApi(Generic[C_co]):
-    """What is common to a trajectory under way and to a stream."""
+    """Methods common to an active trajectory and a stream."""
 
     def __init__(self, carrier: C_co, job: Job) -> None:
         self._carrier = carrier
@@ -98,68 +100,71 @@ class JobApi(Generic[C_co]):
 
     @property
     def progress(self) -> Progress:
-        """How far it is, now; the `total` of a stream are the points so far."""
+        """Current progress; `total` of a stream is the number of points so far."""
         with self._carrier.guard:
             return self._job.progress
 
     @property
     def is_over(self) -> bool:
-        """Whether the result is there, good or bad."""
+        """True if the result is known, good or bad."""
         return self._job.is_over
 
     @property
     def stopped_position(self) -> tuple[float, ...] | None:
-        """Joints where the robot stood at the end; None while it moves or when nobody saw it."""
+        """Joints at which the robot stopped.
+
+        None while it moves, or if no state showed that it is at rest.
+        """
         return self._job.stopped_position
 
 
 class ExecutionApi(JobApi[C_co]):
-    """A trajectory that the controller has taken."""
+    """A trajectory that the controller has accepted."""
 
     @property
     def trajectory(self) -> Trajectory:
-        """What was asked for, in the robot's order of joints."""
+        """The commanded trajectory, in the robot's order of joints."""
         assert self._job.motion is not None
         assert self._job.motion.trajectory is not None
         return self._job.motion.trajectory
 
     @property
     def warnings(self) -> Sequence[Diagnostic]:
-        """What the checks noted."""
+        """Warnings of the checks."""
         assert self._job.motion is not None
         return self._job.motion.warnings
 
     @property
     def planned_seconds(self) -> float:
-        """Seconds that the controller was asked to take."""
+        """Commanded duration in s."""
         assert self._job.motion is not None
         return self._job.motion.planned_seconds
 
     @property
     def way(self) -> Way:
-        """`stream`: sent while the robot moves; `download`: sent whole before it moved."""
+        """`stream` (sent during the motion) or `download` (sent before it)."""
         assert self._job.motion is not None
         return self._job.motion.way
 
 
 class RunApi(JobApi[C_co]):
-    """A program that the controller has taken: whole, or its first instructions."""
+    """A program that the controller has accepted, or its first part."""
 
     @property
     def program(self) -> Program:
-        """What was asked for."""
+        """The commanded program."""
         assert self._job.program is not None
         return self._job.program
 
     @property
     def warnings(self) -> Sequence[Diagnostic]:
-        """What the checks noted."""
+        """Warnings of the checks."""
         assert self._job.motion is not None
         return self._job.motion.warnings
 
     @property
     def way(self) -> Way:
-        """`download`: sent whole before the robot moved; `stream`: sent while it moves."""
+        """`download` (sent before the motion) or `stream` (sent during it)."""
         assert self._job.motion is not None
         return self._job.motion.way
 
@@ -178,17 +183,20 @@ class StreamApi(JobApi[C_co]):
 
     @property
     def time(self) -> float:
-        """Time of the last point, s from the beginning of the stream; 0 before the first."""
+        """Time of the last point in s from the start; 0 before the first."""
         return self._job.last.time if self._job.last is not None else 0.0
 
     @property
     def way(self) -> Way | None:
-        """`stream`, or `download` where the driver does not stream; None before the first."""
+        """`stream`, or `download` if the driver does not stream.
+
+        None before the first point.
+        """
         return self._job.way
 
     @property
     def starved(self) -> int:
-        """How often the robot stood because the points ran out."""
+        """Number of stops because the stream ran out of points."""
         return self._job.motion.starved if self._job.motion is not None else 0
 
 
@@ -222,7 +230,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
             raise InvalidTarget.because(
                 "RG607",
                 f"time-outs are a Timeouts, not {type(timeouts).__name__}",
-                "Timeouts(reply=5) and the like, in s: each kind of waiting has its own",
+                "Timeouts(reply=5) and the like, in s: each wait has its own time limit",
                 exit_code=2,
             )
         make_core = partial(
@@ -233,7 +241,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
             plain=plain,
             reconnect=reconnect,
             feedback=feedback,
-            # No robot is at this machine's own address.
+            # The client's own machine is not a robot.
             simulated=self.address.is_loopback,
             where=str(self.address),
         )
@@ -258,12 +266,12 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
     @property
     def is_connected(self) -> bool:
-        """Whether all connections stand."""
+        """True if all connections are open."""
         return self._core.is_connected
 
     @property
     def driver(self) -> Driver:
-        """Who answered, and what it cannot do."""
+        """The driver that answered, and its missing features."""
         return self._core.state_port.driver
 
     @property
@@ -280,15 +288,18 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
             return self._core.state_port.messages
 
     def _unfinished(self) -> str:
-        """What is under way, for who leaves a block without having waited for it; else nothing."""
+        """Return a description of unfinished work at the end of a block.
+
+        Empty if the caller has waited for everything.
+        """
         with self._carrier.guard:
             motion = self._core.motion
             if motion is None or motion.is_over:
                 return ""
             done = f"{motion.progress.reached or 0} of {motion.total} {motion.noun}s"
         return (
-            f"the robot was stopped at the end of the block, behind {done} of a motion that was "
-            "under way: wait for it with `execution.result()`, or end it with `cancel()`"
+            f"the robot was stopped at the end of the block, after {done} of an active motion: "
+            "wait for it with `execution.result()`, or end it with `cancel()`"
         )
 
     # State
@@ -309,20 +320,22 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
     @property
     def feedback(self) -> Feedback | None:
-        """The newest feedback, None before the first and where nobody sends them."""
+        """Newest feedback; None before the first and without feedback."""
         with self._carrier.guard:
             return self._core.state_port.feedback
 
     @property
     def events(self) -> tuple[Event, ...]:
-        """The last entries of the controller's event log, where the driver tells them."""
+        """Last entries of the controller's event log, if the driver sends them."""
         with self._carrier.guard:
             return tuple(self._core.state_port.events)
 
     @contextmanager
     def recording(self) -> Iterator[JointRecording]:
-        """Keep every joint message while the block runs; with `feedback`, by the controller's own
-        time."""
+        """Record every joint message while the block runs.
+
+        With `feedback` the times are those of the controller.
+        """
         recording = JointRecording(self.group)
         with self._carrier.guard:
             self._core.state_port.listeners.append(recording)
@@ -350,7 +363,10 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
     @property
     def pose(self) -> Pose:
-        """The tool in the work object, m, where the robot was seen last. Raises as `pose_of`."""
+        """TCP pose in the work object, m, at the last known position.
+
+        Raises as `pose_of`.
+        """
         return self.pose_of(self.state.joints)
 
     def pose_of(self, joints: Sequence[float]) -> Pose:
@@ -368,11 +384,12 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         near: Sequence[float] | None = None,
         configuration: AxisConfiguration | None = None,
     ) -> tuple[tuple[float, ...], ...]:
-        """All joints (rad, m) within the limits that reach a pose, nearest first to `near`, by
-        default to where the robot stands; those of a configuration (cf1, cf4, cf6, cfx).
+        """Return all joints (rad, m) within limits that reach a pose.
 
-        Raises NotSupported where the robot's geometry is not known, InvalidProgram for what is no
-        pose and no joints of it.
+        The nearest to `near` comes first, by default the nearest to the current position. A
+        configuration (cf1, cf4, cf6, cfx) selects among them. Raises NotSupported if the robot's
+        geometry is unknown, InvalidProgram if the arguments are not a pose or not joints of the
+        robot.
         """
         group = self.group
         current = _on_axes(group, self.state.joints if near is None else near)
@@ -381,55 +398,64 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
     @property
     def override(self) -> float:
-        """Share of the programmed speed (0.01 to 1) that this client last asked for."""
+        """Share of the programmed speed (0.01 to 1) last set by this client."""
         return self._core.override
 
     def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
-        """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""
+        """Check a trajectory and return warnings; sends no data.
+
+        Raises InvalidTrajectory with every fault.
+        """
         with self._carrier.guard:
             return self._core.check(trajectory).warnings
 
     def way_for(self, trajectory: Trajectory) -> Way:
-        """The way that `execute` takes by default. Raises InvalidTrajectory, NotReady."""
+        """Return the default `way` of `execute` for a trajectory.
+
+        Raises InvalidTrajectory, NotReady.
+        """
         with self._carrier.guard:
             return self._core.check(trajectory).way
 
     @_own
     def execute(self, trajectory: Trajectory, *, way: Way | None = None) -> Flow[Execution]:
-        """Send a trajectory; returns when the controller has taken it and begins to move.
+        """Send a trajectory; return when the controller has accepted it.
 
-        `way` is `download` (whole, before anything moves) or `stream` (the rest is sent while
-        the robot moves); by default a trajectory that the driver's ring does not hold is
-        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused
-        when nothing will move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C here, or
-        cancelling this, stops the robot.
+        `way` is `download` (all points are sent before the motion) or `stream` (the rest is sent
+        during the motion); by default a trajectory that exceeds the driver's ring buffer is
+        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused if
+        the robot will not move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or cancelling
+        this call stops the robot.
         """
         job = yield from flows.job.execute(self._core, trajectory, way)
         return self._execution_type(self._carrier, job)
 
     def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
-        """A trajectory without an end that is known: see `Stream`. Nothing is sent yet.
+        """Return a `Stream`, a trajectory without a known end; sends no data.
 
-        `names` are those of the columns, by default the robot's own. With `fallback` a driver
-        that does not stream gets the points as a whole, at the end.
+        `names` are those of the columns, by default the robot's own. With `fallback` a driver that
+        does not stream receives all points at the end.
         """
         return self._stream_type(self._carrier, Job(self._core, names, may_download=fallback))
 
     def check_program(self, program: Program) -> tuple[Diagnostic, ...]:
-        """Notes about a program. Raises InvalidProgram with every fault; sends nothing."""
+        """Check a program and return warnings; sends no data.
+
+        Raises InvalidProgram with every fault.
+        """
         with self._carrier.guard:
             checked, _ = self._core.check_program(program)
         return checked.notes
 
     @_own
     def run(self, program: Program, *, way: Way | None = None) -> Flow[Run]:
-        """Send a program; returns when the controller has taken it and begins to move.
+        """Send a program; return when the controller has accepted it.
 
-        `way` is `download` (whole, and checked whole by the controller before anything moves) or
-        `stream` (the rest is sent while the robot moves); by default a program that the driver's
-        ring holds goes whole. Raises InvalidProgram, NotReady and NotSupported before a byte is
-        sent, TrajectoryRefused when nothing will move, RobotTimeout, ConnectionLost. Ctrl-C here,
-        or cancelling this, stops the robot.
+        `way` is `download` (sent and checked by the controller before the motion) or `stream` (the
+        rest is sent during the motion); by default a program that fits the driver's ring buffer is
+        downloaded. Raises InvalidProgram, NotReady and NotSupported before a byte is sent,
+        TrajectoryRefused if the robot will not move, RobotTimeout, ConnectionLost. Ctrl-C or
+        cancelling this call stops the robot.
         """
         job = yield from flows.program.run(self._core, program, way)
         return self._run_type(self._carrier, job)

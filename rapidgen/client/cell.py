@@ -1,4 +1,7 @@
-"""Several groups or robots, started together; when one fails, all are stopped."""
+"""Several groups or robots, started together.
+
+When one fails, all are stopped.
+"""
 
 import asyncio
 import warnings
@@ -28,7 +31,7 @@ class _Start:
     """Trajectories that start together."""
 
     def __init__(self, cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]) -> None:
-        """Every trajectory is checked, and the faults of all are told."""
+        """Check every trajectory and report the faults of all."""
         findings: list[Diagnostic] = []
         self._cores = cores
         self._checked: dict[str, CheckedTrajectory] = {}
@@ -49,7 +52,7 @@ class _Start:
         }
 
     def phases(self) -> Iterator[dict[str, Flow[None]]]:
-        """All points go to all robots first, then all end frames; then all say what they do."""
+        """Send all points to all robots, then all end frames, then wait for all."""
         for phase in (
             DownloadInProgress.points,
             DownloadInProgress.end,
@@ -58,11 +61,11 @@ class _Start:
             yield {name: phase(sending) for name, sending in self.sendings.items()}
 
     def jobs(self) -> dict[str, Job]:
-        """What is under way, by robot."""
+        """Active jobs by robot."""
         return {name: sending.job() for name, sending in self.sendings.items()}
 
     def give_up(self, error: RobotError) -> None:
-        """None of these is under way any more."""
+        """Mark all jobs as ended."""
         for sending in self.sendings.values():
             sending.motion.failed(error)
 
@@ -129,12 +132,15 @@ class Cell:
 
 
 def _unfinished(robots: Mapping[str, Robot] | Mapping[str, AsyncRobot]) -> list[str]:
-    told = {name: robot._unfinished() for name, robot in robots.items()}
-    return [f"{name}: {text}" for name, text in told.items() if text]
+    descriptions = {name: robot._unfinished() for name, robot in robots.items()}
+    return [f"{name}: {text}" for name, text in descriptions.items() if text]
 
 
 def _chosen(robots: Mapping[str, T], trajectories: Mapping[str, Trajectory]) -> dict[str, T]:
-    """Those that have a trajectory. Raises KeyError for a name that none has."""
+    """Return the robots with a trajectory.
+
+    Raises KeyError for a name that no robot has.
+    """
     unknown = sorted(set(trajectories) - set(robots))
     if unknown:
         raise KeyError(f"no robot of this cell is called {unknown[0]!r}")
@@ -142,14 +148,17 @@ def _chosen(robots: Mapping[str, T], trajectories: Mapping[str, Trajectory]) -> 
 
 
 def _each(robots: Mapping[str, Robot], do: Callable[[Robot], T]) -> dict[str, T]:
-    """The same for all robots at the same time; the first error after all were tried."""
+    """Do the same for all robots at once.
+
+    Raises the first error after all were tried.
+    """
     with ThreadPoolExecutor(max(1, len(robots))) as pool:
         futures = {name: pool.submit(do, robot) for name, robot in robots.items()}
     return {name: future.result() for name, future in futures.items()}
 
 
 class CellExecution:
-    """Trajectories under way together."""
+    """Trajectories executed together."""
 
     def __init__(self, executions: Mapping[str, Execution], cell: Cell) -> None:
         self.executions = dict(executions)
@@ -157,7 +166,7 @@ class CellExecution:
 
     @property
     def is_over(self) -> bool:
-        """Whether all are."""
+        """True if all trajectories have ended."""
         return all(execution.is_over for execution in self.executions.values())
 
     def cancel(self) -> dict[str, State | None]:
@@ -165,7 +174,10 @@ class CellExecution:
         return self._cell.stop()
 
     def result(self, timeout: float | None = None) -> dict[str, Result]:
-        """Wait for all. The first error stops all others and is raised; so does Ctrl-C."""
+        """Wait for all robots.
+
+        The first error stops all others and is raised; so does Ctrl-C.
+        """
         with ThreadPoolExecutor(max(1, len(self.executions))) as pool:
             try:
                 futures: dict[str, Future[Result]] = {
@@ -185,7 +197,7 @@ class CellExecution:
 
 
 class AsyncCell:
-    """As `Cell`, with AsyncRobots of one loop; its methods are awaited."""
+    """`Cell` with awaitable methods, for AsyncRobots of one loop."""
 
     def __init__(self, robots: Mapping[str, AsyncRobot]) -> None:
         self.robots = dict(robots)
@@ -246,7 +258,7 @@ async def _gather(waiting: Mapping[str, Coroutine[None, None, T]]) -> dict[str, 
 
 
 class AsyncCellExecution:
-    """As `CellExecution`; its methods are awaited."""
+    """`CellExecution` with awaitable methods."""
 
     def __init__(self, executions: Mapping[str, AsyncExecution], cell: AsyncCell) -> None:
         self.executions = dict(executions)
@@ -254,7 +266,7 @@ class AsyncCellExecution:
 
     @property
     def is_over(self) -> bool:
-        """Whether all are."""
+        """True if all trajectories have ended."""
         return all(execution.is_over for execution in self.executions.values())
 
     async def cancel(self) -> dict[str, State | None]:
@@ -262,7 +274,10 @@ class AsyncCellExecution:
         return await self._cell.stop()
 
     async def result(self, timeout: float | None = None) -> dict[str, Result]:
-        """Wait for all. The first error stops all others and is raised; so does cancelling."""
+        """Wait for all robots.
+
+        The first error stops all others and is raised; so does cancelling.
+        """
         tasks = {
             name: asyncio.ensure_future(execution.result(timeout))
             for name, execution in self.executions.items()

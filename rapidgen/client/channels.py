@@ -1,7 +1,7 @@
-"""Blocking sockets under the sync client: written by the calling thread, read by one thread.
+"""Blocking sockets of the sync client.
 
-A background loop between stop() and the socket costs milliseconds; a write of the caller's own
-does not. Points are written so that a STOP can go between two frames at any moment.
+The calling thread writes, one thread reads: a background loop between stop() and the socket would
+cost milliseconds. Points are written so that a STOP fits between two frames at any moment.
 """
 
 import selectors
@@ -18,13 +18,16 @@ from rapidgen.wire.simple_message.spec import Port
 _CHUNK = 64 * FRAME_BYTES
 _RECEIVE = 65536
 _SLICE = 0.05
-"""s after which a blocked sender looks whether it shall stop."""
+"""s after which a blocked sender checks for a stop request."""
 _TICK = 0.1
-"""s: time itself is looked at this often while nothing comes."""
+"""s between two checks of the clock while no data arrives."""
 
 
 class Channel:
-    """One TCP connection. `send` and `offer_behind` may be called from different threads."""
+    """One TCP connection.
+
+    `send` and `offer_after` may be called from different threads.
+    """
 
     def __init__(self, address: Address, port: Port, timeout: float) -> None:
         number = address.port(port)
@@ -39,14 +42,14 @@ class Channel:
         self.port = port
         self._lock = threading.Lock()
         self._rest = memoryview(b"")
-        """What is still missing of a frame whose beginning is on the wire."""
+        """The unsent rest of a frame that was sent in part."""
         self._is_offered = False
-        """Whether nobody else sends that rest."""
+        """True if no other thread sends that rest."""
 
     def send(self, data: bytes, timeout: float, stopping: Callable[[], bool]) -> bool:
-        """Send whole frames; False when `stopping` cut it short at a frame's end.
+        """Send whole frames; False if `stopping` interrupted it between two.
 
-        Raises RobotTimeout when nothing is taken for `timeout` s, ConnectionLost.
+        Raises RobotTimeout if the peer reads no byte for `timeout` s, ConnectionLost.
         """
         view = memoryview(data)
         at = 0
@@ -59,7 +62,7 @@ class Channel:
                 if stopping():
                     return False
                 if self._is_offered and self._rest:
-                    # What was offered before goes out first.
+                    # Frames that were offered earlier go out first.
                     sent = self._write(self._rest)
                     self._rest = self._rest[sent:]
                 else:
@@ -71,7 +74,7 @@ class Channel:
             if sent:
                 waited = 0.0
             elif waited >= timeout:
-                # What is missing of a frame goes out before anything else does.
+                # The rest of a frame goes out before any other byte.
                 self._is_offered = True
                 raise RobotTimeout.because(
                     "RG603", f"the controller took no byte for {timeout:g} s", "look at it"
@@ -82,9 +85,9 @@ class Channel:
         return True
 
     def finish(self, timeout: float) -> None:
-        """Wait until what was offered is on its way.
+        """Wait until all offered frames are sent.
 
-        Raises RobotTimeout when nothing is taken for `timeout` s, ConnectionLost.
+        Raises RobotTimeout if the peer reads no byte for `timeout` s, ConnectionLost.
         """
         waited = 0.0
         while True:
@@ -104,10 +107,9 @@ class Channel:
                 waited += _SLICE
 
     def offer(self, frames: Callable[[], bytes | None]) -> None:
-        """Send what `frames` gives, one after another, as far as the kernel takes it now.
+        """Send the frames of an iterable as far as the kernel accepts them.
 
-        The rest of a frame goes out with the next call; nothing waits here. Raises
-        ConnectionLost.
+        Does not block; the rest of a frame goes out with the next call. Raises ConnectionLost.
         """
         if not self._lock.acquire(blocking=False):
             return
@@ -127,11 +129,12 @@ class Channel:
         finally:
             self._lock.release()
 
-    def offer_behind(self, data: bytes) -> None:
-        """Send behind the frame whose beginning is on the wire, as far as it goes now; the rest
-        goes out with the next call of anything here. Raises ConnectionLost.
+    def offer_after(self, data: bytes) -> None:
+        """Send after the frame that was sent in part, without blocking.
+
+        The rest goes out with the next call of any method. Raises ConnectionLost.
         """
-        # Nobody waits for the network under the lock.
+        # No thread waits for the network while it holds the lock.
         with self._lock:
             self._rest = memoryview(bytes(self._rest) + data)
             self._is_offered = True
@@ -147,7 +150,7 @@ class Channel:
 
     def _wait_writable(self, seconds: float) -> None:
         number = self.socket.fileno()
-        # Closed meanwhile by another thread: the next write says so.
+        # Another thread has closed the socket: the next write reports it.
         if number >= 0:
             waiter = poll()
             waiter.register(number, POLLOUT)
@@ -168,8 +171,8 @@ class Channel:
 class Reader:
     """The one thread that reads all connections of a robot.
 
-    `received(channel, data)` and `lost(channel, why)` are called on it, and `tick()` now and
-    then while `is_busy()`.
+    It calls `received(channel, data)` and `lost(channel, why)`, and `tick()` regularly while
+    `is_busy()`.
     """
 
     def __init__(
@@ -230,7 +233,7 @@ class Reader:
         with self._lock:
             coming, self._coming = self._coming, []
         for channel in coming:
-            # It came and the end came, both since the last look.
+            # Data and end of file arrived together since the last check.
             channel.close()
         self._selector.close()
 

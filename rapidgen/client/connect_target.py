@@ -1,4 +1,4 @@
-"""What a caller connects to: a configuration, a shipped name, an address, or a mix of them."""
+"""Resolution of a connection target: configuration, name or address."""
 
 from os import PathLike
 
@@ -16,11 +16,11 @@ _SUFFIXES = (".yaml", ".yml")
 def resolve(
     target: "str | PathLike[str] | RobotConfig", address: str | Address | None, group: str
 ) -> tuple[Address, Group | None]:
-    """Where to connect, and what is known about the robot (None: ask the driver).
+    """Return address and known data of a target (None: ask the driver).
 
-    A RobotConfig, a path that ends in .yaml, or a shipped name is a configuration; it is looked
-    for at `address`, else on this machine. Any other text is an address itself. `sim` as an address
-    is the simulator that runs. Raises InvalidTarget.
+    A RobotConfig, a path that ends in .yaml, or a shipped name is a configuration; its robot is
+    expected at `address`, else on this machine. Any other text is an address. `sim` as an address
+    is the running simulator. Raises InvalidTarget.
     """
     if not isinstance(address, str | Address | None):
         raise _no_text(address, "address", "HOST, HOST:MOTION,STATE, or `sim`")
@@ -59,7 +59,7 @@ def _no_text(value: object, what: str, help: str) -> InvalidTarget:
 
 
 def _by_name(text: str) -> Address:
-    """An address that is no configuration; a name like that of a model is asked about.
+    """Resolve an address; reject a host name close to a model's name.
 
     Raises InvalidTarget RG607.
     """

@@ -1,4 +1,7 @@
-"""`asyncio.timeout`, on Python 3.10 too: when it ends, it ends in the built-in TimeoutError."""
+"""`asyncio.timeout`, also for Python 3.10.
+
+Its end raises the built-in TimeoutError.
+"""
 
 import sys
 
@@ -13,7 +16,10 @@ else:
 
     @asynccontextmanager
     async def timeout(delay: float | None) -> AsyncIterator[None]:
-        """Cancel what is awaited inside after `delay` s (None: never); then TimeoutError."""
+        """Cancel the awaited call after `delay` s (None: never).
+
+        Raises TimeoutError then.
+        """
         try:
             async with _timeout(delay):
                 yield

@@ -1,6 +1,6 @@
-"""How a robot shows itself: one line, or a table in HTML.
+"""Display of a robot: one line of text, or a table in HTML.
 
-Both have degrees and mm, since people read them; what programs read stays in rad and m.
+Both show degrees and mm for people; programs read rad and m.
 """
 
 import math
@@ -21,7 +21,7 @@ def in_units(value: float, joint: Joint) -> str:
 
 
 def robot_text(core: Core, address: Address) -> str:
-    """Where a robot is looked for, who answered, and how it is."""
+    """Describe a robot: its address, the driver that answered, and its state."""
     name = core.group.name if core.group is not None else ""
     whom = f"{name} at {address}" if name else str(address)
     if not core.is_connected:
@@ -32,7 +32,7 @@ def robot_text(core: Core, address: Address) -> str:
 
 
 def state_table(caption: str, group: Group, joints: Sequence[float]) -> str:
-    """Joints (rad, m, URDF order) beside the limits of their axes."""
+    """Table of joints (rad, m, URDF order) with the limits of their axes."""
     axes = group.map.to_controller(joints)
     return table(
         caption,

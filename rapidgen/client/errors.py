@@ -1,21 +1,21 @@
-"""What can go wrong, split by what the caller can do about it.
+"""Errors of a robot, divided by what the caller can do about them.
 
     RobotError                    is a DiagnosticError; carries .messages and .states
-    ├── InvalidTarget             no such configuration, group or address: mend what was given
-    ├── ConnectionFailed          nobody answers: start it, mend the address; nothing was sent
-    ├── ConnectionLost            the link broke: look at the robot, connect again
-    ├── RobotTimeout              the link stands and the answer did not come in time
+    ├── InvalidTarget             no such configuration, group or address: correct the argument
+    ├── ConnectionFailed          no answer: start the driver, or correct the address; nothing sent
+    ├── ConnectionLost            the connection broke: look at the robot, connect again
+    ├── RobotTimeout              the connection is open, and the answer did not arrive in time
     ├── StopFailed                a STOP was not confirmed: USE THE EMERGENCY STOP
     ├── ProtocolError             the peer does not speak simple_message
     ├── IncompatibleDriver        another version or joint map: build and deploy again
-    ├── NotReady                  motors, mode, e-stop, or a motion under way: mend that, try again
-    ├── NotSupported              this driver cannot do that: build another one, or do without
-    ├── RoutineFailed             a routine that was called has raised an error: `number`
+    ├── NotReady                  motors, mode, e-stop, or an active motion: fix this, try again
+    ├── NotSupported              this driver lacks the feature: build another one, or do without
+    ├── RoutineFailed             a called routine has raised an error: `number`
     ├── RequestRefused            a pause, a speed or a signal was refused; nothing else changed
-    ├── InvalidTrajectory         mend the trajectory; nothing was sent
-    ├── InvalidProgram            mend the program; nothing was sent
-    ├── TrajectoryRefused         the controller said no; nothing moved
-    └── MotionError               the robot moved, and not to the end
+    ├── InvalidTrajectory         correct the trajectory; nothing was sent
+    ├── InvalidProgram            correct the program; nothing was sent
+    ├── TrajectoryRefused         the controller refused the order; the robot did not move
+    └── MotionError               the robot moved, and did not reach the end
         ├── MotionStopped         by a stop() or cancel()
         └── MotionFailed          by the controller
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 class RobotError(DiagnosticError):
-    """Something about a robot went wrong; see this module's head for the kinds."""
+    """An error of a robot; see this module's docstring for the kinds."""
 
     exit_code = 1
 
@@ -57,11 +57,14 @@ class RobotError(DiagnosticError):
 
     @classmethod
     def because(cls, code: str, message: str, help: str = "", *notes: str, **report: Any) -> Self:  # noqa: ANN401
-        """One with a finding that has no place in a text; `report` is what its kind takes."""
+        """Create an error with a finding without a place in a text.
+
+        `report` holds the arguments of its type.
+        """
         return cls(fault(code, message, help, *notes), **report)
 
     def amend(self, message: str, help: str) -> None:
-        """Add to the message what has become of the robot since, and replace the help."""
+        """Append later information to the message, and replace the help."""
         first, *others = self.diagnostics
         changed = replace(first, message=f"{first.message}; {message}", help=help)
         # Made again from the diagnostics.
@@ -70,7 +73,7 @@ class RobotError(DiagnosticError):
 
 
 class InvalidTarget(RobotError):
-    """What was given to connect to is no sound configuration, no group of it, or no address."""
+    """The connection target is not a valid configuration, group or address."""
 
 
 class ConnectionFailed(RobotError):
@@ -82,7 +85,7 @@ class ConnectionLost(RobotError):
 
 
 class RobotTimeout(RobotError):
-    """The connection stands, and what was waited for did not come in time."""
+    """The connection is open, and the awaited answer did not arrive in time."""
 
 
 class StopFailed(RobotError):
@@ -94,20 +97,23 @@ class ProtocolError(RobotError):
 
 
 class IncompatibleDriver(RobotError):
-    """The driver on the controller is of another version or has another joint map."""
+    """The driver has another version or joint map."""
 
 
 class NotReady(RobotError):
-    """The robot cannot move now: motors, mode, emergency stop, or a motion under way."""
+    """The robot cannot move now: motors, mode, emergency stop, active motion."""
 
 
 class NotSupported(RobotError):
-    """The driver on the controller, or the configuration, does not have what was asked for."""
+    """The driver on the controller, or the configuration, lacks a feature."""
 
 
 class _ControllerReason(RobotError):
-    """What the controller says of it: `reason`, None when it gave none; `point` from 0 (-1 none)
-    and `joint` from 1 (0 none) at fault; `reached` points, None where it does not say."""
+    """Reason that the controller gives.
+
+    `reason` is None if it gave none; `point` counts from 0 (-1 none) and `joint` from 1 (0 none);
+    `reached` is the number of points, None if unknown.
+    """
 
     def __init__(
         self,
@@ -128,13 +134,16 @@ class _ControllerReason(RobotError):
 
 
 class RequestRefused(_ControllerReason):
-    """The controller did not do what was asked over the control port; `reason` says why."""
+    """The controller refused a request on the control port, for `reason`."""
 
 
 class RoutineFailed(RobotError):
-    """A procedure that was called has raised an error: `number` is its ERRNO, `name` what RAPID or
-    the program calls it, empty: nothing does. Or an error that it did not handle has stopped the
-    program of the robot: `event` is the controller's, with the place."""
+    """A called procedure has raised an error.
+
+    `number` is its ERRNO, `name` its name in RAPID or the program (empty if it has none). If an
+    error without a handler has stopped the robot's program, `event` is the controller's, with the
+    place.
+    """
 
     def __init__(
         self,
@@ -161,13 +170,17 @@ class InvalidProgram(RobotError):
 
 
 class TrajectoryRefused(_ControllerReason):
-    """The controller refused the whole trajectory or program, for `reason`, at `point` and `joint`;
-    nothing moved."""
+    """The controller refused the whole trajectory or program.
+
+    It gives `reason`, `point` and `joint`; the robot did not move.
+    """
 
 
 class MotionError(_ControllerReason):
-    """The robot began to move and did not reach the end: `reached`, and `reason`, `point` and
-    `joint` of the fault."""
+    """The robot began to move and did not reach the end.
+
+    `reached`, `reason`, `point` and `joint` describe the fault.
+    """
 
 
 class MotionStopped(MotionError):
@@ -175,7 +188,7 @@ class MotionStopped(MotionError):
 
 
 class MotionFailed(MotionError):
-    """Ended by the controller, or the robot stands where it should not."""
+    """The controller ended the motion, or the robot is at rest elsewhere."""
 
 
 def fault(code: str, message: str, help: str = "", *notes: str) -> Diagnostic:
@@ -184,7 +197,10 @@ def fault(code: str, message: str, help: str = "", *notes: str) -> Diagnostic:
 
 
 def not_reached(where: str, raised: OSError, timeout: float) -> ConnectionFailed:
-    """Nobody answers at `where` (host and port); `timeout` in s is what a TimeoutError waited."""
+    """Return the error of a failed connection to `where` (host and port).
+
+    `timeout` in s is the time waited in case of a TimeoutError.
+    """
     if isinstance(raised, TimeoutError):
         message = f"no answer from {where} within {timeout:g} s"
         help = "is the controller on, and this machine in its network?"
@@ -192,8 +208,10 @@ def not_reached(where: str, raised: OSError, timeout: float) -> ConnectionFailed
         message = f"cannot connect to {where}: {os_reason(raised)}"
         help = "is the driver's task running? `rapidgen sim` starts a virtual controller"
     if isinstance(raised, socket.gaierror):
-        help = "mend the name of the host; for a configuration give its file, with the suffix .yaml"
-    # Who named no address meant this machine, and what runs there may have other ports.
+        help = (
+            "correct the name of the host; for a configuration give its file, with the suffix .yaml"
+        )
+    # Without an address this machine was meant, and its simulator may use other ports.
     notes = _simulators() if where.startswith("127.0.0.1 ") else ()
     return ConnectionFailed.because("RG601", message, help, *notes)
 
@@ -207,7 +225,7 @@ def _simulators() -> tuple[str, ...]:
 
 
 def os_reason(raised: OSError) -> str:
-    """What the operating system says, in its own words and small letters."""
+    """Return the operating system's reason, starting in lower case."""
     if isinstance(raised, socket.gaierror):
         return "no host has this name"
     return (os.strerror(raised.errno) if raised.errno else str(raised)).lower()

@@ -1,4 +1,7 @@
-"""Trajectories in files: CSV `time,<joint names>`, JSON, and ROS messages as dicts."""
+"""Trajectories in files: CSV, JSON, and ROS messages as dicts.
+
+The CSV has the columns `time,<joint names>`.
+"""
 
 import io
 import json
@@ -19,11 +22,11 @@ _SHOWN = 20
 _LARGEST = 256_000_000
 """Bytes of a trajectory."""
 _MCAP = b"\x89MCAP"
-"""How the recordings of `rapidgen sim --record` begin."""
+"""First columns of a recording of `rapidgen sim --record`."""
 
 
 class Content(NamedTuple):
-    """What a file tells, as a Trajectory takes it."""
+    """Content of a file, with the arguments of a Trajectory."""
 
     times: npt.ArrayLike
     positions: npt.ArrayLike
@@ -61,7 +64,7 @@ def _read(path: Path) -> str:
 
 
 def read_csv(path: Path) -> Content:
-    """Read `time,<joint names>`. Empty lines and lines that begin with # are skipped."""
+    """Read `time,<joint names>`; skip empty lines and lines starting with #."""
     text = _read(path)
     help = "the first line is `time,<joint names>`; then s and rad (m), with a decimal point"
     names: list[str] = []
@@ -114,7 +117,10 @@ def read_csv(path: Path) -> Content:
 
 
 def _number(cell: str) -> float:
-    """A number of a table; what only Python takes for one (`1_0`) is none. Raises ValueError."""
+    """Parse a number of a table.
+
+    Spellings that only Python accepts (`1_0`) raise ValueError.
+    """
     if "_" in cell:
         raise ValueError(cell)
     return float(cell)
@@ -122,7 +128,7 @@ def _number(cell: str) -> float:
 
 def write_csv(path: Path, times: Array, positions: Array, names: Sequence[str]) -> None:
     """Write `time,<joint names>`. Raises OSError."""
-    # Not needed to move a robot: that shall begin quickly.
+    # Imported late: moving a robot does not need it and must start fast.
     import csv
 
     from rapidgen._atomic_write import write_whole
@@ -137,7 +143,10 @@ def write_csv(path: Path, times: Array, positions: Array, names: Sequence[str]) 
 
 
 def read_json(path: Path) -> Content:
-    """Read `{"joint_names", "times", "positions"}` or a JointTrajectory (`points`)."""
+    """Read JSON: `joint_names`, `times`, `positions`, or a JointTrajectory.
+
+    A JointTrajectory has `points`.
+    """
     text = _read(path)
     try:
         content = json.loads(text)

@@ -1,7 +1,7 @@
-"""Flows as methods: one function with its signature and docstring for both kinds of client.
+"""Flows as methods: one signature and docstring for both clients.
 
-A client whose carrier waits for a flow's outcome gets that; one whose carrier gives it to be
-awaited gets a coroutine.
+A client whose carrier waits for a flow's outcome returns it; a client whose carrier is asynchronous
+returns a coroutine.
 """
 
 import inspect
@@ -17,7 +17,7 @@ T_co = TypeVar("T_co", covariant=True)
 
 
 class _Blocking(Protocol):
-    # Whatever a carrier's flows ask of it: this one asks for nothing, and takes any answer.
+    # This flow yields no effect, so its carrier may send any outcome.
     def run(self, flow: Generator[Never, object, T], /) -> T: ...
 
 
@@ -36,7 +36,7 @@ class _OfAwaited(Protocol):
 
 
 class Method(Protocol[P, T_co]):
-    """A flow as a method, as type checkers see it: its outcome, or what is awaited for it."""
+    """A flow as a method for type checkers: its outcome or an awaitable."""
 
     @overload
     def __get__(self, owner: _OfBlocking, kind: type) -> Callable[P, T_co]: ...

@@ -1,4 +1,4 @@
-"""A table in HTML: what robots, states, trajectories and recordings show in a notebook."""
+"""HTML tables of robots, states, trajectories and recordings in notebooks."""
 
 from collections.abc import Iterable, Sequence
 from html import escape

@@ -1,7 +1,7 @@
-"""May this program move that robot? Loopback is a simulation; anything else is said by name.
+"""Permission to move a robot: automatic for loopback, else by name.
 
-A first run of a trajectory on a real host is slow unless a speed was told: what has run there
-before is remembered by hash in the user's state folder.
+The first run of a trajectory on a real host is slow unless a speed was given. Trajectories that
+have run there are stored by hash in the user's state folder.
 """
 
 import os
@@ -16,13 +16,13 @@ from rapidgen.client.trajectory import Trajectory
 _LARGEST = 100_000_000
 """Bytes of what is remembered."""
 FIRST_SPEED = 0.1
-"""Share of the asked speed for a trajectory that never ran on a real host."""
+"""Share of the commanded speed for a trajectory new to a real host."""
 
 
 def need_confirmation(address: Address, *, yes: bool, real_robot: str) -> bool:
-    """Whether somebody must still be asked.
+    """True if the user must confirm the motion.
 
-    Raises NotReady (RG640) when the host is not this machine and was not repeated.
+    Raises NotReady (RG640) if the host is not this machine and was not repeated.
     """
     if address.is_loopback:
         return not yes
@@ -51,8 +51,10 @@ def _key(address: Address, trajectory: Trajectory) -> str:
 
 
 def first_speed(address: Address, trajectory: Trajectory | None) -> float:
-    """FIRST_SPEED when this trajectory never ran to its end on this host, 1 otherwise; None: one
-    that is made on the spot."""
+    """FIRST_SPEED if this trajectory never ended on this host, else 1.
+
+    None: a trajectory computed for this call.
+    """
     if address.is_loopback:
         return 1.0
     if trajectory is None:
@@ -65,7 +67,10 @@ def first_speed(address: Address, trajectory: Trajectory | None) -> float:
 
 
 def remember(address: Address, trajectory: Trajectory) -> None:
-    """This trajectory ran to its end on this host. Raises OSError."""
+    """Record that this trajectory ran to its end on this host.
+
+    Raises OSError.
+    """
     path = _memory()
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("a", encoding="ascii") as file:

@@ -31,7 +31,10 @@ def _malformed(message: str, help: str) -> InvalidProgram:
 
 
 def _number(value: object, what: str, help: str) -> float:
-    """A plain number. Raises InvalidProgram for anything else, texts of numbers too."""
+    """Return a plain number.
+
+    Raises InvalidProgram for other types, also for texts of numbers.
+    """
     if isinstance(value, SupportsFloat):
         return float(value)
     raise _malformed(f"{value!r} is no {what}", help)
@@ -39,8 +42,10 @@ def _number(value: object, what: str, help: str) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Speed:
-    """speeddata: of the TCP m/s and its orientation rad/s; of linear m/s and rotary external axes
-    rad/s. By default all but the TCP as in RAPID's v100."""
+    """speeddata: m/s of the TCP and rad/s of its orientation.
+
+    Linear and rotary external axes have m/s and rad/s. All but the TCP default to RAPID's v100.
+    """
 
     tcp: float
     orientation: float = radians(500)
@@ -59,8 +64,11 @@ class Speed:
 
 @dataclass(frozen=True, slots=True)
 class Zone:
-    """zonedata: radii of the TCP, its orientation and external axes, m; of orientation rad, of
-    linear m and of rotary external axes rad. `stops`: the robot stops at the end."""
+    """zonedata: radii of the TCP, its orientation and external axes, m.
+
+    Orientation is in rad, linear external axes in m, rotary ones in rad. `stops`: the robot stops
+    at the end.
+    """
 
     tcp: float = 0.0
     orientation: float = 0.0
@@ -76,8 +84,10 @@ class Zone:
 
     @classmethod
     def of(cls, radius: float) -> "Zone":
-        """As RAPID's predefined ones are made of their radius, m: half as much again, and a tenth
-        of that in degrees for each mm."""
+        """Return the zone of a radius in m, as RAPID's predefined zones.
+
+        The other radii are 1.5 times as large, angles a tenth of it in degrees for each mm.
+        """
         wide = 1.5 * radius
         angle = radians(0.1 * wide / _MM)
         return cls(radius, wide, wide, angle, wide, angle)
@@ -90,7 +100,7 @@ class Zone:
 
 
 SLOW = 0.1
-"""m/s of the TCP where nobody says more."""
+"""Default speed of the TCP, m/s."""
 FINE = Zone(stops=True)
 # RAPID's predefined zonedata: pzone_tcp, pzone_ori, pzone_eax mm, zone_ori deg, zone_leax mm,
 # zone_reax deg (S4 datasys 1-zonedata).
@@ -117,19 +127,25 @@ ZONES: Mapping[str, Zone] = {
         for name, (a, b, c, d, e, f) in _ZONES.items()
     },
 }
-"""RAPID's own, by name."""
+"""Predefined zones of RAPID by name."""
 SpeedLike: TypeAlias = float | Speed
 """m/s of the TCP, or all parts."""
 Argument: TypeAlias = float | bool | str | Pose | Sequence[float]
-"""Of a routine: a num, a bool, a string; the pose of a robtarget, the joints of a jointtarget."""
+"""Argument of a routine: num, bool, string, robtarget or jointtarget.
+
+A robtarget is given by its pose, a jointtarget by its joints.
+"""
 ZoneLike: TypeAlias = float | str | Zone
 """m, a name of RAPID's such as "fine" and "z10", or all parts."""
 
 
 @dataclass(frozen=True, slots=True)
 class UserTool:
-    """tooldata of a program's own, held by the robot: where its TCP is in the flange's frame, its
-    mass in kg, where that is and how the axes of inertia lie (m), and its moments, kg m2."""
+    """tooldata of the program, held by the robot.
+
+    TCP in the flange's frame; mass in kg; centre of gravity and axes of inertia (m); moments, kg
+    m2.
+    """
 
     frame: Pose
     mass: float
@@ -140,8 +156,10 @@ class UserTool:
 
 @dataclass(frozen=True, slots=True)
 class UserWorkObject:
-    """wobjdata of a program's own, which stands: its user frame in the world's, its object frame in
-    that."""
+    """wobjdata of the program, stationary.
+
+    The user frame is in the world's, the object frame in the user frame.
+    """
 
     user_frame: Pose
     object_frame: Pose = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0))
@@ -149,8 +167,11 @@ class UserWorkObject:
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A robtarget that a routine has left: pose (m), configuration, and values of external axes by
-    name (rad, m), as `move_to` takes them. What it left is not checked."""
+    """A robtarget that a routine has set, as `move_to` accepts it.
+
+    Pose (m), configuration, and values of external axes by name (rad, m). Its values are not
+    checked.
+    """
 
     pose: Pose
     configuration: AxisConfiguration
@@ -158,13 +179,15 @@ class Target:
 
 
 Left: TypeAlias = float | bool | str | Target | tuple[float, ...]
-"""What a routine leaves in a parameter: a num, bool or string, a robtarget, joints."""
+"""Value of a parameter after a call: num, bool, string, robtarget, joints."""
 
 
 @dataclass(frozen=True, slots=True)
 class Trigger:
-    """A signal that is set on the way of a move: `place` is m from its beginning, m
-    before its end, or s before its end, as `kind` says."""
+    """A signal set on the path of a move.
+
+    `place` is m from its start, m before its end, or s before its end, by `kind`.
+    """
 
     signal: str
     value: float
@@ -172,36 +195,39 @@ class Trigger:
     place: float
 
     def __post_init__(self) -> None:
-        _number(self.place, "place on a way", "m or s, such as 0.02")
+        _number(self.place, "place on a path", "m or s, such as 0.02")
         _number(self.value, *_LEVEL)
 
     @classmethod
     def after(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
-        """So many m behind the beginning of the move."""
+        """Trigger so many m after the start of the move."""
         return cls(signal, value, MarkPlace.START, metres)
 
     @classmethod
     def before(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
-        """So many m before its end."""
+        """Trigger so many m before the end of the move."""
         return cls(signal, value, MarkPlace.END, metres)
 
     @classmethod
     def ahead(cls, seconds: float, signal: str, value: float = 1.0) -> "Trigger":
-        """So many s before its end."""
+        """Trigger so many s before the end of the move."""
         return cls(signal, value, MarkPlace.TIME, seconds)
 
 
 def pulse(signal: str, after: float, length: float) -> tuple[Trigger, Trigger]:
-    """A signal that is 1 from `after` m behind the beginning of a move for `length` m."""
+    """Set a signal to 1 from `after` m after the start for `length` m."""
     on = Trigger.after(after, signal)
     return on, Trigger.after(on.place + _number(length, *_LENGTH), signal, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class ProgramStep:
-    """One instruction. `speed`, `zone`, `tool` and `work_object` (empty: the group's own) hold for
-    it; a pose may say the configuration of its posture, and values of external axes by name. `own`
-    is what TOOL and WORK_OBJECT say."""
+    """One instruction.
+
+    `speed`, `zone`, `tool` and `work_object` (empty: the group's own) apply to it. A pose may have
+    a configuration, and values of external axes by name. `own` holds the values of TOOL and
+    WORK_OBJECT.
+    """
 
     kind: Instruction
     speed: Speed
@@ -223,7 +249,7 @@ class ProgramStep:
 
 
 class _Operands(TypedDict, total=False):
-    """What an instruction may have."""
+    """Operands that an instruction may have."""
 
     joints: tuple[float, ...]
     pose: Pose | None
@@ -240,7 +266,7 @@ class _Operands(TypedDict, total=False):
 
 
 class Program:
-    """Instructions in their order; each method adds one and gives the program itself.
+    """Instructions in order; each method adds one and returns the program.
 
     `speed` and `zone` hold until another one is given.
     """
@@ -263,8 +289,10 @@ class Program:
         zone: ZoneLike | None = None,
         triggers: Sequence[Trigger] = (),
     ) -> Self:
-        """To joints, rad and m, all axes together (MoveAbsJ; with `triggers` TriggJ to the pose
-        that they have)."""
+        """Move to joints, rad and m, all axes together (MoveAbsJ).
+
+        With `triggers` it is a TriggJ to the pose of the joints.
+        """
         self._hold(speed, zone)
         return self._add(Instruction.MOVE_ABSJ, joints=joints_of(joints), triggers=tuple(triggers))
 
@@ -278,8 +306,10 @@ class Program:
         external: Mapping[str, float] | None = None,
         triggers: Sequence[Trigger] = (),
     ) -> Self:
-        """To a pose, all axes together (MoveJ): in the given configuration, else in the posture
-        that is nearest to the one before."""
+        """Move to a pose, all axes together (MoveJ).
+
+        It uses the given configuration, else the posture nearest to the one before.
+        """
         self._hold(speed, zone)
         return self._to_pose(Instruction.MOVE_J, pose, None, configuration, external, triggers)
 
@@ -293,7 +323,10 @@ class Program:
         external: Mapping[str, float] | None = None,
         triggers: Sequence[Trigger] = (),
     ) -> Self:
-        """To a pose on a line (MoveL). A configuration is what the posture at its end must have."""
+        """Move to a pose on a line (MoveL).
+
+        The posture at its end must have the configuration, if one is given.
+        """
         self._hold(speed, zone)
         return self._to_pose(Instruction.MOVE_L, pose, None, configuration, external, triggers)
 
@@ -318,9 +351,11 @@ class Program:
         tool: str | UserTool | None = None,
         work_object: str | UserWorkObject | None = None,
     ) -> Self:
-        """From here on poses are those of this tool in this work object: of the configuration, by
-        name (empty: the group's own), or of the program's own, by values; these are an instruction.
-        The robot stops before the first move with them."""
+        """Use a tool and a work object for later poses.
+
+        Names select those of the configuration (empty: the group's own); values define new ones,
+        with an instruction. The robot stops before the first move with them.
+        """
         if isinstance(tool, UserTool):
             self._add(Instruction.TOOL, own=tool)
         if isinstance(work_object, UserWorkObject):
@@ -330,19 +365,25 @@ class Program:
         return self
 
     def allow(self, *, singularities: bool = False, configurations: bool = False) -> Self:
-        """From here on lines and circles may pass `singularities` of the wrist, the tool turning
-        otherwise on the way (SingArea Wrist), and end in any of the `configurations` (ConfL Off).
-        What is not said is forbidden again. The robot stops for it."""
+        """Allow singularities or other configurations on later paths.
+
+        `singularities` of the wrist: the tool turns otherwise on the path (SingArea Wrist).
+        `configurations`: any configuration at the end (ConfL Off). An omitted argument forbids it
+        again. The robot stops for this instruction.
+        """
         bits = singularities + 2 * configurations
         return self._add(Instruction.SETTINGS, value=float(bits))
 
     def wait(self, seconds: float) -> Self:
-        """Stand for so long. The move before it ends in a stop point."""
+        """Wait at rest for so many s. The move before it ends in a stop point."""
         return self._add(Instruction.WAIT, seconds=_number(seconds, *_TIME))
 
     def wait_for(self, signal: str, value: float = 1.0, *, timeout: float) -> Self:
-        """Stand until a signal that the configuration exposes has a value; when it has not within
-        `timeout` s the program has failed. The move before it ends in a stop point."""
+        """Wait at rest until an exposed signal has a value.
+
+        If it does not within `timeout` s, the program fails. The move before it ends in a stop
+        point.
+        """
         return self._add(
             Instruction.WAIT_SIGNAL,
             signal=signal,
@@ -351,16 +392,20 @@ class Program:
         )
 
     def set(self, signal: str, value: float = 1.0) -> Self:
-        """Set a signal, standing. The move before it ends in a stop point; `triggers` of a move set
-        signals on its way."""
+        """Set a signal at rest.
+
+        The move before it ends in a stop point; `triggers` of a move set signals on its path.
+        """
         return self._add(Instruction.SET, signal=signal, value=_number(value, *_LEVEL))
 
     def call(self, routine: str, *arguments: Argument, timeout: float = 0.0) -> Self:
-        """Call a procedure of the controller's program, by its name in the configuration, with a
-        value for each of its parameters; a pose is reached in the nearest posture, with the tool in
-        use. It runs in the motion task, while the robot stands and nothing of this program is left
-        to move. What it raises ends the program; a STOP leaves it, wherever it is, and so does the
-        controller after `timeout` s (0: never)."""
+        """Call a procedure of the controller's program.
+
+        Its name is that in the configuration, with a value for each parameter; a pose is reached in
+        the nearest posture, with the current tool. It runs in the motion task while the robot is at
+        rest and all earlier moves have ended. An error that it raises ends the program; a STOP
+        leaves it at any point, and so does the controller after `timeout` s (0: never).
+        """
         return self._add(
             Instruction.CALL,
             routine=routine,
@@ -407,12 +452,15 @@ class Program:
 
 
 def speed_of(speed: SpeedLike) -> Speed:
-    """All parts of a speed. Raises InvalidProgram for something that is none."""
+    """Return all parts of a speed. Raises InvalidProgram for other values."""
     return speed if isinstance(speed, Speed) else Speed(_number(speed, *_SPEED))
 
 
 def zone_of(zone: ZoneLike) -> Zone:
-    """All parts of a zone. Raises InvalidProgram for a name that is none, and for what is none."""
+    """Return all parts of a zone.
+
+    Raises InvalidProgram for an unknown name and for other values.
+    """
     if isinstance(zone, Zone):
         return zone
     if not isinstance(zone, str):
@@ -427,7 +475,7 @@ def zone_of(zone: ZoneLike) -> Zone:
 
 
 def joints_of(joints: Sequence[float]) -> tuple[float, ...]:
-    """Joints as plain numbers. Raises InvalidProgram for something that has none."""
+    """Return joints as plain numbers. Raises InvalidProgram for other values."""
     try:
         return tuple(map(float, joints))
     except (TypeError, ValueError) as error:
@@ -436,7 +484,7 @@ def joints_of(joints: Sequence[float]) -> tuple[float, ...]:
 
 
 def pose_of(pose: Pose) -> Pose:
-    """A pose as plain tuples. Raises InvalidProgram for something that is none."""
+    """Return a pose as plain tuples. Raises InvalidProgram for other values."""
     try:
         (x, y, z), (w, a, b, c) = pose
         return (float(x), float(y), float(z)), (float(w), float(a), float(b), float(c))

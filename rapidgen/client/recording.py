@@ -1,4 +1,7 @@
-"""Joint messages kept: as arrays, and as CSV `time,<joint names>` in s and rad (m)."""
+"""Recorded joint messages, as arrays and as CSV.
+
+The CSV has `time,<joint names>` in s and rad (m).
+"""
 
 from pathlib import Path
 
@@ -12,10 +15,10 @@ from rapidgen.client.trajectory import Array, Trajectory
 
 
 class JointRecording:
-    """Every joint message since it began; times count from the first one kept, s.
+    """All joint messages since its start; times in s from the first one.
 
-    Of a client that was made with `feedback=True` these are the controller's own times
-    (`by_controller`), else those of reception, which the network and this machine delay.
+    With `feedback=True` of the client these are the controller's own times (`by_controller`), else
+    those of reception, which the network and this machine delay.
     """
 
     def __init__(self, group: Group) -> None:
@@ -25,7 +28,7 @@ class JointRecording:
         self._taken: list[float] = []
 
     def add(self, sample: Sample) -> None:
-        """Keep one. Of a driver that tells feedback, only that."""
+        """Record one joint message; only feedback if the driver sends it."""
         if sample.stamp is not None and not self.by_controller:
             self.by_controller = True
             self._samples.clear()
@@ -33,13 +36,16 @@ class JointRecording:
             self._samples.append(sample)
 
     def taken(self, time: float) -> None:
-        """The controller has taken a motion, at this time of the client's clock."""
+        """Record the client's time at which the controller accepted a motion."""
         self._taken.append(time)
 
     @property
     def begins(self) -> tuple[float, ...]:
-        """When the controller took each motion meanwhile, s as `times`; by the client's clock
-        from the message before, and so about as exact as the messages are regular."""
+        """Start times of the recorded motions, s as `times`.
+
+        They are derived from the client's clock and the message before, so their accuracy is that
+        of the message period.
+        """
         result = []
         for time in self._taken:
             before = [sample for sample in self._samples if sample.time <= time][-1:]
@@ -72,8 +78,10 @@ class JointRecording:
         return np.array(rows, dtype=np.float64).reshape(len(rows), len(self.group.names))
 
     def trajectory(self) -> Trajectory:
-        """What was recorded, as a trajectory. Of messages that came together the last is kept:
-        what the robot did last must not be missing."""
+        """The recording as a trajectory.
+
+        Of messages with the same time the last is used: it holds the most recent position.
+        """
         times = self.times
         keep = np.diff(times, append=np.inf) > 0
         return Trajectory(times[keep], self.positions[keep], self.group.names)
@@ -84,9 +92,9 @@ class JointRecording:
 
 
 class CsvWriter:
-    """States or feedback to a CSV file as they come; nothing is kept. Raises OSError.
+    """Writer of states or feedback to a CSV file. Raises OSError.
 
-    The first line says the units, as a comment; then `time,<joint names>`, s from the first.
+    The first line gives the units in a comment; then follow `time,<joint names>`, s from the first.
     """
 
     def __init__(self, path: Path, group: Group) -> None:
@@ -101,7 +109,7 @@ class CsvWriter:
         self._file.write(",".join(["time", *group.names]) + "\n")
 
     def write(self, state: State | Feedback) -> None:
-        """Add one. Of those that came together the last is kept."""
+        """Write one row; of rows with the same time only the last."""
         newest = self._newest
         if newest is None:
             self._began = state.time

@@ -1,4 +1,4 @@
-"""`sim` as an address: the simulator that runs on this machine for this user."""
+"""`sim` as an address: this user's running simulator on this machine."""
 
 import logging
 
@@ -8,19 +8,19 @@ from rapidgen.client.errors import InvalidTarget, fault
 from rapidgen.config import shipped_names
 
 SIMULATOR = "sim"
-"""The word for it, where an address is asked for."""
+"""Keyword accepted as an address."""
 _LOG = logging.getLogger("rapidgen.client")
 
 
 def find_simulator(name: str = "", group: str = "") -> Address:
-    """Address of a motion group of the simulator with a robot's name; without one, of the only one.
+    """Return the address of a motion group of a running simulator.
 
-    What simulators left behind that ended without a word is removed and logged. Raises
-    InvalidTarget RG642.
+    It is found by its robot's name, or without a name if only one runs. Entries of simulators that
+    were killed are removed and logged. Raises InvalidTarget RG642.
     """
     result, left = running()
     for path in left:
-        _LOG.warning("%s was left behind by a simulator that ended without a word: removed", path)
+        _LOG.warning("removed the entry %s of a simulator that no longer runs", path)
     own = [one for one in result if name in ("", one.name)]
     if len(own) != 1:
         raise _unclear(name, own, result)

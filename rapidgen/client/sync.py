@@ -1,4 +1,7 @@
-"""`Robot`: the synchronous client. Callers' threads write, one thread a robot reads."""
+"""`Robot`: the synchronous client.
+
+The caller's threads write, one thread a robot reads.
+"""
 
 import threading
 import time
@@ -24,11 +27,11 @@ from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
 _SLICE = 0.1
-"""s: time itself is looked at this often while nothing comes."""
+"""s between two checks of the clock while no data arrives."""
 
 
 class SyncFlowRunner:
-    """Carries out flows: the caller's thread decides and writes, one thread reads."""
+    """Runner of flows: the caller's thread decides and writes, another reads."""
 
     def __init__(self, address: Address, make_core: MakeCore) -> None:
         self.address = address
@@ -38,9 +41,9 @@ class SyncFlowRunner:
         self._reader: Reader | None = None
 
     def run(self, flow: Flow[T]) -> T:
-        """Carry out a flow: effects without the lock, its own steps with it.
+        """Run a flow: effects without the lock, its own steps with it.
 
-        Ctrl-C may come anywhere here, and the flow has to hear of it: it stops the robot.
+        Ctrl-C may arrive anywhere here, and the flow must receive it to stop the robot.
         """
         outcome: bool | None = None
         failure: BaseException | None = None
@@ -67,8 +70,11 @@ class SyncFlowRunner:
     def _stop_unnoticed(
         self, raised: RobotError | KeyboardInterrupt, before: CommandedMotion | None
     ) -> None:
-        """Ctrl-C between the last step of a flow that began a motion and its caller, who never
-        learns of the motion: stop it."""
+        """Stop a motion that Ctrl-C hides from the caller.
+
+        It arrived after the last step of the flow that started the motion, before the caller got
+        it.
+        """
         motion = self.core.motion
         if isinstance(raised, KeyboardInterrupt) and motion not in (None, before):
             assert motion is not None
@@ -76,13 +82,16 @@ class SyncFlowRunner:
                 self.run(flows.stop.stop(self.core))
 
     def _pump(self) -> None:
-        """Send what is due, as far as it goes without waiting. The lock is held."""
+        """Send due frames as far as possible without waiting.
+
+        The lock is held.
+        """
         core = self.core
         stops = core.unmonitored_stops()
         for port, channel in self._channels.items():
             try:
                 if port in stops:
-                    channel.offer_behind(STOP_FRAME)
+                    channel.offer_after(STOP_FRAME)
                 channel.offer(partial(core.due, port))
             except RobotError as error:
                 # The reader hears of it too.
@@ -117,7 +126,7 @@ class SyncFlowRunner:
                 raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
         except ConnectionLost as error:
             with self.guard:
-                # The reader was first, and knows better why.
+                # The reader was faster and knows the cause better.
                 if self._channels.get(effect.port) is not channel:
                     raise self.core.disconnected() from error
             raise
@@ -125,9 +134,9 @@ class SyncFlowRunner:
 
     def _send_at_once(self, effect: SendAtOnce) -> None:
         channels = {port: self._channels.get(port) for port in effect.ports}
-        # All are written to before one that takes nothing is waited for.
+        # Write to all connections before waiting for a blocked one.
         steps: tuple[Callable[[Channel], None], ...] = (
-            lambda channel: channel.offer_behind(effect.data),
+            lambda channel: channel.offer_after(effect.data),
             lambda channel: channel.finish(effect.timeout),
         )
         for step in steps:
@@ -209,24 +218,24 @@ class SyncFlowRunner:
 
 
 class Execution(ExecutionApi[SyncFlowRunner]):
-    """A trajectory that the controller has taken."""
+    """A trajectory that the controller has accepted."""
 
 
 class ProgramRun(RunApi[SyncFlowRunner]):
-    """A program that the controller has taken."""
+    """A program that the controller has accepted."""
 
 
 class Stream(StreamApi[SyncFlowRunner]):
-    """Points that the robot executes while more of them come.
+    """Points that the robot executes while later ones are added.
 
-    `with robot.stream() as stream:` ends it and waits for the robot at the end of the block;
-    when the block is left by an exception, the robot is stopped. Each point has the time s from
-    the stream's beginning and joints in rad or m; the first is where the robot stands. Motion
-    begins when the driver has enough of them, or at `flush`, `end` and `result`.
+    `with robot.stream() as stream:` ends the stream and waits for the robot at the end of the
+    block; an exception in the block stops the robot. Each point has the time s from the start of
+    the stream and joints in rad or m; the first is the robot's position. Motion begins when the
+    driver has enough points, or at `flush`, `end` and `result`.
 
-    What is wrong with points is told before they are sent (InvalidTrajectory, the stream goes
-    on), by the controller at the first ones (TrajectoryRefused, nothing moved) or at later ones:
-    then the robot executes those before, and MotionFailed tells reason, point and joint.
+    Faults of points are reported before they are sent (InvalidTrajectory, the stream continues), by
+    the controller at the first points (TrajectoryRefused, the robot did not move) or at later ones:
+    then the robot executes the earlier points, and MotionFailed gives reason, point and joint.
     """
 
     def __enter__(self) -> Self:
@@ -239,19 +248,22 @@ class Stream(StreamApi[SyncFlowRunner]):
             self.result()
 
     def extend(self, points: Iterable[tuple[float, Sequence[float]]]) -> None:
-        """Add points (time, joints) from an iterable, also one without end, batch by batch."""
+        """Add points (time, joints) from an iterable, batch by batch.
+
+        The iterable may be infinite.
+        """
         for times, positions in batches(points, self._carrier.core.batch):
             self.append(times, positions)
 
 
 class Robot(RobotApi[SyncFlowRunner, Execution, Stream, ProgramRun]):
-    """One motion group of a robot, driven over its rapidgen driver or a plain abb_driver.
+    """One motion group of a robot with rapidgen's driver or abb_driver.
 
     `target` is a configuration file, a shipped name, a RobotConfig, or an address
-    `HOST[:MOTION[,STATE]]`; a configuration is looked for at `address`, else on this machine.
-    `group` names the motion group where there are several. `watch` never opens the motion port.
-    `plain` does not ask for a rapidgen driver. `reconnect` is for how many s a lost connection
-    is tried again by the next call; nothing is ever sent again. `feedback` asks for joints with
+    `HOST[:MOTION[,STATE]]`; the robot of a configuration is expected at `address`, else on this
+    machine. `group` names the motion group if there are several. `watch` never opens the motion
+    port. `plain` does not expect a rapidgen driver. `reconnect` is the time in s for which the next
+    call tries a lost connection again; nothing is ever sent again. `feedback` requests joints with
     the controller's own time and velocities.
 
     All methods may be called from any thread. Joints are rad and m in URDF order.
@@ -283,10 +295,11 @@ class Robot(RobotApi[SyncFlowRunner, Execution, Stream, ProgramRun]):
         unfinished = "" if kind is not None else self._unfinished()
         self.close()
         if unfinished:
-            # Not ResourceWarning, which Python hides: somebody wonders why nothing moved.
+            # Not ResourceWarning, which Python hides: the user would not learn why the robot stayed
+            # at rest.
             warnings.warn(unfinished, RuntimeWarning, stacklevel=2)
 
     def states(self, timeout: float | None = None) -> Iterator[State]:
-        """Each new state as it comes; `timeout` s for each."""
+        """Yield each new state; wait at most `timeout` s for each."""
         while True:
             yield self.next_state(timeout)

@@ -1,4 +1,4 @@
-"""A path of joint positions with times: frozen arrays, and where they came from."""
+"""A path of joint positions with times, as frozen arrays."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -24,7 +24,10 @@ _SHOWN = 4
 
 
 class Waypoint(NamedTuple):
-    """One point: `time` s, and `joints` in rad or m, in the trajectory's order."""
+    """One point: `time` s, and `joints` in rad or m.
+
+    The joints are in the trajectory's order.
+    """
 
     time: float
     joints: tuple[float, ...]
@@ -35,11 +38,11 @@ class Trajectory:
     """`n` points of `k` joints.
 
     `positions` (n, k) in rad or m, columns as `names` (URDF joint names; empty: the robot's own
-    order); `times` (n,) in s from the start, the first point's too. The arrays are read-only.
-    Whether a robot can do it is asked by `Robot.check`; making one only asks for the shapes.
+    order); `times` (n,) in s from the start, also the first point's. The arrays are read-only. The
+    constructor checks the shapes only; `Robot.check` checks whether a robot can execute it.
 
-    It is a sequence of points: `trajectory[3]` is one, `trajectory[2:5]` a trajectory of some,
-    with their times, and `trajectory["joint_3"]` the values of a joint (n,).
+    It is a sequence of points: `trajectory[3]` is one, `trajectory[2:5]` a trajectory of some, with
+    their times, and `trajectory["joint_3"]` the values of a joint (n,).
     """
 
     times: Array
@@ -142,9 +145,9 @@ class Trajectory:
         seconds: float | Sequence[float],
         names: Sequence[str] = (),
     ) -> "Trajectory":
-        """Points with `seconds` from each to the next: one number, or n-1 of them.
+        """Create a trajectory from points and the `seconds` between them.
 
-        The first point is where the robot stands, at time 0.
+        `seconds` is one number, or n-1 of them. The first point is the robot's position, at time 0.
         """
         count = len(points)
         try:
@@ -160,12 +163,18 @@ class Trajectory:
 
     @classmethod
     def from_csv(cls, path: str | PathLike[str]) -> "Trajectory":
-        """Read `time,<joint names>` in s and rad (m). Raises InvalidTrajectory, all faults."""
+        """Read `time,<joint names>` in s and rad (m).
+
+        Raises InvalidTrajectory with all faults.
+        """
         return cls(*files.read_csv(Path(path)))
 
     @classmethod
     def from_json(cls, path: str | PathLike[str]) -> "Trajectory":
-        """Read a JSON file of the shape of `to_dict` or of trajectory_msgs/JointTrajectory."""
+        """Read JSON in the shape of `to_dict` or JointTrajectory.
+
+        The latter is trajectory_msgs/JointTrajectory.
+        """
         return cls(*files.read_json(Path(path)))
 
     @classmethod
@@ -186,9 +195,9 @@ class Trajectory:
         files.write_csv(Path(path), self.times, self.positions, self.names)
 
     def reordered(self, names: Sequence[str]) -> "Trajectory":
-        """The same with columns in the order of `names`; without names of its own, unchanged.
+        """Return a copy with columns in the order of `names`.
 
-        Raises KeyError for a name that it lacks.
+        Without names of its own it is unchanged. Raises KeyError for a missing name.
         """
         if not self.names or self.names == tuple(names):
             return replace(self, names=tuple(names)) if not self.names else self
@@ -203,9 +212,10 @@ class Trajectory:
         return replace(self, times=self.times / speed)
 
     def resampled(self, period: float) -> "Trajectory":
-        """The same path with points every `period` s or little more, linear between; ends kept.
+        """Return the path with points about every `period` s.
 
-        Raises ValueError when times do not increase.
+        Points between are interpolated linearly; first and last point stay. Raises ValueError if
+        times do not increase.
         """
         if len(self) < 2:
             return self
@@ -213,7 +223,7 @@ class Trajectory:
         return replace(self, times=times, positions=positions, lines=())
 
     def starting_at(self, state: "State", seconds: float) -> "Trajectory":
-        """The same behind a way of `seconds` s from where the robot stands.
+        """Prepend a move of `seconds` s from the current position.
 
         Raises KeyError for a joint that the robot does not have.
         """
@@ -226,10 +236,10 @@ class Trajectory:
         return replace(self, times=times, positions=positions, lines=())
 
     def timed(self, robot: "Group", speed: float = 1.0) -> "Trajectory":
-        """The same points with times of their own: short, within the axes' limits x `speed`.
+        """Return the points with short times within the axes' limits x `speed`.
 
-        `robot` is `Robot.group`. Raises InvalidTrajectory when names do not fit or limits are
-        not known, ValueError for fewer than two points.
+        `robot` is `Robot.group`. Raises InvalidTrajectory if names do not fit or limits are
+        unknown, ValueError for fewer than two points.
         """
         from rapidgen.client.core.checks import check_names
 
@@ -247,7 +257,7 @@ class Trajectory:
         return replace(ordered, times=np.concatenate([[0.0], np.cumsum(steps)]))
 
     def reversed(self) -> "Trajectory":
-        """The way back, in the same time."""
+        """Return the path reversed, in the same time."""
         if not len(self):
             return self
         times = self.times[0] + (self.times[-1] - self.times[::-1])

@@ -8,9 +8,10 @@ from rapidgen.client.flows.data import Datum
 
 @dataclass(frozen=True, eq=False)
 class CellData(Mapping[str, Datum]):
-    """What `data:` of the configuration lists, by `MODULE:NAME`; read and written at the robot.
+    """Entries of the configuration's `data:` by `MODULE:NAME`.
 
-    Raises as `read_data` and `write_data`, so NotSupported for a name that is not listed.
+    They are read and written at the robot. Raises as `read_data` and `write_data`, so NotSupported
+    for an unlisted name.
     """
 
     names: tuple[str, ...]

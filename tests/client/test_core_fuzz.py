@@ -70,7 +70,7 @@ class CoreMachine(RuleBasedStateMachine):
         self.core = Core(None, Timeouts(), lambda: self.now)
         for port in (Port.STATE, Port.MOTION, Port.CONTROL):
             self.core.opened(port)
-        self.core.use(Group.told(HELLO))
+        self.core.use(Group.from_hello(HELLO))
         assert self.core.received(Port.STATE, encode_reply(1300, HELLO) + STATE)
         self.time = 0.0
         self.sent = 0

@@ -153,4 +153,4 @@ def test_the_log_warns_of_what_nobody_is_told(connected, caplog, comes):
         robot.execute(LONG)
         controller.drop("state")
         assert comes(lambda: any(r.levelno == logging.WARNING for r in caplog.records))
-        assert "nobody sees the robot any more" in caplog.text
+        assert "no states arrive from the robot" in caplog.text

@@ -57,7 +57,7 @@ def stands(robot, controller):
 def test_the_robot_stands_when_execute_raises(fault, way):
     kind = {"download": 11, "stream": 1302}[way]
     with lossy(once("motion", fault, kind=kind)) as (robot, controller):
-        with pytest.raises(LOST, match="the robot stands") as error:
+        with pytest.raises(LOST, match="the robot is at rest") as error:
             robot.execute(wiggle(robot), way=way)
         assert "then go on" in error.value.diagnostics[0].help
         assert stands(robot, controller)
@@ -66,7 +66,7 @@ def test_the_robot_stands_when_execute_raises(fault, way):
 def test_the_robot_stands_when_a_program_is_not_answered():
     with lossy(once("motion", cut, kind=1309)) as (robot, controller):
         target = robot.state.joints[0] + 0.3, *robot.state.joints[1:]
-        with pytest.raises(LOST, match="the robot stands"):
+        with pytest.raises(LOST, match="the robot is at rest"):
             robot.run(Program().move_joints(target))
         assert stands(robot, controller)
 
@@ -86,7 +86,7 @@ def test_the_robot_stands_when_result_raises(port):
         if port == "motion":
             # Nothing comes there by itself.
             link.connection_lost(None)
-        with pytest.raises(LOST, match="the robot stands"):
+        with pytest.raises(LOST, match="the robot is at rest"):
             moving.result()
         alive.clear()
         assert stands(robot, controller)
@@ -102,7 +102,7 @@ def test_nothing_can_be_seen_any_more_is_said():
     with lossy(alter, stop=1.0) as (robot, _):
         moving = robot.execute(wiggle(robot))
         silent.append(True)
-        with pytest.raises(RobotTimeout, match="not known whether the robot stands") as error:
+        with pytest.raises(RobotTimeout, match="not known whether the robot is at rest") as error:
             moving.result()
         assert "emergency stop" in error.value.diagnostics[0].help
 
@@ -198,7 +198,7 @@ def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
     proxy = Proxy(controller, once("motion", fault, kind=kind))
     try:
         with client(proxy.address) as robot:
-            with pytest.raises(RobotError, match="the robot stands"):
+            with pytest.raises(RobotError, match="the robot is at rest"):
                 robot.execute(LONG, way=way)
             with controller.lock:
                 assert controller.stops
@@ -212,8 +212,8 @@ def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
     ("silent", "is_reached", "why"),
     [
         ({"motion", "control"}, True, "the controller did not answer STOP"),
-        ({"state"}, True, "STOP was answered, and the robot was not seen to stand"),
-        ({"state"}, False, "STOP was answered, and the state port tells nothing any more"),
+        ({"state"}, True, "STOP was answered, and the robot was not observed at rest"),
+        ({"state"}, False, "STOP was answered, and the state port sends no data any more"),
     ],
 )
 def test_what_is_not_known_of_a_stop_is_said(silent, is_reached, why):
@@ -237,7 +237,7 @@ def test_what_is_not_known_of_a_stop_is_said(silent, is_reached, why):
         if "motion" in silent:
             # Nothing comes there by itself.
             robot._carrier._links[Port.MOTION].connection_lost(None)
-        with pytest.raises(LOST, match="not known whether the robot stands") as error:
+        with pytest.raises(LOST, match="not known whether the robot is at rest") as error:
             moving.result()
         assert why in str(error.value)
         assert "emergency stop" in error.value.diagnostics[0].help

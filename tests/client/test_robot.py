@@ -211,7 +211,7 @@ def test_a_plain_driver_gets_at_most_100_points(fake, client, target):
 def test_one_trajectory_at_a_time(connected):
     with connected() as (robot, _):
         execution = robot.execute(LONG)
-        with pytest.raises(NotReady, match="under way"):
+        with pytest.raises(NotReady, match="is active"):
             robot.execute(PATH)
         execution.cancel()
 
@@ -252,7 +252,7 @@ def test_a_stop_that_is_not_seen(connected):
     with connected(coasts=True, hasty={"stop": 2}) as (robot, controller):
         robot.execute(LONG)
         robot.wait_until(lambda s: s.is_moving, timeout=60)
-        with pytest.raises(StopFailed, match="not seen to stand"):
+        with pytest.raises(StopFailed, match="not observed at rest"):
             robot.stop()
         controller.script.coasts = False
         robot.stop()

@@ -36,7 +36,7 @@ def streams(**options):
 
 def test_streams_to_the_end(connected):
     with connected(**streams()) as (robot, controller):
-        assert "take points" not in str(robot.driver.cannot)
+        assert "accept points" not in str(robot.driver.cannot)
         with robot.stream() as stream:
             assert stream.way is None
             stream.extend(wave(600))
@@ -137,9 +137,9 @@ def test_closing_stops_a_stream(connected):
 def test_only_one_motion_at_a_time(connected):
     with connected(**streams(speed=1)) as (robot, _):
         robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
-        with pytest.raises(NotReady, match="under way"):
+        with pytest.raises(NotReady, match="is active"):
             robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
-        with pytest.raises(NotReady, match="under way"):
+        with pytest.raises(NotReady, match="is active"):
             robot.execute(Trajectory.from_points([[0.0] * 6, [0.1] * 6], seconds=1))
         robot.stop()
 
@@ -157,7 +157,7 @@ def test_a_stream_that_has_ended_takes_nothing(connected):
 
 def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(connected):
     with connected(capacity=50) as (robot, controller):
-        assert any("take points while it moves" in text for text in robot.driver.cannot)
+        assert any("accept points during a motion" in text for text in robot.driver.cannot)
         stream = robot.stream()
         stream.append([0.0, 0.1], [[0.0] * 6, [0.01] * 6])
         stream.flush()
@@ -264,7 +264,7 @@ def test_a_control_port_that_nobody_knows(fake, client):
     # Left out, it would follow from two ports that are by chance two apart.
     address = controller.address.rpartition(",")[0] + ",0"
     with client(address) as robot:
-        assert any("nobody knows the control port" in text for text in robot.driver.cannot)
+        assert any("the control port of" in text for text in robot.driver.cannot)
         with robot.stream() as stream:
             stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
 

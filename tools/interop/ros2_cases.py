@@ -138,7 +138,7 @@ def refused(cell, result):
         (cell.goal([0.0, 9.0, 0.0]), -1, "outside its limits"),
         (cell.goal(_way(20), 0.05), -1, "shorter than the path planner follows"),
         (cell.goal([0.0, 1.0], 0.15), -1, "too fast"),
-        (cell.goal([0.4, 0.5]), -1, "does not start where the robot stands"),
+        (cell.goal([0.4, 0.5]), -1, "does not start at the robot's position"),
         (cell.goal([]), -1, "no points"),
     ):
         result.ends(cell.send(goal), ABORTED, code, words)

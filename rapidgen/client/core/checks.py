@@ -1,7 +1,23 @@
-"""A trajectory against a robot: every fault at once, before a byte is sent.
+"""Validation of a trajectory against a robot, before a byte is sent.
 
-The result is a CheckedTrajectory, for one that is there as a whole, or CheckedPoints of one that
-comes in pieces: the axis values and durations that go onto the wire.
+The rules:
+
+1. The trajectory has at least one point, at most as many as the driver holds, and exactly the
+   robot's joints. Its columns are put into the robot's order. The other rules need these columns,
+   so a fault here ends the check; otherwise all rules report all faults together.
+2. Positions and times are finite, and times increase.
+3. Axis values are within the limits. Coupled axes are checked after the conversion to the
+   controller's axes.
+4. Speeds are within the limits. The move to a first point with a time greater than 0 counts as a
+   segment from the robot's position.
+5. Segments are at least `min_segment` long: the path planner cannot follow shorter ones.
+6. The first point is within `start_tolerance` of the robot's position. A single point with a time,
+   or for a driver that approaches it at its own speed, need not be.
+7. Values of a stream fit into the wire's fixed-point numbers. Positions are rounded inside the
+   limits, and times instead of durations, whose rounding errors would add up.
+
+The result is a CheckedTrajectory for a download or CheckedPoints, the next piece of a stream: the
+axis values and durations that go onto the wire.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,18 +37,18 @@ from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
 from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE
 
 Way = Literal["download", "stream"]
-"""download: sent whole before anything moves; stream: sent while the robot moves."""
+"""`download`: sent before the motion; `stream`: sent during the motion."""
 _SPEED_ROUNDING = 1 + 1e-4
-"""float32 positions and durations may ask for this much more than was meant."""
+"""Relative tolerance of speeds computed from float32 values."""
 _TIME_ROUNDING = 1e-6
-_NUMBERS = "give each point a time and a value of each joint; leave out a point that has none"
+_NUMBERS = "give each point a time and a value of each joint; leave out incomplete points"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CheckedTrajectory:
-    """What is sent: `wire` (m, k) axis values and `durations` (m,) s, m >= 2.
+    """Data to send: axis values `wire` (m, k) and `durations` (m,) s, m >= 2.
 
-    A single point is there twice, as simple_message wants it.
+    A single point is sent twice, as simple_message requires.
     """
 
     trajectory: Trajectory
@@ -43,13 +59,16 @@ class CheckedTrajectory:
 
     @property
     def total(self) -> float:
-        """Seconds that the controller is asked to take."""
+        """Commanded duration in s."""
         return float(self.durations.sum())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LastPoint:
-    """What the next points go on from: how many there were; time s and axis values (k,)."""
+    """Last point of a stream, which the next points continue.
+
+    Its number of points so far, time in s and axis values (k,).
+    """
 
     points: int
     time: float
@@ -58,8 +77,10 @@ class LastPoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CheckedPoints:
-    """Points of a stream: `wire` (n, k) axis values and `durations` (n,) s, on the steps of 1e-6
-    that the wire has, inside the limits."""
+    """Points of a stream: `wire` (n, k) axis values and `durations` (n,) s.
+
+    The values lie on the wire's grid of 1e-6, inside the limits.
+    """
 
     trajectory: Trajectory
     wire: Array
@@ -71,9 +92,10 @@ class CheckedPoints:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _CheckInput:
-    """What is looked at: points with the robot's columns, as axis values (n, k) and durations
-    (n,) s; `start` are the ten axis values where the robot stands, `before` the points that these
-    go on from."""
+    """Input of the checks: axis values (n, k) and durations (n,) s.
+
+    `start` are the ten axis values of the current position, `before` the last point so far.
+    """
 
     ordered: Trajectory
     group: Group
@@ -96,7 +118,10 @@ class _CheckInput:
         help: str = "",
         *notes: str,
     ) -> Diagnostic:
-        """An error at the first of these points; `message` goes on with them, then `figures`."""
+        """Return an error at the first of these points.
+
+        `message` is followed by the points, then by `figures`.
+        """
         first, others = points[0] + self.origin, len(points) - 1
         named = f"point {first} and {others} more" if others else f"point {first}"
         report = f"{message} {named}: {figures}" if figures else f"{message} {named}"
@@ -104,7 +129,7 @@ class _CheckInput:
 
 
 def require_trajectory(value: object) -> None:
-    """Raise InvalidTrajectory for anything else, with the way from that to a trajectory."""
+    """Raise InvalidTrajectory for other types, with a hint how to convert."""
     if isinstance(value, Trajectory):
         return
     match value:
@@ -117,12 +142,12 @@ def require_trajectory(value: object) -> None:
         case _:
             help = "`Trajectory.from_points(points, seconds=1)` makes one of points"
     raise InvalidTrajectory.because(
-        "RG611", f"this takes a Trajectory, and was given {type(value).__name__}", help, exit_code=2
+        "RG611", f"expected a Trajectory, got {type(value).__name__}", help, exit_code=2
     )
 
 
 def require_mode(value: object) -> None:
-    """Raise ValueError for what is no way: nobody shall take another one than was meant."""
+    """Raise ValueError for an unknown way, instead of choosing one."""
     if value is not None and value not in get_args(Way):
         raise ValueError(f"a way is 'download', 'stream' or None, not {value!r}")
 
@@ -135,11 +160,10 @@ def check_trajectory(
     capacity: int | None = None,
     goes_to_single: bool = False,
 ) -> CheckedTrajectory:
-    """Check everything; `start` are the ten axis values of where the robot stands.
+    """Check a whole trajectory from the ten axis values `start`.
 
-    A single point without a time of its own is taken only where the driver goes to such a
-    point at approach speed (`goes_to_single`: a rapidgen driver does).
-    Raises InvalidTrajectory with all faults.
+    A single point without a time is accepted only if the driver approaches such a point at its own
+    speed (`goes_to_single`: a rapidgen driver does). Raises InvalidTrajectory with all faults.
     """
     limit = group.policy.capacity if capacity is None else capacity
     ordered = _fitting(trajectory, group, list(_capacity(trajectory, limit)))
@@ -154,7 +178,7 @@ def check_trajectory(
             result += _start(requested)
     if len(wire) == 1:
         wire = np.repeat(wire, 2, axis=0)
-        # A rapidgen driver goes by the second frame's duration, abb_driver takes both.
+        # A rapidgen driver uses the second frame's duration, abb_driver uses both.
         durations = np.array([first, first if goes_to_single else group.policy.min_segment])
     _raise_errors(result)
     return CheckedTrajectory(ordered, wire, durations, tuple(result))
@@ -163,9 +187,9 @@ def check_trajectory(
 def check_points(
     trajectory: Trajectory, group: Group, *, before: LastPoint | None, start: Sequence[float] | None
 ) -> CheckedPoints:
-    """Check points that go on from `before`; without one they are the first of a stream, and
-    the robot stands at `start` (ten axis values). Times count from the stream's beginning.
+    """Check points that continue `before`, or the first of a stream.
 
+    Without `before` the robot is at `start` (ten axis values). Times count from the stream's start.
     Raises InvalidTrajectory with all faults; points have their numbers in the stream.
     """
     ordered = _fitting(trajectory, group, [])
@@ -186,9 +210,10 @@ def check_points(
 def to_stream(
     checked: CheckedTrajectory, group: Group, capacity: int
 ) -> CheckedTrajectory | CheckedPoints:
-    """The same as points of a stream, where the wire's numbers can hold every value of it.
+    """Convert a checked trajectory to points of a stream.
 
-    Raises InvalidTrajectory where they cannot and a driver holds no more than `capacity` points.
+    Raises InvalidTrajectory if the wire's numbers cannot hold a value and the trajectory exceeds
+    the driver's `capacity`.
     """
     ordered, durations = checked.trajectory, checked.durations
     if max(np.abs(checked.wire).max(), durations.max()) > FIXED_LIMIT:
@@ -203,7 +228,7 @@ def _points(
     requested: _CheckInput, since: float, warnings: tuple[Diagnostic, ...]
 ) -> CheckedPoints:
     ordered, group, durations = requested.ordered, requested.group, requested.durations
-    # Times are put on the grid, not durations: nothing adds up over a long stream.
+    # Times are rounded, not durations: rounding errors would add up over a long stream.
     steps = np.diff(np.rint(ordered.times * FIXED_SCALE), prepend=np.rint(since * FIXED_SCALE))
     least = np.rint(np.minimum(durations, group.policy.min_segment) * FIXED_SCALE)
     wire = quantised(requested.wire, group)
@@ -212,7 +237,7 @@ def _points(
 
 
 def quantised(wire: Array, group: Group) -> Array:
-    """Axis values (n, k) in steps of the wire's numbers, none of them outside the limits."""
+    """Round axis values (n, k) to the wire's steps, inside the limits."""
     with np.errstate(invalid="ignore"):
         low = np.ceil(np.array([joint.lower for joint in group.joints]) * FIXED_SCALE)
         high = np.floor(np.array([joint.upper for joint in group.joints]) * FIXED_SCALE)
@@ -228,7 +253,7 @@ def check_names(trajectory: Trajectory, group: Group) -> None:
 
 
 def _fitting(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -> Trajectory:
-    """The trajectory with the robot's columns: without them nothing else can be asked."""
+    """Return the trajectory in the robot's columns; later checks need them."""
     findings = findings + _names(trajectory, group)
     if not len(trajectory):
         findings.append(
@@ -240,7 +265,7 @@ def _fitting(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -
 
 
 def _content(requested: _CheckInput) -> list[Diagnostic]:
-    """What is the same of a whole trajectory and of a piece."""
+    """Run the checks common to a whole trajectory and a piece of one."""
     return [f for look in (_finite, _times, _limits, _speeds, _short) for f in look(requested)]
 
 
@@ -270,7 +295,7 @@ def _capacity(trajectory: Trajectory, capacity: int) -> Iterator[Diagnostic]:
         "RG617",
         f"{count} points, the driver holds {capacity}",
         "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
-        "`trajectory.capacity` in the configuration makes room for more (build and deploy "
+        "a larger `trajectory.capacity` in the configuration accepts more (build and deploy "
         "again)",
     )
 
@@ -360,7 +385,10 @@ def _limits(requested: _CheckInput) -> Iterator[Diagnostic]:
 
 
 def _speeds(requested: _CheckInput) -> Iterator[Diagnostic]:
-    """Segment speeds; the approach to a first point with a time of its own counts as one."""
+    """Check the speeds of all segments.
+
+    The approach to a first point with a time of its own counts as a segment.
+    """
     wire, start, before = requested.wire, requested.start, requested.before
     if before is not None:
         came_from = before.wire[None]
@@ -372,7 +400,7 @@ def _speeds(requested: _CheckInput) -> Iterator[Diagnostic]:
     if before is None and requested.ordered.times[0] <= 0:
         rates[0] = 0.0
     for column, joint in enumerate(requested.group.joints):
-        # A step from or to what is no number is no speed, and no scale mends it.
+        # A segment from or to a value that is not finite has no speed, and no scale helps.
         fast = rates[:, column] > joint.speed * _SPEED_ROUNDING
         points = np.flatnonzero(fast & np.isfinite(steps[:, column]))
         if not len(points):
@@ -402,7 +430,7 @@ def _start(requested: _CheckInput) -> Iterator[Diagnostic]:
         joint, tolerance = group.joints[column], group.start_tolerance[column]
         unit = "rad" if joint.kind == "revolute" else "m"
         rows.append(
-            f"{joint.name}: the robot's axis stands at {start[column]:.4f} {unit}, the first "
+            f"{joint.name}: the robot's axis is at {start[column]:.4f} {unit}, the first "
             f"point is {wire[0, column]:.4f}, tolerance {tolerance:.4f}"
         )
     far = max(columns, key=lambda column: away[column] / group.start_tolerance[column])
@@ -410,7 +438,7 @@ def _start(requested: _CheckInput) -> Iterator[Diagnostic]:
     unit = "rad" if group.joints[far].kind == "revolute" else "m"
     yield _finding(
         "RG616",
-        "the trajectory does not start where the robot stands: "
+        "the trajectory does not start at the robot's position: "
         f"{group.names[far]} is {away[far]:.4f} {unit} away, "
         f"{group.start_tolerance[far]:.4f} {unit} is tolerated{others}",
         "go there first: `trajectory.starting_at(robot.state, seconds)`, or "

@@ -1,40 +1,49 @@
-"""How fast a driver's clock runs, by the states that it sends at a period of its own. Sans-IO."""
+"""Rate of a driver's clock, from its periodic states. Sans-IO."""
 
 from collections import deque
 from itertools import pairwise
 
 _READS = 6
-"""Reads with states that tell a pace, at least, ..."""
+"""Minimum number of reads with states for an estimate, ..."""
 _KEPT = 16
 """... and at most."""
 _LASTS = 0.04
-"""s that they last at least: less may be one read of a tunnel that was held up, in pieces."""
+"""... and their minimum duration, s.
+
+Fewer could be the pieces of one read of a delayed tunnel.
+"""
 _EVEN = 1.8
-"""By how much one read may differ from the average: in time both ways, lest a clock that was held
-up seems faster, and in how many states it brought."""
+"""Largest deviation of one read from the average.
+
+It applies to the time in both directions, so that a delayed clock does not appear faster, and to
+the number of states of the read.
+"""
 _ANYHOW = 2.0
-"""s after which the average since the first states counts, if they never came evenly."""
+"""s after which the average counts even if states never came evenly."""
 _LATER = 0.3
-"""s between the two reads since which it is taken: the lower counts, as for a controller."""
+"""s between the two reads of an estimate; the lower rate counts."""
 
 
 class ClockRateEstimator:
-    """States per second of this clock, measured where they come evenly.
+    """Estimator of states per second, from evenly spaced states.
 
-    A moment in which the simulation or this process had no time says nothing of the clock's speed:
-    what was measured before counts on. A heartbeat's time-out by such a moment would be over
-    before the next heartbeat.
+    A moment in which the simulation or this process was delayed says nothing about the clock's
+    rate: the earlier estimate stays valid. Otherwise the heartbeat's time-out derived from it would
+    end before the next heartbeat.
     """
 
     def __init__(self) -> None:
         self._reads: deque[tuple[float, int]] = deque(maxlen=_KEPT)
-        """When something was read, and how many states had come by then."""
+        """Times of reads, with the number of states so far."""
         self._first: tuple[float, int] | None = None
         self._later = (0.0, 0)
         self._measured: float | None = None
 
     def add_sample(self, now: float, number: int) -> None:
-        """The state `number` was read at `now` s; several of one read have the same moment."""
+        """Add state `number`, read at `now` s.
+
+        Several states of one read have the same time.
+        """
         # What was held up before it is read at once: the later of the two counts without it.
         if self._first is None or self._first[0] == now:
             self._first = self._later = now, number

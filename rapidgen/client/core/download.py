@@ -1,8 +1,8 @@
-"""One trajectory that was sent whole: decides from states alone when it is over. Sans-IO.
+"""A trajectory that was sent completely before the motion. Sans-IO.
 
-A driver without PROGRESS is judged by position **and** in_motion **and** time: a path that ends
-where it began, or crosses its end, is not done early, and a robot that never moved has not
-arrived.
+The states alone decide when it has ended. Without PROGRESS three conditions hold together: position
+**and** in_motion **and** time. So a path that ends at its start, or crosses its end, does not end
+early, and a robot that never moved has not arrived.
 """
 
 from collections.abc import Sequence
@@ -29,9 +29,9 @@ from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 _MOVED = 1e-4
 """rad or m: more than this is a movement."""
 _GRACE = 2.0
-"""s that a robot may stand after the time was up, before that counts as a failure."""
+"""s of standstill after the planned end that count as a failure."""
 _EARLY = 0.25
-"""s by which a robot may be early: it skips a first point that it stands on."""
+"""s by which a robot may be early: it skips a first point at its position."""
 
 
 class Download(CommandedMotion):
@@ -47,7 +47,7 @@ class Download(CommandedMotion):
         self.warnings = plan.warnings
         self.total = len(plan.trajectory)
         self.frames = len(plan.wire)
-        # A plain driver gives no sign of getting on at all.
+        # A standard abb_driver reports no progress.
         self.planned_seconds = self.longest = plan.total
         self.goal = plan.wire[-1].tolist()
         self._pending: PendingReply | None = None
@@ -61,7 +61,10 @@ class Download(CommandedMotion):
         self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)
 
     def asked(self, pending: PendingReply) -> None:
-        """The end frame goes out now, and the robot may begin to move; `pending` is its reply."""
+        """Record that the end frame goes out, after which the robot may move.
+
+        `pending` is the reply to it.
+        """
         self._pending = pending
         self.is_ordered = True
         self._looked_at = self._state_port.samples
@@ -72,7 +75,10 @@ class Download(CommandedMotion):
         return self._pending is not None and self._pending.reply is None and not self.is_over
 
     def step(self) -> None:
-        """Take the reply, and look at the newest state; without PROGRESS at where the robot is."""
+        """Process the reply and the newest state.
+
+        Without PROGRESS the position decides.
+        """
         pending = self._pending
         if pending is None:
             return
@@ -90,7 +96,10 @@ class Download(CommandedMotion):
             self._by_position()
 
     def _look(self) -> None:
-        """At each of the joint messages: many may come at once, and before the reply."""
+        """Evaluate each joint message.
+
+        Many may arrive at once, also before the reply.
+        """
         for sample in self._state_port.samples_since(self._looked_at):
             self._seen_moving = self._seen_moving or self._has_moved(sample.joints)
         self._looked_at = self._state_port.samples
@@ -124,7 +133,7 @@ class Download(CommandedMotion):
         moving = status.in_motion is TriState.TRUE
         self._seen_moving = self._seen_moving or moving
         if self.stopping:
-            # A STOP whose sender did not wait: it is over when the robot stands.
+            # A STOP without a wait: the motion has ended when the robot is at rest.
             if not moving and now - self._began > _EARLY:
                 self.stopped()
             return
@@ -151,8 +160,8 @@ class Download(CommandedMotion):
             result = fault(
                 "RG633",
                 f"the robot {what}: {self._deviation(state):.4f} (rad, m) from the last point",
-                "look at the controller's event log: a speed override, a program that does not "
-                "run, or a refusal that this driver cannot tell",
+                "look at the controller's event log: a speed override, a stopped program, "
+                "or a refusal that this driver cannot report",
             )
             self._end(MotionFailed, result, status.error)
 
@@ -175,9 +184,9 @@ class Download(CommandedMotion):
 
     @property
     def progress(self) -> Progress:
-        """How far it is, now."""
+        """Current progress."""
         total = self.total
-        report = self._told() if self.phase is not Phase.SENDING else None
+        report = self._current_progress() if self.phase is not Phase.SENDING else None
         state = trajectory_state(report.state) if report is not None else None
         if report is not None and state is not None:
             share = min(1.0, report.reached / self.frames)

@@ -1,4 +1,4 @@
-"""Poses of a group's tool in its work object, and the postures that reach them. Sans-IO.
+"""TCP poses in a work object and the postures that reach them. Sans-IO.
 
 Postures are controller axis values in wire order, rad and m; poses are of the TCP in the object's
 frame, m.
@@ -15,14 +15,14 @@ from rapidgen.config.model import GroupConfig, Placement, Tool, WorkObject
 
 @dataclass(frozen=True, slots=True)
 class Frames:
-    """A robot's geometry with the tool in the hand and the object before it."""
+    """A robot's geometry with a tool and a work object."""
 
     kinematics: Kinematics
     tool: Pose
     work_object: Pose
 
     def pose(self, posture: Posture) -> Pose:
-        """Where the TCP is; the quaternion's scalar is not negative."""
+        """Return the TCP pose; the quaternion's scalar is not negative."""
         flange = self.kinematics.forward(posture)
         place, q = frames.compose(
             frames.compose(frames.invert(self.work_object), flange), self.tool
@@ -34,26 +34,32 @@ class Frames:
         return frames.compose(placed, frames.invert(self.tool))
 
     def follow(self, pose: Pose, near: Posture) -> Posture | None:
-        """The posture on the branch of `near`, whose external axes it has; None: there is none."""
+        """Return the posture on the branch of `near`; None if there is none.
+
+        External axes are those of `near`.
+        """
         return self.kinematics.follow(self._flange(pose), near)
 
     def postures(
         self, pose: Pose, near: Posture, configuration: AxisConfiguration | None = None
     ) -> list[Posture]:
-        """All postures within the ranges, closest to `near` first; those of a configuration."""
+        """Return all postures within the ranges, closest to `near` first.
+
+        A configuration selects among them.
+        """
         result = self.kinematics.solutions(self._flange(pose), near)
         if configuration is None:
             return result
         return [p for p in result if self.kinematics.matches(p, configuration)]
 
     def why_not(self, pose: Pose, near: Posture) -> str:
-        """Why no posture reaches a pose, in a sentence."""
+        """Explain in one sentence why no posture reaches a pose."""
         return unreached(self.kinematics, self._flange(pose), near)[1]
 
 
 @dataclass(frozen=True, slots=True)
 class GroupFrames:
-    """What poses can mean for a group: its tools and work objects by name, its own first."""
+    """Tools and work objects of a group by name, its own first."""
 
     kinematics: Kinematics
     tools: tuple[tuple[str, Pose | None], ...]
@@ -61,7 +67,7 @@ class GroupFrames:
 
     @classmethod
     def of(cls, group: GroupConfig) -> "GroupFrames | None":
-        """That of a group; None where its model has none."""
+        """Return the frames of a group; None without a kinematic model."""
         kinematics = Kinematics.of(group)
         if kinematics is None:
             return None
@@ -70,7 +76,7 @@ class GroupFrames:
         return cls(kinematics, tools, tuple((wobj.name, _object(wobj)) for wobj in objects))
 
     def owning(self, tool: Pose | None = None, work_object: Pose | None = None) -> "GroupFrames":
-        """The same with a program's own tool or work object behind the others, without a name."""
+        """Return a copy with the program's own tool or work object added."""
         return replace(
             self,
             tools=self.tools if tool is None else (*self.tools, ("", tool)),
@@ -80,8 +86,10 @@ class GroupFrames:
         )
 
     def frames(self, tool: int = 0, work_object: int = 0) -> Frames | None:
-        """Those of a tool and a work object; None where one of them is not known here: declared
-        elsewhere, or on the wrong side."""
+        """Return the frames of a tool and a work object.
+
+        None if one of them is unknown: declared elsewhere, or held on the wrong side.
+        """
         held, placed = self.tools[tool][1], self.work_objects[work_object][1]
         if held is None or placed is None:
             return None

@@ -1,4 +1,4 @@
-"""One motion group as the client sees it: names, joint map, limits and policy."""
+"""One motion group of the client: names, joint map, limits and policy."""
 
 import math
 from collections.abc import Sequence
@@ -26,27 +26,27 @@ from rapidgen.wire.simple_message.messages import HelloReply
 Array = npt.NDArray[np.float64]
 
 PLAIN_CAPACITY = 100
-"""Points that abb_driver holds (MAX_TRAJ_LENGTH); it drops the others without a word."""
+"""Capacity of abb_driver (MAX_TRAJ_LENGTH), which drops further points."""
 _AXES = (*(f"rax_{i}" for i in range(1, 7)), *(f"eax_{letter}" for letter in "abcdef"))
 
 
 @dataclass(frozen=True)
 class Group:
-    """Joints in wire order with everything that a trajectory is checked against."""
+    """Joints in wire order with all data that the checks need."""
 
     name: str
     map: JointMap
     policy: TrajectoryPolicy
     has_limits: bool = True
-    """False: neither a configuration nor the driver told the limits."""
+    """False if neither the configuration nor the driver gave the limits."""
     signals: tuple[ExposedSignal, ...] = ()
-    """What the configuration exposes, in the order of their numbers."""
+    """Signals that the configuration exposes, in the order of their numbers."""
     routines: tuple[UserRoutine, ...] = ()
     """Procedures that a program may call, in the order of their numbers."""
     data: tuple[UserDatum, ...] = ()
     """PERS that clients may reach, in the order of their numbers."""
     geometry: GroupFrames | None = None
-    """What poses mean; None where that is not known."""
+    """Frames of poses; None if unknown."""
 
     @classmethod
     def of(cls, config: RobotConfig, group: GroupConfig) -> "Group":
@@ -62,8 +62,11 @@ class Group:
         )
 
     @classmethod
-    def told(cls, hello: HelloReply) -> "Group":
-        """What a rapidgen driver says about itself; joints are called joint_1, joint_2, ..."""
+    def from_hello(cls, hello: HelloReply) -> "Group":
+        """Build a group from the answers of a rapidgen driver.
+
+        Joints are called joint_1, joint_2, ...
+        """
         joints = tuple(
             Joint(
                 name=f"joint_{i + 1}",
@@ -86,7 +89,7 @@ class Group:
 
     @classmethod
     def unknown(cls, names: Sequence[str]) -> "Group":
-        """A group of which only the joints' number is known: controller axes as they are."""
+        """Build a group of unnamed controller axes without known limits."""
         joints = tuple(
             Joint(name, _AXES[i], "revolute", -math.inf, math.inf, math.inf, math.inf)
             for i, name in enumerate(names)
@@ -166,7 +169,7 @@ class Group:
         return self.map.rates_to_urdf(values[: len(self.joints)])
 
     def with_controller_limits(self, hello: HelloReply) -> "Group":
-        """The same with the limits that the controller has, where those are narrower."""
+        """Return a copy with the controller's limits where they are narrower."""
         joints = tuple(
             replace(
                 joint,

@@ -1,4 +1,4 @@
-"""When the controller must hear from this client, while something moves. Sans-IO."""
+"""Schedule of the client's heartbeats during a motion. Sans-IO."""
 
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.wire.simple_message import messages
@@ -6,37 +6,41 @@ from rapidgen.wire.simple_message import messages
 _OFTEN = 4
 """Heartbeats in the time within which the controller awaits one, ..."""
 _PERIOD = 0.5
-"""... and s between two, at most: a simulation's clock may run faster than this one."""
+"""... and at most so many s apart: a simulated clock may run faster."""
 
 
 class HeartbeatSchedule:
-    """Begins with a motion and ends with it; the controller stops the robot when one is late.
+    """Heartbeats from the start of a motion to its end.
 
-    At most one is unanswered, so that a controller that does not read is not written to.
+    The controller stops the robot when one is late. At most one is unanswered, so that a controller
+    that does not read is not sent more.
     """
 
     def __init__(self, timeout: float) -> None:
-        """`timeout` s until the controller stops the robot; 0: no heartbeats at all."""
+        """`timeout` s until the controller stops the robot; 0: no heartbeats."""
         self.timeout = timeout
         self._sent = 0.0
         self._in_force = False
         self._pending: PendingReply | None = None
 
     def forget(self) -> None:
-        """Nothing more is awaited on this connection, or it is a new one.
+        """Forget awaited answers of a closed or new connection.
 
-        Where the controller still awaits one it stops the robot, which is then wanted.
+        A controller that still awaits a heartbeat stops the robot, as intended.
         """
         self._in_force = False
         self._pending = None
 
     @property
     def is_armed(self) -> bool:
-        """Whether the controller counts on the next one."""
+        """True if the controller expects another heartbeat."""
         return self._in_force
 
     def due(self, now: float, *, moves: bool) -> float | None:
-        """The time-out to be sent now, None: nothing. 0 tells that none will follow."""
+        """Return the time-out to send now, or None.
+
+        0 announces that no heartbeat follows.
+        """
         if self.timeout <= 0 or self._is_waiting:
             return None
         if not moves:
@@ -46,18 +50,18 @@ class HeartbeatSchedule:
         return self.timeout
 
     def sent(self, now: float, timeout: float, pending: PendingReply) -> None:
-        """It was."""
+        """Record that a heartbeat was sent."""
         self._sent = now
         self._in_force = timeout > 0
         self._pending = pending
 
     def is_late(self, now: float, listening: float) -> bool:
-        """Whether the controller does not answer any more a client that has been listening."""
+        """True if the controller stopped answering a client that reads."""
         return self._is_waiting and now - max(self._sent, listening) > self.timeout
 
     @property
     def is_refused(self) -> bool:
-        """Whether the controller did not take the last one."""
+        """True if the controller refused the last heartbeat."""
         reply = self._pending.reply if self._pending is not None else None
         return reply is not None and not isinstance(reply, messages.HeartbeatReply)
 

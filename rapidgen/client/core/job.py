@@ -1,7 +1,7 @@
-"""Points that somebody wants executed, and the motion that executes them. Sans-IO.
+"""Points to execute, and the motion that executes them. Sans-IO.
 
-One idea for a trajectory that is there as a whole and for one that comes point by point: what
-`Execution` and `Stream` of both clients show.
+One class for a complete trajectory and for one that arrives point by point; `Execution` and
+`Stream` of both clients show it.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -21,25 +21,28 @@ from rapidgen.wire.simple_message.spec import TrajectoryState
 
 
 class Job:
-    """Points in their order. `way` and `motion` are known from the first ones on."""
+    """Points in their order.
+
+    The first points determine `way` and `motion`.
+    """
 
     def __init__(self, core: Core, names: Sequence[str] = (), *, may_download: bool = True) -> None:
-        """`names` are those of the columns, empty: the robot's own order."""
+        """`names` are those of the columns; empty: the robot's own order."""
         self.core = core
         self.names = tuple(names)
         self.may_download = may_download
         self.way: Way | None = None
         self.motion: CommandedMotion | None = None
         self.stream: PointStream | None = None
-        """The motion, where it goes by stream."""
+        """The motion, if it is streamed."""
         self.program: Program | None = None
-        """What it executes, where that are instructions."""
+        """Instructions to execute, if the job is a program."""
         self.is_ended = False
-        """Nothing follows, and all points are on their way."""
+        """True once no point follows and all have been sent."""
         self.last: LastPoint | None = None
-        """What the next points go on from."""
+        """Last point, which the next points continue."""
         self.stopped: State | None = None
-        """Where the robot was seen to stand after a STOP for this."""
+        """Position of the robot at rest after a STOP of this job."""
         self._kept: list[Trajectory] = []
 
     def begin(self, checked: CheckedPoints) -> PointStream:
@@ -53,19 +56,19 @@ class Job:
         self.way, self.motion, self.is_ended = "download", motion, True
 
     def keep(self, checked: CheckedPoints) -> None:
-        """Points for a driver that takes only whole trajectories."""
+        """Collect points for a driver that accepts only whole trajectories."""
         self.way, self.last = "download", checked.last
         self._kept.append(checked.trajectory)
 
     def whole(self) -> Trajectory:
-        """All points that were kept."""
+        """Return all collected points."""
         times = np.concatenate([points.times for points in self._kept])
         positions = np.concatenate([points.positions for points in self._kept])
         return Trajectory(times, positions, self._kept[0].names)
 
     @property
     def is_over(self) -> bool:
-        """Whether the result is there, good or bad."""
+        """True if the result is known, good or bad."""
         return self.motion is not None and self.motion.is_over
 
     @property
@@ -75,14 +78,14 @@ class Job:
 
     @property
     def progress(self) -> Progress:
-        """How far it is, now."""
+        """Current progress."""
         if self.motion is not None:
             return self.motion.progress
         state = TrajectoryState.RECEIVING if self.total else TrajectoryState.NONE
         return Progress(state, self.total)
 
     def __str__(self) -> str:
-        """How far it is, or how it ended."""
+        """Describe the progress or the result."""
         motion, progress = self.motion, self.progress
         if motion is not None and motion.error is not None:
             return f"ended: {motion.error}"
@@ -112,7 +115,7 @@ class Job:
 def batches(
     points: Iterable[tuple[float, Sequence[float]]], size: int
 ) -> Iterator[tuple[list[float], list[Sequence[float]]]]:
-    """Times and joints of points, `size` at a time; nothing is taken ahead."""
+    """Yield times and joints of points, `size` at a time, read lazily."""
     source = iter(points)
     while some := list(islice(source, size)):
         yield [time for time, _ in some], [joints for _, joints in some]

@@ -1,7 +1,21 @@
-"""What is common to everything under way: how a motion ends, and what is known of it. Sans-IO.
+"""State machine common to all active motions. Sans-IO.
 
-A driver that tells PROGRESS is believed: its states end a motion here. `Download` (a trajectory
-that was sent whole) and `PointStream` (one that is sent while it is executed) add the rest.
+The rules:
+
+1. The robot may move once the end frame or the first batch is being sent (`is_ordered`). An error
+   from then on needs a STOP (`needs_stop`), unless the end was reported (`is_settled`).
+2. The reply accepts or refuses the order. If the state port shows a motion and the reply is still
+   missing after `_UNANSWERED` s, the motion fails.
+3. With PROGRESS the reported state ends the motion: done, stopped, failed or refused, with reason,
+   point and joint. It counts from the second PROGRESS after the acceptance (see
+   `_current_progress`). Done and stopped also need in_motion 0.
+4. If PROGRESS stops arriving, the position decides: at rest within `GOAL_TOLERANCE` of the end for
+   `_ARRIVED` s, after the planned time, is done; at rest elsewhere for `_STRANDED` s is a failure.
+5. No state for `silence` s is a failure. Time in which this process did not read does not count.
+6. The first end counts: later errors and results are dropped.
+
+`Download` (a trajectory sent before the motion) and `PointStream` (one sent during it) add their
+own rules.
 """
 
 import logging
@@ -25,19 +39,19 @@ _FIXES = {
     Reason.TASK_ENDED: "restart the controller (a warm start): a server task that has ended does "
     "not begin again with PP to Main and Start; the controller's event log names the task"
 }
-_NOT_BEGUN = (TrajectoryState.NONE, TrajectoryState.RECEIVING, TrajectoryState.REFUSED)
+_NOT_STARTED = (TrajectoryState.NONE, TrajectoryState.RECEIVING, TrajectoryState.REFUSED)
 _UNANSWERED = 0.5
-"""s for which the robot may move by an order whose answer has not come."""
-_STANDS = 1.0
-"""s for which a robot stands at the end before that counts, where PROGRESS does not come."""
+"""s for which an unanswered order may still move the robot."""
+_ARRIVED = 1.0
+"""s at rest at the end that count as arrival without PROGRESS."""
 _STRANDED = 3.0
-"""s for which it may stand elsewhere then."""
+"""s at rest elsewhere that count as a failure without PROGRESS."""
 GOAL_TOLERANCE = 0.01
 """rad or m: as industrial_robot_client."""
 
 
 class Phase(Enum):
-    """Where a motion is."""
+    """Phase of a motion."""
 
     SENDING = auto()
     MOVING = auto()
@@ -46,10 +60,10 @@ class Phase(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A trajectory that was executed to its end.
+    """Result of a trajectory that was executed to its end.
 
-    `deviation` is the largest distance of a joint from the last point, rad or m; `way` is how
-    the points came to the controller; `starved` how often a stream ran out of points.
+    `deviation` is the largest distance of a joint from the last point, rad or m; `way` is
+    `download` or `stream`; `starved` counts the stops because a stream ran out of points.
     """
 
     points: int
@@ -62,46 +76,49 @@ class Result:
 
 
 class CommandedMotion(ABC):
-    """A motion from its first byte to its end. Its owner holds a lock or a loop."""
+    """A motion from its first byte to its end.
+
+    Its owner holds a lock or a loop.
+    """
 
     way: Way
     noun = "point"
-    """What is counted."""
+    """Noun of the counted items."""
     starved = 0
-    """How often it ran out of points."""
+    """Number of stops because the stream ran out of points."""
 
     def __init__(self, group: Group, state_port: StatePort, silence: float) -> None:
         self.phase = Phase.SENDING
         self.result: Result | None = None
         self.error: RobotError | None = None
         self.is_taken = False
-        """Whether the controller took it: from then on `result` tells how it ends."""
+        """True once the controller has accepted the motion; `result` follows."""
         self.is_ordered = False
-        """Bytes have gone out by which the controller may begin to move."""
+        """True once bytes were sent after which the controller may move."""
         self.is_settled = False
-        """The controller has said how it ended, or the robot stands behind a STOP."""
+        """True once the end was reported, or a STOP has taken effect."""
         self._unanswered_since: float | None = None
-        self._stands_since: float | None = None
+        self._at_rest_since: float | None = None
         self.stopping = False
-        """Somebody asked for a STOP: nothing more of this is sent."""
+        """True once a STOP was requested: no further point is sent."""
         self.number: int | None = None
-        """Of the trajectory on the controller, once it told it."""
+        """Number of the trajectory on the controller, once reported."""
         self.trajectory: Trajectory | None = None
-        """What was asked for in the robot's order of joints, where it was there as a whole."""
+        """The commanded trajectory in the robot's order of joints, if complete."""
         self.warnings: Sequence[Diagnostic] = ()
-        """What the checks noted."""
+        """Warnings of the checks."""
         self.total = 0
-        """Points that were asked for, so far."""
+        """Number of commanded points so far."""
         self.planned_seconds = 0.0
-        """Seconds that the controller is asked to take, so far."""
+        """Commanded duration so far, s."""
         self.approach = 0.0
-        """Those of the first point, where the robot stands already."""
+        """Time of the first point, at the robot's position, s."""
         self.longest = 0.0
         """Seconds that may pass without a sign of getting on."""
         self.goal: Sequence[float] = ()
         """Axis values of the last point, rad or m."""
         self.stood: tuple[float, ...] | None = None
-        """Joints where the controller says that the robot stood after a halt."""
+        """Joints at which the controller reports a stop."""
         self._group = group
         self._state_port = state_port
         self._silence = silence
@@ -115,17 +132,17 @@ class CommandedMotion(ABC):
 
     @property
     def is_over(self) -> bool:
-        """Whether `result` or `error` is there."""
+        """True if `result` or `error` is known."""
         return self.phase is Phase.OVER
 
     @property
     def needs_stop(self) -> bool:
-        """Whether it has failed, and the robot may be moving by it, or begin to."""
+        """True if the motion has failed and may still move the robot."""
         return self.is_over and self.error is not None and self.is_ordered and not self.is_settled
 
     @property
     def is_superseded(self) -> bool:
-        """Whether the controller executes, or has executed, a motion behind this one."""
+        """True if the controller executes or has executed a later motion."""
         progress = self._state_port.progress
         newer = self._state_port.progresses >= self._first_progress + 2
         return (
@@ -138,17 +155,17 @@ class CommandedMotion(ABC):
     @property
     @abstractmethod
     def awaits_answer(self) -> bool:
-        """Whether something that was sent for it is unanswered."""
+        """True if a message of this motion is unanswered."""
 
     @property
     def is_complete(self) -> bool:
-        """Whether the controller has all of it."""
+        """True if the controller has all points."""
         return True
 
     @property
     @abstractmethod
     def progress(self) -> Progress:
-        """How far it is, now."""
+        """Current progress."""
 
     @property
     def mark(self) -> tuple[object, ...]:
@@ -157,10 +174,10 @@ class CommandedMotion(ABC):
         return (progress.state, progress.reached, progress.received)
 
     def accepted(self, number: int | None) -> None:
-        """The controller took the trajectory (under this number, where it tells one)."""
+        """Record that the controller accepted the trajectory under this number."""
         if self.is_over:
             return
-        self._note(f"{self.total} {self.noun}s by {self.way} were taken")
+        self._note(f"{self.total} {self.noun}s by {self.way} were accepted")
         self._state_port.taken()
         self.phase = Phase.MOVING
         self.is_taken = True
@@ -170,7 +187,7 @@ class CommandedMotion(ABC):
         self._first_progress = self._state_port.progresses
 
     def failed(self, error: RobotError) -> None:
-        """It is over; only the first reason counts."""
+        """Record the error that ended the motion; only the first one counts."""
         if not self.is_over:
             self.phase = Phase.OVER
             self.error = error
@@ -181,16 +198,19 @@ class CommandedMotion(ABC):
         self._state_port.note(text, logging.INFO)
 
     def stopped(self) -> None:
-        """A STOP was confirmed and the robot stands."""
+        """Record that a STOP was confirmed and the robot is at rest."""
         self._end(MotionStopped, fault("RG631", "stopped on request"), Reason.STOPPED)
 
     def done(self) -> None:
-        """The controller said in another way that all of it was executed."""
+        """Record the controller's report that all points were executed."""
         if not self.is_over:
             self._succeed()
 
     def step(self) -> None:
-        """Look at the newest state. Call after each message, and now and then without one."""
+        """Process the newest state.
+
+        Call it after each message, and regularly without one.
+        """
         if self.phase is Phase.SENDING:
             self._look_for_answer()
         if self.phase is not Phase.MOVING or self._is_silent():
@@ -198,14 +218,14 @@ class CommandedMotion(ABC):
         if self._state_port.is_progress_lost:
             self._without_progress()
             return
-        self._stands_since = None
-        report = self._told()
+        self._at_rest_since = None
+        report = self._current_progress()
         if report is not None:
             self._by_progress(report)
 
     def _look_for_answer(self) -> None:
-        """An answer that does not come while the robot already moves is lost."""
-        if not (self.is_ordered and self._has_begun()):
+        """Give up an answer that is missing while the robot already moves."""
+        if not (self.is_ordered and self._has_started()):
             self._unanswered_since = None
             return
         now = self._state_port.clock()
@@ -219,44 +239,44 @@ class CommandedMotion(ABC):
                 )
             )
 
-    def _has_begun(self) -> bool:
-        """Whether the controller executes it, by what the state port says."""
+    def _has_started(self) -> bool:
+        """True if the state port shows that the motion has started."""
         progress, status = self._state_port.progress, self._state_port.status
         if progress is None:
             return status.in_motion is TriState.TRUE and not self._moved_before
         before = self._before.trajectory if self._before else 0
-        return progress.trajectory != before and progress.state not in _NOT_BEGUN
+        return progress.trajectory != before and progress.state not in _NOT_STARTED
 
     def _without_progress(self) -> None:
-        """PROGRESS does not come any more: where the robot stands, and for how long, decides."""
+        """Judge by position and time at rest if PROGRESS stops arriving."""
         state = self._state_port.state
         assert state is not None
-        # STATUS has in_motion 1 while a motion is active, also where the robot waits on its way.
+        # in_motion of STATUS is 1 while a motion is active, also while the robot waits on its path.
         still = state.status.in_motion is TriState.FALSE and self.is_complete
         if not still or self.progress.state is TrajectoryState.PAUSED:
-            self._stands_since = None
+            self._at_rest_since = None
             return
-        if self._stands_since is None:
-            self._stands_since = state.time
-        stood = state.time - self._stands_since
+        if self._at_rest_since is None:
+            self._at_rest_since = state.time
+        stood = state.time - self._at_rest_since
         if self.stopping:
             self.stopped()
         elif self._deviation(state) <= GOAL_TOLERANCE:
-            if stood > _STANDS and state.time - self._began > self.planned_seconds - self.approach:
+            if stood > _ARRIVED and state.time - self._began > self.planned_seconds - self.approach:
                 self._succeed()
         elif stood > _STRANDED:
             self.failed(
                 self._state_port.late(
-                    "the driver does not tell any more how far the motion is, and the robot stands "
+                    "the driver no longer reports the progress of the motion, and the robot rests "
                     f"{self._deviation(state):.4f} (rad, m) from its end",
                     "a STOP was sent; look at the robot, and at the controller's event log",
                 )
             )
 
     def _is_silent(self) -> bool:
-        """Whether nobody sees the robot any more: then it is over."""
+        """Fail a motion that no state shows any more."""
         state_port = self._state_port
-        silent = state_port.clock() - max(state_port.heard, state_port.listening)
+        silent = state_port.clock() - max(state_port.last_message, state_port.listening)
         if silent <= self._silence:
             return False
         self.failed(
@@ -267,12 +287,12 @@ class CommandedMotion(ABC):
         )
         return True
 
-    def _told(self) -> messages.ProgressReport | None:
-        """PROGRESS of this very trajectory.
+    def _current_progress(self) -> messages.ProgressReport | None:
+        """Process PROGRESS of this trajectory.
 
-        Its number and state are written by one task of the controller and read by another: what
-        was put together while the trajectory came in may have the number of this one and the
-        state of the one before. So it counts from the second message after the acceptance.
+        One task of the controller writes its number and state and another one reads them: a message
+        composed while the trajectory arrived may have the number of this one and the state of the
+        one before. So it counts from the second message after the acceptance.
         """
         if self._state_port.progresses < self._first_progress + 2:
             return None
@@ -304,18 +324,18 @@ class CommandedMotion(ABC):
                     f"the controller ended the motion{place}: {reason_text(report.reason)}",
                     fix_of(
                         reason,
-                        "look at the robot; what was executed is a prefix of what was asked",
+                        "look at the robot; it has executed a prefix of the commanded motion",
                     ),
                 )
                 self._end(MotionFailed, result, reason, point=point, joint=report.joint)
 
     def _index(self, point: int) -> int:
-        """Which point of this motion a number of the wire means; -1 none."""
+        """Map a number of the wire to a point of this motion; -1 for none."""
         return point
 
     def _reached(self) -> int | None:
-        """Points known to be reached, None when the driver does not say."""
-        report = self._told()
+        """Number of points reached; None if the driver does not report it."""
+        report = self._current_progress()
         return report.reached if report is not None else None
 
     def _deviation(self, state: State) -> float:
@@ -360,12 +380,12 @@ class CommandedMotion(ABC):
 
 
 def reason_of(number: int) -> Reason | None:
-    """A reason of the wire; None for a number that is none."""
+    """Return the reason of a wire number; None for an unknown one."""
     return _REASONS.get(number)
 
 
 def fix_of(reason: Reason | None, otherwise: str) -> str:
-    """What to do about a reason of the wire."""
+    """Return the help for a reason of the wire."""
     return _FIXES.get(reason, otherwise) if reason is not None else otherwise
 
 
@@ -378,8 +398,10 @@ def reason_text(number: int) -> str:
 def refused(
     state_port: StatePort, reason: int | None, place: str = "", point: int = -1, joint: int = 0
 ) -> TrajectoryRefused:
-    """The controller took nothing, for a reason of the wire (None where it gave none); `place` in
-    words."""
+    """Return the error of a refusal by the controller.
+
+    `reason` is that of the wire, None if there was none; `place` is in words.
+    """
     text = "no reason given" if reason is None else reason_text(reason)
     return TrajectoryRefused.because(
         "RG620",
@@ -393,7 +415,10 @@ def refused(
 
 
 def place_of(group: Group, point: int, joint: int, noun: str = "point") -> str:
-    """` at point 3, joint_2`, as far as it is known; `point` from 0, `joint` from 1."""
+    """Return ` at point 3, joint_2`, as far as known.
+
+    `point` counts from 0, `joint` from 1.
+    """
     result = f" at {noun} {point}" if point >= 0 else ""
     if 1 <= joint <= len(group.names):
         result += f"{',' if result else ' at'} {group.names[joint - 1]}"

@@ -1,7 +1,25 @@
-"""A program against a robot: every fault at once, before a byte is sent.
+"""Validation of a program against a robot, before a byte is sent.
 
-Each move is followed from where the one before ends. What comes out is what goes onto the wire: the
-joints at the end of each instruction, by which the driver checks it once more.
+The rules:
+
+1. Instructions are checked in order, each from the position at the end of the one before. A faulty
+   move does not change that position, so later findings may follow from it.
+2. A joint move needs an end within the limits; its path needs no check. The slowest axis, and the
+   programmed speed of the TCP, give its least duration.
+3. A line or circle is sampled every `_STEP` m and `_TURN` rad of the TCP, or closer. Each sample is
+   solved on the branch of the one before, while external axes move evenly to their end. A sample
+   without a solution within the limits is an error.
+4. An axis that turns by more than `_JUMP` rad between two samples passes a singularity: a warning
+   if the program allows singularities, else an error.
+5. The end of a line or circle has the given configuration, unless the program allows others.
+6. An axis that cannot follow the programmed speed lengthens the duration; a warning gives the share
+   of the speed that remains.
+7. The robot stops, in no zone, before an instruction without motion and before another tool or work
+   object. A note says so.
+8. `program_stationary` checks signals, waits, tools by values and calls.
+
+The result goes onto the wire: each instruction with the joints at its end, by which the driver
+repeats the check.
 """
 
 from collections.abc import Callable, Sequence
@@ -31,21 +49,24 @@ from rapidgen.wire.simple_message import instructions
 from rapidgen.wire.simple_message.spec import Instruction
 
 _STEP, _TURN = 0.02, 0.1
-"""m and rad of the TCP between two looks at a way."""
+"""m and rad of the TCP between two samples of a path."""
 _JUMP = 0.6
-"""rad that an axis turns between two looks, at most: more is a singularity."""
+"""rad of an axis between two samples; a larger step is a singularity."""
 _FASTEST, _TURNING, _WIDEST = 10.0, radians(10_000), 1.0
-"""m/s, rad/s and m or rad that the driver takes, at most."""
+"""Limits of the driver: m/s, rad/s, and m or rad."""
 _MOVES = frozenset(
     (Instruction.MOVE_ABSJ, Instruction.MOVE_J, Instruction.MOVE_L, Instruction.MOVE_C)
 )
 _Way = Line | Arc
 _LARGEST = LARGEST_ARC - radians(0.5)
-"""rad: the driver, which refuses more than 240 degrees, has the points in whole micrometres."""
+"""Limit of arcs, rad.
+
+The driver rejects arcs over 240 degrees, and its points are whole micrometres.
+"""
 
 
 def require_program(value: object) -> None:
-    """Raise InvalidProgram for anything else."""
+    """Raise InvalidProgram for other types."""
     if not isinstance(value, Program):
         help = (
             "`robot.execute(trajectory)` executes a trajectory"
@@ -53,18 +74,21 @@ def require_program(value: object) -> None:
             else "`Program().move_joints(joints).move_linear(pose)` is one"
         )
         raise InvalidProgram.because(
-            "RG670", f"this takes a Program, and was given {type(value).__name__}", help
+            "RG670", f"expected a Program, got {type(value).__name__}", help
         )
 
 
 @dataclass(frozen=True, slots=True)
 class CheckedProgram:
-    """What is sent: the words of each instruction, the first behind where the program begins."""
+    """Data to send: the words of each instruction.
+
+    The first instruction follows the position where the program begins.
+    """
 
     program: Program
     instructions: list[list[int]]
     seconds: list[float]
-    """Of each instruction, at least."""
+    """Minimum duration of each instruction, s."""
     goal: Posture
     notes: tuple[Diagnostic, ...]
 
@@ -72,10 +96,10 @@ class CheckedProgram:
 def check_program(
     program: Program, group: Group, *, start: Sequence[float], most: int
 ) -> CheckedProgram:
-    """Check everything; `start` are the axis values of where the robot stands, `most` is how many
-    instructions there may be.
+    """Check a whole program.
 
-    Raises InvalidProgram with all faults.
+    `start` are the axis values of the current position, `most` is the largest number of
+    instructions. Raises InvalidProgram with all faults.
     """
     walk = ProgramTraversal(group, tuple(start[: len(group.names)]))
     if not program.steps:
@@ -146,7 +170,7 @@ def _frames(walk: ProgramTraversal, step: ProgramStep) -> tuple[int, int]:
     ):
         names = [each for each, _ in known]
         if not isinstance(name, str):
-            # By an instruction before this one; where that was wrong it is told already.
+            # An instruction before this one did it; its fault is already reported.
             if walk.own[len(result)] is None:
                 return walk.chosen
             result.append(len(names))
@@ -163,7 +187,7 @@ def _frames(walk: ProgramTraversal, step: ProgramStep) -> tuple[int, int]:
 
 
 def _stopped(walk: ProgramTraversal, last: ProgramStep, step: ProgramStep, changed: bool) -> None:
-    """Say where the robot stops though a zone was given."""
+    """Note that the robot stops although a zone was given."""
     why = "another tool or work object is next" if changed else "the next one does not move"
     if last.kind in _MOVES and (changed or step.kind not in _MOVES):
         place = f"instruction {walk.index - 1}: the robot stops there, in no zone: {why}"
@@ -173,12 +197,14 @@ def _stopped(walk: ProgramTraversal, last: ProgramStep, step: ProgramStep, chang
 def _speed(walk: ProgramTraversal, speed: Speed) -> None:
     limits = (_FASTEST, _TURNING, _FASTEST, _TURNING)
     if not all(0 < value <= most for value, most in zip(speed.words, limits, strict=True)):
-        walk.say("RG670", f"{speed} is outside what a robot is asked", "m/s and rad/s, above 0")
+        walk.say(
+            "RG670", f"{speed} is outside the speeds that a robot accepts", "m/s and rad/s, above 0"
+        )
 
 
 def _zone(walk: ProgramTraversal, zone: Zone) -> None:
     if not all(0 <= value <= _WIDEST for value in zone.words[1:]):
-        walk.say("RG670", f"{zone} is outside what a robot is asked", "m and rad, 0 to 1")
+        walk.say("RG670", f"{zone} is outside the zones that a robot accepts", "m and rad, 0 to 1")
 
 
 # -- moves ----------------------------------------------------------------------------------------
@@ -256,7 +282,7 @@ _MAKERS: dict[Instruction, Callable[[ProgramTraversal, ProgramStep], standing.Ch
 def _target(
     walk: ProgramTraversal, step: ProgramStep
 ) -> tuple[Pose | None, Posture, Frames | None]:
-    """The pose of an instruction, where the external axes are at its end, and the geometry."""
+    """Return pose, external axes at the end, and geometry of an instruction."""
     names = walk.group.names
     values = list(walk.group.map.to_urdf(walk.here))
     for name, value in step.external:
@@ -293,7 +319,7 @@ def _unreached(
 
 
 def _go(walk: ProgramTraversal, target: Posture, step: ProgramStep) -> float:
-    """Be there; seconds that it takes, at least."""
+    """Move to this position; return the minimum duration in s."""
     pairs = zip(walk.group.joints, walk.here, target, strict=True)
     seconds = max(abs(b - a) / joint.speed for joint, a, b in pairs)
     geometry = walk.geometry
@@ -308,7 +334,7 @@ def _go(walk: ProgramTraversal, target: Posture, step: ProgramStep) -> float:
 def _along(
     walk: ProgramTraversal, step: ProgramStep, robot: Frames, way: _Way, outer: Posture
 ) -> float:
-    """Follow a way of the TCP on the branch where the robot is; seconds that it takes, at least."""
+    """Follow a TCP path on the current branch; return its least duration in s."""
     speed = step.speed
     seconds = max(way.length / speed.tcp, way.angle / speed.orientation, 1e-4)
     count = max(2, ceil(way.length / _STEP), ceil(way.angle / _TURN))
@@ -334,9 +360,9 @@ def _along(
         if most > _JUMP:
             walk.say(
                 "RG672",
-                f"the way passes a singularity after {fraction:.0%}: {joint.name} would turn "
+                f"the path passes a singularity after {fraction:.0%}: {joint.name} would turn "
                 f"{most:.2f} rad at once",
-                "" if walk.singular else "another way, joints, or `allow(singularities=True)`",
+                "" if walk.singular else "use another path, joints, or `allow(singularities=True)`",
                 severity=Severity.WARNING if walk.singular else Severity.ERROR,
             )
             if not walk.singular:
@@ -350,7 +376,7 @@ def _along(
     ):
         walk.say(
             "RG671",
-            f"the way ends in configuration {list(robot.kinematics.configuration(walk.here))}, "
+            f"the path ends in configuration {list(robot.kinematics.configuration(walk.here))}, "
             f"not {list(step.configuration)}",
         )
     return max(seconds, _slowed(walk, nodes, seconds))
@@ -365,20 +391,20 @@ def _left(
     fraction: float,
     beyond: Sequence[LimitFault],
 ) -> None:
-    """Say that a way leaves the robot's reach: where it does, or that its end is not reached."""
+    """Report where a path leaves the reach, or that its end is out of reach."""
     if not robot.postures(pose, outer):
         _unreached(walk, robot, pose, outer, step)
         return
     why = f": {beyond[0]}" if beyond else ""
     walk.say(
         "RG672",
-        f"the way leaves the robot's reach after {fraction:.0%}{why}",
-        "its end is reached: another way, or `move_to` with all axes",
+        f"the path leaves the robot's reach after {fraction:.0%}{why}",
+        "the robot reaches its end: use another path, or `move_to` with all axes",
     )
 
 
 def _slowed(walk: ProgramTraversal, nodes: Sequence[Posture], seconds: float) -> float:
-    """s that the axes need for a way; told when they need more than was asked."""
+    """Return the duration of a path in s; warn if axes limit the speed."""
     spacing = seconds / (len(nodes) - 1)
     slowest = 1.0
     worst = walk.group.joints[0]
@@ -390,7 +416,7 @@ def _slowed(walk: ProgramTraversal, nodes: Sequence[Posture], seconds: float) ->
     if slowest > 1.0:
         walk.say(
             "RG673",
-            f"{worst.name} is too slow for this speed: the robot goes at {1 / slowest:.0%} of it",
+            f"{worst.name} is too slow for this speed: the robot moves at {1 / slowest:.0%} of it",
             severity=Severity.WARNING,
         )
     return seconds * slowest

@@ -1,4 +1,4 @@
-"""The way through a program: where the robot is at an instruction, and what is known there."""
+"""State of a traversal of a program: position, frames and findings."""
 
 from math import isfinite, sqrt
 
@@ -15,33 +15,33 @@ _UNIT = 1e-3
 
 
 class ProgramTraversal:
-    """The way through a program: where the robot is, and what was found."""
+    """A traversal of a program: the position so far, and the findings."""
 
     def __init__(self, group: Group, start: Posture) -> None:
         self.group = group
         self.here = start
         self.index = 0
         self.singular = self.any_posture = False
-        """Whether singularities and other configurations are allowed."""
+        """True if singularities and other configurations are allowed."""
         self.chosen = (0, 0)
         """Numbers of the tool and of the work object."""
         self.geometry = group.geometry
-        """With what the program's own tool and work object are, once it has said so."""
+        """Frames with the program's own tool and work object, once defined."""
         self.own: tuple[Pose | None, Pose | None] = (None, None)
         self.found: list[Diagnostic] = []
         self.arguments: list[float | bool | str | tuple[float, ...]] = []
-        """Of the routine that is called, as they go onto the wire."""
+        """Arguments of the called routine, as they go onto the wire."""
 
     def say(
         self, code: str, message: str, help: str = "", *, severity: Severity = Severity.ERROR
     ) -> None:
-        """A finding about the instruction at hand."""
+        """Add a finding about the current instruction."""
         place = f"instruction {self.index}: "
         self.found.append(error(code, None, place + message, help, severity=severity))
 
     @property
     def frames(self) -> Frames | None:
-        """The robot's geometry with tool and work object; told where it is missing."""
+        """Return the geometry with tool and work object; report if it is missing."""
         geometry = self.geometry
         result = geometry.frames(*self.chosen) if geometry is not None else None
         if result is None:

@@ -1,4 +1,7 @@
-"""What a program does where it stands: signals, waits, tools by values, routines."""
+"""Validation of instructions for a robot at rest.
+
+Signals, waits, tools by values and routines.
+"""
 
 from collections.abc import Sequence
 from math import isfinite
@@ -24,15 +27,15 @@ from rapidgen.wire.simple_message.spec import FIXED_LIMIT, LONGEST_TEXT, Instruc
 _FARTHEST = 10.0
 """m or s of a signal's place, at most."""
 _LARGEST = 3.4e38
-"""Of a RAPID num."""
+"""Largest value of a RAPID num."""
 _LONGEST = 2000.0
 """s of a wait."""
 Checked = tuple[Sequence[float], float]
-"""Operands of an instruction, and the s that it takes at least."""
+"""Operands of an instruction, and its minimum duration in s."""
 
 
 def _signal(walk: ProgramTraversal, name: str, value: float, *, sets: bool) -> int:
-    """The number of a signal; told where it cannot be set or have this value."""
+    """Return the number of a signal; report wrong access or value."""
     signals = walk.group.signals
     names = [signal.name for signal in signals]
     if name not in names:
@@ -50,25 +53,25 @@ def _signal(walk: ProgramTraversal, name: str, value: float, *, sets: bool) -> i
     if digital or group or not abs(value) <= FIXED_LIMIT:
         walk.say("RG670", f"signal '{name}' ({signal.kind}) cannot be {value:g}")
     if not sets and signal.kind[0] == "A":
-        walk.say("RG670", f"signal '{name}' is analogue: nobody waits for a value of it")
+        walk.say("RG670", f"signal '{name}' is analogue: waiting for its value is not supported")
     return names.index(name)
 
 
 def marks(walk: ProgramTraversal, step: ProgramStep) -> list[tuple[float, ...]]:
-    """The words of the signals on the way."""
+    """Return the words of the signals on a path."""
     by_joints = step.kind in (Instruction.MOVE_ABSJ, Instruction.MOVE_J)
     if step.triggers and by_joints and walk.group.map.two_sided:
         walk.say(
             "RG670",
-            "a SCARA sets no signals on the way of a joint move: their instruction takes a pose, "
-            "whose configuration does not tell on which side of it the arm is",
-            "`move_linear`, or `set` behind the move",
+            "a SCARA sets no signals on the path of a joint move: their instruction takes a pose, "
+            "whose configuration does not say on which side of it the arm is",
+            "`move_linear`, or `set` after the move",
         )
     return [_mark(walk, trigger) for trigger in step.triggers]
 
 
 def _mark(walk: ProgramTraversal, trigger: Trigger) -> tuple[float, ...]:
-    """The words of a signal on the way."""
+    """Return the words of a signal on a path."""
     number = _signal(walk, trigger.signal, trigger.value, sets=True)
     if not (isfinite(trigger.place) and 0 <= trigger.place <= _FARTHEST):
         walk.say("RG670", f"signal '{trigger.signal}' at {trigger.place:g}", "m or s, 0 to 10")
@@ -94,7 +97,7 @@ def own_frame(walk: ProgramTraversal, step: ProgramStep) -> Checked:
     if geometry is None:
         walk.say(
             "RG671",
-            "nobody knows poses of this robot, for which a tool or work object is",
+            "poses of this robot are unknown, and a tool or work object needs them",
             "connect with a configuration that has the robot's chain",
         )
         return (), 0.0
@@ -140,7 +143,7 @@ def call(walk: ProgramTraversal, step: ProgramStep) -> Checked:
 def _of_routine(
     walk: ProgramTraversal, step: ProgramStep, parameter: RoutineParameter, value: Argument
 ) -> float | bool | str | tuple[float, ...]:
-    """An argument as it goes onto the wire: of a target its operands."""
+    """Return an argument as it goes onto the wire; a target as its operands."""
     joints = _joints_of(walk, value) if parameter.type == "jointtarget" else None
     if joints is not None:
         within(walk, joints)
@@ -185,7 +188,7 @@ def _reached(
 
 
 def fits(kind: str, value: float | bool | str) -> bool:
-    """Whether a value is one of a RAPID type: num, bool or string."""
+    """True if a value has a RAPID type: num, bool or string."""
     if kind == "string":
         return (
             isinstance(value, str)

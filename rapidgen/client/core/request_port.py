@@ -1,4 +1,7 @@
-"""A connection on which requests are answered, those of one type in their order. Sans-IO."""
+"""A connection whose requests are answered in order within a type.
+
+Sans-IO.
+"""
 
 from collections import deque
 from dataclasses import dataclass, field
@@ -18,7 +21,7 @@ class PendingReply:
 
 @dataclass(slots=True)
 class RequestPort:
-    """What is under way on one connection."""
+    """Pending requests of one connection."""
 
     splitter: FrameSplitter = field(default_factory=FrameSplitter)
     pending: deque[PendingReply] = field(default_factory=deque)
@@ -35,10 +38,10 @@ class RequestPort:
         self.pending = deque(waiting for waiting in self.pending if waiting.is_stop)
 
     def answered(self, number: int, reply: Content, *, orders_have_data: bool) -> bool:
-        """Give a reply to the oldest request that it may answer; False when there is none.
+        """Assign a reply to the oldest matching request; False if none matches.
 
-        An answer may have been lost: no STOP is answered with a trajectory, and where the driver
-        answers an order with data, a bare reply is that to a STOP.
+        An answer may be lost: a STOP never matches the reply to a trajectory, and where the driver
+        answers an order with data, a bare reply belongs to a STOP.
         """
         of_order = isinstance(reply, messages.Accepted | messages.Refused)
         stops = any(waiting.is_stop for waiting in self.pending)

@@ -1,6 +1,22 @@
-"""The sans-IO half of a robot: what both clients share. Bytes and times in, decisions out.
+"""The sans-IO core of a robot, common to both clients.
 
-Its owner holds a lock (sync) or a loop (async) and moves the bytes.
+Bytes and times enter, decisions leave: the frames that are due, the end of a motion, errors. The
+rules:
+
+1. The owner holds a lock (sync) or a loop (async) and moves the bytes. It calls `received` for each
+   read, `poll` regularly, and sends what `due` returns.
+2. At most one motion is active. `ready` raises before `begin`, `begin_stream` or `begin_program` if
+   the robot reports a blocker; `motion.py` decides when a motion ends.
+3. Replies are matched to requests by connection and type (`request_port.py`). A message on the
+   motion port without a request, while an order awaits its answer, fails the motion.
+4. During a motion the controller gets heartbeats on the control port, and stops the robot when one
+   is late.
+5. A lost state or motion connection, missing states and missing heartbeat replies fail the motion.
+   STOP then goes out once on every open connection (`unmonitored_stops`), and heartbeats end, so
+   that the controller stops the robot even if no STOP arrives.
+6. A lost control connection fails nothing by itself.
+7. Silence counts only while this process reads: data that arrived while it was delayed is still
+   unread (`poll`).
 """
 
 import logging
@@ -62,10 +78,10 @@ STOP_FRAME = encode(
     messages.TrajectoryPoint(Sequence.STOP, (0.0,) * MAX_JOINTS, 0.0, 0.0), Comm.REQUEST
 )
 _SIMULATION = 1.2
-"""Pace beyond which a clock is no controller's."""
+"""Rate above which a clock is that of a simulation."""
 _SLACK = 3
 _FRESH = 1.0
-"""s for which an answer on the control port tells that STOP works there."""
+"""s for which an answer on the control port proves that STOP works there."""
 _ASK_AGAIN = 1.0
 """s between two requests for PROGRESS."""
 _UNDER_WAY = (
@@ -75,7 +91,7 @@ _UNDER_WAY = (
     TrajectoryState.STARVED,
 )
 _HELD_UP = 0.5
-"""s without a look at what has come: this process was held up, not the robot."""
+"""s without a read after which this process, not the robot, was delayed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,27 +100,34 @@ class Timeouts:
 
     connect: float = 5.0
     hello: float = 1.0
-    """For this long, and for four states, a driver may leave HELLO without an answer before it
-    counts as plain simple_message."""
+    """Wait for the answer to HELLO, s.
+
+    Without an answer, and after four states, the driver counts as plain simple_message.
+    """
     state: float = 5.0
-    """First state after connecting; also the next one, where no other time is given."""
+    """Wait for the first state after connecting, and default for the next one."""
     ready: float = 1.0
-    """For the robot to say that motion is possible, before a trajectory is sent."""
+    """Wait for the robot to report that motion is possible before an order."""
     silence: float = 2.0
-    """Without a state for so long, a motion under way is stopped and has failed."""
+    """Time without a state after which an active motion is stopped and fails."""
     send: float = 5.0
-    """Without a byte taken by the controller for so long, a trajectory is given up."""
+    """Time without a byte read by the controller that fails a trajectory."""
     reply: float = 5.0
-    """Reply to the end frame; 20 ms more for each point. Also to HELLO on the control port."""
+    """Wait for the reply to the end frame, plus 20 ms for each point.
+
+    Also the wait for the reply to HELLO on the control port.
+    """
     stop: float = 5.0
-    """Reply to STOP, and again until the robot stands."""
+    """Wait for the reply to STOP, and again for the robot at rest."""
     heartbeat: float = 2.0
-    """While something moves the controller hears from the client, where it has a control port,
-    and stops the robot when it did not for so long; 0: it does not ask for that."""
+    """Time-out of heartbeats on the control port; 0 disables them.
+
+    The controller stops the robot when none arrives for so long during a motion.
+    """
 
 
 class Core:
-    """Everything that one robot's client knows and decides."""
+    """State and decisions of one robot's client."""
 
     def __init__(
         self,
@@ -119,11 +142,11 @@ class Core:
         simulated: bool = False,
         where: str = "",
     ) -> None:
-        """`watch`: never move, only look. `plain`: do not ask for a rapidgen driver.
+        """`watch`: read states only. `plain`: do not expect a rapidgen driver.
 
-        `reconnect`: for how many s a lost connection is tried again; 0: not. `feedback`: ask
-        for joints with the controller's own time and velocities. `simulated`: the controller's
-        clock may run faster than this one. `where`: which robot this is, for the log.
+        `reconnect`: s for which a lost connection is tried again; 0: not. `feedback`: request
+        joints with the controller's own time and velocities. `simulated`: the controller's clock
+        may run faster than this one. `where`: name of the robot in the log.
         """
         self.simulated = simulated
         self.watch = watch
@@ -139,15 +162,15 @@ class Core:
         self.state_open = False
         self.ports = {Port.MOTION: RequestPort(), Port.CONTROL: RequestPort()}
         self.fault: RobotError | None = None
-        """Why the last connection was lost."""
+        """Reason for the loss of the last connection."""
         self.motion: Download | PointStream | None = None
         self.override = 1.0
-        """Share of the programmed speed that was asked for."""
+        """Share of the programmed speed that this client has set."""
         self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
         self._stopped_blindly: Download | PointStream | None = None
         self.may_reach_control = False
-        """Whether a control port that is not connected is worth another try."""
-        self._control_heard = clock()
+        """True if another attempt to connect the control port is worthwhile."""
+        self._control_answered = clock()
         self._asked_again = clock()
         self._looked = clock()
         self._streams = 0
@@ -156,15 +179,15 @@ class Core:
         if group is not None:
             self.use(group)
 
-    # What the connections bring
+    # Input from the connections
 
     @property
     def is_connected(self) -> bool:
-        """Whether all connections stand that this client wants."""
+        """True if all connections that this client needs are open."""
         return self.state_open and (self.watch or self.ports[Port.MOTION].is_open)
 
     def opened(self, port: Port) -> None:
-        """A connection stands."""
+        """Record that a connection is open."""
         self.fault = None
         if port is Port.STATE:
             self.state_port.restart()
@@ -176,7 +199,7 @@ class Core:
             self._outbox.clear()
 
     def received(self, port: Port, data: bytes) -> bool:
-        """Take bytes; False when the connection must be closed (it cannot be followed)."""
+        """Process bytes; False if the connection must be closed."""
         try:
             if port is Port.STATE:
                 self.state_port.feed(data)
@@ -196,7 +219,7 @@ class Core:
     def _replies(self, port: Port, data: bytes) -> None:
         talk = self.ports[port]
         if port is Port.CONTROL:
-            self._control_heard = self.clock()
+            self._control_answered = self.clock()
         talk.splitter.feed(data)
         while (frame := talk.splitter.next()) is not None:
             self.state_port.keep(frame)
@@ -212,10 +235,10 @@ class Core:
             if frame.comm != Comm.REPLY or not talk.answered(
                 frame.number, content, orders_have_data=has_data
             ):
-                self._senseless(port, "nobody asked for this message")
+                self._senseless(port, "this message was not requested")
 
     def _senseless(self, port: Port, text: str) -> None:
-        """A message that answers nothing; where an answer to an order is awaited, it was that."""
+        """Process a message without a request; it may replace an awaited answer."""
         self.state_port.note(text)
         motion = self.motion
         if port is Port.MOTION and motion is not None and motion.awaits_answer:
@@ -229,7 +252,7 @@ class Core:
             )
 
     def _stood(self, report: messages.Stopped) -> None:
-        """The controller says where the robot stands after a halt."""
+        """Process the controller's report of the position after a stop."""
         if self.motion is not None and self._group is not None:
             self.motion.stood = self._group.from_wire(report.joints)
 
@@ -251,14 +274,14 @@ class Core:
         self.state_port.note(str(error), logging.INFO)
         if port is Port.CONTROL:
             self.may_reach_control = True
-            # Takes nothing from a motion under way; the controller stops it by itself where it
-            # awaited a heartbeat there.
+            # An active motion continues; the controller stops it by itself if it expects a
+            # heartbeat there.
             self.heartbeat.forget()
         elif self.motion is not None:
             self.motion.failed(error)
 
     def dropped(self, port: Port) -> None:
-        """This client closed a connection."""
+        """Record that this client closed a connection."""
         if port is Port.STATE:
             self.state_open = False
         else:
@@ -274,14 +297,14 @@ class Core:
             talk.is_open = False
 
     def disconnected(self) -> RobotError:
-        """Why there is no connection."""
+        """Return the reason for a missing connection."""
         return self.fault or ConnectionLost.because("RG602", "not connected", "connect()")
 
     def poll(self) -> None:
-        """Let what is under way look at the newest state and at the clock."""
+        """Let the active motion process the newest state and the time."""
         now, port = self.clock(), self.state_port
-        # Once in a silence: a process that is held up again and again is not to wait for ever.
-        if now - self._looked > _HELD_UP and port.heard >= port.listening:
+        # Only once in a silence: a process that is delayed repeatedly must not wait for ever.
+        if now - self._looked > _HELD_UP and port.last_message >= port.listening:
             port.listening = now
         self._looked = now
         run = self.motion
@@ -296,16 +319,19 @@ class Core:
             )
         run.step()
 
-    # What goes out by itself
+    # Output without a request of the caller
 
     @property
     def is_busy(self) -> bool:
-        """Whether `due` must be asked now and then, though nothing comes in."""
+        """True if `due` must be called regularly, also without input."""
         run = self.motion
         return (run is not None and not run.is_over) or self.heartbeat.is_armed
 
     def due(self, port: Port) -> bytes | None:
-        """The next frame for this connection, None: nothing. It is taken for sent."""
+        """Return the next frame for this connection, or None.
+
+        The frame counts as sent.
+        """
         if port is Port.STATE:
             return self._ask_again()
         if port not in self.ports or not self.ports[port].is_open:
@@ -322,19 +348,19 @@ class Core:
         return None
 
     def _ask_again(self) -> bytes | None:
-        """HELLO on the state port: PROGRESS of a motion under way does not come any more."""
+        """Send HELLO on the state port if PROGRESS stops during a motion."""
         run, now = self.motion, self.clock()
         if run is None or run.phase is not Phase.MOVING or not self.state_port.is_progress_lost:
             return None
         if now - self._asked_again < _ASK_AGAIN:
             return None
         self._asked_again = now
-        self.state_port.note("PROGRESS does not come any more: asked for again")
+        self.state_port.note("PROGRESS stopped arriving: requested again")
         return self.hello()
 
     def _beat(self) -> bytes | None:
         if self.heartbeat.is_refused:
-            self.state_port.note("the controller takes no heartbeat")
+            self.state_port.note("the controller rejects the heartbeat")
             self.heartbeat.timeout = 0.0
             self.heartbeat.forget()
         now = self.clock()
@@ -352,20 +378,22 @@ class Core:
         return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
-        """A request for the control port; it goes out next. Raises RequestRefused for a value
-        that its message cannot hold."""
+        """Queue a request for the control port.
+
+        Raises RequestRefused for a value that its message cannot hold.
+        """
         pending = PendingReply(number_of(content))
         try:
             frame = encode(content, Comm.REQUEST)
         except ContentError as error:
-            raise RequestRefused.because("RG625", f"cannot be asked for: {error}") from error
+            raise RequestRefused.because("RG625", f"cannot be requested: {error}") from error
         self._outbox.append((pending, frame))
         return pending
 
     def unmonitored_stops(self) -> list[Port]:
-        """Connections on which a STOP must go out now: nobody sees any more what moves.
+        """Return connections that need a STOP because states stopped arriving.
 
-        Told once for each motion; the requests are taken for made.
+        Each motion is reported once; the requests count as made.
         """
         run = self.motion
         unmonitored = ConnectionLost | RobotTimeout | ProtocolError
@@ -380,7 +408,7 @@ class Core:
         ports = [port for port, talk in self.ports.items() if talk.is_open]
         for port in ports:
             self.request_stop(port)
-            why = f"STOP over the {port.name.lower()} port: nobody sees the robot any more"
+            why = f"STOP over the {port.name.lower()} port: no states arrive from the robot"
             self.state_port.note(why, logging.WARNING)
         return ports
 
@@ -388,7 +416,7 @@ class Core:
 
     @property
     def group(self) -> Group | None:
-        """Names, units and limits; None before a driver without configuration answered."""
+        """Names, units and limits; None before the driver has sent them."""
         return self._group
 
     def use(self, group: Group) -> None:
@@ -402,12 +430,12 @@ class Core:
 
     @property
     def is_control_fresh(self) -> bool:
-        """Whether the control port has answered a moment ago."""
-        return self.clock() - self._control_heard < _FRESH
+        """True if the control port has answered within the last moment."""
+        return self.clock() - self._control_answered < _FRESH
 
     @property
     def is_another_moving(self) -> bool:
-        """Whether the robot executes a motion that is not this client's."""
+        """True if the robot executes a motion of another client."""
         if self.motion is not None and not self.motion.is_over:
             return False
         progress = self.state_port.progress
@@ -415,14 +443,16 @@ class Core:
         return in_progress or self.state_port.status.in_motion is TriState.TRUE
 
     def without_control(self, why: str, *, again: bool = False) -> None:
-        """There is no control connection, though the driver has the port; `again`: it is worth
-        another try."""
+        """Record that the driver's control port has no connection.
+
+        `again`: another attempt is worthwhile.
+        """
         self.may_reach_control = again
         self.state_port.note(f"no control connection: {why}", logging.INFO)
         self.state_port.driver = replace(self.state_port.driver, control_fault=why)
 
     def hello(self, *, subscribe: bool = True) -> bytes:
-        """The request that asks who is there."""
+        """Return the request for the driver's identity."""
         expected = int(self.subscribe) if subscribe else 0
         major, minor, patch = (int(part) for part in __version__.split(".")[:3])
         requested = messages.HelloRequest(PROTOCOL_VERSION, (major, minor, patch), expected)
@@ -430,7 +460,7 @@ class Core:
 
     @property
     def capacity(self) -> int:
-        """Points of one trajectory: what the driver told, else abb_driver's."""
+        """Points of one trajectory: the driver's number, else abb_driver's."""
         hello = self.state_port.driver.hello
         if hello is not None:
             return hello.capacity
@@ -445,14 +475,14 @@ class Core:
 
     @property
     def can_stream(self) -> bool:
-        """Whether the driver takes points while it executes those before."""
+        """True if the driver accepts points during a motion."""
         hello = self.state_port.driver.hello
         return (
             hello is not None and Feature.STREAMING in Feature(hello.features) and hello.batch > 0
         )
 
     def require_streaming(self) -> None:
-        """Raise NotSupported where the driver takes no points while the robot moves."""
+        """Raise NotSupported if the driver accepts no points during a motion."""
         if not self.can_stream:
             raise NotSupported.because(
                 "RG624",
@@ -463,11 +493,11 @@ class Core:
     def check(
         self, trajectory: Trajectory, way: Way | None = None
     ) -> CheckedTrajectory | CheckedPoints:
-        """Check a trajectory, once: what goes by `download`, or the points of a stream.
+        """Check a trajectory for download, or as points of a stream.
 
-        When nobody says the way, one that the driver's ring does not hold is streamed, so that
-        motion need not wait for the last point. Raises InvalidTrajectory, NotReady (no state
-        yet), NotSupported (no driver that streams).
+        Without a `way`, a trajectory that exceeds the driver's ring buffer is streamed, so that
+        motion need not wait for the last point. Raises InvalidTrajectory, NotReady (no state yet),
+        NotSupported (the driver does not stream).
         """
         require_trajectory(trajectory)
         require_mode(way)
@@ -482,9 +512,10 @@ class Core:
         return to_stream(complete, self.known_group, self.capacity)
 
     def check_program(self, program: Program, way: Way | None = None) -> tuple[CheckedProgram, Way]:
-        """Check a program, and the way that it goes by: whole, where the driver's ring holds it.
+        """Check a program and choose its way.
 
-        Raises InvalidProgram, NotReady (no state yet), NotSupported.
+        It is downloaded if the ring buffer holds it. Raises InvalidProgram, NotReady (no state
+        yet), NotSupported.
         """
         require_program(program)
         require_mode(way)
@@ -492,15 +523,15 @@ class Core:
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(
                 "RG624",
-                "the driver takes no programs",
-                "build and deploy one whose configuration has not `profile: basic`",
+                "the driver does not accept programs",
+                "build and deploy a driver without `profile: basic` in its configuration",
             )
         chosen = way or ("download" if len(program) <= hello.ring else "stream")
         most = hello.ring if chosen == "download" else INDEX_WRAP - 1
         return check_program(program, self.known_group, start=self.start, most=most), chosen
 
     def check_whole(self, trajectory: Trajectory, capacity: int | None = None) -> CheckedTrajectory:
-        """Check what goes by download. Raises InvalidTrajectory, NotReady."""
+        """Check data for download. Raises InvalidTrajectory, NotReady."""
         require_trajectory(trajectory)
         return check_trajectory(
             trajectory,
@@ -512,17 +543,20 @@ class Core:
 
     @property
     def start(self) -> tuple[float, ...]:
-        """The ten axis values where the robot stands. Raises NotReady before they came."""
+        """Ten axis values of the current position.
+
+        Raises NotReady before they have arrived.
+        """
         start = self.state_port.wire_joints
         if start is None:
             raise _unknown()
-        # No distance from such a value is too far, and none is near.
+        # Comparisons with NaN are false: no distance would be too far.
         lost = [n for n, v in zip(self.known_group.names, start, strict=False) if not isfinite(v)]
         if lost:
             raise NotReady.because(
                 "RG621",
-                f"the controller tells no number for {', '.join(lost)}",
-                "look at the robot: where it stands is not known",
+                f"the controller reports no number for {', '.join(lost)}",
+                "look at the robot: its position is unknown",
                 **self.evidence(),
             )
         return start
@@ -535,43 +569,45 @@ class Core:
         return self._group
 
     def blockers(self) -> list[str]:
-        """Why the robot cannot move now, by its own word."""
+        """Reported reasons why the robot cannot move now."""
         status = self.state_port.status
         has_ended = status.motion_possible is TriState.FALSE and status.error is Reason.TASK_ENDED
         pairs = (
-            (has_ended, f"{Reason.TASK_ENDED.text}, so it takes no motion"),
+            (has_ended, f"{Reason.TASK_ENDED.text}, so it accepts no motion"),
             (status.e_stopped is TriState.TRUE, "an emergency stop is active"),
             (status.drives is TriState.FALSE, "the motors are off"),
             (
                 status.motion_possible is TriState.FALSE
                 and status.in_motion is not TriState.TRUE
                 and not has_ended,
-                "the controller says that motion is not possible",
+                "the controller reports that motion is not possible",
             ),
         )
         return [text for is_so, text in pairs if is_so]
 
     def ready(self) -> None:
-        """Raise NotReady when the robot says that it cannot move, or moves already; or why there
-        is no connection to move it over."""
+        """Raise NotReady if the robot cannot move now.
+
+        It reports a blocker, moves already, or lacks a connection.
+        """
         if not self.ports[Port.MOTION].is_open:
             raise self.disconnected()
         if self.motion is not None and not self.motion.is_over:
             raise NotReady.because(
-                "RG622", "a trajectory is under way", "wait for its result, or stop()"
+                "RG622", "a trajectory is active", "wait for its result, or stop()"
             )
-        hindrances = self.blockers()
-        if hindrances:
-            text = "; ".join(hindrances)
+        reasons = self.blockers()
+        if reasons:
+            text = "; ".join(reasons)
             raise NotReady.because(
                 "RG621",
                 f"the robot cannot move: {text}",
-                fix_of(self.state_port.status.error, "mend that at the robot"),
+                fix_of(self.state_port.status.error, "fix this at the robot"),
                 **self.evidence(),
             )
 
     def begin(self, checked: CheckedTrajectory) -> Download:
-        """The motion by this trajectory, from now on the one under way."""
+        """Start the motion of this trajectory as the active one."""
         self.override = 1.0
         self.motion = motion = Download(
             checked, self.known_group, self.state_port, silence=self.timeouts.silence
@@ -579,7 +615,7 @@ class Core:
         return motion
 
     def begin_stream(self, checked: CheckedPoints) -> PointStream:
-        """A stream that has these points first, from now on the motion under way."""
+        """Start a stream with these first points as the active motion."""
         hello = self.state_port.driver.hello
         assert hello is not None
         motion = self._begin(PointQueue(hello.batch, len(self.known_group.names)))
@@ -595,7 +631,7 @@ class Core:
         stream.goes_on(checked.durations.tolist(), checked.last.wire.tolist())
 
     def begin_program(self, checked: CheckedProgram, way: Way) -> PointStream:
-        """A program, from now on the motion under way."""
+        """Start a program as the active motion."""
         motion = self._begin(InstructionQueue(checked.instructions, complete=way == "download"))
         motion.way, motion.noun, motion.warnings = way, "instruction", checked.notes
         motion.goes_on(checked.seconds, checked.goal)
@@ -626,4 +662,4 @@ class Core:
 
 
 def _unknown() -> NotReady:
-    return NotReady.because("RG621", "the robot has not told where it stands", "connect first")
+    return NotReady.because("RG621", "the robot has not reported its position", "connect first")

@@ -1,4 +1,4 @@
-"""What the robot said about itself, in the caller's units and names."""
+"""Reported state of the robot, in the caller's units and names."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -20,7 +20,10 @@ _TRAJECTORY_STATES = {int(state): state for state in TrajectoryState}
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """STATUS with its numbers as enums; `error` is None when the driver does not tell it."""
+    """STATUS with its numbers as enums.
+
+    `error` is None if the driver does not report it.
+    """
 
     drives: TriState = TriState.UNKNOWN
     e_stopped: TriState = TriState.UNKNOWN
@@ -47,7 +50,10 @@ class Status:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a trajectory is; numbers of points are None where the driver does not say."""
+    """Progress of a trajectory.
+
+    Numbers of points are None if the driver does not report them.
+    """
 
     state: TrajectoryState
     total: int
@@ -76,7 +82,7 @@ class State:
     """Joint messages since the connection was made."""
     clock: Callable[[], float] = field(compare=False)
     trajectory: TrajectoryState | None = None
-    """State of the newest trajectory, None where the driver does not tell."""
+    """State of the newest trajectory; None if the driver does not report it."""
 
     def __repr__(self) -> str:
         joints = ", ".join(f"{name} {value:.4f}" for name, value in self.by_name.items())
@@ -106,16 +112,16 @@ class State:
 
     @property
     def is_moving(self) -> bool:
-        """Whether the controller says that the robot moves."""
+        """True if the controller reports that the robot moves."""
         return self.status.in_motion is TriState.TRUE
 
 
 @dataclass(frozen=True, slots=True)
 class Feedback:
-    """Joints with the controller's own time, of a driver that was asked for them.
+    """Joints with the controller's own time, sent on request.
 
-    `joints` and `velocity` are as in State, `time` s of the controller's clock, which goes on
-    where the wire's begins again; `received` s of the client's.
+    `joints` and `velocity` are as in State, `time` is s of the controller's clock, continued when
+    the wire's wraps around; `received` is s of the client's.
     """
 
     names: tuple[str, ...]
@@ -133,14 +139,19 @@ class Event:
 
     time: float
     code: int
-    """Domain and number as the pendant shows them: 50024 is number 24 of domain 5. 0: the title
-    says how many events the driver could not tell."""
+    """Domain and number as on the pendant: 50024 is number 24 of domain 5.
+
+    0: the title gives the number of events that the driver dropped.
+    """
     type: EventType
     title: str
     number: int
     """Events since the connection was made."""
     texts: tuple[str, ...] = ()
-    """The first ones below the title, two at most: of an error in a program its place."""
+    """The first lines below the title, at most two.
+
+    For an error in a program they hold its place.
+    """
 
     def __str__(self) -> str:
         return f"{self.code} {self.title}" if self.code else self.title
@@ -148,20 +159,20 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class Driver:
-    """Who answered: a rapidgen driver by its HELLO, or plain simple_message."""
+    """The driver that answered: rapidgen's (by HELLO) or plain simple_message."""
 
     hello: messages.HelloReply | None = None
     control_fault: str = ""
-    """Why there is no control connection, though the driver has the port."""
+    """Reason for a missing control connection to a driver with that port."""
 
     @property
     def is_rapidgen(self) -> bool:
-        """Whether the driver answered HELLO."""
+        """True if the driver answered HELLO."""
         return self.hello is not None
 
     @property
     def features(self) -> Feature:
-        """What it can do beyond the standard messages."""
+        """Features beyond the standard messages."""
         return Feature(self.hello.features) if self.hello else Feature(0)
 
     @property
@@ -171,24 +182,24 @@ class Driver:
 
     @property
     def cannot(self) -> tuple[str, ...]:
-        """What a paired client has and this driver does not give."""
+        """Missing features of this driver for a paired client."""
         missing = []
         if not self.is_rapidgen:
-            missing.append("tell its version, joint map and capacity")
+            missing.append("report its version, joint map and capacity")
             missing.append("say why it refuses or stops")
         if Feature.PROGRESS not in self.features:
-            missing.append("tell when a trajectory is done: position, in_motion and time decide")
+            missing.append("report the end of a trajectory: position, in_motion and time decide")
         if Feature.STREAMING not in self.features:
-            missing.append("take points while it moves: a trajectory is sent whole, and ends")
+            missing.append("accept points during a motion: a trajectory is sent whole, and ends")
         if Feature.CONTROL not in self.features or self.control_fault:
             why = f" ({self.control_fault})" if self.control_fault else ""
-            missing.append(f"take STOP beside points: it waits behind what was sent{why}")
+            missing.append(f"accept STOP in parallel to points: it waits after what was sent{why}")
             missing.append("pause, change the speed, or watch for this client's heartbeat")
         return tuple(missing)
 
 
 def trajectory_state(value: int) -> TrajectoryState | None:
-    """A trajectory state of the wire; None for a number that is none."""
+    """Return a trajectory state of the wire; None for an unknown number."""
     return _TRAJECTORY_STATES.get(value)
 
 

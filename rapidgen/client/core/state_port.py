@@ -1,6 +1,6 @@
-"""Sans-IO reader of a state connection: bytes and times in, the newest state out.
+"""Sans-IO reader of a state connection: bytes in, newest state out.
 
-A State is made only when somebody looks: one hundred robots are watched by one process.
+A State is created on request only: one process monitors a hundred robots.
 """
 
 import logging
@@ -31,44 +31,47 @@ KEPT_EVENTS = 64
 KEPT_MESSAGES = 32
 KEPT_STATES = 16
 _RATE_WINDOW = 16
-_UNTOLD = 5
+_MISSED_STATES = 5
 """Joint messages, and ..."""
-_UNTOLD_FOR = 0.5
-"""... s, without PROGRESS, which comes with each of them, after which it is lost."""
+_MISSED_SECONDS = 0.5
+"""... s without PROGRESS, which accompanies states, until it is lost."""
 _NOISE = 1e-4
-"""rad or m"""
+"""rad or m."""
 _NAMES = {message.number: message.name for message in messages.MESSAGES}
 
 
 @dataclass(slots=True)
 class Sample:
-    """One joint message: when it came, and the ten axis values of the wire."""
+    """One joint message: its time and the ten axis values of the wire."""
 
     time: float
     joints: tuple[float, ...]
     stamp: float | None = None
-    """The controller's own time, s, of a feedback."""
+    """The controller's own time of a feedback, s."""
 
 
 class Listener(Protocol):
-    """Who keeps what comes."""
+    """Receiver of joint messages and events."""
 
     def add(self, sample: Sample) -> None:
         """A joint message, or a feedback."""
 
     def taken(self, time: float) -> None:
-        """The controller has taken a motion, at this time of the client's clock."""
+        """Record the client's time at which the controller accepted a motion."""
 
 
 class ErrorContext(TypedDict):
-    """What every RobotError carries."""
+    """Context that every RobotError carries."""
 
     messages: tuple[tuple[float, str], ...]
     states: tuple[State, ...]
 
 
 class StatePort:
-    """The state side of one robot. Not thread-safe: its owner holds a lock or a loop."""
+    """The state side of one robot.
+
+    Not thread-safe: its owner holds a lock or a loop.
+    """
 
     def __init__(self, clock: Callable[[], float], where: str = "") -> None:
         """`where`: which robot this is, for the log."""
@@ -80,7 +83,7 @@ class StatePort:
         self.samples = 0
         self.progresses = 0
         self._progress_at = (0.0, 0)
-        """When PROGRESS came last, and how many joint messages had come then."""
+        """Time of the last PROGRESS, and the joint messages until then."""
         self._pace = ClockRateEstimator()
         self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
         """The last entries of the controller's log, oldest first."""
@@ -89,22 +92,28 @@ class StatePort:
         self._feedback: messages.JointFeedback | None = None
         self._fed_at = 0.0
         self._laps = 0
-        self.heard = clock()
-        """When the last message came."""
-        self.listening = self.heard
-        """Since when silence counts: what came while this process was held up is still unread."""
+        self.last_message = clock()
+        """Time of the last message."""
+        self.listening = self.last_message
+        """Start of the current silence.
+
+        Data that arrived while this process was delayed is still unread.
+        """
         self.listeners: list[Listener] = []
         self._group: Group | None = None
         self._splitter = FrameSplitter()
         self._recent: deque[Sample] = deque(maxlen=KEPT_STATES)
         self._arrivals: deque[tuple[Sample, int]] = deque(maxlen=_RATE_WINDOW)
-        """The newest joints of each read, and how many had come: what was held up comes at once."""
+        """Newest joints of each read with their number.
+
+        Delayed messages arrive together.
+        """
         self._status: messages.StatusReport | None = None
         self._log: deque[tuple[float, Frame | str]] = deque(maxlen=KEPT_MESSAGES)
         self._state: State | None = None
 
     def restart(self) -> None:
-        """A new connection: what was half received is forgotten, what was seen last is kept."""
+        """Start a new connection: drop a partial frame, keep the last values."""
         self._splitter = FrameSplitter()
         self.hello = None
         self.progress = None
@@ -117,7 +126,7 @@ class StatePort:
         self.feedbacks = 0
         self._feedback = None
         self._laps = 0
-        self.heard = self.clock()
+        self.last_message = self.clock()
         self._state = None
 
     def use(self, group: Group) -> None:
@@ -126,7 +135,10 @@ class StatePort:
         self._state = None
 
     def feed(self, data: bytes) -> None:
-        """Take received bytes. Raises FramingError; unknown messages are noted and skipped."""
+        """Process received bytes; note and skip unknown messages.
+
+        Raises FramingError.
+        """
         splitter, log = self._splitter, self._log
         splitter.feed(data)
         now = self.clock()
@@ -140,7 +152,7 @@ class StatePort:
             self._take(content, now)
 
     def _take(self, content: Content, now: float) -> None:
-        self.heard = now
+        self.last_message = now
         self._state = None
         match content:
             case messages.JointPosition():
@@ -182,17 +194,17 @@ class StatePort:
             listener.add(Sample(now, content.positions, self._stamp(content)))
 
     def _stamp(self, content: messages.JointFeedback) -> float:
-        """s of a clock that goes on where the wire's begins again."""
+        """Return s of a clock that continues when the wire's wraps around."""
         return content.time + self._laps * FEEDBACK_WRAP
 
     def taken(self) -> None:
-        """The controller has taken a motion."""
+        """Record that the controller accepted a motion."""
         for listener in self.listeners:
             listener.taken(self.clock())
 
     @property
     def feedback(self) -> Feedback | None:
-        """The newest one, None before the first."""
+        """Newest feedback; None before the first."""
         report, group = self._feedback, self._group
         if report is None or group is None:
             return None
@@ -207,7 +219,7 @@ class StatePort:
 
     @property
     def is_complete(self) -> bool:
-        """Whether joints and status have both come on this connection."""
+        """True if joints and status have both arrived on this connection."""
         return self.samples > 0 and self._status is not None
 
     @property
@@ -217,23 +229,25 @@ class StatePort:
 
     @property
     def wire_joints(self) -> tuple[float, ...] | None:
-        """The newest joints as the wire has them, None before the first."""
+        """Newest joints in wire order; None before the first."""
         return self._recent[-1].joints if self._recent else None
 
     @property
     def is_progress_lost(self) -> bool:
-        """Whether PROGRESS does not come with the states any more, as it was asked for."""
+        """True if the requested PROGRESS stopped accompanying the states."""
         if Feature.PROGRESS not in self.driver.features:
             return False
         came, number = self._progress_at
-        return self.samples - number >= _UNTOLD and self.heard - came > _UNTOLD_FOR
+        return (
+            self.samples - number >= _MISSED_STATES and self.last_message - came > _MISSED_SECONDS
+        )
 
     def samples_since(self, number: int) -> list[Sample]:
-        """The joint messages behind the `number`th, as far as they are kept, oldest first."""
+        """Return the kept joint messages after the `number`th, oldest first."""
         return list(self._recent)[-(self.samples - number) :] if self.samples > number else []
 
     def is_still(self, count: int) -> bool:
-        """Whether the last `count` joint messages are the same but for a sensor's noise."""
+        """True if the last `count` joint messages differ only by sensor noise."""
         last = list(self._recent)[-count:]
         columns = zip(*(sample.joints for sample in last), strict=True)
         return len(last) == count and all(max(c) - min(c) < _NOISE for c in columns)
@@ -248,10 +262,10 @@ class StatePort:
 
     @property
     def pace(self) -> float | None:
-        """How much faster the driver's clock runs than this one, by the period of its states.
+        """Rate of the driver's clock relative to this one, by its states.
 
-        None before enough of them have come; 1 where nobody will ever say. A simulation may run
-        faster, a controller does not.
+        None before enough states have arrived; 1 if the rate cannot be measured. A simulation may
+        run faster, a controller does not.
         """
         period = self.driver.hello.state_period if self.driver.hello is not None else 0.0
         if period <= 0:
@@ -261,7 +275,7 @@ class StatePort:
 
     @property
     def state(self) -> State | None:
-        """The newest state, None before the first joints."""
+        """Newest state; None before the first joints."""
         if self._state is None and self._recent and self._group is not None:
             self._state = self._make(self._recent[-1], self._velocity(), self.samples)
         return self._state
@@ -286,16 +300,19 @@ class StatePort:
         return {"messages": self.messages, "states": self.states}
 
     def late(self, message: str, help: str = "") -> RobotTimeout:
-        """What did not come in time, with the last messages and states."""
+        """Return a RobotTimeout with the last messages and states."""
         return RobotTimeout.because("RG603", message, help, **self.evidence())
 
     def note(self, text: str, level: int = logging.DEBUG) -> None:
-        """Keep a line beside the messages, and log it. What is raised, too, is no warning."""
+        """Store a line with the messages, and log it.
+
+        An error that is also raised is no warning.
+        """
         self._log.append((self.clock(), text))
         _LOG.log(level, "%s: %s", self.where, text)
 
     def keep(self, frame: Frame) -> None:
-        """Keep a frame of another connection beside the messages."""
+        """Store a frame of another connection with the messages."""
         self._log.append((self.clock(), frame))
 
     def _make(self, sample: Sample, velocity: tuple[float, ...], number: int) -> State:
@@ -326,9 +343,9 @@ class StatePort:
 
 def _event(content: messages.EventReport, now: float, number: int) -> Event:
     if content.domain == 0:
-        title = f"{content.number} events were not told"
+        title = f"{content.number} events were dropped"
         return Event(now, 0, EventType.WARNING, title, number)
-    # An event of a type that nobody knows is told as the gravest.
+    # An unknown event type is reported as the most severe one.
     known = content.type in list(EventType)
     return Event(
         time=now,

@@ -1,7 +1,21 @@
-"""A stream: points or instructions, sent while the robot executes the ones before. Sans-IO.
+"""A stream of points or instructions, sent during execution. Sans-IO.
 
-Its owner asks `has_due` and `next_frame` whenever something has changed, and sends. Nothing is
-sent that the controller has no room for, so that it never stops reading.
+The rules:
+
+1. The controller has a ring buffer. The client sends only what the buffer has space for, so that
+   the controller never stops reading and a STOP is read at once.
+2. `_send_limit` counts the points that may be sent. The reply to a batch raises it by the space
+   left, PROGRESS by the points passed to the planner. Counts of the wire are modulo 2^23
+   (`unwrapped`); one that is lower than the known count is old and ignored.
+3. While the buffer is nearly full, space returns point by point. The client waits until `_least`
+   points fit, since small batches cost the controller more.
+4. A driver starts when it holds enough seconds of motion. If the robot is at rest with a full
+   buffer, the client sends what fits with FLUSH, which starts it; so does `flush`.
+5. A batch without an answer after `reply` s is a failure.
+6. After a refusal nothing more is sent. A refusal of the first batch ends the stream; after a later
+   one the controller executes the accepted points, and PROGRESS reports the end.
+
+The owner calls `next_frame` while `has_due` holds, after each change, and sends the frame.
 """
 
 from collections import deque
@@ -33,7 +47,7 @@ from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, Trajectory
 
 @dataclass(slots=True)
 class _Flight:
-    """A batch on its way: `end` is the number of points that it completes."""
+    """A sent batch; `end` is the number of points including it."""
 
     pending: PendingReply
     end: int
@@ -41,20 +55,20 @@ class _Flight:
 
 
 class SendQueue(Protocol):
-    """What waits to be sent, and how it goes into messages."""
+    """Queue of items to send, which divides them into messages."""
 
     number: int
-    """Of the messages."""
+    """Number of the message type."""
     flags: StreamFlag
-    """What each of them says."""
+    """Flags of every message."""
     batch: int
-    """How many one message takes, more or less."""
+    """Usual number of items in one message."""
 
     def size(self, most: int) -> int:
-        """How many of the next go into one message, `most` at most."""
+        """Return the number of items for the next message, at most `most`."""
 
     def frame(self, stream: int, first: int, size: int, flags: StreamFlag) -> bytes:
-        """The message with the next `size`, which are taken out."""
+        """Remove the next `size` items and return their message."""
 
 
 class PointQueue:
@@ -69,7 +83,7 @@ class PointQueue:
         self._no_points = pack_points(np.zeros(0), np.zeros((0, joints)))
 
     def put(self, values: Words) -> None:
-        """Behind those that wait."""
+        """Append items to the queue."""
         self._queue.append(values)
 
     def size(self, most: int) -> int:
@@ -81,7 +95,7 @@ class PointQueue:
         return points_frame(stream, first, self._take(size), flags=flags)
 
     def _take(self, size: int) -> Words:
-        """Points from the queue; none as a row of no words."""
+        """Remove points from the queue; an empty row has no words."""
         parts: list[Words] = [self._no_points]
         while size:
             some = self._queue.popleft()
@@ -134,37 +148,46 @@ class PointStream(CommandedMotion):
         silence: float,
         reply: float,
     ) -> None:
-        """`number` is the client's of this stream; `reply` s that a batch may stay unanswered."""
+        """`number` is the client's of this stream.
+
+        An unanswered batch fails after `reply` s.
+        """
         super().__init__(group, state_port, silence)
         self.stream = number
         self.is_ended = False
-        """The caller said that nothing follows."""
+        """True once the caller has ended the stream."""
         self.refusal: messages.PointsRefused | messages.Failure | None = None
-        """From one point on the controller takes nothing more; what it has it executes."""
+        """True once the controller rejects further points.
+
+        It executes the earlier ones.
+        """
         self.queue = queue
         self.batch = queue.batch
-        """Points of one message."""
+        """Refusal after which the controller accepts no points.
+
+        It executes the earlier ones.
+        """
         self._least = min(self.batch, max(1, hello.ring // 2))
-        self._patience = reply
+        self._reply_timeout = reply
         self._sent = 0
         self._accepted = 0
         self._planned = 0
         self._reached_points = 0
         self._ring = hello.ring
-        self._room_until = hello.ring
+        self._send_limit = hello.ring
         """Points that may be sent at all, for what is known now."""
         self._flights: deque[_Flight] = deque()
         self._looked_at = 0
         """PROGRESS messages when one was looked at last."""
         self._is_flushing = False
         self._is_filled = False
-        """Whether the controller was told to start with a full ring, and it has not yet."""
+        """True from the order to start a full ring buffer until the start."""
         self._end_is_sent = False
         self._state = TrajectoryState.RECEIVING
 
     @property
     def backlog(self) -> int:
-        """Points that wait here for room at the controller."""
+        """Number of points waiting for space at the controller."""
         return self.total - self._sent
 
     @property
@@ -179,13 +202,13 @@ class PointStream(CommandedMotion):
 
     @property
     def is_paused(self) -> bool:
-        """Whether the controller holds the motion on its path."""
+        """True if the controller has paused the motion on its path."""
         return self._state is TrajectoryState.PAUSED
 
-    # What the caller gives
+    # Input from the caller
 
     def goes_on(self, durations: Sequence[float], goal: Sequence[float]) -> None:
-        """So many more wait in the queue, for so many s each, up to this posture."""
+        """Queue more items with their durations in s, up to this posture."""
         self.goal = goal
         if not self.total:
             self.approach = float(durations[0])
@@ -194,36 +217,38 @@ class PointStream(CommandedMotion):
         self.longest = max(self.longest, *map(float, durations))
 
     def flush(self) -> None:
-        """The controller shall start with what it has, once all points are there."""
+        """Tell the controller to start with the points sent so far."""
         self._is_flushing = True
 
     def end(self) -> None:
-        """Nothing follows."""
+        """End the stream after the queued points."""
         self.is_ended = True
 
-    # What goes out
+    # Output
 
     @property
     def has_due(self) -> bool:
-        """Whether a batch may be sent now."""
+        """True if a batch may be sent now."""
         if self.is_over or self.stopping or self.refusal is not None or self._end_is_sent:
             return False
         backlog = self.backlog
         if not backlog:
             return self._sent > 0 and (self.is_ended or self._is_flushing)
-        # Room comes back point by point: small batches would cost the controller more.
-        return self._room_until - self._sent >= min(backlog, self._least) or self._is_stuck
+        # Space returns point by point: small batches would cost the controller more.
+        return self._send_limit - self._sent >= min(backlog, self._least) or self._is_stuck
 
     @property
     def _is_stuck(self) -> bool:
-        """Whether the robot stands with a ring as full as it gets: it shall start with that,
-        though the driver likes to have more seconds."""
+        """True if the robot is at rest with a full ring buffer.
+
+        The driver must start although it waits for more seconds of motion.
+        """
         moves = self._state_port.status.in_motion is TriState.TRUE
         return not (self._flights or moves or self._is_filled or self.is_paused)
 
     def next_frame(self, pending: PendingReply) -> bytes:
-        """The batch that is due, whose reply is `pending`."""
-        size = self.queue.size(min(self.backlog, self._room_until - self._sent))
+        """Return the batch that is due; `pending` is its reply."""
+        size = self.queue.size(min(self.backlog, self._send_limit - self._sent))
         flags = self.queue.flags
         if self._sent == 0:
             flags |= StreamFlag.BEGIN
@@ -243,10 +268,13 @@ class PointStream(CommandedMotion):
         self._flights.append(_Flight(pending, self._sent, self._state_port.clock()))
         return frame
 
-    # What comes in
+    # Input from the controller
 
     def step(self) -> None:
-        """Take replies and PROGRESS. Call after each message, and now and then without one."""
+        """Process replies and PROGRESS.
+
+        Call it after each message, and regularly without one.
+        """
         while not self.is_over and self._flights and self._flights[0].pending.reply is not None:
             flight = self._flights.popleft()
             assert flight.pending.reply is not None
@@ -254,7 +282,7 @@ class PointStream(CommandedMotion):
         if self.is_over:
             return
         waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
-        if waited > self._patience:
+        if waited > self._reply_timeout:
             self.failed(
                 self._state_port.late(
                     f"the controller did not answer a batch of points within {waited:.1f} s",
@@ -270,7 +298,7 @@ class PointStream(CommandedMotion):
                 if self.number is None and (self.way == "stream" or end == self.total):
                     self.accepted(reply.trajectory)
                 self._accepted = end
-                self._has_room(end + max(0, reply.room))
+                self._raise_limit(end + max(0, reply.room))
                 self._counts(reply.planned, reply.reached)
                 self._now(reply.state)
             case messages.PointsRefused() if reply.stream == self.stream:
@@ -298,7 +326,7 @@ class PointStream(CommandedMotion):
         if self.refusal is None:
             self.refusal = reply
         if self.way == "stream" and (self.number is not None or accepted):
-            # What was accepted is executed, and PROGRESS says how that ends.
+            # Accepted points are executed, and PROGRESS reports the end.
             if self.number is None and isinstance(reply, messages.PointsRefused):
                 self.accepted(reply.trajectory)
             return
@@ -309,18 +337,18 @@ class PointStream(CommandedMotion):
         if self._state_port.progresses != self._looked_at:
             self._looked_at = self._state_port.progresses
             self._counts(report.planned, report.reached)
-            # A point that was given to the planner has made room for another one.
-            self._has_room(self._planned + self._ring)
+            # A point passed to the planner has freed space for another one.
+            self._raise_limit(self._planned + self._ring)
             self._now(report.state)
         super()._by_progress(report)
 
-    def _has_room(self, until: int) -> None:
-        if until > self._room_until:
-            self._room_until = until
+    def _raise_limit(self, until: int) -> None:
+        if until > self._send_limit:
+            self._send_limit = until
             self._is_filled = False
 
     def _counts(self, planned: int, reached: int) -> None:
-        """Take what was told, unless it is older than what is known, or cannot be."""
+        """Update the counts unless they are older than known ones or impossible."""
         planned = unwrapped(planned, self._planned)
         if self._planned <= planned <= self._sent:
             self._planned = planned
@@ -345,7 +373,7 @@ class PointStream(CommandedMotion):
 
     @property
     def progress(self) -> Progress:
-        """How far it is, now. `total` are the points given so far."""
+        """Current progress; `total` is the number of points so far."""
         state = self._state
         if self.result is not None:
             state = TrajectoryState.DONE
@@ -361,6 +389,6 @@ class PointStream(CommandedMotion):
 
 
 def unwrapped(count: int, near: int) -> int:
-    """The number that a count modulo 2^23 means: the one that is next to `near`."""
+    """Return the number next to `near` that equals a count modulo 2^23."""
     half = INDEX_WRAP // 2
     return near + (count - near + half) % INDEX_WRAP - half

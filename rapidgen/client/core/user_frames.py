@@ -1,4 +1,4 @@
-"""Tools and work objects by values: what a program may say of its own, and its words."""
+"""Tools and work objects by values, checked and encoded as words."""
 
 from math import isfinite, sqrt
 
@@ -9,25 +9,30 @@ from rapidgen.client.program import UserTool, UserWorkObject, pose_of
 _UNIT = 1e-3
 """A quaternion's length may be off by so much."""
 _FARTHEST, _HEAVIEST, _INERTIA = 100.0, 2000.0, 2000.0
-"""m, kg, kg m2 that the driver takes, at most."""
+"""Limits of the driver: m, kg, kg m2."""
 
 
 def own_tool(tool: UserTool) -> tuple[tuple[float, ...], Pose]:
-    """The words of a TOOL, and where the TCP is in the flange's frame. Raises ValueError, and
-    InvalidProgram for what is no pose."""
+    """Return the words of a TOOL, and its TCP in the flange's frame.
+
+    Raises ValueError, and InvalidProgram for an invalid pose.
+    """
     frame, load = _frame(tool.frame, "the tool's frame"), (tool.centre, tool.axes)
     centre = _frame(load, "the tool's centre and axes")
     moments = tuple(map(float, tool.inertia))
     mass = float(tool.mass)
     if not 0 < mass <= _HEAVIEST:
-        raise ValueError(f"a tool weighs 0 to {_HEAVIEST:g} kg, and more than nothing")
+        raise ValueError(f"a tool weighs more than 0 and at most {_HEAVIEST:g} kg")
     if len(moments) != 3 or not all(0 <= moment <= _INERTIA for moment in moments):
         raise ValueError(f"three moments of inertia are 0 to {_INERTIA:g} kg m2")
     return (*frame[0], *frame[1], *centre[0], *centre[1], mass, *moments), frame
 
 
 def own_work_object(wobj: UserWorkObject) -> tuple[tuple[float, ...], Pose]:
-    """The words of a WORK_OBJECT, and where it is in the world. Raises as `own_tool`."""
+    """Return the words of a WORK_OBJECT, and its pose in the world.
+
+    Raises as `own_tool`.
+    """
     user = _frame(wobj.user_frame, "the user frame")
     place = _frame(wobj.object_frame, "the object frame")
     return (*user[0], *user[1], *place[0], *place[1]), frames.compose(user, place)

@@ -1,4 +1,4 @@
-"""What the client does step by step: generators over `effects`, carried out by others."""
+"""Flows of the client: generators of `effects` that a carrier executes."""
 
 from rapidgen.client.flows import (
     connect,

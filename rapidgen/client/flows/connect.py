@@ -19,15 +19,15 @@ from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feat
 
 _RETRY = 0.5
 """s between two attempts to connect again."""
-SILENT = "the control port takes a connection, and nobody answers there"
-"""Why there is no control connection: the task behind it does not run."""
+SILENT = "the control port accepts a connection, but sends no answer"
+"""Reason for a missing control connection: its task does not run."""
 OTHERS_MOTION = "to connect there would end another client's motion"
 _SILENT_STATES = 4
-"""So many joints without an answer to HELLO among them come from a plain driver."""
+"""Joint messages without an answer to HELLO that mean a plain driver."""
 
 
 def connect(core: Core) -> Flow[None]:
-    """Connect and find out who is there; what stands of the connections if that fails is closed."""
+    """Connect and identify the driver; on failure close all connections."""
     try:
         yield from _open(core)
     except (RobotError, *INTERRUPTIONS):
@@ -54,7 +54,7 @@ def _open(core: Core) -> Flow[None]:
     if not core.plain:
         left = max(0.0, requested + limits.hello - core.clock())
         yield Wait(lambda: state_port.hello is not None or not core.state_open, left)
-        # Where states come late the answer does, too: a driver tells it between two of them.
+        # Late states mean a late answer: a driver sends it between two of them.
         yield Wait(
             lambda: (
                 state_port.hello is not None
@@ -72,8 +72,8 @@ def _open(core: Core) -> Flow[None]:
     yield Open(Port.MOTION, limits.connect)
     if Feature.CONTROL not in state_port.driver.features:
         return
-    # The driver serves the newest client there, and ends the motion of the one before: whether it
-    # has one is told by STATUS, and by PROGRESS behind the answer to HELLO.
+    # The driver serves the newest client there, and ends the motion of the one before: STATUS shows
+    # whether it has one, and so does PROGRESS after the answer to HELLO.
     seen = state_port.samples
     yield Wait(
         lambda: (
@@ -96,7 +96,7 @@ def reach_control(core: Core) -> Flow[None]:
 
 
 def _meet_control(core: Core) -> Flow[None]:
-    """Open the control connection, if it is one of this very driver; else do without."""
+    """Open the control connection if it belongs to this driver."""
     trouble = "another driver answers on the control port"
     try:
         yield Open(Port.CONTROL, core.timeouts.connect)
@@ -118,7 +118,10 @@ def _meet_control(core: Core) -> Flow[None]:
 
 
 def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:
-    """Versions and joint maps must fit; without a configuration the driver's word counts."""
+    """Check that versions and joint maps fit.
+
+    Without a configuration the driver's data is used.
+    """
     if hello is not None and hello.protocol != PROTOCOL_VERSION:
         raise IncompatibleDriver.because(
             "RG605",
@@ -131,7 +134,7 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
         if fault:
             raise IncompatibleDriver.because(
                 "RG605",
-                f"the driver tells {fault}",
+                f"the driver reports {fault}",
                 "build and deploy the driver again",
                 **core.evidence(),
             )
@@ -139,13 +142,13 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
             core.configured.require(hello)
             core.use(core.configured.with_controller_limits(hello))
         else:
-            core.use(Group.told(hello))
+            core.use(Group.from_hello(hello))
     elif core.group is None:
         core.use(Group.unknown([f"joint_{i + 1}" for i in range(6)]))
 
 
 def hello_fault(report: messages.HelloReply) -> str:
-    """What no driver of this project can have, in words; the client counts on these numbers."""
+    """Describe an impossible value of a HELLO; later code relies on the rest."""
     streams = Feature.STREAMING in Feature(report.features)
     least = {
         "joint_count": 1,
@@ -175,7 +178,10 @@ def hello_fault(report: messages.HelloReply) -> str:
 
 
 def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
-    """Connect again if a connection was lost and reconnecting was told; nothing is re-sent."""
+    """Connect again if a connection was lost and `reconnect` allows it.
+
+    Nothing is sent again.
+    """
     if core.state_open and (core.ports[Port.MOTION].is_open or not to_move):
         return
     if core.fault is None or core.reconnect <= 0:

@@ -1,4 +1,4 @@
-"""What goes over the control port."""
+"""Requests over the control port."""
 
 import logging
 
@@ -14,17 +14,23 @@ from rapidgen.wire.simple_message.spec import Feature, Port
 
 
 def pause(core: Core) -> Flow[None]:
-    """Hold what moves on its path. Raises NotSupported, RequestRefused, RobotTimeout."""
+    """Pause the motion on its path.
+
+    Raises NotSupported, RequestRefused, RobotTimeout.
+    """
     yield from ask(core, messages.PauseRequest(1), "pause")
 
 
 def resume(core: Core) -> Flow[None]:
-    """Go on behind a pause. Raises as `pause`."""
+    """Resume after a pause. Raises as `pause`."""
     yield from ask(core, messages.PauseRequest(0), "go on")
 
 
 def set_speed(core: Core, percent: float) -> Flow[None]:
-    """Go at 1 to 100 % of the programmed speed, until the next motion. Raises as `pause`."""
+    """Move at 1 to 100 % of the programmed speed, until the next motion.
+
+    Raises as `pause`.
+    """
     if not 1 <= percent <= 100:
         raise ValueError(f"percent must be 1 to 100, not {percent}")
     yield from ask(core, messages.SpeedRequest(percent), f"go at {percent:g} %")
@@ -32,7 +38,7 @@ def set_speed(core: Core, percent: float) -> Flow[None]:
 
 
 def read_signal(core: Core, signal: str | int) -> Flow[float]:
-    """A signal that the configuration exposes, by name or number. Raises as `pause`."""
+    """Read an exposed signal, by name or number. Raises as `pause`."""
     return (yield from _signal(core, signal, None))
 
 
@@ -60,7 +66,10 @@ def _signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
 
 
 def _index(core: Core, which: str | int, *, writes: bool) -> int:
-    """The number of a signal. Raises NotSupported for one that is not there or only read."""
+    """Return the number of a signal.
+
+    Raises NotSupported for an unknown signal or one that is read only.
+    """
     signals = core.known_group.signals
     names = [signal.name for signal in signals]
     if isinstance(which, str):
@@ -87,7 +96,7 @@ def ask(core: Core, content: Content, what: str) -> Flow[Content]:
     control = core.ports[Port.CONTROL]
     if not control.is_open:
         has_port = Feature.CONTROL in core.state_port.driver.features
-        why = core.state_port.driver.control_fault or "it was lost"
+        why = core.state_port.driver.control_fault or "the answer was lost"
         raise NotSupported.because(
             "RG624",
             f"cannot {what}: "

@@ -1,4 +1,4 @@
-"""PERS of the robot's own program, as far as the configuration lists them."""
+"""PERS of the robot's own program that the configuration lists."""
 
 from rapidgen.client.core.program_stationary import fits
 from rapidgen.client.core.robot import Core
@@ -13,14 +13,19 @@ Datum = float | bool | str
 
 
 def read(core: Core, name: str) -> Flow[Datum]:
-    """A PERS of `data:`, by its name there. Raises NotSupported for one that is not listed,
-    RequestRefused where the robot's program does not have it, RobotTimeout."""
+    """Read a PERS of `data:` by its name there.
+
+    Raises NotSupported for an unlisted name, RequestRefused if the robot's program does not have
+    it, RobotTimeout.
+    """
     return (yield from _reach(core, name, None, writes=False))
 
 
 def write(core: Core, name: str, value: Datum) -> Flow[Datum]:
-    """Give a PERS of `data:` a value; that is what it then was read as. Raises as `read_data`, and
-    ValueError for a value that its type does not have."""
+    """Write a PERS of `data:`; return its value as read afterwards.
+
+    Raises as `read_data`, and ValueError for a value that does not fit its type.
+    """
     return (yield from _reach(core, name, value, writes=True))
 
 

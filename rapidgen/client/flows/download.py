@@ -1,4 +1,4 @@
-"""A trajectory that is sent whole: points, end frame, the controller's word."""
+"""Download of a trajectory: points, end frame, and the reply."""
 
 from rapidgen.client.core.checks import CheckedTrajectory
 from rapidgen.client.core.job import Job
@@ -28,7 +28,7 @@ def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:
 
 
 class DownloadInProgress:
-    """A trajectory on its way, in three steps."""
+    """A trajectory being downloaded, in three steps."""
 
     def __init__(self, core: Core, checked: CheckedTrajectory) -> None:
         self._core = core
@@ -36,7 +36,7 @@ class DownloadInProgress:
         self.motion = core.begin(checked)
 
     def points(self) -> Flow[None]:
-        """Send all but the end frame: nothing moves yet."""
+        """Send all but the end frame: the robot does not move yet."""
         yield self._send(self._data[:-FRAME_BYTES])
 
     def end(self) -> Flow[None]:
@@ -62,7 +62,7 @@ class DownloadInProgress:
         )
 
     def job(self) -> Job:
-        """What is under way."""
+        """The active job."""
         job = Job(self._core)
         job.take(self.motion)
         return job

@@ -1,9 +1,9 @@
-"""What a flow may ask of the client that runs it: the steps between the client's decisions.
+"""Effects: requests of a flow to the client that runs it.
 
-A flow is a generator: it yields what it needs (a connection, bytes sent, a wait) and is resumed
-with the outcome: `Wait` gives whether the condition came true in time; a failed `Open` or
-`Send` is thrown in as RobotError. When the caller is interrupted (Ctrl-C, cancellation) the
-interruption is thrown in; flows that wait for a motion answer it with a STOP.
+A flow is a generator: it yields an effect (a connection, bytes to send, a wait) and is resumed with
+the outcome. `Wait` returns whether the condition became true in time; a failed `Open` or `Send` is
+thrown in as RobotError. If the caller is interrupted (Ctrl-C, cancellation) the interruption is
+thrown in; flows that wait for a motion react to it with a STOP.
 """
 
 from asyncio import CancelledError
@@ -29,8 +29,10 @@ class Open:
 
 @dataclass(frozen=True, slots=True)
 class Send:
-    """Send bytes. Points of a `motion` are cut short, by MotionStopped, once somebody asked it to
-    stop."""
+    """Send bytes.
+
+    Points of a `motion` are cut short by MotionStopped once a stop was requested.
+    """
 
     port: Port
     data: bytes
@@ -39,14 +41,17 @@ class Send:
 
     @property
     def is_stopped(self) -> bool:
-        """Whether these points must not be sent any more."""
+        """True if these points must no longer be sent."""
         return self.motion is not None and self.motion.stopping
 
 
 @dataclass(frozen=True, slots=True)
 class SendAtOnce:
-    """Send a frame on several connections, ahead of whatever is being sent there, at the next frame
-    boundary. None of them waits for another; `failures` receives why one could not take it."""
+    """Send a frame on several connections at the next frame boundary.
+
+    It precedes all queued frames, and no connection waits for another; `failures` receives the
+    reason why one did not accept it.
+    """
 
     ports: tuple[Port, ...]
     data: bytes

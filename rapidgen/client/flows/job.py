@@ -1,4 +1,4 @@
-"""What is done with a trajectory: as a whole, or point by point while the robot moves."""
+"""Flows of a job: a whole trajectory, or points during the motion."""
 
 from collections.abc import Callable
 from typing import cast
@@ -20,11 +20,11 @@ from rapidgen.client.flows.stop import ended, stop
 from rapidgen.client.trajectory import Trajectory
 
 _AHEAD = 2
-"""Batches that wait in the client for room at the controller before an append waits."""
+"""Batches waiting in the client for space at the controller."""
 
 
 def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
-    """A trajectory by stream or by download; None: the way that fits."""
+    """Execute a trajectory by stream or download; None: choose."""
     yield from ready(core)
     core.ready()
     checked = core.check(trajectory, way)
@@ -41,12 +41,12 @@ def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
 
 
 def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[None]:
-    """Add points: `times` (n,) s from the beginning, `positions` (n, k); or one point, its time
-    and its joints (k,).
+    """Add points: `times` (n,) s from the start, `positions` (n, k).
 
-    Waits while the controller has no room. Raises InvalidTrajectory (nothing of these was
-    sent), NotReady, TrajectoryRefused, MotionFailed, MotionStopped, NotSupported,
-    RobotTimeout, ConnectionLost. Ctrl-C here, or cancelling this, stops the robot.
+    Or add one point, its time and its joints (k,). Waits while the controller has no space. Raises
+    InvalidTrajectory (nothing of these was sent), NotReady, TrajectoryRefused, MotionFailed,
+    MotionStopped, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or cancelling this call stops
+    the robot.
     """
     core = job.core
     if not np.iterable(times):
@@ -88,7 +88,7 @@ def _keep(job: Job, points: Trajectory) -> None:
             "build and deploy a driver that streams",
         )
     if job.last is None:
-        core.state_port.note("the driver does not stream: points are kept until the end")
+        core.state_port.note("the driver does not stream: points are collected until the end")
     start = core.start if job.last is None else None
     job.keep(check_points(points, core.known_group, before=job.last, start=start))
 
@@ -101,7 +101,7 @@ def flush(job: Job) -> Flow[None]:
 
 
 def end(job: Job) -> Flow[None]:
-    """Nothing follows: the last point is a stop point. Raises as `append`."""
+    """End the stream: the last point is a stop point. Raises as `append`."""
     if job.is_ended:
         return
     if not job.total:
@@ -117,11 +117,11 @@ def end(job: Job) -> Flow[None]:
 
 
 def result(job: Job, timeout: float | None = None) -> Flow[Result]:
-    """Wait for the end; by default for as long as the robot gets on or is paused.
+    """Wait for the end, by default while the robot progresses or is paused.
 
-    Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout when it did not end in
-    time (it goes on). Ctrl-C here, or cancelling this, stops the robot. A stream ends with it:
-    all that was appended is executed first.
+    Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout if it did not end in time (the
+    motion continues). Ctrl-C or cancelling this call stops the robot. A stream ends with it: all
+    points are executed first.
     """
     yield from end(job)
     assert job.motion is not None
@@ -129,7 +129,7 @@ def result(job: Job, timeout: float | None = None) -> Flow[Result]:
 
 
 def cancel(job: Job) -> Flow[State | None]:
-    """Stop this motion; the state in which the robot stands. Nothing when it is over."""
+    """Stop this motion; return the state at rest, or None if it has ended."""
     motion = job.motion
     if motion is not None and (not motion.is_over or motion.needs_stop):
         job.stopped = yield from stop(job.core)
@@ -137,9 +137,10 @@ def cancel(job: Job) -> Flow[State | None]:
 
 
 def taken(core: Core, stream: PointStream) -> Flow[None]:
-    """Until the controller took the first points, or the whole program, or refused them.
+    """Wait until the controller accepts or refuses the first points.
 
-    A caller that comes late may find it over already: then its result tells how it ended.
+    For a program it is the whole of it. The motion may have ended already: then its result shows
+    how.
     """
     yield from _until(core, stream, lambda: stream.is_taken)
     if stream.error is not None and (stream.needs_stop or not stream.is_taken):
@@ -147,7 +148,7 @@ def taken(core: Core, stream: PointStream) -> Flow[None]:
 
 
 def _going_on(core: Core, stream: PointStream) -> Flow[None]:
-    """Until there is not too much that waits; after a refusal until the motion has ended."""
+    """Wait until the queue is short enough, or after a refusal for the end."""
     ahead = _AHEAD * stream.batch
     yield from _until(core, stream, lambda: stream.refusal is None and stream.backlog <= ahead)
     if stream.error is not None:
@@ -155,11 +156,14 @@ def _going_on(core: Core, stream: PointStream) -> Flow[None]:
 
 
 def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Flow[None]:
-    """Until the condition holds or the stream is over; it fails when nothing happens."""
+    """Wait for the condition or the end of the stream.
+
+    Fails if the stream makes no progress.
+    """
     if not (yield from until(core, stream, condition)):
         stream.failed(
             core.state_port.late(
-                f"the controller has not taken points for {stall_timeout(core, stream):.1f} s",
+                f"the controller has not accepted points for {stall_timeout(core, stream):.1f} s",
                 "a STOP was sent; look at the robot",
             )
         )

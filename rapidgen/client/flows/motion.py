@@ -14,15 +14,16 @@ from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState
 
 
 def ready(core: Core) -> Flow[None]:
-    """Connected, and no reason why the robot could not move, or none that passes soon."""
+    """Connect, and wait a moment for blockers of a motion to pass."""
     yield from alive(core, to_move=True)
     yield Wait(lambda: not core.blockers() or not core.state_open, core.timeouts.ready)
 
 
 def armed(core: Core) -> Flow[None]:
-    """The control port, where the driver has one, is connected and answers. Raises NotReady.
+    """Make sure that the driver's control port answers. Raises NotReady.
 
-    The last before an order: to connect there ends the motion of the client before.
+    This is the last step before an order: a new connection there ends the motion of the client
+    before.
     """
     yield from reach_control(core)
     control = core.ports[Port.CONTROL]
@@ -44,7 +45,7 @@ def armed(core: Core) -> Flow[None]:
 
 
 def stall_timeout(core: Core, motion: CommandedMotion) -> float:
-    """Seconds without a sign of getting on after which nobody waits any longer."""
+    """Seconds without progress after which a wait fails."""
     return 4 * motion.longest / core.override + 30
 
 
@@ -54,9 +55,11 @@ def until(
     condition: Callable[[], bool],
     timeout: float | None = None,
 ) -> Flow[bool]:
-    """Whether the condition came to hold, or the motion to its end, within `timeout` s; without
-    one, for as long as the motion gets on or is paused. An interruption stops the robot and goes on
-    when it stands; a second one does not wait for that."""
+    """Wait for the condition or the motion's end; False after `timeout` s.
+
+    Without a time-out it waits while the motion progresses or is paused. An interruption stops the
+    robot and is raised when the robot is at rest; a second one is raised at once.
+    """
 
     def holds() -> bool:
         return motion.is_over or condition()
@@ -70,7 +73,8 @@ def until(
             return holds()
         while True:
             marker = motion.mark
-            # The mark may be the same again before this goes on: what the wait has seen counts.
+            # The mark may have changed back before this flow resumes: the observation of the wait
+            # counts.
             stirred = yield Wait(partial(stirs, marker), stall_timeout(core, motion))
             if holds():
                 return True
@@ -89,7 +93,7 @@ def wait_for_result(core: Core, motion: CommandedMotion, timeout: float | None) 
     if motion.result is None:
         waited = stall_timeout(core, motion) if timeout is None else timeout
         raise core.state_port.late(
-            f"the motion did not end within {waited:.1f} s; it goes on",
+            f"the motion did not end within {waited:.1f} s; it continues",
             "wait longer with result(timeout), or stop()",
         )
     return motion.result

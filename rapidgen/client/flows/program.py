@@ -1,4 +1,4 @@
-"""A motion program: checked, sent, taken."""
+"""Flows of a motion program: check, send, wait for acceptance."""
 
 from collections.abc import Mapping, Sequence
 
@@ -33,21 +33,21 @@ from rapidgen.wire.simple_message.spec import Comm, EventType, Port, Reason
 LONGEST_JOG = {"revolute": 0.2, "prismatic": 0.1}
 """rad and m of one jog."""
 DIRECTIONS = ("x", "y", "z")
-"""Of the work object."""
+"""Limit of the work object's values."""
 _DEAD_MAN = 0.2
 """s without a word of the client after which a jogged robot is stopped."""
 _LOOK = 0.01
 """s between two looks whether a routine has ended."""
 _GRACE = 2.0
-"""s beyond its time-out in which the controller has to say that it has left a routine."""
-_TOLD = 1.0
-"""s in which an event of the controller comes."""
+"""s after its time-out within which the controller leaves a routine."""
+_EVENT_WAIT = 1.0
+"""s within which an event of the controller arrives."""
 _ANY = 1e6
 """s that a routine without a time-out may take."""
 
 
 def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
-    """A program whole or by stream; None: whole, where the driver's ring holds it."""
+    """Run a program by download or stream; None: download if it fits."""
     yield from ready(core)
     core.ready()
     checked, chosen = core.check_program(program, way)
@@ -63,7 +63,10 @@ def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
 def move_to(
     core: Core, joints: Sequence[float], *, speed: SpeedLike = SLOW, timeout: float | None = None
 ) -> Flow[Result]:
-    """Go to joints (rad, m), all axes together, and wait for the end. Raises as `run`."""
+    """Move all axes to joints (rad, m) together, and wait for the end.
+
+    Raises as `run`.
+    """
     return (yield from _go(core, Program(speed=speed).move_joints(joints), timeout))
 
 
@@ -75,12 +78,12 @@ def move_linear(
 
 
 def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
-    """Move joints, by name, or the tool along x, y, z of the work object, a little (at most 0.2 rad
-    or 0.1 m), and wait for the end.
+    """Move joints by name, or the tool along x, y, z, by a small step.
 
-    The tool goes on a line and is not turned; joints and directions do not go together. While it
-    moves the controller stops the robot when it does not hear of this client for 0.2 s.
-    Raises NotSupported without a control connection, otherwise as `run`.
+    A step has at most 0.2 rad or 0.1 m, in the work object; the flow waits for the end. The tool
+    moves on a line and keeps its orientation; joints and directions exclude each other. During the
+    motion the controller stops the robot if this client is silent for 0.2 s. Raises NotSupported
+    without a control connection, otherwise as `run`.
     """
     yield from ready(core)
     state, group = core.state_port.state, core.known_group
@@ -88,7 +91,7 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     _check_steps(group, by)
     if not (core.ports[Port.CONTROL].is_open or core.may_reach_control):
         raise NotSupported.because(
-            "RG624", "nobody jogs without a control connection", "`ports.control`"
+            "RG624", "jogging requires a control connection", "`ports.control`"
         )
     if by and not set(by) & set(group.names):
         place, turn = group.poses.pose(group.map.to_controller(state.joints))
@@ -97,15 +100,15 @@ def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     else:
         pairs = zip(group.names, state.joints, strict=True)
         moved = move_to(core, [at + by.get(name, 0.0) for name, at in pairs], speed=speed)
-    patience, core.heartbeat.timeout = core.heartbeat.timeout, _DEAD_MAN
+    timeout_before, core.heartbeat.timeout = core.heartbeat.timeout, _DEAD_MAN
     try:
         return (yield from moved)
     finally:
-        core.heartbeat.timeout = patience
+        core.heartbeat.timeout = timeout_before
 
 
 def _check_steps(group: Group, by: Mapping[str, float]) -> None:
-    """Raises InvalidProgram (RG670) for a step too far, or of nothing."""
+    """Raise InvalidProgram (RG670) for a step that is empty or too large."""
     kinds = {name: "prismatic" for name in DIRECTIONS}
     kinds |= {joint.name: joint.kind for joint in group.joints}
     for name, step in by.items():
@@ -139,13 +142,12 @@ def _go(core: Core, program: Program, timeout: float | None) -> Flow[Result]:
 def call(
     core: Core, routine: str, *arguments: Argument, timeout: float | None = None
 ) -> Flow[tuple[Left, ...]]:
-    """Call a procedure of the controller's program and wait for its end: what it left in its
-    parameters that are `inout`, in their order, and then a function's value.
+    """Call a procedure of the controller's program and wait for its end.
 
-    Without a time-out it may take as long as it likes; when it does not end in time the controller
-    leaves it, and its state is unknown (MotionFailed, OVERTIME). Raises RoutineFailed with number
-    and name of the error that it has raised, or when the error stopped the program of the robot;
-    otherwise as `run`.
+    Returns its `inout` parameters in their order, then the value of a function. Without a time-out
+    it may take any time; if it exceeds a time-out, the controller leaves it and its state is
+    unknown (MotionFailed, OVERTIME). Raises RoutineFailed with number and name of its error, or if
+    the error stopped the robot's program; otherwise as `run`.
     """
     limit = 0.0 if timeout is None else timeout
     job = yield from run(core, Program().call(routine, *arguments, timeout=limit), None)
@@ -158,7 +160,7 @@ def call(
             yield from stop(core)
         raise
     except RobotError as error:
-        # Without an answer nobody knows whether the routine still goes on.
+        # Without an answer it is unknown whether the routine still runs.
         motion.failed(error)
         if motion.error is error:
             raise (yield from ended(core, motion)) from error.__cause__
@@ -171,13 +173,13 @@ def _called(
     """Wait for the end of a routine, and ask what it left. Raises as `call`."""
     motion.longest = _ANY if timeout is None else timeout + _GRACE
     deadline = core.clock() + motion.longest
-    told = yield from _told(core)
-    while told.trajectory != motion.number and core.clock() < deadline:
-        # PROGRESS comes too seldom to wait for it.
+    result_reply = yield from _read_result(core)
+    while result_reply.trajectory != motion.number and core.clock() < deadline:
+        # PROGRESS arrives too rarely to wait for it.
         if (yield from until(core, motion, lambda: False, _LOOK)):
             break
-        told = yield from _told(core)
-    if told.trajectory == motion.number and told.error == 0:
+        result_reply = yield from _read_result(core)
+    if result_reply.trajectory == motion.number and result_reply.error == 0:
         motion.done()
     try:
         yield from result(job, max(0.0, deadline - core.clock()))
@@ -186,30 +188,33 @@ def _called(
             yield from _why_it_stopped(core, routine, motion.events_before, failed)
         if failed.reason is not Reason.ROUTINE:
             raise
-        told = yield from _told(core)
-        called = f" ({told.text})" if told.text else ""
+        result_reply = yield from _read_result(core)
+        called = f" ({result_reply.text})" if result_reply.text else ""
         raise RoutineFailed(
-            fault("RG675", f"routine '{routine}' has raised error {told.error}{called}"),
-            number=told.error,
-            name=told.text,
+            fault("RG675", f"routine '{routine}' has raised error {result_reply.error}{called}"),
+            number=result_reply.error,
+            name=result_reply.text,
             **core.evidence(),
         ) from failed
-    if told.trajectory != motion.number:
-        # The motion's end came first: what is known is of the call before.
-        told = yield from _told(core)
+    if result_reply.trajectory != motion.number:
+        # The motion ended first: the known result belongs to the call before.
+        result_reply = yield from _read_result(core)
     (own,) = (r for r in core.known_group.routines if r.name == routine)
-    return (yield from _results(core, own, told))
+    return (yield from _results(core, own, result_reply))
 
 
 def _why_it_stopped(core: Core, routine: str, before: int, failed: MotionFailed) -> Flow[None]:
-    """Raise RoutineFailed with the event of the error that has stopped the program of the robot,
-    where the driver tells one; `before` events had come when the motion began."""
+    """Raise RoutineFailed if an error has stopped the robot's program.
+
+    It holds the driver's event of the error, if there is one; `before` events had arrived at the
+    start of the motion.
+    """
 
     def report() -> Event | None:
         events = core.state_port.events
         return next((e for e in events if e.number > before and e.type is EventType.ERROR), None)
 
-    yield Wait(lambda: report() is not None, _TOLD)
+    yield Wait(lambda: report() is not None, _EVENT_WAIT)
     event = report()
     if event is not None:
         raise RoutineFailed(
@@ -217,7 +222,7 @@ def _why_it_stopped(core: Core, routine: str, before: int, failed: MotionFailed)
                 "RG675",
                 f"routine '{routine}' has stopped the program of the robot: "
                 + ", ".join((str(event), *event.texts)),
-                "mend the routine, then PP to Main and Start",
+                "correct the routine, then PP to Main and Start",
             ),
             number=0,
             event=event,
@@ -225,9 +230,13 @@ def _why_it_stopped(core: Core, routine: str, before: int, failed: MotionFailed)
         ) from failed
 
 
-def _results(core: Core, own: UserRoutine, told: messages.ResultReply) -> Flow[tuple[Left, ...]]:
-    """What a routine left, by the types of its parameters; each text is asked for by itself, and
-    each target."""
+def _results(
+    core: Core, own: UserRoutine, result_reply: messages.ResultReply
+) -> Flow[tuple[Left, ...]]:
+    """Return the results of a routine by the types of its parameters.
+
+    Each text and each target needs a request of its own.
+    """
     left = [(n, p.type) for n, p in enumerate(own.parameters, 1) if p.inout]
     if own.returns:
         left.append((len(own.parameters) + 1, own.returns))
@@ -237,19 +246,21 @@ def _results(core: Core, own: UserRoutine, told: messages.ResultReply) -> Flow[t
             place = sum(p.type == kind for p in own.parameters[:number])
             result.append((yield from _target(core, kind == "jointtarget", place)))
         elif kind == "string":
-            result.append((yield from _told(core, number)).text)
+            result.append((yield from _read_result(core, number)).text)
         else:
-            value = told.values[number - 1]
+            value = result_reply.values[number - 1]
             result.append(value == 1 if kind == "bool" else value)
     return tuple(result)
 
 
 def _target(core: Core, joints: bool, number: int) -> Flow[Left]:
-    """What a routine left in a jointtarget or robtarget, the `number`th of its type."""
+    """Return the `number`th jointtarget or robtarget that a routine set."""
     requested = messages.TargetRequest(int(joints), number)
     reply = yield from _ask(core, requested, messages.TARGET.number)
     if not isinstance(reply, messages.TargetReply):
-        raise core.state_port.late("the controller did not tell what a routine left in a target")
+        raise core.state_port.late(
+            "the controller did not report the result of a routine in a target"
+        )
     group = core.known_group
     urdf = group.from_wire(reply.joints)
     if joints:
@@ -264,16 +275,16 @@ def _target(core: Core, joints: bool, number: int) -> Flow[Left]:
     return Target(((x, y, z), (w, a, b, c)), (cf1, cf4, cf6, cfx), outer)
 
 
-def _told(core: Core, parameter: int = 0) -> Flow[messages.ResultReply]:
-    """What the driver says of the newest call that has ended."""
+def _read_result(core: Core, parameter: int = 0) -> Flow[messages.ResultReply]:
+    """Return the driver's result of the last call that has ended."""
     reply = yield from _ask(core, messages.ResultRequest(parameter), messages.RESULT.number)
     if not isinstance(reply, messages.ResultReply):
-        raise core.state_port.late("the controller did not tell what has come of a routine")
+        raise core.state_port.late("the controller did not report the result of a routine")
     return reply
 
 
 def _ask(core: Core, requested: Content, number: int) -> Flow[Content | None]:
-    """The reply to a request on the motion port; None: none came in time."""
+    """Return the reply to a request on the motion port; None if it is late."""
     port = core.ports[Port.MOTION]
     pending = port.request(number)
     yield Send(Port.MOTION, encode(requested, Comm.REQUEST), core.timeouts.send)

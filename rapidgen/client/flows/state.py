@@ -1,4 +1,4 @@
-"""Waiting for what the state port tells."""
+"""Flows that wait for data of the state port."""
 
 from collections.abc import Callable
 
@@ -11,7 +11,10 @@ from rapidgen.wire.simple_message.spec import Feature
 
 
 def wait_until(core: Core, condition: Callable[[State], bool], timeout: float) -> Flow[State]:
-    """The first state for which `condition` holds. Raises RobotTimeout, ConnectionLost."""
+    """Return the first state for which `condition` holds.
+
+    Raises RobotTimeout, ConnectionLost.
+    """
     return (yield from _until(core, condition, timeout, "what was waited for"))
 
 
@@ -37,37 +40,40 @@ def _until(
 
 
 def next_state(core: Core, timeout: float | None = None) -> Flow[State]:
-    """The state of the next joint message. Raises RobotTimeout, ConnectionLost."""
+    """Return the state of the next joint message.
+
+    Raises RobotTimeout, ConnectionLost.
+    """
     yield from alive(core)
     seen = core.state_port.samples
-    patience = core.timeouts.state if timeout is None else timeout
-    return (yield from _until(core, lambda state: state.number > seen, patience, "the next state"))
+    longest = core.timeouts.state if timeout is None else timeout
+    return (yield from _until(core, lambda state: state.number > seen, longest, "the next state"))
 
 
 def next_event(
     core: Core, timeout: float | None = None, *, after: Event | None = None
 ) -> Flow[Event]:
-    """The next entry of the controller's log, or the one behind `after`.
+    """Return the next entry of the controller's log, or the one after `after`.
 
-    Without a time-out it waits as long as there is a link. Raises RobotTimeout, ConnectionLost.
+    Without a time-out it waits while there is a connection. Raises RobotTimeout, ConnectionLost.
     """
     yield from alive(core)
     state_port = core.state_port
     seen = state_port.event_count if after is None else after.number
-    patience = float("inf") if timeout is None else timeout
-    yield Wait(lambda: state_port.event_count > seen or not core.state_open, patience)
+    longest = float("inf") if timeout is None else timeout
+    yield Wait(lambda: state_port.event_count > seen or not core.state_open, longest)
     result = [event for event in state_port.events if event.number > seen]
     if result:
         return result[0]
     if not core.state_open:
         raise core.disconnected()
-    raise core.state_port.late(f"no event came within {timeout:g} s")
+    raise core.state_port.late(f"no event arrived within {timeout:g} s")
 
 
 def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
-    """The next joints with the controller's time.
+    """Return the next joints with the controller's time.
 
-    Raises NotSupported where nobody sends them, RobotTimeout, ConnectionLost.
+    Raises NotSupported without feedback, RobotTimeout, ConnectionLost.
     """
     yield from alive(core)
     state_port = core.state_port
@@ -75,7 +81,7 @@ def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
         raise NotSupported.because(
             "RG624",
             "the driver sends no feedback with the controller's time",
-            "Robot(..., feedback=True) asks for it, where the driver has it",
+            "Robot(..., feedback=True) requests it from a driver that has it",
         )
     seen = state_port.feedbacks
     limit = core.timeouts.state if timeout is None else timeout
@@ -85,4 +91,4 @@ def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
         return feedback
     if not core.state_open:
         raise core.disconnected()
-    raise core.state_port.late(f"no feedback came within {limit:g} s")
+    raise core.state_port.late(f"no feedback arrived within {limit:g} s")

@@ -21,14 +21,16 @@ from rapidgen.wire.simple_message.spec import Port, TriState
 PER_POINT = 0.02
 """s that a controller may take to read one point."""
 _SUPERSEDED = 0.5
-"""s in which PROGRESS tells of a motion that has taken this one's place."""
+"""s within which PROGRESS reports a motion that has replaced this one."""
 _STILL_SAMPLES = 5
-"""Joint messages without a movement after which a robot stands, whatever its status says."""
+"""Joint messages without movement that mean rest, whatever STATUS says."""
 
 
 def _send_stop(core: Core, ports: Sequence[Port]) -> Flow[dict[Port, PendingReply]]:
-    """STOP on open connections, on all of them before anything is waited for; those that took it,
-    with the reply to come."""
+    """Send STOP on all open connections before waiting for any reply.
+
+    Returns the connections that accepted it, with the reply to come.
+    """
     pending = {port: core.request_stop(port) for port in ports}
     for port in ports:
         core.state_port.note(f"STOP over the {port.name.lower()} port", logging.INFO)
@@ -52,10 +54,10 @@ def _connect_and_send(core: Core, port: Port) -> Flow[dict[Port, PendingReply]]:
 
 
 def stop(core: Core) -> Flow[State | None]:
-    """Stop at once, whatever else is under way; the state in which the robot stands.
+    """Stop at once, whatever else is active; return the state at rest.
 
-    STOP is written to both ports before anything is waited for. Without a connection the motion
-    port alone is opened, nobody sees the robot stand, and None is returned. Raises StopFailed: use
+    STOP is written to both ports before anything is awaited. Without a connection only the motion
+    port is opened, no state shows the robot at rest, and None is returned. Raises StopFailed: use
     the emergency stop.
     """
     motion = core.motion
@@ -71,13 +73,13 @@ def stop(core: Core) -> Flow[State | None]:
 
 
 def _confirmed(core: Core) -> Flow[None]:
-    """STOP on its way, and answered. Raises StopFailed."""
-    # No point delays STOP on the control port; on the motion port it is read behind what was sent
-    # there. Where something there is unanswered only that answer tells that it is over: it may be
-    # read after the STOP of the control port.
+    """Send STOP and wait for an answer. Raises StopFailed."""
+    # No point delays STOP on the control port; on the motion port the driver reads it after the
+    # data sent there. If something there is unanswered, only that answer proves the end: the driver
+    # may read the data after the STOP of the control port.
     motion, ports, limit = core.motion, core.ports, core.timeouts.stop
     after = bool(ports[Port.MOTION].pending) or (motion is not None and motion.needs_stop)
-    # The quicker way first, in the same step.
+    # The faster port first, in the same step.
     first = (Port.CONTROL, Port.MOTION)
     requested = yield from _send_stop(core, [port for port in first if ports[port].is_open])
     if Port.MOTION not in requested and (after or not requested):
@@ -86,7 +88,7 @@ def _confirmed(core: Core) -> Flow[None]:
         except StopFailed as failed:
             if requested or ports[Port.CONTROL].is_open:
                 raise
-            # The control port is the last way, also where HELLO has not told of it.
+            # The control port is the last resort, even if HELLO has not announced it.
             try:
                 requested |= yield from _connect_and_send(core, Port.CONTROL)
             except StopFailed as error:
@@ -119,9 +121,9 @@ def _confirmed(core: Core) -> Flow[None]:
 
 
 def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
-    """The error of a motion that is over, once the robot stands, or with what is not known of it.
+    """Return the error of an ended motion once the robot is at rest.
 
-    What was sent and not answered may be carried out at any moment, also behind this error.
+    It includes unknowns: unanswered data may still be executed, also after this error.
     """
     error = motion.error
     assert error is not None
@@ -129,11 +131,11 @@ def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
         return error
     motion.is_settled = True
     if motion.is_taken and core.state_open and not any(t.is_open for t in core.ports.values()):
-        # To connect anew and stop would stop the motion of the client that has taken this one's
-        # place; without one the driver itself stops for the connections that it has lost.
+        # A new connection and STOP would stop the motion of the client that has replaced this one;
+        # without one the driver itself stops for the connections that it has lost.
         yield Wait(lambda: motion.is_superseded or not core.state_open, _SUPERSEDED)
         if motion.is_superseded:
-            error.amend("another motion has taken its place", "the robot moves for another client")
+            error.amend("another motion has replaced it", "the robot moves for another client")
             return error
     reopened = False
     unknown = ""
@@ -157,18 +159,18 @@ def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
     if state is not None and not unknown:
         if motion.stood is None:
             motion.stood = state.joints
-        error.amend("a STOP was sent, and the robot stands", "look at the robot, then go on")
+        error.amend("a STOP was sent, and the robot is at rest", "look at the robot, then go on")
         return error
-    unknown = unknown or "STOP was answered, and the state port tells nothing any more"
+    unknown = unknown or "STOP was answered, and the state port sends no data any more"
     error.amend(
-        f"it is not known whether the robot stands ({unknown})",
+        f"it is not known whether the robot is at rest ({unknown})",
         "look at the robot; use the emergency stop if it moves",
     )
     return error
 
 
 def _see_again(core: Core) -> Flow[bool]:
-    """Open the state port once more, only to see the robot stand; whether it is open."""
+    """Reopen the state port to observe the stop; True if it is open."""
     try:
         yield Open(Port.STATE, min(core.timeouts.connect, core.timeouts.stop))
     except (ConnectionFailed, RobotTimeout) as error:
@@ -178,7 +180,7 @@ def _see_again(core: Core) -> Flow[bool]:
 
 
 def close(core: Core) -> Flow[None]:
-    """Close all connections. A motion under way is stopped first."""
+    """Close all connections. An active motion is stopped first."""
     motion = core.motion
     try:
         if motion is not None and motion.needs_stop:
@@ -190,7 +192,7 @@ def close(core: Core) -> Flow[None]:
 
 
 def _unread(motion: CommandedMotion | None) -> int:
-    """Points that the controller may have to read before a STOP behind them."""
+    """Return the points that the controller may read before a later STOP."""
     return motion.total if motion is not None and motion.phase is Phase.SENDING else 0
 
 
@@ -202,16 +204,16 @@ def _until_standing(core: Core) -> Flow[State]:
         # Two joint messages: the status between them was made after the STOP was answered.
         if state_port.samples < seen + 2:
             return False
-        # After an emergency stop a driver may call a motion under way that stands.
+        # After an emergency stop a driver may report a stopped motion as active.
         still = state_port.samples >= seen + _STILL_SAMPLES and state_port.is_still(_STILL_SAMPLES)
         return state_port.status.in_motion is not TriState.TRUE or still
 
     came = yield Wait(lambda: stands() or not core.state_open, core.timeouts.stop)
     state = state_port.state
-    # It may move again, for somebody else, before this goes on.
+    # Another client may move the robot again before this flow resumes.
     if state is None or not came or not (core.state_open or stands()):
-        raise _not_stopped(core, "STOP was answered, and the robot was not seen to stand")
-    state_port.note("stands behind STOP", logging.INFO)
+        raise _not_stopped(core, "STOP was answered, and the robot was not observed at rest")
+    state_port.note("is at rest after STOP", logging.INFO)
     return state
 
 

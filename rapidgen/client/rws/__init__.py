@@ -1,4 +1,7 @@
-"""Robot Web Services: `Controller` and `AsyncController` (extra `rapidgen[web]`)."""
+"""Robot Web Services: `Controller` and `AsyncController`.
+
+They need the extra `rapidgen[web]`.
+"""
 
 from typing import TYPE_CHECKING
 

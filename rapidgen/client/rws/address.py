@@ -1,6 +1,6 @@
-"""Where a controller is: `rws://HOST[:PORT]`, `rwss://HOST[:PORT]`, or a bare `HOST[:PORT]`.
+"""Address of a controller: `rws://`, `rwss://` or bare `HOST[:PORT]`.
 
-`rws` finds out by itself: TLS first, plain HTTP where nobody speaks it. `rwss` is TLS or nothing.
+`rws` tries TLS first, then plain HTTP. `rwss` is TLS only.
 """
 
 import re
@@ -16,7 +16,7 @@ _FILE = re.compile(r".*\.ya?ml", re.ASCII)
 
 @dataclass(frozen=True, slots=True)
 class RwsAddress:
-    """A host; `port` 0 stands for 443 with TLS and 80 without."""
+    """Host and port; `port` 0 means 443 with TLS and 80 without."""
 
     host: str
     port: int = 0
@@ -25,7 +25,7 @@ class RwsAddress:
 
     @property
     def netloc(self) -> str:
-        """The host as it stands in a URL."""
+        """The host as written in a URL."""
         return f"[{self.host}]" if ":" in self.host else self.host
 
     def __str__(self) -> str:
@@ -44,12 +44,14 @@ def parse_address(text: str) -> RwsAddress:
     except ValueError as error:
         raise _bad("rws://...") from error
     if parts.password is not None:
-        raise _bad(f"{parts.scheme}://...@{host}", "a password in an address ends in histories")
+        raise _bad(
+            f"{parts.scheme}://...@{host}", "a password in an address is stored in shell histories"
+        )
     remaining = parts.path.strip("/") or parts.query or parts.fragment
     if parts.scheme not in ("rws", "rwss") or remaining or not _HOST.fullmatch(host) or port == 0:
         raise _bad(text if "@" not in text else f"{parts.scheme}://...")
     if _FILE.fullmatch(host):
-        raise _bad(host, "a configuration tells of a robot, not where its controller is")
+        raise _bad(host, "a configuration describes a robot, not its controller's address")
     return RwsAddress(host, port or 0, parts.scheme == "rwss", unquote(parts.username or ""))
 
 

@@ -16,7 +16,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from rapidgen._compat import Self
 from rapidgen.client import deadline
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
-from rapidgen.client.rws.api import PATIENCE, ControllerApi
+from rapidgen.client.rws.api import RESTART_TIMEOUT, ControllerApi
 from rapidgen.client.rws.core import RateLimiter, RwsCore
 from rapidgen.client.rws.effects import (
     DropConnections,
@@ -143,8 +143,10 @@ class RwsAsyncRunner:
             writer.close()
 
     async def open_socket(self, path: str, stack: AsyncExitStack) -> ClientConnection:
-        """A websocket of this session, closed with the stack. Pings are off: RWS 2.0 cuts off a
-        client that sends."""
+        """Open a websocket of this session, closed with the stack.
+
+        Pings are off: RWS 2.0 disconnects a client that sends.
+        """
         assert self._client is not None
         try:
             return await stack.enter_async_context(
@@ -165,9 +167,10 @@ class RwsAsyncRunner:
 
 
 class AsyncSubscription:
-    """Events of topics, those of now first. Survives a restart of the controller.
+    """Events of topics, the current values first.
 
-    `async with controller.subscribe(topics.execution()) as events: async for event in events: ...`
+    Survives a restart of the controller. `async with controller.subscribe(topics.execution()) as
+    events: async for event in events: ...`
     """
 
     def __init__(self, carrier: RwsAsyncRunner, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
@@ -187,7 +190,7 @@ class AsyncSubscription:
         self._socket = await self._carrier.open_socket(opened.path, self._stack)
 
     async def next(self, timeout: float | None = None) -> ResourceEvent:
-        """The next event. RobotTimeout (RG602): none within s."""
+        """Return the next event. Raises RobotTimeout (RG602)."""
         try:
             async with deadline.timeout(timeout):
                 while not self._waiting:
@@ -209,18 +212,20 @@ class AsyncSubscription:
         )
 
     async def _again(self) -> None:
-        """Open it once more, as often as the controller takes to stay."""
-        until = time.monotonic() + PATIENCE
+        """Reopen the websocket until the restarted controller keeps it open."""
+        until = time.monotonic() + RESTART_TIMEOUT
         while True:
             try:
-                return await self._open(subscriptions.again(self._core, self._topics, PATIENCE))
+                return await self._open(
+                    subscriptions.again(self._core, self._topics, RESTART_TIMEOUT)
+                )
             except (ConnectionLost, Busy):
                 if time.monotonic() >= until:
                     raise
                 await self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
 
     async def close(self) -> None:
-        """Be told no more."""
+        """End the subscription."""
         if self._socket is not None:
             await self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
             await self._stack.aclose()
@@ -239,8 +244,10 @@ class AsyncSubscription:
 
 
 class AsyncController(ControllerApi[RwsAsyncRunner]):
-    """A controller over Robot Web Services, on asyncio: as `Controller`, and every method is
-    awaited."""
+    """A controller over Robot Web Services, on asyncio.
+
+    As `Controller`, with awaitable methods.
+    """
 
     _carrier_type = RwsAsyncRunner
 
@@ -250,13 +257,16 @@ class AsyncController(ControllerApi[RwsAsyncRunner]):
         return self
 
     async def close(self) -> None:
-        """Give back what is held, log out, close."""
+        """Release mastership, log out, and close."""
         await self._carrier.run(connecting.close(self._core))
         await self._carrier.close()
 
     @asynccontextmanager
     async def mastership(self, domain: str = "rapid", *, wait: float = 0.0) -> AsyncIterator[Self]:
-        """Hold mastership of `rapid`, `cfg` or `motion` for a block. Raises Held (RG654)."""
+        """Hold mastership of `rapid`, `cfg` or `motion` for a block.
+
+        Raises Held (RG654).
+        """
         await self.take_mastership(domain, wait=wait)
         try:
             yield self
@@ -264,7 +274,7 @@ class AsyncController(ControllerApi[RwsAsyncRunner]):
             await self._carrier.run(holding.give(self._core, domain))
 
     def subscribe(self, *topics: Topic) -> AsyncSubscription:
-        """Be told of topics as they change, within `async with`: an iterator of events."""
+        """Subscribe to topics within `async with`: an iterator of events."""
         return AsyncSubscription(self._carrier, self._core, topics)
 
     async def __aenter__(self) -> Self:

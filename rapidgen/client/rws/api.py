@@ -1,4 +1,4 @@
-"""The methods of both controllers' clients, once: each is a flow with its docstring."""
+"""Methods of both controller clients, each a flow with its docstring."""
 
 from collections.abc import Callable
 from operator import attrgetter
@@ -14,7 +14,7 @@ from rapidgen.wire.rws.bodies import Generation
 
 P = ParamSpec("P")
 T = TypeVar("T")
-PATIENCE = 180.0
+RESTART_TIMEOUT = 180.0
 """s that a subscription waits for a controller that restarts."""
 
 
@@ -38,7 +38,7 @@ C_co = TypeVar("C_co", bound=RwsFlowRunner, covariant=True)
 
 
 class ControllerApi(Generic[C_co]):
-    """What both clients have in common."""
+    """Methods common to both clients."""
 
     _carrier_type: type[C_co]
 
@@ -74,7 +74,7 @@ class ControllerApi(Generic[C_co]):
 
     @property
     def requests(self) -> int:
-        """How many requests were sent so far."""
+        """Number of requests sent so far."""
         return self._core.requests
 
     identity = _of_core(flows.panel.identity)

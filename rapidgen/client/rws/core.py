@@ -1,4 +1,4 @@
-"""What a client of Robot Web Services knows and decides: no I/O, no thread, no loop."""
+"""State and decisions of a client of Robot Web Services, without I/O."""
 
 import logging
 import socket
@@ -22,13 +22,13 @@ APPLICATION = "rapidgen"
 
 
 class RateLimiter:
-    """When the next request may go out, so that no second has more than RATE."""
+    """Schedule of requests: at most RATE in any second."""
 
     def __init__(self, rate: int = RATE) -> None:
         self._sent: deque[float] = deque(maxlen=rate)
 
     def reserve(self, now: float) -> float:
-        """Take the next turn; s until it comes."""
+        """Reserve the next turn; return the s until it."""
         turn = now
         if len(self._sent) == self._sent.maxlen:
             turn = max(now, self._sent[0] + 1.0)
@@ -38,7 +38,7 @@ class RateLimiter:
 
 @dataclass(frozen=True, slots=True)
 class Login:
-    """Who logs in. Shown without the password."""
+    """Credentials of a login; its text hides the password."""
 
     user: str = "Default User"
     password: str = field(default="", repr=False)
@@ -51,10 +51,13 @@ class RwsCore:
     address: RwsAddress
     login: Login
     fingerprint: str = ""
-    """The certificate that was told to be right; empty: the list of known ones says."""
+    """Confirmed certificate; empty: use the list of known ones."""
     pins: Path = Path()
     confirm: Callable[[str, str], bool] | None = None
-    """Asks a person about (host:port, fingerprint); None: nobody is there."""
+    """Question to the user about (host:port, fingerprint).
+
+    None: no user to ask.
+    """
     generation: Generation = Generation.ONE
     port: int = 0
     certificate: bytes = b""
@@ -63,7 +66,7 @@ class RwsCore:
     system: str = ""
     """Name of the system that was found."""
     held: dict[str, int] = field(default_factory=dict)
-    """Domains of mastership that this session has, and how often each was taken."""
+    """Domains of mastership of this session, with their counts."""
     requests: int = 0
     clock: Callable[[], float] = time.monotonic
     """s; what waits measures by it."""
@@ -75,13 +78,15 @@ class RwsCore:
 
     @property
     def user(self) -> str:
-        """Who logs in."""
+        """Name of the user."""
         return self.address.user or self.login.user
 
     @property
     def station(self) -> str:
-        """The id of this machine as a control station of RobotWare 8: always the same, so that
-        write access that was left behind can be given back."""
+        """Id of this machine as a control station of RobotWare 8.
+
+        It is constant, so that a later session can release write access of an earlier one.
+        """
         return f"{{{str(uuid5(NAMESPACE_DNS, f'{APPLICATION}.{socket.gethostname()}')).upper()}}}"
 
     def tell(self, text: str, level: int = logging.INFO) -> None:
@@ -98,10 +103,13 @@ class RwsCore:
             )
 
     def route(self, operation: RwsOperation) -> Route:
-        """How this controller spells an operation. Raises NotSupported (RG659)."""
+        """Return this controller's spelling of an operation.
+
+        Raises NotSupported (RG659).
+        """
         result = operation.route(self.generation)
         if result is None:
             raise NotSupported.because(
-                "RG659", f"RobotWare {self.robotware or '?'} has nothing like it: {operation.two}"
+                "RG659", f"RobotWare {self.robotware or '?'} has no equivalent of {operation.two}"
             )
         return result

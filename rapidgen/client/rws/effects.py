@@ -1,4 +1,4 @@
-"""What a flow over Robot Web Services may ask of the client that runs it."""
+"""Effects of a flow over Robot Web Services."""
 
 from asyncio import CancelledError
 from collections.abc import Generator, Mapping
@@ -20,7 +20,10 @@ class Response:
 
 @dataclass(frozen=True, slots=True)
 class Exchange:
-    """A request, answered by a Response. `repeat`: it may be sent again on another connection."""
+    """A request, answered by a Response.
+
+    `repeat`: it may be sent again on another connection.
+    """
 
     method: str
     target: str
@@ -31,9 +34,9 @@ class Exchange:
 
 @dataclass(frozen=True, slots=True)
 class FetchCertificate:
-    """Shake hands over TLS and nothing else; its Response has the certificate (DER) as body.
+    """Make a TLS handshake only; the body of its Response is the certificate.
 
-    A status of 0 means that nobody speaks TLS there.
+    The certificate is DER. Status 0 means that the port does not speak TLS.
     """
 
     port: int
@@ -41,7 +44,10 @@ class FetchCertificate:
 
 @dataclass(frozen=True, slots=True)
 class UseEndpoint:
-    """From now on talk to this port; `certificate` (DER) is the only one that is accepted."""
+    """Use this port from now on.
+
+    `certificate` (DER) is the only one that is accepted.
+    """
 
     port: int
     certificate: bytes = b""
@@ -49,14 +55,17 @@ class UseEndpoint:
 
 @dataclass(frozen=True, slots=True)
 class LogIn:
-    """From now on log in so. Basic is asked for over TLS only."""
+    """Log in with these credentials from now on.
+
+    Basic is used over TLS only.
+    """
 
     way: Literal["digest", "basic"]
 
 
 @dataclass(frozen=True, slots=True)
 class DropConnections:
-    """Drop cookies and connections: the controller has restarted, or this is the end."""
+    """Drop cookies and connections, at a restart or at the end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,11 +77,17 @@ class Pause:
 
 Effect = Exchange | FetchCertificate | UseEndpoint | LogIn | DropConnections | Pause
 Flow = Generator[Effect, Response, T]
-"""A flow is resumed with a Response; of effects that have none with an empty one."""
+"""Flow of effects, resumed with Responses.
+
+Effects without a response resume it with an empty one.
+"""
 
 
 def resume(flow: Flow[T], outcome: Response | None, failure: BaseException | None) -> Effect:
-    """The next effect of a flow: at its beginning (None), after an outcome, or after a failure."""
+    """Return the next effect of a flow.
+
+    It starts (None), or resumes after an outcome or a failure.
+    """
     if failure is not None:
         return flow.throw(failure)
     return next(flow) if outcome is None else flow.send(outcome)

@@ -1,7 +1,7 @@
-"""Certificates of controllers that were met: one line a controller, `HOST:PORT SHA256`.
+"""Known certificates of controllers: one `HOST:PORT SHA256` per line.
 
-Controllers sign their certificates themselves, so that nobody vouches for them: the first one
-that a person has agreed to is the only one that is accepted afterwards.
+Controllers sign their certificates themselves, so no authority vouches for them: only the first one
+that the user has confirmed is accepted afterwards.
 """
 
 import os
@@ -15,7 +15,7 @@ _LARGEST = 1_000_000
 
 
 def default_file() -> Path:
-    """Where the user's list lies."""
+    """Path of the user's list."""
     base = os.environ.get("XDG_STATE_HOME") or str(Path.home() / ".local" / "state")
     return Path(base) / "rapidgen" / "known_controllers"
 
@@ -42,11 +42,11 @@ def remember(file: Path, where: str, fingerprint: str) -> None:
 
 
 def shown(fingerprint: str) -> str:
-    """As people compare it: pairs of capital digits."""
+    """Format a fingerprint for comparison: pairs of upper-case digits."""
     upper = fingerprint.upper()
     return ":".join(upper[i : i + 2] for i in range(0, len(upper), 2))
 
 
 def plain(fingerprint: str) -> str:
-    """As it is kept, from what people write."""
+    """Parse a fingerprint in any usual spelling."""
     return fingerprint.lower().removeprefix("sha256:").replace(":", "").strip()

@@ -1,4 +1,4 @@
-"""What a controller tells about itself, as frozen data."""
+"""Data of a controller, as frozen dataclasses."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """Who a controller is. `id` tells it from every other one."""
+    """Identity of a controller; `id` is unique."""
 
     name: str
     id: str
@@ -16,14 +16,17 @@ class Identity:
 
     @property
     def is_virtual(self) -> bool:
-        """Whether it says to be a virtual controller."""
+        """True if the controller reports that it is virtual."""
         return "virtual" in self.kind.lower()
 
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """`state` as motoron, motoroff, guardstop, emergencystop, sysfail; `mode` as AUTO, MANR,
-    MANF; `speed` in percent."""
+    """State of the panel.
+
+    `state`: motoron, motoroff, guardstop, emergencystop, sysfail; `mode`: AUTO, MANR, MANF; `speed`
+    in percent.
+    """
 
     state: str
     mode: str
@@ -32,7 +35,7 @@ class Panel:
 
 @dataclass(frozen=True, slots=True)
 class ProgramState:
-    """Whether the program runs; `cycle` is once or forever."""
+    """Execution state of the program; `cycle` is once or forever."""
 
     running: bool
     cycle: str
@@ -40,8 +43,11 @@ class ProgramState:
 
 @dataclass(frozen=True, slots=True)
 class TaskState:
-    """One RAPID task. `kind` is normal, static or semistatic; `state` as linked or loaded;
-    `execution` is ready, started, stopped or uninitialized."""
+    """One RAPID task.
+
+    `kind` is normal, static or semistatic; `state` is linked or loaded; `execution` is ready,
+    started, stopped or uninitialized.
+    """
 
     name: str
     kind: str
@@ -61,7 +67,7 @@ class TaskModule:
 
 @dataclass(frozen=True, slots=True)
 class JointTarget:
-    """Axes as RAPID has them: deg, external ones in deg or mm; 9E9 where there is none."""
+    """Axes as in RAPID: deg, external ones deg or mm; 9E9 for missing axes."""
 
     robax: tuple[float, ...]
     extax: tuple[float, ...]
@@ -69,7 +75,10 @@ class JointTarget:
 
 @dataclass(frozen=True, slots=True)
 class RobTarget:
-    """A place of a TCP as RAPID has it: mm, quaternion (w first), cf1 cf4 cf6 cfx, deg or mm."""
+    """Pose of a TCP as in RAPID: mm, quaternion (w first), cf1 cf4 cf6 cfx.
+
+    External axes are in deg or mm.
+    """
 
     trans: tuple[float, ...]
     rot: tuple[float, ...]
@@ -79,7 +88,7 @@ class RobTarget:
 
 @dataclass(frozen=True, slots=True)
 class BuildError:
-    """What is wrong in a task's program."""
+    """A build error in a task's program."""
 
     module: str
     row: int
@@ -89,7 +98,7 @@ class BuildError:
 
 @dataclass(frozen=True, slots=True)
 class ProgramPointer:
-    """Where a program pointer stands; empty texts and 0: nowhere."""
+    """Position of a program pointer; empty texts and 0: not set."""
 
     module: str
     routine: str
@@ -112,7 +121,7 @@ class SymbolInfo:
 
 @dataclass(frozen=True, slots=True)
 class SignalState:
-    """One signal. `path` is how the controller names it, with network and device."""
+    """One signal; `path` is the controller's name with network and device."""
 
     name: str
     path: str
@@ -123,7 +132,10 @@ class SignalState:
 
 @dataclass(frozen=True, slots=True)
 class LogEvent:
-    """One entry of the event log. `type` is info, warning or error; `time` the controller's own."""
+    """One entry of the event log.
+
+    `type` is info, warning or error; `time` is the controller's.
+    """
 
     domain: int
     number: int
@@ -150,7 +162,7 @@ class FileInfo:
 
 @dataclass(frozen=True, slots=True)
 class MastershipHolder:
-    """Who has mastership."""
+    """Holder of mastership."""
 
     domain: str
     user: str
@@ -166,9 +178,11 @@ class MastershipHolder:
 
 @dataclass(frozen=True, slots=True)
 class Dialog:
-    """What a program asks on the pendant. `kind` is its instruction (TPReadFK, UIMsgBox, ...),
-    `stack` where it waits, `parameters` RAPID literals by name (none where the controller tells
-    none)."""
+    """Dialog of a program on the pendant.
+
+    `kind` is its instruction (TPReadFK, UIMsgBox, ...), `stack` its place, `parameters` RAPID
+    literals by name (empty if the controller reports none).
+    """
 
     kind: str
     stack: str
@@ -199,7 +213,7 @@ class ResourceEvent:
 
 @dataclass(frozen=True, slots=True)
 class CfgInstance:
-    """One instance of a cfg type; attributes as texts, a flag as `true`."""
+    """One instance of a cfg type; attributes are texts, flags `true`."""
 
     name: str
     attributes: Mapping[str, str]

@@ -16,7 +16,7 @@ from websockets.sync.client import connect as connect_socket
 
 from rapidgen._compat import Self
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
-from rapidgen.client.rws.api import PATIENCE, ControllerApi
+from rapidgen.client.rws.api import RESTART_TIMEOUT, ControllerApi
 from rapidgen.client.rws.core import RateLimiter, RwsCore
 from rapidgen.client.rws.effects import (
     DropConnections,
@@ -49,7 +49,7 @@ T = TypeVar("T")
 
 
 class RwsSyncRunner:
-    """Carries out flows by the caller's thread; requests of several threads go one by one."""
+    """Runner of flows on the caller's thread, one request at a time."""
 
     def __init__(self, core: RwsCore, timeout: float) -> None:
         self._core = core
@@ -145,8 +145,10 @@ class RwsSyncRunner:
             raise not_reached(self._core, error, self._timeout) from error
 
     def open_socket(self, path: str, stack: ExitStack) -> ClientConnection:
-        """A websocket of this session, closed with the stack. Pings are off: RWS 2.0 cuts off a
-        client that sends."""
+        """Open a websocket of this session, closed with the stack.
+
+        Pings are off: RWS 2.0 disconnects a client that sends.
+        """
         assert self._client is not None
         try:
             return stack.enter_context(
@@ -167,9 +169,10 @@ class RwsSyncRunner:
 
 
 class Subscription:
-    """Events of topics, those of now first. Survives a restart of the controller.
+    """Events of topics, the current values first.
 
-    `with controller.subscribe(topics.execution()) as events: for event in events: ...`
+    Survives a restart of the controller. `with controller.subscribe(topics.execution()) as events:
+    for event in events: ...`
     """
 
     def __init__(self, carrier: RwsSyncRunner, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
@@ -190,7 +193,7 @@ class Subscription:
         self._socket = self._carrier.open_socket(opened.path, self._stack)
 
     def next(self, timeout: float | None = None) -> ResourceEvent:
-        """The next event. RobotTimeout (RG602): none within s."""
+        """Return the next event. Raises RobotTimeout (RG602)."""
         until = None if timeout is None else time.monotonic() + timeout
         while not self._waiting:
             left = None if until is None else until - time.monotonic()
@@ -209,18 +212,18 @@ class Subscription:
         return self._waiting.popleft()
 
     def _again(self) -> None:
-        """Open it once more, as often as the controller takes to stay."""
-        until = time.monotonic() + PATIENCE
+        """Reopen the websocket until the restarted controller keeps it open."""
+        until = time.monotonic() + RESTART_TIMEOUT
         while True:
             try:
-                return self._open(subscriptions.again(self._core, self._topics, PATIENCE))
+                return self._open(subscriptions.again(self._core, self._topics, RESTART_TIMEOUT))
             except (ConnectionLost, Busy):
                 if time.monotonic() >= until:
                     raise
                 self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
 
     def close(self) -> None:
-        """Be told no more."""
+        """End the subscription."""
         if self._socket is not None:
             self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
             self._stack.close()
@@ -240,11 +243,10 @@ class Subscription:
 class Controller(ControllerApi[RwsSyncRunner]):
     """A controller over Robot Web Services.
 
-    `address` is `rws://HOST[:PORT]`, `rwss://HOST[:PORT]` or a bare host; which generation is
-    there is found out. Connected at the first call, closed by `close()` or the end of a `with`
-    block: mastership is given back, the session logged out. A certificate that is not known yet
-    is shown to `confirm(where, fingerprint)`, or must be `fingerprint`. All methods may be called
-    from any thread.
+    `address` is `rws://HOST[:PORT]`, `rwss://HOST[:PORT]` or a bare host; the client detects the
+    generation. It connects at the first call; `close()` or the end of a `with` block releases
+    mastership and logs out. An unknown certificate is shown to `confirm(where, fingerprint)`, or
+    must be `fingerprint`. All methods may be called from any thread.
     """
 
     _carrier_type = RwsSyncRunner
@@ -258,13 +260,16 @@ class Controller(ControllerApi[RwsSyncRunner]):
         return self
 
     def close(self) -> None:
-        """Give back what is held, log out, close."""
+        """Release mastership, log out, and close."""
         self._carrier.run(connecting.close(self._core))
         self._carrier.close()
 
     @contextmanager
     def mastership(self, domain: str = "rapid", *, wait: float = 0.0) -> Iterator[Self]:
-        """Hold mastership of `rapid`, `cfg` or `motion` for a block. Raises Held (RG654)."""
+        """Hold mastership of `rapid`, `cfg` or `motion` for a block.
+
+        Raises Held (RG654).
+        """
         self.take_mastership(domain, wait=wait)
         try:
             yield self
@@ -272,9 +277,10 @@ class Controller(ControllerApi[RwsSyncRunner]):
             self._carrier.run(holding.give(self._core, domain))
 
     def subscribe(self, *topics: Topic) -> Subscription:
-        """Be told of topics (`rapidgen.client.rws.topics`) as they change: an iterator of events.
+        """Subscribe to topics: an iterator of events.
 
-        At most 64 signals and persistents; a second subscription is the last one of a session.
+        Topics are made by `rapidgen.client.rws.topics`. At most 64 signals and persistents; a
+        second subscription is the last one of a session.
         """
         return Subscription(self._carrier, self._core, topics)
 

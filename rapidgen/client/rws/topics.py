@@ -1,4 +1,4 @@
-"""What can be subscribed: `topics.signal("doGrip")`, `topics.log()`, ..."""
+"""Topics of subscriptions: `topics.signal("doGrip")`, `topics.log()`, ..."""
 
 from dataclasses import dataclass, field
 
@@ -9,7 +9,7 @@ from rapidgen.wire.rws.operations import RwsOperation
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """One thing to be told about. `priority` is 0 (each 5 s), 1 (each 200 ms), 2 (at once)."""
+    """A topic. `priority` is 0 (every 5 s), 1 (every 200 ms) or 2 (at once)."""
 
     name: str
     operation: RwsOperation
@@ -18,7 +18,7 @@ class Topic:
     priority: int = 1
 
     def resource(self, generation: Generation) -> str:
-        """As a generation spells it."""
+        """Return the resource in a generation's spelling."""
         route = self.operation.route(generation)
         assert route is not None
         return route.fill(self.names) + (f";{self.suffix}" if self.suffix else "")
@@ -64,7 +64,7 @@ _DIALOGS = RwsOperation("GET /rw/rapid/uiinstr", "GET /rw/rapid/uiinstr")
 
 
 def queue(name: str) -> Topic:
-    """Messages of a queue of this session; they are taken out of it."""
+    """Messages of a queue of this session; receiving removes them."""
     return Topic(name, _QUEUE, {"queue": name})
 
 

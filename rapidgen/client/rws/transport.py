@@ -1,4 +1,4 @@
-"""What both carriers need of the HTTP library: TLS for one certificate, logins, failures.
+"""Settings of the HTTP library: TLS, logins, failures.
 
 httpx2's digest is right where others' are not: blanks in users, `;value` and `$` in paths. The
 environment's proxies are ignored, redirects are not followed.
@@ -17,7 +17,7 @@ from rapidgen.wire.rws.events import PROTOCOLS
 from rapidgen.wire.rws.xhtml import LARGEST
 
 _NO_CHECK_TIME = 0x200000
-"""X509_V_FLAG_NO_CHECK_TIME: who agreed to a certificate did not agree to its calendar."""
+"""X509_V_FLAG_NO_CHECK_TIME: a confirmed certificate may have expired."""
 
 
 def pinned_tls(certificate: bytes) -> ssl.SSLContext:
@@ -30,7 +30,7 @@ def pinned_tls(certificate: bytes) -> ssl.SSLContext:
 
 
 def no_verification() -> ssl.SSLContext:
-    """TLS to look at a certificate: nothing is sent over it."""
+    """TLS context to read a certificate; no data is sent over it."""
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
     context.check_hostname = False
     context.verify_mode = ssl.CERT_NONE
@@ -38,15 +38,15 @@ def no_verification() -> ssl.SSLContext:
 
 
 def auth_of(effect: LogIn, core: RwsCore) -> httpx2.Auth:
-    """The login that was found to be wanted."""
+    """Return the login object of the requested type."""
     if effect.way == "digest":
         return httpx2.DigestAuth(core.user, core.login.password)
-    assert core.certificate, "a password in clear goes over TLS only"
+    assert core.certificate, "a password in clear is sent over TLS only"
     return httpx2.BasicAuth(core.user, core.login.password)
 
 
 class SocketOptions(TypedDict):
-    """What a websocket is opened with."""
+    """Options of a websocket."""
 
     subprotocols: list[Subprotocol]
     additional_headers: dict[str, str]
@@ -59,11 +59,11 @@ class SocketOptions(TypedDict):
 def socket_options(
     core: RwsCore, cookies: httpx2.Cookies, *, threads: bool = False
 ) -> SocketOptions:
-    """A websocket of the session with these cookies; proxies and pings are off.
+    """Return options of a websocket of the session with these cookies.
 
-    `threads`: one thread will read while another writes. The tickets that TLS 1.3 sends after its
-    handshake take a read in the middle of which a write is lost, and then everything waits for
-    ever, once in a thousand: TLS 1.2 has none.
+    Proxies and pings are off. `threads`: one thread reads while another writes. The tickets that
+    TLS 1.3 sends after its handshake need a read, during which a concurrent write can be lost and
+    the connection hangs, about once in a thousand: TLS 1.2 has no tickets.
     """
     context = pinned_tls(core.certificate) if core.certificate else None
     if context is not None and threads:
@@ -85,7 +85,7 @@ def response_of(answer: httpx2.Response) -> Response:
 
 
 def not_reached(core: RwsCore, error: Exception, timeout: float) -> RobotError:
-    """Nobody answers, or nobody any more."""
+    """Return the error of a failed or lost connection."""
     if isinstance(error, (httpx2.TimeoutException, TimeoutError)):
         message = f"no answer from {core.where} within {timeout:g} s"
     else:

@@ -17,7 +17,7 @@ _DEEPEST = 32
 
 
 def read(literal: str) -> RapidValue:
-    """The value of a literal. ValueError: it is none."""
+    """Parse a literal. Raises ValueError for an invalid one."""
     tokens = list(_tokens(literal))[::-1]
     value = _value(tokens, 0) if tokens else None
     if tokens or value is None:
@@ -41,7 +41,7 @@ def write(value: RapidValue) -> str:
 
 
 def same(one: RapidValue, other: RapidValue) -> bool:
-    """Whether two values are the same to what a num holds."""
+    """True if two values are equal to the precision of a num."""
     if isinstance(one, bool) or isinstance(other, bool):
         return one is other
     if isinstance(one, int | float) and isinstance(other, int | float):

@@ -1,4 +1,4 @@
-"""What the client does step by step: generators over `effects`."""
+"""Flows of the client: generators of `effects` that a carrier executes."""
 
 from rapidgen.client.rws.flows import (
     cfg,

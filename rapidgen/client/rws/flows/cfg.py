@@ -1,4 +1,7 @@
-"""Configuration: instances, files in mode `add` or `replace`; never `add-with-reset`."""
+"""Configuration: instances, and files in mode `add` or `replace`.
+
+`add-with-reset` is never used.
+"""
 
 from collections.abc import Mapping
 from typing import Literal
@@ -49,7 +52,7 @@ def cfg_instances(core: RwsCore, domain: str, type: str) -> Flow[tuple[CfgInstan
 def cfg_set(
     core: RwsCore, domain: str, type: str, instance: str, attributes: Mapping[str, str]
 ) -> Flow[None]:
-    """Give attributes of an instance new values, which count after a restart."""
+    """Set attributes of an instance, effective after a restart."""
     one = core.generation is Generation.ONE
     form = {k: v if one else f"[{v},1]" for k, v in attributes.items()}
     names = {"domain": domain, "type": type, "instance": instance}
@@ -57,7 +60,7 @@ def cfg_set(
 
 
 def cfg_create(core: RwsCore, domain: str, type: str, instance: str) -> Flow[None]:
-    """A new instance with a name and nothing else."""
+    """Create an instance with a name and default attributes."""
     names = {"domain": domain, "type": type}
     yield from held(core, "cfg", ask(core, ops.CFG_CREATE, names, {"name": instance}))
 
@@ -69,9 +72,9 @@ def cfg_delete(core: RwsCore, domain: str, type: str, instance: str) -> Flow[Non
 
 
 def cfg_load(core: RwsCore, path: str, *, mode: Mode = "add") -> Flow[None]:
-    """Load a cfg file that lies on a volume (`HOME/a.cfg`); what it brings counts after a restart.
+    """Load a cfg file of a volume (`HOME/a.cfg`), effective after a restart.
 
-    `add`: any instance that exists refuses the file whole. `replace`: such ones are overwritten.
+    `add`: an existing instance rejects the whole file. `replace`: existing ones are overwritten.
     Raises RwsError (RG650).
     """
     if mode not in ("add", "replace"):

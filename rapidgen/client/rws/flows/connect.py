@@ -1,4 +1,4 @@
-"""Who is there, whether it may be trusted, and the login; and the end."""
+"""Connection flows: identify, trust, log in, and close."""
 
 import hashlib
 import socket
@@ -25,7 +25,7 @@ _FIRST = "/rw/system"
 
 
 def connect(core: RwsCore) -> Flow[None]:
-    """Find out who is there and log in. A second call does nothing.
+    """Identify the controller and log in; a second call does nothing.
 
     Raises ConnectionFailed (RG601), LoginFailed (RG651, RG652), NotRws (RG653), Busy (RG656).
     """
@@ -48,10 +48,10 @@ def connect(core: RwsCore) -> Flow[None]:
     else:
         raise _no_rws(core)
     body, _ = yield from ask(core, ops.SYSTEM)
-    told = body.first("sys-system") or body.first("sys-system-li")
-    if told is None:
+    item = body.first("sys-system") or body.first("sys-system-li")
+    if item is None:
         raise _no_rws(core)
-    core.robotware, core.system = told.text("rwversion"), told.text("name")
+    core.robotware, core.system = item.text("rwversion"), item.text("name")
     if core.generation is Generation.TWO and whole(core.robotware.partition(".")[0]) >= 8:
         core.generation = Generation.EIGHT
     core.connected = True
@@ -70,7 +70,10 @@ def connect(core: RwsCore) -> Flow[None]:
 
 
 def _reach(core: RwsCore) -> Flow[str]:
-    """Settle on TLS or, where nobody speaks it, on plain HTTP; how it asks for a login."""
+    """Choose TLS, or plain HTTP if the port does not speak TLS.
+
+    Returns the type of login.
+    """
     address = core.address
     core.port = address.port or 443
     plain: ConnectionFailed | None = None
@@ -108,7 +111,7 @@ def _reach(core: RwsCore) -> Flow[str]:
 
 
 def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
-    """Whether this certificate is the right one, before a password is sent."""
+    """Check the certificate before a password is sent."""
     fingerprint = hashlib.sha256(certificate).hexdigest()
     requested = known_certificates.plain(core.fingerprint) or known_certificates.known(
         core.pins, core.where
@@ -130,7 +133,7 @@ def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
     if core.confirm is None or not core.confirm(core.where, known_certificates.shown(fingerprint)):
         raise LoginFailed.because(
             "RG652",
-            f"nobody has said that the certificate of {core.where} is right; no password was sent",
+            f"the certificate of {core.where} is not confirmed; no password was sent",
             "compare it with the controller's and say `--fingerprint ...` (`fingerprint=`)",
             f"there: {known_certificates.shown(fingerprint)}",
         )
@@ -147,14 +150,14 @@ def _no_rws(core: RwsCore) -> NotRws:
 
 
 def close(core: RwsCore) -> Flow[None]:
-    """Give back what is held, log out, and close; harmless when nothing is open."""
+    """Release mastership, log out, and close; harmless if nothing is open."""
     if core.connected:
         try:
             if core.generation is Generation.EIGHT and core.held:
                 yield from ask(core, ops.WRITE_RELEASE, accepted=(403,))
             yield from ask(core, ops.LOGOUT)
         except RobotError:
-            pass  # it is gone already, and with it what it held
+            pass  # the session has ended already, and with it its mastership
     core.held.clear()
     core.connected = False
     yield DropConnections()

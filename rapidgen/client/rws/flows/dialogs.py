@@ -1,4 +1,4 @@
-"""Dialogs of the pendant (UI instructions): what a program asks, and the answer from afar."""
+"""Dialogs of the pendant (UI instructions) and remote answers."""
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
@@ -10,37 +10,37 @@ from rapidgen.wire.rws import operations as ops
 
 _LOOKS = 20
 _LOOK = 0.1
-"""s between two looks whether the dialog has gone."""
+"""s between two checks whether the dialog has closed."""
 
 
 def dialog(core: RwsCore) -> Flow[Dialog | None]:
-    """The dialog that a program waits in, with its parameters; None: there is none."""
+    """Return the open dialog with its parameters; None if there is none."""
     try:
         return (yield from _waiting(core))
     except RwsError as error:
-        if error.status != 404:  # nothing waits [VC 6.16]
+        if error.status != 404:  # no dialog is open [VC 6.16]
             raise
         return None
 
 
 def _waiting(core: RwsCore) -> Flow[Dialog]:
     body, _ = yield from ask(core, ops.DIALOG)
-    told = [item for item in body.all("rap-uiactive-li", "rap-uiactive") if item.text("stack")]
-    if not told:
-        raise NotConfirmed.because("RG655", f"{core.where} tells no dialog")
-    stack = told[0].text("stack")
+    dialogs = [item for item in body.all("rap-uiactive-li", "rap-uiactive") if item.text("stack")]
+    if not dialogs:
+        raise NotConfirmed.because("RG655", f"{core.where} returns no dialog")
+    stack = dialogs[0].text("stack")
     # Some controllers have no reading side of parameters [VC 6.16, VC 7.21].
     names = {"stack": stack}
     result, _ = yield from ask(core, ops.DIALOG_PARAMETERS, names, accepted=(400, 404))
     values = {item.title: item.text("value") for item in result.all("rap-uiparams-li")}
-    return Dialog(told[0].text("instr"), stack, values)
+    return Dialog(dialogs[0].text("instr"), stack, values)
 
 
 def answer_dialog(core: RwsCore, value: RapidValue) -> Flow[None]:
-    """Answer the dialog that waits: a number of a key or a button, a num, a text.
+    """Answer the open dialog: number of a key or button, a num, or a text.
 
-    Returns when it is gone. Raises RwsError (RG650; 404: none waits), NotConfirmed (RG655): it was
-    agreed to, and waits still.
+    Returns when it has closed. Raises RwsError (RG650; 404: no dialog is open), NotConfirmed
+    (RG655): the answer was accepted, and the dialog is still open.
     """
     waiting = yield from _waiting(core)
     if waiting.kind.lower().startswith("tp"):

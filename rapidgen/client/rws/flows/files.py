@@ -9,13 +9,16 @@ from rapidgen.wire.rws.bodies import Generation
 
 
 def volume(core: RwsCore, path: str) -> str:
-    """A path as the controller spells it: `$HOME/a` in RWS 1.0, `HOME/a` in 2.0."""
+    """Return a path in the controller's spelling.
+
+    `$HOME/a` in RWS 1.0, `HOME/a` in 2.0.
+    """
     bare = path.strip("/").removeprefix("$")
     return f"${bare}" if core.generation is Generation.ONE else bare
 
 
 def list_files(core: RwsCore, path: str = "HOME") -> Flow[tuple[FileInfo, ...]]:
-    """What lies in a folder."""
+    """List the entries of a folder."""
     body, _ = yield from ask(core, ops.READ_FILE, {"path": volume(core, path)})
     return tuple(
         FileInfo(i.title, i.kind != "fs-file", i.whole("fs-size"))
@@ -36,7 +39,7 @@ def write_file(core: RwsCore, path: str, data: bytes) -> Flow[bool]:
 
 
 def delete_file(core: RwsCore, path: str) -> Flow[bool]:
-    """Delete a file, or a folder with all that is in it; False: there was none."""
+    """Delete a file, or a folder with its content; False if it is missing."""
     _, response = yield from ask(
         core, ops.DELETE_FILE, {"path": volume(core, path)}, accepted=(404,)
     )
@@ -55,7 +58,7 @@ def copy_file(core: RwsCore, path: str, name: str) -> Flow[None]:
 
 
 def rename_file(core: RwsCore, path: str, name: str) -> Flow[None]:
-    """Give a file another name in its folder."""
+    """Rename a file in its folder."""
     yield from _act(core, ops.RENAME_FILE, "rename", path, name)
 
 

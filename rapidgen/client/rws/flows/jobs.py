@@ -1,4 +1,4 @@
-"""What takes its time: jobs, backups, a restart and what comes after it."""
+"""Long operations: jobs, backups, and restarts with their wait."""
 
 from collections.abc import Mapping
 
@@ -25,7 +25,10 @@ _LONGEST = 600.0
 def finish(
     core: RwsCore, operation: RwsOperation, names: Mapping[str, str], form: Fields
 ) -> Flow[None]:
-    """Ask for a job and wait for its end. Raises RwsError (RG650), RobotTimeout (RG602)."""
+    """Request a job and wait for its end.
+
+    Raises RwsError (RG650), RobotTimeout (RG602).
+    """
     _, response = yield from ask(core, operation, names, form)
     number = response.headers.get("location", "").rpartition("/progress/")[2]
     if response.status != 202 or not number.isalnum():
@@ -33,9 +36,9 @@ def finish(
     until = core.clock() + _LONGEST
     while core.clock() < until:
         body, _ = yield from ask(core, ops.PROGRESS, {"id": number})
-        told = body.first("progress")
-        if told is not None and told.text("state") == "ready":
-            code = told.whole("code")
+        item = body.first("progress")
+        if item is not None and item.text("state") == "ready":
+            code = item.whole("code")
             if code < 0:
                 raise RwsError(response.status, operation.two, Fault(code, "the job failed"))
             return
@@ -52,26 +55,26 @@ def backup(core: RwsCore, name: str, *, volume_name: str = "BACKUP") -> Flow[str
 
 
 def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
-    """Restart the controller (a warm start, no other kind), and wait s until it serves again.
+    """Warm-start the controller, and wait s until it serves again.
 
-    RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602), NotConfirmed
-    (RG655): it was agreed to, and nothing restarts.
+    RAPID stops. Returns when the controller is back and has tasks. Raises RobotTimeout (RG602),
+    NotConfirmed (RG655): the restart was accepted and did not happen.
     """
     yield from _restarted(core, ops.RESTART, {"restart-mode": "restart"}, wait)
 
 
 def restore(core: RwsCore, path: str, *, wait: float = 180.0) -> Flow[None]:
-    """Restart with what a backup on the controller (`BACKUP/name`) holds: modules, cfg, HOME.
+    """Restart with a backup on the controller (`BACKUP/name`).
 
-    What is there now is gone: `backup` first. RAPID stops. Raises as `restart`; RwsError (RG650):
-    it is no backup.
+    It replaces modules, cfg and HOME: call `backup` first. RAPID stops. Raises as `restart`;
+    RwsError (RG650): not a backup.
     """
     form = {"backup": f"/fileservice/{volume(core, path)}"}
     yield from _restarted(core, ops.RESTORE, form, wait)
 
 
 def _restarted(core: RwsCore, operation: RwsOperation, form: Fields, wait: float) -> Flow[None]:
-    """Ask for something that restarts the controller, and wait s until it serves again."""
+    """Request a restart, and wait s until the controller serves again."""
     yield from take(core, "cfg")
     try:
         yield from ask(core, operation, form=form)
@@ -88,7 +91,7 @@ def _restarted(core: RwsCore, operation: RwsOperation, form: Fields, wait: float
 
 
 def _gone(core: RwsCore, wait: float) -> Flow[None]:
-    """Wait until the mastership of this session is gone: with it the old run of the controller.
+    """Wait until the restart has ended the mastership of this session.
 
     Raises NotConfirmed (RG655).
     """
@@ -108,7 +111,10 @@ def _gone(core: RwsCore, wait: float) -> Flow[None]:
 
 
 def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
-    """Wait s until the controller answers, lets in and has tasks. Raises RobotTimeout (RG602)."""
+    """Wait s until the controller answers, accepts a login and has tasks.
+
+    Raises RobotTimeout (RG602).
+    """
     until = core.clock() + wait
     last: Exception | None = None
     while core.clock() < until:
@@ -117,7 +123,7 @@ def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
             if (yield from tasks(core)):
                 return
         except RwsError as error:
-            last = error  # it boots: the session stays, so that none is left behind
+            last = error  # the controller boots: keep the session, so that none is abandoned
         except (ConnectionFailed, ConnectionLost, Busy) as error:
             if isinstance(error, LoginFailed) and error.diagnostics[0].code == "RG652":
                 raise

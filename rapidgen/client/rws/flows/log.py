@@ -13,8 +13,10 @@ _TYPES = {"1": "info", "2": "warning", "3": "error"}
 def log(
     core: RwsCore, *, domain: int = 0, after: int = 0, count: int = 50
 ) -> Flow[tuple[LogEvent, ...]]:
-    """The last `count` entries of a domain (0: all) that are newer than number `after`, oldest
-    first; at most fifty on RobotWare 7: one request."""
+    """Return the last `count` entries of a domain (0: all), oldest first.
+
+    Only those newer than number `after`; at most fifty on RobotWare 7. One request.
+    """
     query = "lang=en" + (f"&elogseqnum={after}" if after else "")
     body, _ = yield from ask(core, ops.ELOG, {"domain": str(domain)}, query=query)
     result = sorted(

@@ -1,4 +1,7 @@
-"""Mastership of RobotWare 6 and 7, write access of 8: taken, given back, held by others."""
+"""Mastership of RobotWare 6 and 7, write access of 8.
+
+Flows take it, release it, and show its holder.
+"""
 
 from rapidgen.client.rws.core import APPLICATION, RwsCore
 from rapidgen.client.rws.effects import Flow, Pause, T
@@ -9,13 +12,15 @@ from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation
 
 _LOOK = 1.0
-"""s between two tries while somebody else holds it."""
+"""s between two attempts while another client holds it."""
 _TAKEN = ("E_RESOURCE_HELD", "E_WRITE_ACCESS_TAKEN")
 
 
 def domain_of(core: RwsCore, domain: str) -> str:
-    """What this controller calls a domain: cfg, motion and rapid are one `edit` on RobotWare 7,
-    and all is one write access on 8."""
+    """Return this controller's name of a domain.
+
+    RobotWare 7 has one `edit` for cfg, motion and rapid; 8 has one write access for all.
+    """
     if core.generation is Generation.EIGHT:
         return "write"
     if core.generation is Generation.TWO:
@@ -24,7 +29,7 @@ def domain_of(core: RwsCore, domain: str) -> str:
 
 
 def held(core: RwsCore, domain: str, steps: Flow[T]) -> Flow[T]:
-    """Carry out steps with mastership of a domain, which is given back where it was not held."""
+    """Run a flow with mastership; release it if it was not held before."""
     yield from take(core, domain)
     try:
         return (yield from steps)
@@ -33,10 +38,10 @@ def held(core: RwsCore, domain: str, steps: Flow[T]) -> Flow[T]:
 
 
 def take(core: RwsCore, domain: str = "rapid", *, wait: float = 0.0) -> Flow[None]:
-    """Take mastership of `rapid`, `cfg` or `motion`; wait s for it while somebody else has it.
+    """Take mastership of `rapid`, `cfg` or `motion`.
 
-    What was taken several times is given back as often. It is never taken by force. Raises Held
-    (RG654) with who has it.
+    Waits s while another client holds it. Each take needs a release. Mastership is never taken by
+    force. Raises Held (RG654) with its holder.
     """
     name = domain_of(core, domain)
     if name in core.held:
@@ -72,7 +77,7 @@ def _request(core: RwsCore, name: str) -> Flow[None]:
 
 
 def give(core: RwsCore, domain: str = "rapid") -> Flow[None]:
-    """Give mastership back; harmless when it is not held."""
+    """Release mastership; harmless if it is not held."""
     name = domain_of(core, domain)
     left = core.held.pop(name, 0) - 1
     if left > 0:
@@ -87,15 +92,18 @@ def give(core: RwsCore, domain: str = "rapid") -> Flow[None]:
 
 
 def holder(core: RwsCore, domain: str = "rapid") -> Flow[MastershipHolder | None]:
-    """Who has mastership of a domain; None: nobody."""
+    """Return the holder of a domain's mastership; None if there is none."""
     name = domain_of(core, domain)
     if core.generation is Generation.EIGHT:
         body, _ = yield from ask(core, ops.WRITE_ACCESS)
-        told = body.items[0] if body.items else None
-        if told is None or told.text("control-station-write-access-held").lower() != "true":
+        held_item = body.items[0] if body.items else None
+        if (
+            held_item is None
+            or held_item.text("control-station-write-access-held").lower() != "true"
+        ):
             return None
-        mine = told.text("held-by-control-station-Id").upper() == core.station.upper()
-        return MastershipHolder(name, "", told.text("held-by-control-station-name"), "", mine)
+        mine = held_item.text("held-by-control-station-Id").upper() == core.station.upper()
+        return MastershipHolder(name, "", held_item.text("held-by-control-station-name"), "", mine)
     body, _ = yield from ask(core, ops.MASTERSHIP, {"domain": name})
     item = body.first("msh-resource")
     if item is None or item.text("mastership") == "nomaster":
@@ -112,7 +120,7 @@ def holder(core: RwsCore, domain: str = "rapid") -> Flow[MastershipHolder | None
 def _held_by(core: RwsCore, name: str) -> Flow[MastershipHeld]:
     who = yield from holder(core, name)
     own = who is not None and who.application == APPLICATION
-    help = "let them give it back or end their session, then try again (`wait=` in Python waits)"
+    help = "let them release it or end their session, then try again (`wait=` in Python waits)"
     if own:
         help = (
             "that is another run of rapidgen: if it was killed, the controller ends its session "

@@ -1,4 +1,4 @@
-"""Mechanical units: which there are, and where they stand, as RAPID has it (degrees, mm)."""
+"""Mechanical units and their positions as RAPID has them (degrees, mm)."""
 
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
@@ -20,7 +20,10 @@ def mechanical_units(core: RwsCore) -> Flow[tuple[str, ...]]:
 
 
 def joint_target(core: RwsCore, unit: str = "ROB_1") -> Flow[JointTarget]:
-    """Where the axes of a unit stand, deg and mm: one request. 9E9: there is no such axis."""
+    """Return the axis positions of a unit, deg and mm; one request.
+
+    9E9: the unit has no such axis.
+    """
     item = yield from one(core, ops.JOINT_TARGET, "ms-jointtarget", unit=unit)
     robot = _numbers(core, item, [f"rax_{n}" for n in range(1, 7)])
     return JointTarget(robot, _numbers(core, item, [f"eax_{x}" for x in _EXTERNAL]))
@@ -29,12 +32,15 @@ def joint_target(core: RwsCore, unit: str = "ROB_1") -> Flow[JointTarget]:
 def rob_target(
     core: RwsCore, unit: str = "ROB_1", *, tool: str = "tool0", wobj: str = "wobj0"
 ) -> Flow[RobTarget]:
-    """Where the TCP of a tool stands in a work object, mm and quaternion: one request."""
+    """Return the TCP of a tool in a work object, mm and quaternion.
+
+    One request.
+    """
     query = write_form({"tool": tool, "wobj": wobj, "coordinate": "Wobj"}).decode()
     body, _ = yield from ask(core, ops.ROB_TARGET, {"unit": unit}, query=query)
     item = body.first("ms-robtargets")
     if item is None:
-        raise NotConfirmed.because("RG655", f"{core.where} gives no robtarget of {unit}")
+        raise NotConfirmed.because("RG655", f"{core.where} returns no robtarget of {unit}")
     # eaxa as rpi's client reads it, eax_a as RWS4YuMi did on a YuMi.
     external = "eax" if "eaxa" in item.fields else "eax_"
     return RobTarget(

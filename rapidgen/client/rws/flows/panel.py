@@ -1,4 +1,4 @@
-"""Identity, panel and execution: what is read, switched, started and stopped."""
+"""Identity, panel and execution: read, switch, start and stop."""
 
 from rapidgen.client.errors import NotReady
 from rapidgen.client.rws.core import RwsCore
@@ -13,25 +13,28 @@ from rapidgen.wire.rws.operations import RwsOperation
 
 _LOOKS = 20
 _LOOK = 0.1
-"""s between two looks whether what was asked for has come true."""
+"""s between two checks whether a command has taken effect."""
 
 
 def one(core: RwsCore, operation: RwsOperation, *kinds: str, **names: str) -> Flow[Item]:
-    """The one thing that an operation gives. Raises NotConfirmed (RG655) when it is not there."""
+    """Return the only item of an operation.
+
+    Raises NotConfirmed (RG655) if it is missing.
+    """
     body, _ = yield from ask(core, operation, names)
     result = body.all(*kinds)
     if not result:
-        raise NotConfirmed.because("RG655", f"{core.where} gives no {kinds[0]}")
+        raise NotConfirmed.because("RG655", f"{core.where} returns no {kinds[0]}")
     return result[0]
 
 
 def identity(core: RwsCore) -> Flow[Identity]:
-    """Who the controller is: one request."""
-    told = yield from one(core, ops.IDENTITY, "ctrl-identity-info")
+    """Return the identity of the controller; one request."""
+    info = yield from one(core, ops.IDENTITY, "ctrl-identity-info")
     return Identity(
-        told.text("ctrl-name"),
-        told.text("ctrl-id"),
-        told.text("ctrl-type"),
+        info.text("ctrl-name"),
+        info.text("ctrl-id"),
+        info.text("ctrl-type"),
         core.system,
         core.robotware,
     )
@@ -51,9 +54,9 @@ def _state(core: RwsCore) -> Flow[str]:
 
 
 def execution(core: RwsCore) -> Flow[ProgramState]:
-    """Whether the program runs."""
-    told = yield from one(core, ops.EXECUTION, "rap-execution")
-    return ProgramState(told.text("ctrlexecstate") == "running", told.text("cycle"))
+    """Return the state of the program's execution."""
+    info = yield from one(core, ops.EXECUTION, "rap-execution")
+    return ProgramState(info.text("ctrlexecstate") == "running", info.text("cycle"))
 
 
 def motors(core: RwsCore, on: bool) -> Flow[None]:
@@ -72,7 +75,7 @@ def motors(core: RwsCore, on: bool) -> Flow[None]:
     raise NotConfirmed.because(
         "RG655",
         f"{core.where} agreed to {requested}, and is in state {state}",
-        "look at the emergency stop and the guard stop; `log()` tells more",
+        "look at the emergency stop and the guard stop; `log()` shows the cause",
     )
 
 
@@ -85,24 +88,24 @@ def set_speed(core: RwsCore, percent: int) -> Flow[None]:
         yield from ask(core, ops.SET_SPEED, form=form)
     else:
         yield from held(core, "edit", ask(core, ops.SET_SPEED, form=form))
-    told = yield from one(core, ops.SPEED, "pnl-speedratio")
-    if told.text("speedratio") != str(percent):
+    info = yield from one(core, ops.SPEED, "pnl-speedratio")
+    if info.text("speedratio") != str(percent):
         raise NotConfirmed.because(
-            "RG655", f"{core.where} agreed to {percent} %, and is at {told.text('speedratio')} %"
+            "RG655", f"{core.where} agreed to {percent} %, and is at {info.text('speedratio')} %"
         )
 
 
 def pp_to_main(core: RwsCore) -> Flow[None]:
-    """Program pointers of all tasks to main; the program must stand."""
+    """Set program pointers of all tasks to main; the program must be stopped."""
     yield from held(core, "rapid", ask(core, ops.RESET_PP))
 
 
 def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
-    """Start the program of all selected tasks; returns when it runs. `cycle`: once, forever, asis.
+    """Start the program of all selected tasks; return when it runs.
 
-    THE ROBOT MAY MOVE. Motors have to be on. Raises NotReady (RG610): this session holds
-    mastership, which keeps a program from running. NotConfirmed (RG655): it was agreed to, and does
-    not run.
+    `cycle`: once, forever, asis. THE ROBOT MAY MOVE. Motors have to be on. Raises NotReady (RG610):
+    this session holds mastership, which prevents a start. NotConfirmed (RG655): accepted, and the
+    program does not run.
     """
     if core.held.keys() - {"write"}:
         raise NotReady.because(
@@ -130,7 +133,7 @@ def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
     raise NotConfirmed.because(
         "RG655",
         f"{core.where} agreed to start, and the program does not run",
-        "are the motors on, is the program pointer set? `log()` tells more",
+        "are the motors on, is the program pointer set? `log()` shows the cause",
     )
 
 
@@ -140,9 +143,9 @@ def _start_8(core: RwsCore, form: dict[str, str]) -> Flow[None]:
 
 
 def stop(core: RwsCore, *, everything: bool = False) -> Flow[None]:
-    """Stop the program; returns when it stands. `everything`: background tasks, too.
+    """Stop the program; return when it has stopped.
 
-    Not a safety function.
+    `everything`: also stop background tasks. Not a safety function.
     """
     form = {"stopmode": "stop", "usetsp": "alltsk" if everything else "normal"}
     yield from ask(core, ops.STOP, form=form)

@@ -10,7 +10,7 @@ from rapidgen.wire.rws import operations as ops
 _LOOK = 0.2
 """s between two looks into a queue."""
 _COMMAND = "111"
-"""What public clients send [code: abb_robot_client, abb-rws-client]."""
+"""Value that public clients send [code: abb_robot_client, abb-rws-client]."""
 
 
 def queues(core: RwsCore) -> Flow[tuple[str, ...]]:
@@ -20,7 +20,10 @@ def queues(core: RwsCore) -> Flow[tuple[str, ...]]:
 
 
 def make_queue(core: RwsCore, name: str, *, size: int = 10, largest: int = 444) -> Flow[None]:
-    """A queue for answers, of `size` messages of `largest` bytes; it ends with the session."""
+    """Create a queue of `size` messages of `largest` bytes.
+
+    It ends with the session.
+    """
     form = {
         "dipc-queue-name": name,
         "dipc-queue-size": str(size),
@@ -37,8 +40,11 @@ def delete_queue(core: RwsCore, name: str) -> Flow[None]:
 def send_message(
     core: RwsCore, queue: str, data: str, *, sender: str = "", user: int = 0
 ) -> Flow[None]:
-    """Put a message into a queue. To a task (`RMQ_T_ROB1`) it is `type;value`, as `num;42`, and
-    the program answers `sender`, a queue of this session."""
+    """Put a message into a queue.
+
+    A message to a task (`RMQ_T_ROB1`) is `type;value`, as `num;42`, and the program answers
+    `sender`, a queue of this session.
+    """
     form = {
         "dipc-src-queue-name": sender,
         "dipc-cmd": _COMMAND,
@@ -50,9 +56,9 @@ def send_message(
 
 
 def receive_message(core: RwsCore, queue: str, *, wait: float = 0.0) -> Flow[QueueMessage]:
-    """The first message of a queue of this session, taken out of it; waits s for one.
+    """Remove and return the first message of a queue of this session.
 
-    Raises RobotTimeout (RG602): none came.
+    Waits s for one. Raises RobotTimeout (RG602): none arrived.
     """
     until = core.clock() + wait
     while True:

@@ -35,9 +35,9 @@ def _task(item: Item) -> TaskState:
 
 
 def select_task(core: RwsCore, task: str, selected: bool) -> Flow[None]:
-    """Whether a NORMAL task is started with the program (the task selection panel); read back.
+    """Select whether a NORMAL task starts with the program; read it back.
 
-    The program must stand. Raises NotConfirmed (RG655).
+    This is the task selection panel. The program must be stopped. Raises NotConfirmed (RG655).
     """
     operation = ops.ACTIVATE if selected else ops.DEACTIVATE
     yield from held(core, "rapid", ask(core, operation, {"task": task}, {"task": task}))
@@ -65,35 +65,38 @@ def module_text(core: RwsCore, task: str, module: str) -> Flow[str]:
     for item in body.items:
         if "module-text" in item.fields:
             return item.text("module-text")
-    raise NotConfirmed.because("RG655", f"{core.where} gives no text of {module} in {task}")
+    raise NotConfirmed.because("RG655", f"{core.where} returns no text of {module} in {task}")
 
 
 def _of_task(core: RwsCore, task: str) -> tuple[dict[str, str], str]:
-    """Where the task's name goes: into the query of RWS 1.0, into the path of 2.0."""
+    """Put the task's name into the query of RWS 1.0 or the path of 2.0."""
     if core.generation is Generation.ONE:
         return {}, f"task={task}"
     return {"task": task}, ""
 
 
 def load_module(core: RwsCore, task: str, path: str, *, replace: bool = False) -> Flow[None]:
-    """Load a module file (`HOME/folder/a.mod`) into a task. RAPID must stand in all tasks.
+    """Load a module file (`HOME/folder/a.mod`) into a task.
 
-    `replace`: in place of a module of the same name. What is wrong in it is told by
-    `build_errors`, not here.
+    RAPID must be stopped in all tasks. `replace`: instead of a module of the same name.
+    `build_errors` reports its errors, not this method.
     """
     form = {"modulepath": _volume(core, path), "replace": "true" if replace else "false"}
     yield from held(core, "rapid", ask(core, ops.LOAD_MODULE, {"task": task}, form))
 
 
 def unload_module(core: RwsCore, task: str, module: str) -> Flow[None]:
-    """Take a module out of a task. RAPID must stand in all tasks."""
+    """Unload a module of a task. RAPID must be stopped in all tasks."""
     yield from held(core, "rapid", ask(core, ops.UNLOAD_MODULE, {"task": task}, {"module": module}))
 
 
 def save_module(
     core: RwsCore, task: str, module: str, name: str, volume: str = "TEMP"
 ) -> Flow[str]:
-    """Write a module with the present values of its persistents to a volume; its path there."""
+    """Save a module with its current persistents; return its path.
+
+    The path is on a volume.
+    """
     names, query = _of_task(core, task)
     names["module"] = module
     is_one = core.generation is Generation.ONE
@@ -103,13 +106,16 @@ def save_module(
 
 
 def _volume(core: RwsCore, path: str) -> str:
-    """A path below a volume as the controller spells it: `$HOME/a` or `HOME/a`."""
+    """Return a path below a volume in the controller's spelling.
+
+    `$HOME/a` or `HOME/a`.
+    """
     bare = path.removeprefix("$")
     return f"${bare}" if core.generation is Generation.ONE else bare
 
 
 def build_errors(core: RwsCore, task: str) -> Flow[tuple[BuildError, ...]]:
-    """What is wrong with the program of a task."""
+    """Return the build errors of a task's program."""
     body, _ = yield from ask(core, ops.BUILD_ERRORS, {"task": task}, accepted=(404,))
     return tuple(
         BuildError(i.text("ModuleName"), i.whole("row"), i.whole("column"), i.text("error"))
@@ -118,7 +124,7 @@ def build_errors(core: RwsCore, task: str) -> Flow[tuple[BuildError, ...]]:
 
 
 def pointer(core: RwsCore, task: str) -> Flow[ProgramPointer]:
-    """Where the program pointer of a task stands."""
+    """Return the program pointer of a task."""
     item = yield from one(core, ops.POINTER, "pcp-info", task=task)
     row, _, column = item.text("beginposition").partition(",")
     module = item.text("modulemame") or item.text("modulename")
@@ -126,7 +132,10 @@ def pointer(core: RwsCore, task: str) -> Flow[ProgramPointer]:
 
 
 def set_pointer(core: RwsCore, task: str, module: str, routine: str) -> Flow[None]:
-    """Program pointer of one task to a routine; those of other tasks stay. The task must stand."""
+    """Set one task's program pointer to a routine.
+
+    Pointers of other tasks stay. The task must be stopped.
+    """
     form = {"module": module, "routine": routine}
     if core.generation is not Generation.ONE:
         form["userlevel"] = "FALSE"
@@ -137,18 +146,24 @@ def set_pointer(core: RwsCore, task: str, module: str, routine: str) -> Flow[Non
 
 
 def symbol_text(core: RwsCore, path: str) -> Flow[str]:
-    """A datum `TASK/MODULE/NAME` (or `TASK/NAME`) as a RAPID literal: one request."""
+    """Return a datum as a RAPID literal; one request.
+
+    Its path is `TASK/MODULE/NAME` (or `TASK/NAME`).
+    """
     body, _ = yield from ask(core, ops.SYMBOL, {"symbol": path})
     item = body.first("rap-data")
     if item is None or "value" not in item.fields:
-        why = "it is too large to be given whole" if item and item.links else "there is no value"
+        why = "it is too large for one response" if item and item.links else "there is no value"
         help = "read it by element: NAME{1}"
         raise NotConfirmed.because("RG655", f"{path} at {core.where}: {why}", help)
     return item.text("value")
 
 
 def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
-    """A datum as a Python value: bool, str, number; records and arrays are tuples."""
+    """Return a datum as a Python value: bool, str or number.
+
+    Records and arrays are tuples.
+    """
     text = yield from symbol_text(core, path)
     try:
         return read(text)
@@ -159,7 +174,10 @@ def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
 
 
 def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
-    """Give a datum a value, and read it back. Raises NotConfirmed (RG655): it did not take it."""
+    """Set a datum and read it back.
+
+    Raises NotConfirmed (RG655): it has another value.
+    """
     steps = ask(core, ops.SET_SYMBOL, {"symbol": path}, {"value": write(value)})
     if core.generation is Generation.ONE:
         yield from steps  # RobotWare 6 takes mastership by itself
@@ -175,7 +193,10 @@ def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
 def symbols(
     core: RwsCore, task: str, *, module: str = "", kind: str = "any", pattern: str = ""
 ) -> Flow[tuple[SymbolInfo, ...]]:
-    """Data of a task: `kind` per, var, con or any; `pattern` a regular expression of the name."""
+    """Return data of a task.
+
+    `kind` is per, var, con or any; `pattern` a regular expression of the name.
+    """
     form = {
         "view": "block",
         "vartyp": "any",

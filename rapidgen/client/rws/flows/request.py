@@ -1,4 +1,4 @@
-"""One operation asked for: media types, forms, repeats, refusals."""
+"""Request of one operation: media types, forms, repeats, refusals."""
 
 import logging
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ from rapidgen.wire.rws.grants import needed
 from rapidgen.wire.rws.operations import RwsOperation
 
 _LEVELS = {True: logging.DEBUG, False: logging.INFO}
-"""What is only looked at, and what is asked to be done."""
+"""Methods that read, and methods that change."""
 _TRIES = 6
 _BREATH = 0.25
 """s after a 503 [code: a public client waits 200 ms]."""
@@ -29,9 +29,10 @@ def ask(
     data: bytes | None = None,
     accepted: tuple[int, ...] = (),
 ) -> Flow[tuple[Body, Response]]:
-    """Carry out an operation; its body and the answer. `accepted` are further good statuses.
+    """Execute an operation; return its body and the response.
 
-    Raises RwsError (RG650), Busy (RG656), LoginFailed (RG651), NotRws (RG653).
+    `accepted` are further good statuses. Raises RwsError (RG650), Busy (RG656), LoginFailed
+    (RG651), NotRws (RG653).
     """
     route = core.route(operation)
     target = route.fill(dict(names or {}))
@@ -66,7 +67,7 @@ def ask(
 def _send(
     core: RwsCore, method: str, target: str, headers: Mapping[str, str], body: bytes
 ) -> Flow[Response]:
-    """A request, again after 503, and once more after a session that has ended."""
+    """Send a request, again after 503, and once more after a session's end."""
     again = True
     for _ in range(_TRIES):
         core.requests += 1
@@ -85,13 +86,13 @@ def _send(
             raise LoginFailed.because(
                 "RG651",
                 f"{core.where} does not let {core.user} in with this password",
-                "mend user or password; nothing was changed",
+                "correct user or password; nothing was changed",
             )
         return response
     raise Busy.because(
         "RG656",
         f"{core.where} is busy: it answered 503 {_TRIES} times",
-        "it takes 20 requests a second and 70 sessions: end other clients, or wait five minutes",
+        "it accepts 20 requests a second and 70 sessions: end other clients, or wait five minutes",
     )
 
 

@@ -1,4 +1,4 @@
-"""Signals: read, and set with a look whether it came true."""
+"""Signals: read, and set with a check of the result."""
 
 from urllib.parse import parse_qs
 
@@ -29,7 +29,7 @@ def signals(core: RwsCore) -> Flow[tuple[SignalState, ...]]:
 
 
 def signal(core: RwsCore, name: str) -> Flow[SignalState]:
-    """One signal, by its name or as NETWORK/DEVICE/NAME: one request."""
+    """Return a signal by its name or as NETWORK/DEVICE/NAME; one request."""
     item = yield from one(core, ops.SIGNAL, "ios-signal", "ios-signal-li", signal=name)
     return _signal(item)
 
@@ -46,7 +46,10 @@ def _signal(item: Item) -> SignalState:
 
 
 def set_signal(core: RwsCore, name: str, value: float) -> Flow[SignalState]:
-    """Set a signal, and look: two requests. Raises NotConfirmed (RG655): it is something else."""
+    """Set a signal and read it back; two requests.
+
+    Raises NotConfirmed (RG655): it has another value.
+    """
     yield from ask(core, ops.SET_SIGNAL, {"signal": name}, {"lvalue": f"{float(value):g}"})
     now = yield from signal(core, name)
     if abs(now.value - value) > 1e-4 * max(1.0, abs(value)):

@@ -1,4 +1,4 @@
-"""Subscriptions: asked for, and what their messages say."""
+"""Subscriptions and the events of their messages."""
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
@@ -21,12 +21,12 @@ from rapidgen.wire.rws.bodies import Item, Unreadable
 from rapidgen.wire.rws.events import WantedResource, read_events, read_opened, write_wanted
 
 _TWINS = ("rap-data",)
-"""Comes with an event and says the same."""
+"""Class of an item that repeats an event."""
 
 
 @dataclass(frozen=True, slots=True)
 class SubscriptionGroup:
-    """A subscription: its group, the path of its websocket, what everything is now."""
+    """A subscription: its group, its websocket path, and current values."""
 
     group: str
     path: str
@@ -34,7 +34,7 @@ class SubscriptionGroup:
 
 
 def subscribe(core: RwsCore, topics: Sequence[Topic]) -> Flow[SubscriptionGroup]:
-    """Ask to be told of topics. Raises RwsError (RG650), NotRws (RG653)."""
+    """Subscribe to topics. Raises RwsError (RG650), NotRws (RG653)."""
     yield from connect(core)
     requested = [
         WantedResource(topic.resource(core.generation), topic.priority) for topic in topics
@@ -44,19 +44,19 @@ def subscribe(core: RwsCore, topics: Sequence[Topic]) -> Flow[SubscriptionGroup]
         body = xhtml.read(response.body)
         group, path = read_opened(body, response.headers.get("location", ""))
     except ValueError as error:
-        raise NotRws.because("RG653", f"{core.where} gives no subscription: {error}") from error
-    events = yield from _told(core, topics, body.items)
+        raise NotRws.because("RG653", f"{core.where} returns no subscription: {error}") from error
+    events = yield from _events(core, topics, body.items)
     return SubscriptionGroup(group, path, events)
 
 
 def again(core: RwsCore, topics: Sequence[Topic], wait: float) -> Flow[SubscriptionGroup]:
-    """The same after the connection was lost, or the controller restarted."""
+    """Subscribe again after a lost connection or a restart."""
     yield from wait_ready(core, wait=wait)
     return (yield from subscribe(core, topics))
 
 
 def unsubscribe(core: RwsCore, group: str) -> Flow[None]:
-    """Be told no more; harmless when the group has ended."""
+    """End a subscription; harmless if the group has ended."""
     if core.connected:
         with suppress(RobotError):
             yield from ask(core, ops.UNSUBSCRIBE, {"group": group}, accepted=(404,))
@@ -65,15 +65,18 @@ def unsubscribe(core: RwsCore, group: str) -> Flow[None]:
 def events_of(
     core: RwsCore, topics: Sequence[Topic], message: bytes
 ) -> Flow[tuple[ResourceEvent, ...]]:
-    """Events of a message; a value that is only pointed to is read. Raises NotRws (RG653)."""
+    """Return the events of a message; read values that it only links to.
+
+    Raises NotRws (RG653).
+    """
     try:
         items = read_events(message)
     except Unreadable as error:
-        raise NotRws.because("RG653", f"{core.where} tells no event: {error}") from error
-    return (yield from _told(core, topics, items))
+        raise NotRws.because("RG653", f"{core.where} sent an invalid event: {error}") from error
+    return (yield from _events(core, topics, items))
 
 
-def _told(
+def _events(
     core: RwsCore, topics: Sequence[Topic], items: Iterable[Item]
 ) -> Flow[tuple[ResourceEvent, ...]]:
     result = []
@@ -84,7 +87,7 @@ def _told(
             continue
         name = topic.name if topic is not None else item.title
         if item.kind == "rap-ui-ev":
-            name = "dialogs"  # known by its class: it links to nothing [code: OmniCore App SDK]
+            name = "dialogs"  # recognised by its class: it has no link [code: OmniCore App SDK]
         if item.kind == "elog-message-ev":
             value = item.text("seqnum") or item.links.get("self", "").rpartition("/")[2]
             domain = item.links.get("self", "").split("/")[-2:][0]

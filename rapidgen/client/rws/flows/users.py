@@ -1,4 +1,7 @@
-"""What the user may do: grants by UAS name, and remote writing in manual mode (RMMP)."""
+"""User rights: grants by UAS name, and remote writing in manual mode.
+
+ABB calls the latter RMMP.
+"""
 
 from rapidgen.client.errors import NotReady
 from rapidgen.client.rws.core import RwsCore
@@ -10,23 +13,22 @@ from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.operations import RwsOperation
 
 _LOOK = 0.5
-"""s between two polls; each keeps the question on the pendant [code: abb_robot_client]."""
+"""s between two polls; each keeps the pendant's prompt [abb_robot_client]."""
 
 
 def grants(core: RwsCore) -> Flow[frozenset[str]]:
-    """UAS names of what this user may do; none where the controller does not tell."""
+    """UAS names of this user's grants; empty if the controller reports none."""
     body, _ = yield from ask(core, ops.GRANTS, accepted=(400, 403, 404))
     kinds = ("user-grant", "uas-grant")
     return frozenset(i.text("grantname") or i.title for i in body.all(*kinds)) - {""}
 
 
 def ask_rmmp(core: RwsCore, privilege: str = "modify", *, wait: float = 10.0) -> Flow[None]:
-    """Ask the pendant's user for remote writing (`modify`) or running, too (`exec`), in manual
-    mode; returns when it is granted, and at once in automatic mode.
+    """Request remote writing (`modify`) or running (`exec`) in manual mode.
 
-    It lasts until `cancel_rmmp`, the end of the session or another mode. Raises NotReady (RG661):
-    it was denied, or nobody answered within s. NotSupported (RG659): RobotWare 8 has none that
-    works.
+    Returns when the pendant's user grants it, and at once in automatic mode. It lasts until
+    `cancel_rmmp`, the end of the session or another mode. Raises NotReady (RG661): it was denied,
+    or not answered within s. NotSupported (RG659): RobotWare 8 has none that works.
     """
     if (yield from _mode(core)) == "AUTO":
         return
@@ -35,15 +37,19 @@ def ask_rmmp(core: RwsCore, privilege: str = "modify", *, wait: float = 10.0) ->
     yield from ask(core, ops.ASK_RMMP, form={"privilege": privilege})
     until = core.clock() + wait
     while True:
-        told = yield from one(core, ops.RMMP_POLL, "user-rmmp-poll")
-        status = told.text("status").upper()
+        item = yield from one(core, ops.RMMP_POLL, "user-rmmp-poll")
+        status = item.text("status").upper()
         if status == "GRANTED":
             return
         if status != "PENDING" or core.clock() >= until:
             break
         yield Pause(_LOOK)
     yield from ask(core, ops.CANCEL_RMMP, accepted=(400, 403, 404))
-    why = f"nobody granted it within {wait:g} s" if status == "PENDING" else f"it says {status}"
+    why = (
+        f"the pendant's user did not grant it within {wait:g} s"
+        if status == "PENDING"
+        else f"the controller reports {status}"
+    )
     raise NotReady.because(
         "RG661",
         f"{core.where} is in manual mode, and remote {privilege} was not granted: {why}",
@@ -56,11 +62,11 @@ _NO_RMMP = RwsOperation("-", "POST /users/rmmp", "-")
 
 
 def cancel_rmmp(core: RwsCore) -> Flow[None]:
-    """Give remote writing in manual mode back; harmless where there is none."""
+    """Release remote writing in manual mode; harmless if there is none."""
     if core.generation is not Generation.EIGHT:
         yield from ask(core, ops.CANCEL_RMMP, accepted=(400, 403, 404))
 
 
 def _mode(core: RwsCore) -> Flow[str]:
-    told = yield from one(core, ops.OPMODE, "pnl-opmode")
-    return told.text("opmode")
+    item = yield from one(core, ops.OPMODE, "pnl-opmode")
+    return item.text("opmode")
