@@ -1,3 +1,6 @@
-"""RAPID drivers for ABB robots: generated, run on a virtual controller, deployed and driven."""
+"""RAPID drivers for ABB robots.
+
+Generates drivers, runs them on a virtual controller, deploys them and controls robots with them.
+"""
 
 __version__ = "0.1.0"

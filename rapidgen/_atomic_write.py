@@ -1,4 +1,7 @@
-"""One file put in its place whole: a full disk or a Ctrl-C leaves what was there before."""
+"""Atomic replacement of one file.
+
+A full disk or Ctrl-C leaves the earlier content.
+"""
 
 import os
 import stat
@@ -6,10 +9,10 @@ from pathlib import Path
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write `data` beside `path` and rename it there; rights of a file that was there are kept.
+    """Write `data` to a temporary file and rename it to `path`.
 
-    A link stays and its target is replaced; a pipe or a device is written to. Raises OSError
-    that names `path`.
+    The rights of an existing file are kept. A link stays and its target is replaced; a pipe or a
+    device is written to. Raises OSError that names `path`.
     """
     target = Path(os.path.realpath(path))
     try:
@@ -24,7 +27,10 @@ def write_whole(path: Path, data: bytes) -> None:
 
 
 def check_writable(path: Path) -> None:
-    """Say before long work that its result has nowhere to go; leaves no file. Raises OSError."""
+    """Check before long work that a result can be written; leave no file.
+
+    Raises OSError.
+    """
     is_new = not path.exists()
     path.open("ab").close()
     if is_new:

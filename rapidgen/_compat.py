@@ -1,6 +1,7 @@
-"""What `enum` and `typing` gained in Python 3.11, on 3.10 too (Ubuntu 22.04, ROS 2 Humble).
+"""Names of `enum` and `typing` from Python 3.11, also for 3.10.
 
-Only what costs nothing to import: STOP has to be on the wire before anything else is loaded.
+3.10 is Python of Ubuntu 22.04 with ROS 2 Humble. Only cheap imports: STOP has to be sent before any
+other module is loaded.
 """
 
 import sys

@@ -1,4 +1,7 @@
-"""Where the shipped data lies: `_data` in a wheel, the top level in a checkout."""
+"""Location of the shipped data.
+
+It is `_data` in a wheel, the top level in a checkout.
+"""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What only some installations have: which extra of rapidgen brings a package."""
+"""Optional packages and the extras of rapidgen that install them."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,11 +14,11 @@ EXTRAS = {
     "websockets": "web",
     "zstandard": "recording",
 }
-"""By the name that is imported; pyproject.toml has the same (a test compares)."""
+"""Extras by import name, as in pyproject.toml (a test compares them)."""
 
 
 def missing(fault: ModuleNotFoundError) -> Diagnostic | None:
-    """RG905 for an import that an extra would have satisfied; None for any other."""
+    """Return RG905 for an import that an extra provides; None for others."""
     package = (fault.name or "").partition(".")[0]
     if package not in EXTRAS:
         return None
@@ -32,7 +32,10 @@ def missing(fault: ModuleNotFoundError) -> Diagnostic | None:
 
 @contextmanager
 def named() -> Iterator[None]:
-    """Let an import that fails for want of an extra say which; still a ModuleNotFoundError."""
+    """Add the extra's name to a failed import.
+
+    It stays a ModuleNotFoundError.
+    """
     try:
         yield
     except ModuleNotFoundError as fault:

@@ -1,4 +1,7 @@
-"""Signals that interrupt a command or a node, which then stops its robot and ends."""
+"""Signals that interrupt a command or a node.
+
+It then stops its robot and ends.
+"""
 
 import signal
 
@@ -8,9 +11,9 @@ INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 def heeded_signals() -> tuple[signal.Signals, ...]:
     """Return the signals that end this process.
 
-    A shell starts the background jobs of a script (`COMMAND &`) with SIGINT ignored, and a robot
-    that such a job moves must not be left without a way to interrupt it: SIGINT and SIGTERM are
-    never ignored. SIGHUP stays ignored below `nohup`, which exists for that only.
+    A shell starts the background jobs of a script (`COMMAND &`) with SIGINT ignored, and the user
+    must be able to interrupt a robot that such a job moves: SIGINT and SIGTERM are never ignored.
+    SIGHUP stays ignored below `nohup`, which has this purpose.
     """
     if signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
         return INTERRUPTIONS[:2]

@@ -1,6 +1,6 @@
-"""JSON as data with types: what was read is taken apart by what it has to be.
+"""Typed access to JSON data.
 
-Each function raises TypeError for something else; a member that is missing is a KeyError.
+Each function raises TypeError for another type; a missing member is a KeyError.
 """
 
 from typing import TypeAlias

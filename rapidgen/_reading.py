@@ -1,9 +1,9 @@
-"""Reading files that others made: regular, of limited size, and below the folder they belong to.
+"""Reading of foreign files: regular, of limited size, inside a folder.
 
 Every file of foreign origin is read here: a configuration, a description and its meshes, cfg and
-modules, a backup, a manifest, a plan, a journal, a recording. A named pipe, a socket or a device
-is not waited for, and a link does not lead out of the folder, also not one that is put there
-while the file is being opened.
+modules, a backup, a manifest, a plan, a journal, a recording. Reading does not wait for a named
+pipe, a socket or a device, and a link does not lead out of the folder, even if it is created while
+the file is being opened.
 """
 
 import errno
@@ -17,7 +17,10 @@ _FLAGS = os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
 # Only Linux has O_PATH, which needs no right to list a folder.
 _STEP = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
 _PART = 1 << 20
-"""Bytes that are asked for at a time: the limit may be far above what is there."""
+"""Bytes of one read.
+
+The limit may be far larger than the file.
+"""
 
 
 class NotRegular(OSError):
@@ -33,14 +36,14 @@ class OutsideFolder(OSError):
 
 
 def read_foreign(path: StrPath, limit: int, *, below: StrPath | None = None) -> bytes:
-    """Bytes of a regular file of at most `limit` bytes.
+    """Read a regular file of at most `limit` bytes.
 
-    `below`: the folder that the file has to lie in, links followed. Raises OSError, with the
-    reason in `strerror`: NotRegular, TooLarge, OutsideFolder, or the system's own.
+    `below`: the folder that must contain the file, links followed. Raises OSError, with the reason
+    in `strerror`: NotRegular, TooLarge, OutsideFolder, or the system's own.
     """
     with open_foreign(path, limit, below=below) as file:
         data = bytearray()
-        # `file.read` gives None instead of an OSError where nothing is there yet (/proc/kmsg).
+        # `file.read` returns None instead of raising OSError if no data is available (/proc/kmsg).
         while part := os.read(file.fileno(), _PART):
             data += part
             if len(data) > limit:  # it has grown, or is one of /proc, which have no size
@@ -51,7 +54,7 @@ def read_foreign(path: StrPath, limit: int, *, below: StrPath | None = None) -> 
 def open_foreign(
     path: StrPath, limit: int | None = None, *, below: StrPath | None = None
 ) -> BufferedReader:
-    """A regular file opened for reading; as `read_foreign`, for files that are read in parts."""
+    """Open a regular file, as `read_foreign`, to read it in parts."""
     name = os.fspath(path)
     try:
         descriptor = _open(name) if below is None else _open_below(name, os.fspath(below))
@@ -69,8 +72,8 @@ def open_foreign(
 
 
 def _open(path: str, folder: int | None = None, flags: int = _FLAGS) -> int:
-    # Opening a device can have effects, so its kind is looked at first. What is put there between
-    # the two is opened without waiting, and refused by what `fstat` says of the descriptor.
+    # Opening a device can have effects, so its type is checked first. A file that replaces it in
+    # between is opened without waiting, and `fstat` of the descriptor rejects it.
     follow = not flags & os.O_NOFOLLOW
     _check_regular(os.stat(path, dir_fd=folder, follow_symlinks=follow), path)
     return os.open(path, flags, dir_fd=folder)
@@ -81,8 +84,8 @@ def _open_below(path: str, below: str) -> int:
     real = os.path.realpath(path)
     if os.path.commonpath((root, real)) != root:
         raise OutsideFolder(errno.EPERM, f"it lies outside of {below}", path)
-    # The real path has no links: one that is met on the way was put there after `realpath`, and
-    # O_NOFOLLOW refuses it.
+    # The real path has no links: a link on it was created after `realpath`, and O_NOFOLLOW rejects
+    # it.
     *folders, name = os.path.relpath(real, root).split(os.sep)
     current = os.open(root, _STEP & ~os.O_NOFOLLOW)
     try:

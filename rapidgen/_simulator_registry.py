@@ -1,7 +1,7 @@
-"""Simulators of this user that run now: what each serves, in a file that it holds locked.
+"""Registry of this user's running simulators, one locked file each.
 
-The lock goes with its process, however that ends; a file that nobody holds is of one that ended
-without a word. Others on this machine cannot put a file there: the folder is the user's own.
+The lock ends with its process, in whatever way; an unlocked file belongs to a simulator that was
+killed. Other users of this machine cannot add a file: the folder is the user's own.
 """
 
 import fcntl
@@ -16,7 +16,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Simulator:
-    """One that runs: `addresses` by group as HOST:MOTION,STATE[,CONTROL]."""
+    """A running simulator.
+
+    `addresses` are HOST:MOTION,STATE[,CONTROL] by group.
+    """
 
     name: str
     pid: int
@@ -24,7 +27,10 @@ class Simulator:
 
 
 def folder() -> str:
-    """Where the files lie: below XDG_RUNTIME_DIR, else below the folder for temporary files."""
+    """Return the registry's folder.
+
+    It is below XDG_RUNTIME_DIR, else below the folder for temporary files.
+    """
     base = os.environ.get("XDG_RUNTIME_DIR")
     if base and os.path.isdir(base):
         return os.path.join(base, "rapidgen")
@@ -33,7 +39,10 @@ def folder() -> str:
 
 @contextmanager
 def published(simulator: Simulator) -> Iterator[bool]:
-    """Tell of a simulator while the block runs; False: there is no place that is the user's own."""
+    """Register a simulator while the block runs.
+
+    False: this user has no private folder.
+    """
     own = folder()
     if not _is_own(own, make=True):
         yield False
@@ -46,7 +55,7 @@ def published(simulator: Simulator) -> Iterator[bool]:
     }
     fresh = os.path.join(own, f"new-{simulator.pid}")
     with open(fresh, "w", encoding="utf-8") as file:
-        # Locked and whole before it has its name: one that nobody holds is taken for left behind.
+        # The file is complete and locked before it is renamed: an unlocked one counts as abandoned.
         fcntl.flock(file, fcntl.LOCK_EX)
         json.dump(text, file)
         file.flush()
@@ -58,7 +67,7 @@ def published(simulator: Simulator) -> Iterator[bool]:
 
 
 def running() -> tuple[list[Simulator], list[str]]:
-    """Simulators that run, the oldest first, and the files of those that ended without a word.
+    """Return running simulators, the oldest first, and abandoned files.
 
     Those files are removed.
     """
@@ -111,7 +120,7 @@ def _made(path: str) -> float:
 
 
 def _is_own(path: str, *, make: bool) -> bool:
-    """Whether a folder is this user's, and nobody else may write there."""
+    """True if a folder is this user's and no other user may write there."""
     if make:
         try:
             os.mkdir(path, 0o700)

@@ -23,7 +23,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("servers/rws", "client/rws")]
 
-from served import Caller, make_cabinet, make_desk  # noqa: E402
+from served import Caller, make_application, make_runner  # noqa: E402
 from test_hostile import FLOWS, NOWHERE, run  # noqa: E402
 
 from rapidgen.client.rws.address import parse_address  # noqa: E402
@@ -145,9 +145,9 @@ def requests(number: int, first: int) -> int:
     for generation in Generation:
         with (
             tempfile.TemporaryDirectory() as folder,
-            make_cabinet(Path(folder), generation) as runner,
+            make_runner(Path(folder), generation) as runner,
         ):
-            desk = make_desk(runner, generation)
+            desk = make_application(runner, generation)
             desk.sessions.is_too_fast = lambda: False
             runner.controller.operator.ask("T_ROB1", "TPReadFK", "how many?", ("1", "2"), int)
             for seed in range(first, first + number // 3):

@@ -1,4 +1,7 @@
-"""Who talks to a controller from outside: FTP and SFTP of its HOME, a control socket; loopback."""
+"""Servers of a controller: FTP, SFTP, RWS and a control socket.
+
+FTP and SFTP serve its HOME. All listen on loopback by default.
+"""
 
 from rapidgen.servers.ftp import serve_ftp
 from rapidgen.servers.service import Service

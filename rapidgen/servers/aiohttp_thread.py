@@ -1,4 +1,4 @@
-"""An aiohttp application on a port, in a thread with a loop of its own."""
+"""An aiohttp application on a port, in a thread with its own loop."""
 
 import asyncio
 import ssl
@@ -19,7 +19,10 @@ class WebThread:
         self._thread: threading.Thread | None = None
 
     def start(self, name: str, host: str, port: int, context: ssl.SSLContext | None = None) -> None:
-        """Open the port, of TLS with a context. OSError: it cannot be had; all is closed then."""
+        """Open the port, with TLS if there is a context.
+
+        Raises OSError if the port is not available; then all is closed.
+        """
         try:
             self.loop.run_until_complete(self._open(host, port, context))
         except OSError:
@@ -37,7 +40,10 @@ class WebThread:
         self.port = self._runner.addresses[0][1]
 
     def stop(self, first: Callable[[], Awaitable[None]]) -> None:
-        """Close the port and every connection after `first`; a second call does nothing."""
+        """Close the port and every connection after `first`.
+
+        A second call does nothing.
+        """
         thread, self._thread = self._thread, None
         if thread is None:
             return
@@ -51,7 +57,8 @@ class WebThread:
         server = self._runner.server
         open_ones = [c.transport for c in server.connections] if server is not None else []
         await self._runner.cleanup()
-        # A client that does not answer the end of TLS would keep its socket open: the loop goes.
+        # A client that does not answer the end of TLS would keep its socket open, so the loop is
+        # closed.
         for transport in filter(None, open_ones):
             # AttributeError: in Python 3.11.2, Debian 12's, where TLS is closed twice already.
             with suppress(AttributeError):
@@ -59,6 +66,6 @@ class WebThread:
         await asyncio.sleep(0)
 
     def soon(self, function: Callable[[], object]) -> None:
-        """Run a function on the loop; nobody is there to hear of it once that is closed."""
+        """Run a function on the loop; ignore it if the loop is closed."""
         with suppress(RuntimeError):
             self.loop.call_soon_threadsafe(function)

@@ -1,4 +1,4 @@
-"""What the control socket can do with a controller: one small function a request."""
+"""Commands of the control socket, one small function each."""
 
 from collections.abc import Callable
 from typing import get_args
@@ -20,7 +20,7 @@ _LARGEST = 1e300
 _MODES: tuple[OperatingMode, ...] = get_args(OperatingMode)
 
 READABLE = frozenset({"status", "signals", "get", "log", "screen", "questions", "where"})
-"""Requests that change nothing; a new one needs the token unless it is listed here."""
+"""Commands that only read; all others need the token."""
 
 
 def commands(controller: VirtualController) -> dict[str, Command]:
@@ -49,7 +49,7 @@ def commands(controller: VirtualController) -> dict[str, Command]:
 def subscribe(
     controller: VirtualController, listener: Listener, trusted: bool = True
 ) -> Callable[[], None]:
-    """Send new log entries, texts on the screen and dialogs; the result ends that.
+    """Send new log entries, screen texts and dialogs; return the end function.
 
     Dialogs wait for the client only if it is `trusted`: another one could not answer.
     """
@@ -80,7 +80,7 @@ def subscribe(
 
 
 class _Remote:
-    """Messages carried out on one controller, on its own thread."""
+    """Commands executed on one controller, on its own thread."""
 
     def __init__(self, controller: VirtualController) -> None:
         self._controller = controller
@@ -111,7 +111,7 @@ class _Remote:
         }
 
     def where(self, _request: Members) -> Json:
-        """Where each task is."""
+        """Return the position of each task."""
         return [*self._controller.where()]
 
     def action(self, name: str) -> Command:
@@ -151,7 +151,7 @@ class _Remote:
         return {s.name: s.value for s in self._controller.io.signals.values()}
 
     def set_signal(self, request: Members) -> Json:
-        """`name`, `value`: inputs are meant, outputs are possible."""
+        """Set a signal: `name`, `value`; inputs usually, outputs possible."""
         signal = self._signal(request)
         try:
             self._controller.io.set(signal, _number(request, "value"))
@@ -195,7 +195,10 @@ class _Remote:
         return None
 
     def step(self, request: Members) -> Json:
-        """One statement of `task`; `back` and `over` are true or false."""
+        """Execute one statement of `task`.
+
+        `back` and `over` are true or false.
+        """
         try:
             self._task(request).step(
                 back=request.get("back") is True, over=request.get("over") is True
@@ -233,7 +236,10 @@ class _Remote:
         return [_question(question) for question in self._controller.operator.questions]
 
     def answer(self, request: Members) -> Json:
-        """`number` of a question, `value`: a choice's text or number, a number, a text."""
+        """Answer a question: its `number` and a `value`.
+
+        `value` is a choice's text or number, a number, or a text.
+        """
         try:
             self._controller.operator.answer(
                 int(_number(request, "number")), _text(request, "value")

@@ -1,13 +1,13 @@
-"""A JSON socket beside the controller: one JSON object a line, one answer a line.
+"""A JSON socket of the controller: one object a line, one answer a line.
 
 Request `{"do": "signals", ...}` with an optional `id`; answer `{"ok": true, "result": ...}` or
-`{"ok": false, "error": "..."}` with the same `id`. What changes something is refused without the
-`token`, which only those have who started the simulator or were given it. After
-`{"do": "subscribe"}` events come in between as `{"event": ...}`. What can be done is
-`control_commands.py`'s; here are lines, limits and clients that misbehave. The connection is
-closed at a line that is no JSON object: a web page can send an HTTP request here, whose body would
-be carried out behind its header. It also closes at a line that is too long, and where a client
-reads too slowly.
+`{"ok": false, "error": "..."}` with the same `id`. Commands that change something need the `token`,
+which only the user who started the simulator has, and whom he gives it to. After `{"do":
+"subscribe"}` events are sent in between as `{"event": ...}`. `control_commands.py` has the
+commands; this module has lines, limits and misbehaving clients. The connection is closed at a line
+that is not a JSON object: a web page can send an HTTP request here, whose body would otherwise be
+executed after its header. It is also closed at a line that is too long, and if a client reads too
+slowly.
 """
 
 import hmac
@@ -28,14 +28,20 @@ MAX_UNREAD = 1_048_576
 """Bytes that may wait for a client that does not read."""
 
 Command: TypeAlias = Callable[[Members], Json]
-"""What carries out a request, and its result."""
+"""Function that executes a request and returns its result."""
 Listener: TypeAlias = Callable[[Members], None]
 Subscribe: TypeAlias = Callable[[Listener, bool], Callable[[], None]]
-"""Begins a subscription; the flag says whether the client may change something."""
+"""Function that starts a subscription.
+
+The flag is true if the client may change something.
+"""
 
 
 def _finite(text: str) -> float:
-    """A number of a request. ValueError: it is none that an answer could carry."""
+    """Parse a number of a request.
+
+    ValueError: JSON cannot represent it in an answer.
+    """
     value = float(text)
     if not math.isfinite(value):
         raise ValueError(f"{text} is no number")
@@ -43,7 +49,7 @@ def _finite(text: str) -> float:
 
 
 class CommandError(Exception):
-    """A request cannot be carried out; the text goes to the client."""
+    """A request that cannot be executed; the client receives the text."""
 
 
 class _Client:
@@ -54,14 +60,14 @@ class _Client:
         self.input = bytearray()
         self.output = bytearray()
         self.end: Callable[[], None] | None = None
-        """Ends the subscription."""
+        """Function that ends the subscription."""
 
 
 class ControlSocket:
-    """Serves `commands` on a port of this machine, through the scheduler's selector.
+    """Server of `commands` on a port, driven by the scheduler's selector.
 
-    Those in `readable` need no token. `subscribe(listener, trusted)` makes events flow and
-    returns what ends that. OSError: the port cannot be had.
+    Commands in `readable` need no token. `subscribe(listener, trusted)` starts events and returns
+    the function that ends them. Raises OSError if the port is not available.
     """
 
     def __init__(
@@ -76,7 +82,7 @@ class ControlSocket:
         port: int = 0,
     ) -> None:
         self.token = token or secrets.token_urlsafe(24)
-        """What a request must have as `token` to change something."""
+        """The `token` of requests that change something."""
         self._readable = frozenset(readable)
         self._scheduler = scheduler
         self._commands = commands
@@ -98,7 +104,7 @@ class ControlSocket:
         try:
             own, _ = self._server.accept()
         except OSError:
-            return  # the client has gone already, or the machine is out of handles: not our end
+            return  # the client has gone, or no handle is free: keep serving
         if len(self._clients) >= MAX_CLIENTS:
             own.close()
             return
@@ -199,7 +205,10 @@ class ControlSocket:
         return command(request)
 
     def _has_token(self, request: Members) -> bool:
-        """Whether a request has the right token. CommandError: it has another one."""
+        """True if a request has the right token.
+
+        CommandError: it has another one.
+        """
         if "token" not in request:
             return False
         given = request["token"]

@@ -1,9 +1,9 @@
-"""FTP face: pyftpdlib behind a handle, with the manners that are told of an IRC5 controller.
+"""FTP server: pyftpdlib with the behaviour reported of an IRC5 controller.
 
 pyftpdlib is the reference for FTP in Python (maintained since 2007, RFC 959 to 3659); it checks
 every path against the resolved root, links included. Facts about ABB's own server are scarce
-([mem]): a user name with a space, no MLSD, HOME as an ordinary folder; so MLSD and MLST are
-off unless asked for.
+([mem]): a user name with a space, no MLSD, HOME as an ordinary folder; so MLSD and MLST are off by
+default.
 """
 
 import logging
@@ -17,7 +17,7 @@ _TICK = 0.2
 
 
 _NOT_A_CONTROLLERS = ("SITE CHMOD", "MFMT")
-"""Rights and times of files are this machine's business: a controller's disk has no rights."""
+"""Commands for rights and times, which a controller's disk does not have."""
 
 
 def serve_ftp(
@@ -29,10 +29,11 @@ def serve_ftp(
     *,
     without: tuple[str, ...] = ("MLSD", "MLST", *_NOT_A_CONTROLLERS),
 ) -> Service:
-    """Serve the folder `home` read and write over FTP (passive and active) in a thread.
+    """Serve the folder `home` over FTP, read and write, in a thread.
 
-    An empty `password` is replaced by a random one (see the handle). `without` names commands
-    that this server shall not know. Raises DiagnosticError RG560 (not loopback), RG561 (port).
+    It supports passive and active mode. An empty `password` is replaced by a random one (see the
+    handle). `without` names commands that this server rejects as unknown. Raises DiagnosticError
+    RG560 (not loopback), RG561 (port).
     """
     import secrets
     import warnings
@@ -61,7 +62,7 @@ def serve_ftp(
             "use_sendfile": False,
         },
     )
-    # Without a handler pyftpdlib would set up the root logger: what it says is not for the user.
+    # Without a handler pyftpdlib would set up the root logger and print to the user.
     logger = logging.getLogger("pyftpdlib")
     logger.addHandler(logging.NullHandler())
     logger.setLevel(logging.CRITICAL)

@@ -1,4 +1,4 @@
-"""What both faces share: the handle that the caller keeps, and the loopback rule."""
+"""Parts common to the servers: the caller's handle, the loopback rule."""
 
 import ipaddress
 import logging
@@ -12,7 +12,10 @@ _LOG = logging.getLogger("rapidgen.servers")
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """A running server. `host_key` is the `known_hosts` line of an SFTP face, else empty."""
+    """A running server.
+
+    `host_key` is the `known_hosts` line of an SFTP server, else empty.
+    """
 
     host: str
     port: int
@@ -50,7 +53,7 @@ def loopback(host: str) -> str:
 
 
 def in_use(host: str, port: int, error: OSError) -> DiagnosticError:
-    """RG561: the port could not be had."""
+    """Return RG561: the port is not available."""
     return refusal(
         "RG561",
         None,

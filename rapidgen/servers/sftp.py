@@ -1,8 +1,8 @@
-"""SFTP face: paramiko's server side, which the deployment's client side needs anyway.
+"""SFTP server: paramiko, which the deployment's client uses too.
 
-(asyncssh serves SFTP with less code of ours, but would be a second SSH stack in the wheel.)
-Only password login, only the `sftp` subsystem: no shell, no forwarding. Every name is resolved,
-links included, and refused when it ends outside the folder.
+(asyncssh serves SFTP with less code of ours, but would be a second SSH stack in the wheel.) Only
+password login, only the `sftp` subsystem: no shell, no forwarding. Every name is resolved, links
+included, and refused if it ends outside the folder.
 """
 
 import hmac
@@ -25,10 +25,10 @@ _TICK = 0.2
 
 
 _SENSELESS = (ValueError, IndexError, KeyError, TypeError, AttributeError, struct.error)
-"""What paramiko raises, besides its own exception, while it reads a senseless handshake.
+"""Exceptions of paramiko, besides its own, for invalid handshakes.
 
-ValueError (text that is no UTF-8, keys that are none) is measured; the others are what indexing
-and unpacking such bytes can raise.
+ValueError (text that is not UTF-8, invalid keys) is measured; indexing and unpacking such bytes can
+raise the others.
 """
 
 
@@ -39,10 +39,10 @@ def serve_sftp(
     user: str = "Default User",
     password: str = "",
 ) -> Service:
-    """Serve the folder `home` read and write over SFTP in threads.
+    """Serve the folder `home` over SFTP, read and write, in threads.
 
-    An empty `password` is replaced by a random one; the host key is new in every run and stands
-    in the handle as a `known_hosts` line. Raises DiagnosticError RG560, RG561.
+    An empty `password` is replaced by a random one; the host key is new in every run and is in the
+    handle as a `known_hosts` line. Raises DiagnosticError RG560, RG561.
     """
     import secrets
 
@@ -75,7 +75,7 @@ def serve_sftp(
         try:
             transport.start_server(server=_login(user, password))
         except (paramiko.SSHException, EOFError, OSError, *_SENSELESS):
-            # A peer that is no SSH client, or went away: its own affair.
+            # The peer is not an SSH client, or has disconnected: nothing to do.
             transport.close()
         transport.join()
         sessions.discard(transport)
@@ -86,7 +86,7 @@ def serve_sftp(
                 connection, _ = listener.accept()
             except TimeoutError:
                 continue
-            # accept() hands its time limit on; paramiko sets its own.
+            # accept() passes its time limit to the transport; paramiko sets its own.
             connection.settimeout(None)
             threading.Thread(target=session, args=(connection,), daemon=True).start()
         listener.close()
@@ -133,7 +133,7 @@ def _plain(path: str) -> Path:
 
 
 def _interface() -> "type[paramiko.SFTPServerInterface]":
-    """The file operations; made on first use, as importing paramiko is dear."""
+    """File operations; made on first use, as importing paramiko is slow."""
     import paramiko
     from paramiko import SFTPAttributes, SFTPHandle
     from paramiko.sftp import SFTP_OK
@@ -144,14 +144,17 @@ def _interface() -> "type[paramiko.SFTPServerInterface]":
             self._root = root
 
         def _real(self, path: str) -> Path:
-            """The file behind a path of the client; PermissionError when it lies outside."""
+            """Return the file of a client's path.
+
+            PermissionError if it lies outside.
+            """
             resolved = (self._root / _plain(path)).resolve()
             if not resolved.is_relative_to(self._root):
                 raise PermissionError(13, "outside HOME", path)
             return resolved
 
         def _entry(self, path: str) -> Path:
-            """As `_real`, but a link at the end stays a link: for removing and renaming."""
+            """As `_real`, but keep a link at the end, to remove or rename it."""
             plain = _plain(path)
             return self._real(str(plain.parent)) / plain.name
 

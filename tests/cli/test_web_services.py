@@ -10,7 +10,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "servers" / "rws"))
 
-from served import make_cabinet
+from served import make_runner
 
 from rapidgen.cli.app import main
 from rapidgen.cli.status import show, state
@@ -26,7 +26,7 @@ from rapidgen.wire.rws.bodies import Generation
 def host(request, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
-    with make_cabinet(tmp_path, request.param, clock="real", speed=60) as cabinet:
+    with make_runner(tmp_path, request.param, clock="real", speed=60) as cabinet:
         cabinet.start()
         service = serve_rws(cabinet, request.param)
         where = f"rws://{service.host}:{service.port}"
@@ -146,7 +146,7 @@ def test_in_manual_mode_the_pendant_is_asked_and_that_is_announced(
 ):
     monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
     script = [Answer(answer, dialog="RMMP")]
-    with make_cabinet(tmp_path, clock="real", speed=60, answers=script) as cabinet:
+    with make_runner(tmp_path, clock="real", speed=60, answers=script) as cabinet:
         cabinet.controller.set_mode("manual_reduced")
         cabinet.start()
         service = serve_rws(cabinet, Generation.ONE)

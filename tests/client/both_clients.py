@@ -10,7 +10,7 @@ from rapidgen.client.api import JobApi
 
 
 class Handle:
-    """What an asynchronous client gave; `run` waits for a coroutine's outcome."""
+    """Wrapper of an asynchronous client; `run` waits for a coroutine."""
 
     def __init__(self, target, run):
         self._target, self._run = target, run
@@ -71,7 +71,7 @@ class Simulated(Handle):
         self._run(self._loop.shutdown_asyncgens())
         self._loop.close()
 
-    def beside(self, target):
+    def open_another(self, target):
         """Another one on the same loop."""
         return Handle(target, self._run)
 

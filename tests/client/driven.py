@@ -77,13 +77,13 @@ def caller_comes_late(monkeypatch, seconds):
 
 
 def complaints(peer):
-    """What the event log of a virtual controller has beside information."""
+    """Entries of the event log of a virtual controller above information."""
     log = peer.log if isinstance(peer, VirtualController) else ()
     return [event for event in log if event.type.name != "INFO"]
 
 
 def wave(count=None, step=0.1, speed=0.02):
-    """Points, without end where nobody says how many, from where the robot stands."""
+    """Points from the robot's position; infinite without a count."""
     for n in itertools.count() if count is None else range(count):
         yield n * step, [0.3 * np.sin(n * speed)] * 6
 

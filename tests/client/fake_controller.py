@@ -1,7 +1,7 @@
-"""A scripted controller on real sockets: does what a test tells it, right or wrong.
+"""A scripted controller on real sockets, correct or faulty.
 
 Not a model of ABB's controller (that is rapidgen.controller): it plays points by time and answers
-as told. Bytes are made by `struct` here, not by rapidgen's codec.
+as the script says. Bytes are made by `struct` here, not by rapidgen's codec.
 """
 
 import contextlib
@@ -28,7 +28,7 @@ def status_frame(**values):
 
 @dataclass
 class Script:
-    """What the controller does. Times in s."""
+    """Behaviour of the controller. Times in s."""
 
     joints: int = 6
     rapidgen: bool = True
@@ -75,7 +75,7 @@ class Script:
 
 
 def hello_reply(script, control_port, *, foreign=False):
-    """Who is there; `foreign`: another driver than on the other ports."""
+    """The HELLO reply; `foreign`: another driver than on the other ports."""
     if script.protocol != 4:
         return frame(1300, 3, 2, struct.pack("<i", script.protocol))
     stream = script.stream
@@ -117,9 +117,9 @@ class FakeController:
         self.trajectory = 0
         self.progress = [0, 0, 0, 0, 0, 0, -1, 0]
         self.extra = b""
-        """Sent once behind the next state to a client that said HELLO."""
+        """Sent once after the next state to a client that sent HELLO."""
         self.repeated = b""
-        """Sent behind each state to a client that said HELLO."""
+        """Sent after each state to a client that sent HELLO."""
         self._plan = None
         self._started = 0.0
         self._moving = False

@@ -1,7 +1,7 @@
-"""The streaming and control side of a scripted driver: bytes in, bytes out, time given.
+"""Streaming and control side of a scripted driver, with given time.
 
-Written from docs/develop/protocol.md with `struct` and plain integers, not with our codec. What it
-does wrong is told by its `faults`.
+Written from docs/develop/protocol.md with `struct` and plain integers, not with our codec. Its
+`faults` say what it does wrong.
 """
 
 import struct
@@ -52,7 +52,7 @@ class StreamModel:
         self.sizes = []
         self.executed = []
         self.keep = True
-        """Whether `executed` collects."""
+        """True if `executed` collects."""
         self.most_waiting = 0
         self.ended = self.cut = self.going = False
         self.segment = None
@@ -80,7 +80,7 @@ class StreamModel:
             self._begin(stream)
         if stream != self.stream or self.cut:
             return self._refused(stream, self.reason or STOP_REASON, self.point, self.joint)
-        room = self.ring - (self.accepted - self.planned)
+        free = self.ring - (self.accepted - self.planned)
         fault = 0
         if words[-1] != check:
             fault = 16
@@ -88,7 +88,7 @@ class StreamModel:
             fault = 12
         elif first != self.accepted % WRAP:
             fault = 2
-        elif count > room:
+        elif count > free:
             fault = 15
         if fault:
             self._cut(fault, self.accepted, 0)
@@ -111,8 +111,8 @@ class StreamModel:
             return b""
         if self.batches >= self.bad_reply_from:
             return frame(1302, 3, 1)
-        room = self.ring - (self.accepted - self.planned)
-        counts = [self.accepted % WRAP, room, self.planned % WRAP, self.reached % WRAP, self.state]
+        free = self.ring - (self.accepted - self.planned)
+        counts = [self.accepted % WRAP, free, self.planned % WRAP, self.reached % WRAP, self.state]
         return frame(1302, 3, 1, struct.pack("<7i", stream, self.trajectory, *counts))
 
     def _begin(self, stream):

@@ -63,7 +63,7 @@ class Altered:
         self._buffer, self._number = b"", 0
 
     def feed(self, data):
-        """What arrives instead, and whether the connection goes on."""
+        """Return the altered data, and whether the connection stays open."""
         result, self._buffer = pieces(self._buffer + data)
         out = b""
         for message in result:

@@ -56,7 +56,7 @@ class SimulatedLoop(asyncio.BaseEventLoop):
         """There are none."""
 
     def _write_to_self(self):
-        """Nobody calls from another thread."""
+        """No other thread calls this loop."""
 
     async def create_connection(self, factory, host=None, port=None, **_):
         protocol = factory()
@@ -68,7 +68,7 @@ class SimulatedLoop(asyncio.BaseEventLoop):
 
 
 class _Pipe(asyncio.Transport):
-    """What is written arrives a little later."""
+    """A connection with a short delay."""
 
     latency = 0.001
 
@@ -101,7 +101,7 @@ class _Pipe(asyncio.Transport):
             self.protocol.data_received(data)
 
     def set_write_buffer_limits(self, high=None, low=None):
-        """There is always room."""
+        """The buffer is unlimited."""
 
     def close(self):
         if not self.closed:
@@ -111,7 +111,7 @@ class _Pipe(asyncio.Transport):
 
 
 class SimulatedDriver:
-    """A StreamModel behind the three ports of a driver."""
+    """A StreamModel as the three ports of a driver."""
 
     MOTION, CONTROL, STATE = 11000, 11001, 11002
 

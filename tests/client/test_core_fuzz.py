@@ -1,7 +1,7 @@
-"""The client's core under whatever bytes a controller may send, in any order. No I/O, no clock.
+"""The client's core with arbitrary bytes of a controller, in any order.
 
-What holds: nothing but RobotError comes out; points go out in order, each once, never more than
-there is room for, and none behind a stop or an end; a STOP is due when nobody sees the robot.
+No I/O, no clock. Invariants: only RobotError is raised; points are sent in order, each once, never
+more than there is space for, and none after a stop or an end; a STOP is due when no states arrive.
 """
 
 import struct
@@ -74,7 +74,7 @@ class CoreMachine(RuleBasedStateMachine):
         assert self.core.received(Port.STATE, encode_reply(1300, HELLO) + STATE)
         self.time = 0.0
         self.sent = 0
-        self.room = RING
+        self.free = RING
         self.ended = self.cut = False
         self.waiting = deque()
         """(stream, points sent) of each batch that has no reply yet."""
@@ -85,7 +85,7 @@ class CoreMachine(RuleBasedStateMachine):
         return self.core.motion
 
     def owner(self):
-        """What both clients do whenever something has changed."""
+        """Do the same as both clients after each change."""
         for port in self.core.unmonitored_stops():
             assert self.core.ports[port].is_open
             self.stops += 1
@@ -107,7 +107,7 @@ class CoreMachine(RuleBasedStateMachine):
         self.sent += len(batch.durations)
         self.waiting.append((batch.stream, self.sent))
         self.ended = bool(batch.flags & StreamFlag.END)
-        assert self.sent <= self.room
+        assert self.sent <= self.free
         if self.ended:
             assert self.sent == self.run.total
 
@@ -121,7 +121,7 @@ class CoreMachine(RuleBasedStateMachine):
             points = Trajectory(times, np.zeros((count, 6)))
             checked = check_points(points, self.core.known_group, before=None, start=(0.0,) * 10)
             self.core.begin_stream(checked)
-            self.sent, self.room, self.ended, self.cut = 0, RING, False, False
+            self.sent, self.free, self.ended, self.cut = 0, RING, False, False
         elif self.run.is_ended:
             return
         else:
@@ -138,12 +138,12 @@ class CoreMachine(RuleBasedStateMachine):
         self.owner()
 
     @precondition(lambda self: self.waiting)
-    @rule(room=st.integers(0, 64), state=st.sampled_from([1, 2, 7, 8]))
-    def acknowledged(self, room, state):
+    @rule(free=st.integers(0, 64), state=st.sampled_from([1, 2, 7, 8]))
+    def acknowledged(self, free, state):
         stream, end = self.waiting.popleft()
-        report = messages.PointsAccepted(stream, 1, end, room, 0, 0, state)
+        report = messages.PointsAccepted(stream, 1, end, free, 0, 0, state)
         if stream == self.run.stream:
-            self.room = max(self.room, end + room)
+            self.free = max(self.free, end + free)
         self.take(Port.MOTION, encode_reply(1302, report))
 
     @precondition(lambda self: self.waiting)
@@ -162,8 +162,8 @@ class CoreMachine(RuleBasedStateMachine):
     )
     def progress(self, counts, state, fault):
         report = messages.ProgressReport(1, int(state), *counts, *fault)
-        # who tells that points were given to the planner makes room for others
-        self.room = max(self.room, self.sent + RING)
+        # PROGRESS of points passed to the planner frees space for others
+        self.free = max(self.free, self.sent + RING)
         self.take(Port.STATE, encode(report) * 2)
 
     # One rule for all that may end a motion: most stories shall get far.
@@ -190,9 +190,9 @@ class CoreMachine(RuleBasedStateMachine):
             if comm == Comm.REPLY and self.waiting and decodes(frame):
                 self.waiting.popleft()
             if comm == Comm.REPLY and len(frame) == 44:
-                self.room = 10**12
+                self.free = 10**12
         if port is Port.STATE and number == 1301:
-            self.room = max(self.room, self.sent + RING)
+            self.free = max(self.free, self.sent + RING)
         self.take(port, frame)
 
     def garbage(self, port, data):
@@ -232,7 +232,7 @@ class CoreMachine(RuleBasedStateMachine):
                 self.owner()
 
     @invariant()
-    def what_is_told_fits(self):
+    def reports_are_consistent(self):
         run = self.run if hasattr(self, "core") else None
         if run is None:
             return
@@ -255,6 +255,6 @@ TestCore = CoreMachine.TestCase
 TestCore.settings = settings(
     max_examples=80,
     stateful_step_count=50,
-    # Making a failing story short takes minutes.
+    # Shrinking a failing example takes minutes.
     phases=(Stage.explicit, Stage.generate),
 )

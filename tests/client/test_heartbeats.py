@@ -25,7 +25,7 @@ def sent(timeout=2.0, at=100.0):
         (102.5, 99.0, True),  # it was listening before it was sent
     ],
 )
-def test_an_answer_is_late_behind_its_time_out_while_the_client_listens(now, listening, is_late):
+def test_heartbeat_reply_after_timeout_is_late(now, listening, is_late):
     schedule, _ = sent()
     assert schedule.is_late(now, listening) is is_late
 

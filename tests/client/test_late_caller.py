@@ -1,4 +1,4 @@
-"""The caller's thread gets no time while the robot moves, or nobody reads what it tells."""
+"""A delayed caller's thread during a motion, and unread sockets."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -62,7 +62,7 @@ def test_the_result_tells_how_it_ended_whenever_the_caller_looks(monkeypatch, wa
         assert failed.value.reason is Reason.EMERGENCY_STOP
 
 
-def test_a_robot_that_stood_behind_a_stop_is_not_lost_when_another_one_moves_it(monkeypatch):
+def test_late_caller_after_stop_sees_robot_at_rest(monkeypatch):
     with driven() as (robot, _):
         core = robot._core
         waiting = _until_standing(core)
@@ -75,7 +75,7 @@ def test_a_robot_that_stood_behind_a_stop_is_not_lost_when_another_one_moves_it(
         with pytest.raises(StopIteration) as end:
             waiting.send(True)
         assert end.value.value.joints == robot.state.joints
-        # Without a connection nobody knows.
+        # Without a connection the position is unknown.
         unseen = _until_standing(core)
         next(unseen)
         core.state_open = False

@@ -1,4 +1,4 @@
-"""What becomes of a motion when its caller goes away, and what of it stands in the log."""
+"""Motions of callers that end early, and their log entries."""
 
 import asyncio
 import logging
@@ -14,7 +14,7 @@ LONG = Trajectory.from_points([[0.0] * 6, [0.5] * 6], seconds=5)
 
 
 def stands(controller):
-    """Whether nothing of the robot moves any more, now."""
+    """True if no part of the robot moves now."""
     axes = controller.motion.group("rob1").positions
     before = axes()
     controller.run_for(0.3)
@@ -94,7 +94,7 @@ def test_ctrl_c_returns_when_the_robot_stands(fake, patient, monkeypatch):
         assert not robot.state.is_moving
 
 
-def test_a_block_that_ends_before_its_motion_is_told(fake, patient):
+def test_block_end_before_motion_end_is_reported(fake, patient):
     controller = fake()
     with (
         pytest.warns(RuntimeWarning, match=r"0 of 2 points.*result\(\)") as report,
@@ -138,17 +138,17 @@ def test_the_log_tells_what_was_done(connected, caplog):
         robot.stop()
     where = str(controller.address)
     assert {record.name for record in caplog.records} == {"rapidgen.client"}
-    told = [record.getMessage().partition(": ")[2] for record in caplog.records]
+    messages = [record.getMessage().partition(": ")[2] for record in caplog.records]
     assert all(where.split(",")[0] in record.getMessage() for record in caplog.records)
-    assert told[0].startswith("connected: rapidgen 0.1.0, build 0123456789ab, AUTO, motors on")
-    assert "2 points by download were taken" in told
-    assert any(text.startswith("done in") for text in told)
-    assert "STOP over the control port" in told
-    assert told[-1] == "closed"
+    assert messages[0].startswith("connected: rapidgen 0.1.0, build 0123456789ab, AUTO, motors on")
+    assert "2 points by download were taken" in messages
+    assert any(text.startswith("done in") for text in messages)
+    assert "STOP over the control port" in messages
+    assert messages[-1] == "closed"
     assert {record.levelno for record in caplog.records} == {logging.INFO}
 
 
-def test_the_log_warns_of_what_nobody_is_told(connected, caplog, comes):
+def test_unobserved_failure_is_logged(connected, caplog, comes):
     with connected(control=True) as (robot, controller):
         robot.execute(LONG)
         controller.drop("state")

@@ -32,7 +32,7 @@ LOST = (ConnectionLost, ProtocolError, RobotTimeout)
 
 @contextmanager
 def lossy(alter, **timeouts):
-    """A robot of the driver on the virtual clock, behind altered answers, and its controller."""
+    """A robot on the virtual clock with altered answers, and its controller."""
     controller, config = booted()
     group = config.groups[0]
     loop = VirtualLoop(controller)
@@ -46,7 +46,7 @@ def lossy(alter, **timeouts):
 
 
 def stands(robot, controller):
-    """Whether the robot stands, and goes on to stand."""
+    """True if the robot is at rest and stays so."""
     before = list(controller.positions().values())
     robot.sleep(3)
     return np.allclose(before, list(controller.positions().values()), atol=1e-6)
@@ -93,7 +93,7 @@ def test_the_robot_stands_when_result_raises(port):
         link.transport.abort()
 
 
-def test_nothing_can_be_seen_any_more_is_said():
+def test_stop_without_states_is_reported():
     silent = []
 
     def alter(which, number, message):
@@ -216,7 +216,7 @@ def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
         ({"state"}, False, "STOP was answered, and the state port sends no data any more"),
     ],
 )
-def test_what_is_not_known_of_a_stop_is_said(silent, is_reached, why):
+def test_unknown_stop_result_is_reported(silent, is_reached, why):
     lost = []
 
     def alter(which, number, message):

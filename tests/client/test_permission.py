@@ -1,4 +1,4 @@
-"""What has run on a real host before; `rapidgen.client.permission`."""
+"""Permission and trajectories that have run on a real host before."""
 
 import pytest
 
@@ -12,7 +12,7 @@ PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6], seconds=1.0)
 
 @pytest.fixture
 def state(tmp_path, monkeypatch):
-    """The user's state folder, which nobody has made yet."""
+    """The user's state folder, not yet created."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "not" / "there"))
     return tmp_path / "not" / "there" / "rapidgen"
 

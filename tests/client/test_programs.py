@@ -55,7 +55,7 @@ def test_basic_has_no_programs():
         robot.run(Program().move_joints(BENT))
 
 
-def test_what_no_robot_does_is_told_with_its_instruction():
+def test_impossible_instruction_is_reported_with_number():
     with driven() as (robot, _):
         program = square(robot).move_linear(((5.0, 0.0, 0.5), (1, 0, 0, 0)))
         program.move_to(((9.0, 0, 0), (1, 0, 0, 0))).move_joints([9.0] * 6)
@@ -86,7 +86,7 @@ def test_what_no_robot_does_is_told_with_its_instruction():
         ),
     ],
 )
-def test_a_line_out_of_reach_is_told_as_that(name, to, code, report):
+def test_check_line_out_of_reach_is_reported(name, to, code, report):
     config = load_config(name)
     group = Group.of(config, config.groups[0])
     start = group.map.to_controller(BENT)
@@ -391,7 +391,7 @@ UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
         (UserWorkObject(UPRIGHT, ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),
     ],
 )
-def test_values_of_no_tool_are_told(own, report):
+def test_invalid_tool_values_are_reported(own, report):
     key = "tool" if isinstance(own, UserTool) else "work_object"
     with cell() as (robot, _):
         program = Program().use(**{key: own}).move_linear(robot.pose)
@@ -422,7 +422,7 @@ def test_values_of_no_tool_are_told(own, report):
         Program(),
     ],
 )
-def test_what_cannot_be_is_told_and_nothing_is_sent(program):
+def test_invalid_program_is_reported_and_not_sent(program):
     with cell() as (robot, _):
         with pytest.raises(InvalidProgram):
             robot.run(program)
@@ -434,7 +434,7 @@ def test_a_jog_is_small_and_stands_soon_after_a_lost_client():
         robot.jog(joint_1=0.1, joint_5=-0.05)
         assert robot.state.joints[0] == pytest.approx(0.1, abs=1e-4)
         assert robot.state.joints[4] == pytest.approx(-0.05, abs=1e-4)
-        for wrong, mend in (
+        for wrong, help_text in (
             ({"joint_1": 0.3}, "at most 0.2 rad"),
             ({"joint_9": 0.1}, "did you mean 'joint_"),
             ({"joint_1": float("nan")}, "at most 0.2 rad"),
@@ -443,7 +443,7 @@ def test_a_jog_is_small_and_stands_soon_after_a_lost_client():
         ):
             with pytest.raises(InvalidProgram) as error:
                 robot.jog(**wrong)
-            assert mend in error.value.diagnostics[0].help
+            assert help_text in error.value.diagnostics[0].help
         jogging = robot.later.jog(joint_1=-0.2, speed=0.02)
         robot.sleep(1.0)
         group = controller.motion.group("rob1")

@@ -56,7 +56,7 @@ def test_connects_and_tells_the_state(connected, rapidgen):
         assert state.age >= 0
         later = robot.wait_until(lambda s: s.number >= state.number + 20, timeout=60)
         assert later.rate > 0
-    # A plain driver heard HELLO once and was not disturbed by it.
+    # A plain driver received HELLO once and was not disturbed by it.
     assert controller.hellos == 1
 
 
@@ -198,7 +198,7 @@ def test_an_invalid_trajectory_sends_nothing(connected):
 
 @pytest.mark.parametrize("target", ["irb120", None])
 def test_a_plain_driver_gets_at_most_100_points(fake, client, target):
-    # Also where the configuration has room for more: what runs there may be abb_driver.
+    # Also with a larger capacity in the configuration: the driver may be abb_driver.
     controller = fake(rapidgen=False)
     points = Trajectory.from_points([[0.0] * 6] * 101, seconds=0.1)
     options = {"address": controller.address} if target else {}
@@ -231,7 +231,7 @@ def test_missing_reply_to_the_end(connected, comes):
     with connected(answer_end=False, hasty={"reply": 0.3}) as (robot, controller):
         with pytest.raises(RobotTimeout, match="did not answer"):
             robot.execute(PATH)
-        # Nobody knows whether it moves: it was stopped.
+        # It may be moving: it was stopped.
         assert comes(lambda: controller.stops)
 
 
@@ -279,7 +279,7 @@ def test_lost_connection_during_a_motion(connected, rapidgen, comes):
             robot.execute(PATH)
 
 
-def test_reconnects_as_told_and_never_moves_by_itself(connected, comes):
+def test_reconnect_sends_no_motion(connected, comes):
     with connected(reconnect=3.0) as (robot, controller):
         execution = robot.execute(LONG)
         controller.drop()
@@ -295,8 +295,8 @@ def test_reconnects_as_told_and_never_moves_by_itself(connected, comes):
         robot.execute(Trajectory.from_points([state.joints, [0.0] * 6], seconds=0.1)).result()
 
 
-def test_nobody_there(client):
-    # Taken, so that nobody else gets it, and not listened on.
+def test_connect_without_driver_fails(client):
+    # Bound, so that no other process gets it, and not listened on.
     with socket.socket() as accepted:
         accepted.bind(("127.0.0.1", 0))
         port = accepted.getsockname()[1]
@@ -372,7 +372,7 @@ def test_stop_from_another_thread_while_sending(fake, patient, comes):
         sender = threading.Thread(target=send)
         sender.start()
         assert comes(lambda: len(controller.frames) > 5)
-        # The fake reads so slowly that STOP waits behind what lies in the scheduler.
+        # The fake reads so slowly that STOP waits for the data in the scheduler.
         controller.script.read_pause = 0.0
         controller.script.read_bytes = 65536
         robot.stop()
@@ -385,7 +385,7 @@ def test_stop_from_another_thread_while_sending(fake, patient, comes):
     assert sequences[:-1] == [-1, *range(1, len(sequences) - 1)]
 
 
-def test_no_frame_goes_out_behind_a_stop_that_came_before_the_lock():
+def test_stop_before_lock_prevents_further_frames():
     answers = iter([False, True])
     with socket.create_server(("127.0.0.1", 0)) as server:
         address = Address("127.0.0.1", server.getsockname()[1])

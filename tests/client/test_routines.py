@@ -178,7 +178,7 @@ def test_what_a_routine_raises_comes_back():
         assert robot.call("weld", 2.0, False, False, "") == (4.0, True)
 
 
-def test_an_error_that_stops_the_program_is_told_with_its_place():
+def test_call_stopped_by_error_reports_place():
     with with_routines() as (robot, controller):
         with pytest.raises(RoutineFailed, match=r"cell/divides/\d+") as report:
             robot.call("divides")
@@ -227,7 +227,7 @@ def test_targets_come_back_as_a_routine_leaves_them():
         program = Program(speed=0.2).move_to(target.pose, configuration=target.configuration)
         robot.run(program).result()
         assert np.allclose(robot.pose[0], (x, y, z + 0.01), atol=1e-5)
-        # Nobody checks what a routine leaves.
+        # Results of a routine are not checked.
         *_, far = robot.call("taught", [0.1] * 6, robot.pose, BENT, "", robot.pose)
         assert far.pose[0][0] == pytest.approx(9e6, rel=1e-6)
         assert not complaints(controller)
@@ -305,6 +305,6 @@ def test_a_stop_leaves_a_routine_wherever_it_is():
     "given",
     [(1.0, True, True), (1.0, 1, True, ""), ("1", True, True, ""), (1.0, True, True, "x" * 81)],
 )
-def test_arguments_that_do_not_fit_are_told(given):
+def test_call_with_wrong_arguments_is_rejected(given):
     with with_routines() as (robot, _), pytest.raises(InvalidProgram):
         robot.call("weld", *given)

@@ -66,7 +66,7 @@ def test_addresses_that_are_none(text):
 def test_ports_of_the_configuration_are_the_default():
     own = Ports(21000, 20000, 21002)
     assert parse_address("a", own) == Address("a", 21000, 21002, 20000)
-    # moved alike, the control port is too; else nobody knows where it is
+    # moved by the same amount, the control port is too; else it is unknown
     assert parse_address("a:22000,22002", own).control == 21000
     assert parse_address("a:22000,23000", own).control == 0
     with pytest.raises(ConnectionFailed, match=r"the control port of .* is unknown"):
@@ -204,7 +204,7 @@ class TestCells:
                 cell.execute({"2": PATH})
         assert [c.frames for c in controllers] == [[], []]
 
-    def test_one_refuses_and_nobody_moves_on(self, cell_of):
+    def test_cell_with_one_refusal_stops_all(self, cell_of):
         cell, controllers = cell_of({}, {"refuse": (5, 0, 1)})
         with cell:
             with pytest.raises(TrajectoryRefused):

@@ -1,4 +1,4 @@
-"""What a busy machine reads at once: rate and velocity are those of the controller."""
+"""Rate and velocity from delayed reads are those of the controller."""
 
 import pytest
 

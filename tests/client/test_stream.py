@@ -1,4 +1,4 @@
-"""Streams, the control port and what the state port tells beside states, over real sockets."""
+"""Streams, control port and further state messages, over real sockets."""
 
 import dataclasses
 import struct
@@ -259,7 +259,7 @@ def test_a_control_port_of_another_driver_is_left_alone(connected):
         assert controller.script.stream.heartbeats == []
 
 
-def test_a_control_port_that_nobody_knows(fake, client):
+def test_stream_without_control_port_moves(fake, client):
     controller = fake(**streams())
     # Left out, it would follow from two ports that are by chance two apart.
     address = controller.address.rpartition(",")[0] + ",0"
@@ -297,10 +297,10 @@ def test_events(connected, comes):
         controller.extra = b"".join(frame(1308, 1, 0, report) for report in (data, strange, missed))
         assert comes(lambda: len(robot.events) == 3)
         first, second, third = robot.events
-        assert str(third) == "7 events were not told"
+        assert str(third) == "7 events were dropped"
         assert str(first) == "50024 Corner path failure"
         assert first.type is EventType.ERROR
-        assert second.type is EventType.ERROR, "of a type that nobody knows"
+        assert second.type is EventType.ERROR, "of an unknown type"
         assert robot.next_event(60, after=first) == second
         with pytest.raises(RobotTimeout, match="no event"):
             robot.next_event(0.05)

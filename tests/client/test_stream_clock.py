@@ -51,7 +51,7 @@ def carried(request):
     return request.param
 
 
-def test_one_point_is_appended_as_it_is_said():
+def test_append_single_point_is_sent():
     with streamed() as (robot, _), robot.stream() as stream:
         for time, joints in wave(30):
             stream.append(time, joints)
@@ -73,7 +73,7 @@ def test_it_starves_stands_and_goes_on(carried):
         assert state.joints == pytest.approx(points[19][1], abs=1e-6)
         assert stream.starved == 1
         assert any("ran out of points at point 20" in text for _, text in robot.messages)
-        # less than the driver likes to have: it waits for more, until it is told
+        # less than the driver's start threshold: it waits for more, or for FLUSH
         stream.append(*zip(*points[20:22], strict=True))
         robot.sleep(3)
         assert stream.progress.state is TrajectoryState.STARVED
@@ -99,7 +99,7 @@ def test_pause_resume_and_speed(carried):
         robot.sleep(20)
         held = robot.state.joints
         assert held == pytest.approx(state.joints, abs=0.02)
-        # however long it is held: nobody gives up
+        # however long the pause is: no time-out
         waiting = stream.later.result()
         robot.sleep(600)
         assert robot.state.joints == held
@@ -313,7 +313,7 @@ def test_who_sees_nothing_sends_no_heartbeat_either():
         driver.model.control = hear
 
 
-def test_a_fault_of_the_caller_is_told_before_it_is_sent_and_the_stream_goes_on():
+def test_append_invalid_point_is_rejected_and_stream_continues():
     with streamed() as (robot, driver):
         with robot.stream() as stream:
             stream.append([0.0, 0.2], [[0.0] * 6, [0.01] * 6])
@@ -342,7 +342,7 @@ def test_the_first_point_is_where_the_robot_stands(far):
     with streamed() as (robot, driver):
         with pytest.raises(InvalidTrajectory, match="does not start"):
             robot.stream().append([0.0], [[0.5 if far else 0.02] * 6])
-        # nothing was begun
+        # no motion was started
         with robot.stream() as stream:
             stream.append([0.0, 1.0], [[0.0] * 6, [0.1] * 6])
     assert driver.model.trajectory == 1
@@ -390,7 +390,7 @@ def test_stop_and_what_stands(control):
         with robot.stream() as stream:
             stream.append([0, 1], [state.joints, state.joints])
     assert driver.model.trajectory == 2
-    # nothing of the stopped stream behind the STOP
+    # no frame of the stopped stream after the STOP
     first = next(n for n, (_, _, number) in enumerate(driver.log) if number == 11)
     after = [entry for entry in driver.log[first + 1 :] if entry[2] == 1302]
     assert len(after) == 1 + (after[0][0] != after[-1][0])
@@ -426,7 +426,7 @@ def test_heartbeats_come_while_it_moves_and_end_with_it():
 
 
 @pytest.mark.parametrize(("pace", "slack"), [(1, 1), (10, 3)])
-def test_a_simulation_that_runs_faster_misses_nobody_sooner(pace, slack):
+def test_heartbeat_timeout_scales_with_simulation_rate(pace, slack):
     """As long as a controller would wait is a moment on a clock that runs ten times as fast."""
 
     with streamed(timeouts=Timeouts(heartbeat=2), pace=pace) as (robot, driver):
@@ -450,7 +450,7 @@ def test_heartbeats_come_with_a_download_too_and_not_without_a_motion():
         stream.result()
 
 
-def test_no_heartbeats_where_nobody_wants_them():
+def test_heartbeats_disabled_are_not_sent():
     with streamed(timeouts=Timeouts(heartbeat=0)) as (robot, driver):
         with robot.stream() as stream:
             stream.append([0, 3], [[0.0] * 6, [0.1] * 6])
@@ -491,7 +491,7 @@ def test_a_control_port_that_falls_silent_stops_the_motion():
     assert any(port == 11000 for _, port, number in driver.log if number == 11)
 
 
-def test_a_lost_connection_stops_the_motion_though_nobody_waits():
+def test_lost_connection_without_waiter_stops_motion():
     with streamed() as (robot, driver):
         stream = robot.stream()
         stream.append(*zip(*wave(100), strict=True))
@@ -541,7 +541,7 @@ def test_a_trajectory_is_checked_once(monkeypatch, points, way):
     assert len(checks) == 1
 
 
-def test_somebody_else_stops_it():
+def test_stream_stopped_by_another_client_ends():
     with streamed() as (robot, driver):
         filling = robot.stream().later.extend(wave())
         robot.sleep(5)

@@ -106,7 +106,7 @@ def test_stop_at_any_moment(seconds):
             stream.append([0, 1], [stood, stood])
 
 
-def test_stop_right_behind_the_first_points_stops():
+def test_stop_after_first_points_stops():
     with driven() as (robot, _):
         stream = robot.stream()
         first = stream.later.append(*zip(*wave(30), strict=True))
@@ -197,7 +197,9 @@ def test_events_and_feedback():
 
 def test_two_arms_stream_each_for_itself():
     with driven("irb14000") as (first, _):
-        second = first.beside(robot_of(load_config("irb14000"), load_config("irb14000").groups[1]))
+        second = first.open_another(
+            robot_of(load_config("irb14000"), load_config("irb14000").groups[1])
+        )
         second.connect()
         streams, fillings = [], []
         for robot in (first, second):
@@ -225,7 +227,7 @@ def test_a_newer_client_ends_a_motion_by_a_sound_order_and_by_nothing_before():
     with driven() as (first, _):
         filling = first.stream().later.extend(wave())
         first.sleep(5)
-        second = first.beside(robot_of(load_config("irb120")))
+        second = first.open_another(robot_of(load_config("irb120")))
         second.connect()
         far = Trajectory([0, 1], [[0.0] * 6, [9.0] * 6])
         with pytest.raises(InvalidTrajectory):

@@ -71,7 +71,7 @@ def test_csv_round_trip(tmp_path):
     assert again.lines == (2, 3, 4)
 
 
-def test_csv_faults_are_told_all_at_once_with_their_places(tmp_path):
+def test_read_csv_reports_all_faults_with_places(tmp_path):
     path = tmp_path / "bad.csv"
     path.write_text("# a comment\ntime,a,b\n0,1\n\n1,x,2\n2,1,2,3\n3,1,y\n4,0_5,1\n")
     with pytest.raises(InvalidTrajectory) as error:
@@ -99,7 +99,7 @@ def test_csv_that_is_none(tmp_path, content):
     assert set(codes(error)) == {"RG610"}
 
 
-def test_a_recording_of_a_simulator_is_told_from_a_text(tmp_path):
+def test_read_csv_of_simulator_recording_is_recognised(tmp_path):
     path = tmp_path / "run.mcap"
     path.write_bytes(b"\x89MCAP0\r\n\x01")
     with pytest.raises(InvalidTrajectory) as error:
@@ -332,7 +332,7 @@ def test_timed_stays_within_speed_limits(irb120):
 
 
 def test_timed_wants_the_joints_of_the_robot(irb120):
-    """A joint that is missing is told; one that the robot does not have is not dropped."""
+    """A missing joint is an error; an unknown one is not dropped."""
     ends = np.zeros((2, 7))
     named = (*irb120.names, "gripper")
     for width, names, message in (

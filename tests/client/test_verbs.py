@@ -128,7 +128,7 @@ def test_stop_of_an_address_alone(controller):
     assert len(controller.stops) == 1
 
 
-def test_stop_that_nobody_hears(capsys):
+def test_stop_without_driver_recommends_emergency_stop(capsys):
     with FakeController() as fake:
         address = fake.address
     assert main(["stop", "irb120", "--to", address]) == 1
@@ -256,7 +256,7 @@ def test_move_tells_which_way_the_points_go(streaming, many, capsys, words, way)
     assert "sent while it moves" in " ".join(displayed.err.split())
 
 
-def test_a_fault_on_the_way_is_told_with_its_point(streaming, many, capsys):
+def test_move_with_fault_at_point_reports_it(streaming, many, capsys):
     streaming.script.mapping = mapping_of("irb120")
     streaming.script.stream.point_fault = (100, 7, 0)
     assert main(["move", "irb120", str(many), "--to", streaming.address, "-y"]) == 1
@@ -388,7 +388,10 @@ def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
 
 @pytest.mark.parametrize(("rapidgen", "code"), [(True, "RG920"), (False, "RG923")])
 def test_looking_takes_no_place_that_is_the_only_one(rapidgen, code, capsys, monkeypatch):
-    """A driver without a control port (`profile: basic`) is told from a plain one by HELLO."""
+    """HELLO distinguishes a driver of `profile: basic` from a plain one.
+
+    It has no control port.
+    """
     monkeypatch.setattr("rapidgen.viewer.server.ASSETS", Path("nowhere"))
     with FakeController(rapidgen=rapidgen, control=False) as fake:
         assert main(["view", fake.address]) == 1

@@ -67,13 +67,13 @@ def test_too_many_points_are_refused_before_they_are_sent():
             robot.execute(still)
 
 
-def test_same_seed_same_story():
-    def story(seed):
+def test_same_seed_gives_same_run():
+    def random_run(seed):
         with driven(seed=seed) as (robot, _):
             robot.execute(PATH).result()
             return robot.messages
 
-    assert story(3) == story(3)
+    assert random_run(3) == random_run(3)
 
 
 @pytest.mark.parametrize("after", [0.001, 0.05, 0.3, 0.9, 1.5, 1.99])
@@ -119,9 +119,9 @@ def test_ended_by_the_controller(event, reason):
         assert robot.stop().joints == stood
 
 
-def test_nobody_listens():
+def test_connect_without_server_fails():
     with driven() as (robot, _), pytest.raises(ConnectionFailed):
-        robot.beside(AsyncRobot("irb120", address=Address("controller", 5, 6))).connect()
+        robot.open_another(AsyncRobot("irb120", address=Address("controller", 5, 6))).connect()
 
 
 def test_two_arms_start_together():

@@ -1,4 +1,7 @@
-"""What a stranger types in Python: each is told, with reason and mend, before anything goes out."""
+"""Wrong arguments in Python: each error has a reason and a help.
+
+They are raised before any byte is sent.
+"""
 
 import pytest
 
@@ -79,7 +82,7 @@ WRONG = {
         lambda: Program(zone=[0.01]), InvalidProgram, "[0.01] is no zone", "z10"),
     "a word for a wait": (
         lambda: Program().wait("long"), InvalidProgram, "'long' is no time", "seconds"),
-    "a word for a patience": (
+    "a word for a time-out": (
         lambda: Program().wait_for("part", timeout=None),
         InvalidProgram, "None is no time", "seconds"),
     "a word for a limit": (
@@ -95,11 +98,11 @@ WRONG = {
 
 @pytest.mark.parametrize("case", WRONG)
 def test_typed_wrong(case):
-    call, kind, report, mend = WRONG[case]
+    call, kind, report, help_text = WRONG[case]
     with pytest.raises(kind) as caught:
         call()
     assert report in str(caught.value)
-    assert mend in " ".join(d.help for d in caught.value.diagnostics)
+    assert help_text in " ".join(d.help for d in caught.value.diagnostics)
 
 
 def test_one_file_is_no_list_of_files():

@@ -1,7 +1,7 @@
-"""The face without a network: a request in, an answer out, on the controller's thread.
+"""The RWS application without a network, on the controller's thread.
 
-Strict is what controllers are: versions in media types (406, 415), verbs in their place (405),
-20 requests a second of RWS 1.0, 70 sessions, mastership.
+It maps a request to a response. It is as strict as controllers: versions in media types (406, 415),
+allowed methods (405), 20 requests a second of RWS 1.0, 70 sessions, mastership.
 """
 
 import secrets
@@ -36,7 +36,7 @@ _REALM = 'Basic realm="Robot Web Services"'
 
 
 class RwsApplication:
-    """Answers requests to one cabinet."""
+    """Application that answers requests to one controller."""
 
     def __init__(
         self,
@@ -67,11 +67,11 @@ class RwsApplication:
 
     @property
     def is_one(self) -> bool:
-        """Whether RWS 1.0 is spoken."""
+        """True for RWS 1.0."""
         return self.generation is Generation.ONE
 
     def session_of(self, got: HttpRequest) -> Session | None:
-        """The session that a request belongs to; None: nobody's, and it is not let in."""
+        """Return the session of a request; None if it is not logged in."""
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None and self.is_one and (user := self._user(got)) is not None:
             # A client may show its connection's cookie and its digest [code: abb_robot_client].
@@ -121,7 +121,7 @@ class RwsApplication:
         return self._reply(got, session, path, answer, syntax)
 
     def _enter(self, got: HttpRequest) -> Session | HttpResponse:
-        """Log in; a reply says why not."""
+        """Log in; a response gives the reason for a refusal."""
         user = self._user(got)
         if user is None:
             return HttpResponse(401, (("WWW-Authenticate", self._challenge()),))
@@ -137,7 +137,7 @@ class RwsApplication:
         return logging_in.challenge(nonce)
 
     def _user(self, got: HttpRequest) -> str | None:
-        """Who it is, by the Authorization header; None: nobody."""
+        """Return the user of the Authorization header; None if there is none."""
         header = got.headers.get("authorization", "")
         if self.generation is not Generation.ONE:
             return logging_in.basic_user(header, self._users)
@@ -150,7 +150,7 @@ class RwsApplication:
         return sent.user
 
     def _syntax(self, got: HttpRequest, path: str, query: dict[str, str]) -> Syntax | None:
-        """What the answer is to be written in; None: this client does not say."""
+        """Return the syntax of the answer; None if the client accepts none."""
         match = wanted(self.generation, got.headers.get("accept", ""), query)
         if match is None and not self._strict:
             return "hal"
@@ -195,12 +195,15 @@ class RwsApplication:
             raise RequestDenied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)
 
     def _check_type(self, got: HttpRequest, files: bool) -> None:
-        """406 for a request without the type that RWS 2.0 wants, 415 for a file of another."""
+        """Check the media type.
+
+        406 for a request without the type that RWS 2.0 requires, 415 for a file of another.
+        """
         if got.method in ("GET", "HEAD", "OPTIONS") or not self._strict:
             return
         sent = plain(got.headers.get("content-type", ""))
         if self.generation is Generation.ONE:
-            # Nothing at all is let through: public clients send such requests [code: rwsuis].
+            # An empty body is accepted: public clients send such requests [code: rwsuis].
             if got.method == "POST" and got.body and not sent.startswith(FORM):
                 raise RequestDenied(415, "E_INVALIDARG", "a form is wanted")
         elif files and got.method == "PUT":

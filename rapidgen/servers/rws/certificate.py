@@ -1,4 +1,4 @@
-"""A certificate that a controller signs itself, as OmniCore's are delivered."""
+"""A self-signed certificate of a controller, as OmniCore is delivered."""
 
 import ipaddress
 import ssl
@@ -15,14 +15,17 @@ from cryptography.x509.oid import NameOID
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """Certificate and key as PEM; `fingerprint` is SHA-256 of the certificate, in hex."""
+    """Certificate and key as PEM.
+
+    `fingerprint` is SHA-256 of the certificate, in hex.
+    """
 
     pem: bytes
     key: bytes = field(repr=False)
     fingerprint: str
 
     def context(self) -> ssl.SSLContext:
-        """What a server needs."""
+        """Return the TLS context of a server."""
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
         # OpenSSL reads keys from files only.
         with tempfile.TemporaryDirectory(prefix="rapidgen-tls-") as folder:

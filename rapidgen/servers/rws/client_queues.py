@@ -12,7 +12,7 @@ KINDS = ("IPC_SEND", "IPC_PACKAGE")
 
 @dataclass(frozen=True, slots=True)
 class ClientText:
-    """What a client has sent to another one."""
+    """Message from one client to another."""
 
     sender: str
     data: str
@@ -33,7 +33,7 @@ class ClientQueue:
         return len(self.texts) + len(self.queue.messages)
 
     def take(self) -> ClientText | None:
-        """The first message, taken out; None: there is none."""
+        """Remove and return the first message; None if the queue is empty."""
         if self.texts:
             return self.texts.popleft()
         if not self.queue.messages:

@@ -1,4 +1,7 @@
-"""What handlers work with: the cabinet, who may what, what is under way."""
+"""State that all RWS handlers share.
+
+The controller, permissions, and running jobs.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -20,30 +23,38 @@ from rapidgen.wire.rws.grants import GRANTS
 
 @dataclass(frozen=True, slots=True)
 class Accounts:
-    """Who may log in. All users have all grants but `Default User` those of `denied`."""
+    """Accounts that may log in.
+
+    All users have all grants except `Default User`, which lacks those of `denied`.
+    """
 
     users: dict[str, str]
     denied: frozenset[str] = frozenset()
 
     def granted(self, user: str) -> frozenset[str]:
-        """What a user may do, by UAS names."""
+        """Return a user's grants by UAS name."""
         return frozenset(GRANTS) - (self.denied if user == "Default User" else frozenset())
 
 
 class RwsContext:
-    """State of one face beyond its sessions."""
+    """State of one server beyond its sessions."""
 
     groups: Groups
     """Subscriptions."""
     end_session: Callable[[Session], None]
     """A user logs out."""
     sessions: Callable[[], tuple[Session, ...]]
-    """Who is logged in."""
+    """Users logged in."""
 
     def __init__(
-        self, cabinet: ControllerRunner, generation: Generation, login: Accounts, *, strict: bool
+        self,
+        controller_runner: ControllerRunner,
+        generation: Generation,
+        login: Accounts,
+        *,
+        strict: bool,
     ) -> None:
-        self.runner = cabinet
+        self.runner = controller_runner
         self.generation = generation
         self.login = login
         self.strict = strict
@@ -55,13 +66,13 @@ class RwsContext:
         self.queues: dict[str, ClientQueue] = {}
         """Message queues of clients, by name in lower case."""
         self.chosen: dict[str, dict[str, str]] = {}
-        """What clients have chosen for jogging, by mechanical unit: tool, wobj, ..."""
+        """Clients' choices for jogging by mechanical unit: tool, wobj, ..."""
         self.led: set[str] = set()
-        """Units that are led by hand."""
+        """Units in lead-through."""
         self.program_names: dict[str, str] = {}
         """Names of program files that were loaded, by task."""
         self.mode_lock = ""
-        """`Temporary`, `Permanent`, or nothing: whether the operating mode is locked by a pin."""
+        """Lock of the operating mode by a pin: `Temporary`, `Permanent` or empty."""
 
     @property
     def controller(self) -> VirtualController:
@@ -75,15 +86,16 @@ class RwsContext:
         )
 
     def restarted(self) -> None:
-        """Nothing is held and nothing is under way any more."""
+        """Drop all masterships and running jobs."""
         self.masters = self._new_masters()
         for state in (self.progress, self.dialogs, self.queues, self.chosen, self.led):
             state.clear()
 
     def started(self, refused: str) -> RwsResponse:
-        """The answer to a job that has come to its end already: refused by a code's name, or not.
+        """Return the answer to a job that has ended already.
 
-        RWS 2.0, and a backup in RWS 1.0, answer 202 with the address of the end.
+        It is a refusal with a code's name, or a success. RWS 2.0, and a backup in RWS 1.0, answer
+        202 with the address of the result.
         """
         number = str(len(self.progress) + 1)
         self.progress[number] = CODES[refused] if refused else OK

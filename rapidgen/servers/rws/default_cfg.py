@@ -1,4 +1,4 @@
-"""Cfg that every controller shows and no SYSPAR of a small one holds: options, mechanics.
+"""Default cfg that a small SYSPAR does not have: options, mechanics.
 
 Types and attributes as abb_librws reads them of an IRC5 [code]; limits in rad and m.
 """
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 DOMAINS = ("EIO", "MMC", "MOC", "PROC", "SIO", "SYS")
 """Domains of every controller."""
 OPTIONS = ("616-1 PC Interface",)
-"""What is installed."""
+"""Installed options."""
 
 
 def built_in(context: "RwsContext") -> dict[tuple[str, str], tuple[Instance, ...]]:

@@ -1,4 +1,7 @@
-"""Volumes of the file service as the controller's disks. There is no way out of them."""
+"""Volumes of the file service as the controller's disks.
+
+No path leads out of them.
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,9 +16,10 @@ VOLUMES = ("HOME", "TEMP", "BACKUP", "RAMDISK")
 
 
 def disk_path(context: "RwsContext", words: str, request: RwsRequest) -> Path:
-    """Where `$HOME/a`, `HOME/a`, `HOME:/a` or `/fileservice/...` of these lies.
+    """Return the file of a path on a volume.
 
-    Denied: it names no volume, or leads out of one.
+    The path is `$HOME/a`, `HOME/a`, `HOME:/a` or `/fileservice/...`. RequestDenied: it names no
+    volume, or leads out of one.
     """
     text = words.removeprefix("/fileservice/").strip("/")
     first, _, remaining = text.partition("/")

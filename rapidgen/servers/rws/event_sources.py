@@ -1,4 +1,4 @@
-"""What can be subscribed: what it is now, and who tells that it changed."""
+"""Sources of subscriptions: the current value and its changes."""
 
 import re
 from collections.abc import Callable
@@ -30,7 +30,10 @@ if TYPE_CHECKING:
 
 
 def watched(context: "RwsContext", request: RwsRequest, requested: WantedResource) -> EventSource:
-    """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
+    """Return the event source of a path such as `/rw/panel/ctrlstate`.
+
+    RequestDenied: there is none.
+    """
     path, _, suffix = requested.resource.partition(";")
     path = unquote(path).rstrip("/")
     for pattern, make in _KINDS:
@@ -44,7 +47,7 @@ _Make = Callable[["RwsContext", RwsRequest, str, str, re.Match[str]], EventSourc
 
 
 def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> EventSource:
-    """Watched through a WaitSet; told only when `now()` has another value."""
+    """Return a source over a WaitSet that reports only changed values."""
 
     def watch(notify: Notify) -> Callable[[], None]:
         last = now()
@@ -178,7 +181,9 @@ def _dialog(
             seen.update(now)
             for event, questions in (("ABORT", gone), ("SEND", new)):
                 for question in questions:
-                    notify(Item("rap-ui-ev", "uiinstruction", dialogs.told(question, event)))
+                    notify(
+                        Item("rap-ui-ev", "uiinstruction", dialogs.dialog_fields(question, event))
+                    )
 
         def written(task: str, line: str) -> None:
             stack = {"stack": f"RAPID/{task}/", "execlv": "NORMAL", "msg": f'"{line}"'}
@@ -271,7 +276,7 @@ def _symbol(
     cell = result.task.cell(result.name)
     if not isinstance(cell, PersistentCell) or cell.cell is None:
         raise RequestDenied(400, "E_INVALIDARG", f"no persistent: {text}")
-    # RWS 2.0 gives the address without what follows the semicolon [code: App SDK].
+    # RWS 2.0 gives the address without the part after the semicolon [code: App SDK].
     href = text if request.is_one else text.partition(";")[0]
 
     def item() -> Item:

@@ -1,4 +1,4 @@
-"""Who may change what: mastership of RobotWare 6 and 7, write access of RobotWare 8.
+"""Mastership of RobotWare 6 and 7, write access of RobotWare 8.
 
 RobotWare 6 has the domains cfg, motion and rapid, 7 edit and motion, 8 one write access that
 belongs to a control station and outlives the session [VC 6.16, VC 7.21, VC 8.1.1].
@@ -17,7 +17,7 @@ Domain = Literal["cfg", "motion", "rapid"]
 
 
 class Masterships:
-    """Mastership of one face."""
+    """Mastership of one server."""
 
     def __init__(
         self,
@@ -27,14 +27,17 @@ class Masterships:
         *,
         strict: bool = True,
     ) -> None:
-        """`mode` tells the controller's operating mode, `manual` who may write in manual mode."""
+        """`mode` is the controller's operating mode.
+
+        `manual` holds the remote-writing privilege in manual mode.
+        """
         self._generation = generation
         self._mode = mode
         self.manual = manual
         self._strict = strict
         self.holders: dict[str, Session] = {}
         self.changed = WaitSet()
-        """Notified when a domain is taken or given back."""
+        """Notified when a domain is taken or released."""
         self.stations: dict[str, str] = {}
         """Names of control stations by their id."""
         self.station = ""
@@ -43,7 +46,7 @@ class Masterships:
 
     @property
     def domains(self) -> tuple[str, ...]:
-        """What there is mastership of."""
+        """Return the domains of mastership."""
         one = self._generation is Generation.ONE
         return ("cfg", "motion", "rapid") if one else ("edit", "motion")
 
@@ -59,7 +62,7 @@ class Masterships:
             raise RequestDenied(403, "E_RESOURCE_HELD", f"mastership of {domain} is held", -1)
 
     def release(self, session: Session, domain: str) -> None:
-        """Give a domain back. Denied: this session does not have it."""
+        """Release a domain. RequestDenied: this session does not hold it."""
         self._check(domain)
         if self.holders.get(domain) is not session:
             raise RequestDenied(
@@ -78,9 +81,10 @@ class Masterships:
             raise RequestDenied(404, "E_UNRESOLVED_URL", f"no domain {domain}")
 
     def need(self, request: RwsRequest, domain: Domain, *, by_itself: bool = False) -> None:
-        """What this request does takes mastership. Denied: the session does not have it.
+        """Check that a session has mastership for a request.
 
-        `by_itself`: the controller takes it for the request, where nobody else has it.
+        RequestDenied: it does not. `by_itself`: the controller takes a free mastership for the
+        request.
         """
         self.need_mode(request.session)
         if self._generation is Generation.EIGHT:
@@ -99,17 +103,23 @@ class Masterships:
 
     @property
     def is_editing(self) -> bool:
-        """Whether some session holds what RAPID needs for itself: a start waits for that."""
+        """True if a session holds a domain that a start of RAPID needs."""
         return self._generation is Generation.TWO and "edit" in self.holders
 
     def need_mode(self, session: Session, privilege: Privilege = "modify") -> None:
-        """Who is remote writes in automatic mode, or in manual mode where that was granted."""
+        """Check that a remote client may write.
+
+        It may in automatic mode, and in manual mode with a grant.
+        """
         if self._mode() == "auto" or not self._strict or self.manual.has(session, privilege):
             return
         raise RequestDenied(403, "E_MODE_REJECT", "neither automatic mode nor RMMP", -4_502)
 
     def need_start(self, request: RwsRequest) -> None:
-        """A start: on RobotWare 8 with write access, and motion allowed [real 8.1.0]."""
+        """Check a start: write access and motion allowed on RobotWare 8.
+
+        [real 8.1.0]
+        """
         if self._generation is Generation.EIGHT:
             self.need(request, "rapid")
             if not self.motion_allowed:

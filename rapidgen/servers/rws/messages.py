@@ -1,4 +1,4 @@
-"""What comes in, what goes out, and how something is refused."""
+"""Requests, responses and refusals of Robot Web Services."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -10,9 +10,9 @@ from rapidgen.wire.rws.codes import CODES
 
 @dataclass(frozen=True, slots=True)
 class HttpRequest:
-    """A request as it came. `connection` numbers the TCP connection that it came over.
+    """A received request. Names of headers are in lower case.
 
-    Names of headers are in lower case.
+    `connection` numbers its TCP connection.
     """
 
     method: str
@@ -24,7 +24,7 @@ class HttpRequest:
 
 @dataclass(frozen=True, slots=True)
 class HttpResponse:
-    """An answer as it goes out. Several headers may have one name (cookies)."""
+    """An HTTP response. Header names may repeat (`Set-Cookie`)."""
 
     status: int
     headers: tuple[tuple[str, str], ...] = ()
@@ -37,7 +37,7 @@ class HttpResponse:
 
 @dataclass(frozen=True, slots=True)
 class RwsRequest:
-    """A request that has been let in, taken apart. `names` are the path's own."""
+    """A parsed request of a session. `names` are those of the path."""
 
     generation: Generation
     session: Session
@@ -57,11 +57,14 @@ class RwsRequest:
 
     @property
     def is_one(self) -> bool:
-        """Whether RWS 1.0 is spoken."""
+        """True for RWS 1.0."""
         return self.generation is Generation.ONE
 
     def field(self, name: str, choices: tuple[str, ...] = ()) -> str:
-        """A field that has to be there. Denied: it is not, or is none of the choices."""
+        """Return a required field.
+
+        RequestDenied: it is missing, or is not one of the choices.
+        """
         value = self.form.get(name)
         if value is None or (choices and value not in choices):
             raise RequestDenied(400, "E_INVALIDARG", f"{name}: {value}")
@@ -74,7 +77,7 @@ class RwsRequest:
 
 @dataclass(frozen=True, slots=True)
 class RwsResponse:
-    """What a handler gives: a body, bytes of a file, or nothing (204)."""
+    """A handler's result: a body, bytes of a file, or nothing (204)."""
 
     status: int = 204
     body: Body | None = None
@@ -83,7 +86,7 @@ class RwsResponse:
 
 
 class RequestDenied(Exception):
-    """A request is refused with ABB's code; `icode` is a hint behind the words."""
+    """A refusal with ABB's code; `icode` is added after the words."""
 
     def __init__(self, status: int, name: str, text: str = "", icode: int = -1) -> None:
         super().__init__(f"{status} {name} {text}")
@@ -94,12 +97,12 @@ class RequestDenied(Exception):
 
     @property
     def message(self) -> str:
-        """As controllers write it: words, then both codes."""
+        """Text as controllers write it: words, then both codes."""
         return f"rapidgen[1] {self.text} code:{self.code} icode:{self.icode}"
 
 
 def whole(name: str, text: str, least: int = 0, most: int = 999_999_999) -> int:
-    """A whole number of a request. Denied: it is none, or is out of its range."""
+    """Parse an integer. RequestDenied: invalid, or out of its range."""
     if text.isdecimal() and len(text) < 10 and least <= int(text) <= most:
         return int(text)
     raise RequestDenied(400, "E_INVALIDARG", f"{name}: {text}")

@@ -9,7 +9,10 @@ from rapidgen.wire.rws.bodies import Item
 def page(
     request: RwsRequest, items: Sequence[Item], most: int, name: str, *, always: bool = False
 ) -> RwsResponse:
-    """The asked page of items, at most `most`; `always`: RWS 1.0 cuts them, too."""
+    """Return the requested page, at most `most` items.
+
+    `always`: RWS 1.0 divides them too.
+    """
     if request.is_one and not always:
         return show(*items, collection=True)
     try:

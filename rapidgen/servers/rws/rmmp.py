@@ -1,8 +1,8 @@
-"""Remote writing in manual mode: a session asks, and the pendant's user grants or denies it.
+"""Remote writing in manual mode, granted by the pendant's user.
 
-The question is a dialog of the virtual pendant (`RMMP`: Grant or Deny), answered as every other.
-It stands for 10 s after the last poll, and what was granted ends with the session, the mode or a
-cancel [RWS manual]. `exec` holds `modify`.
+The question is a dialog of the virtual pendant (`RMMP`: Grant or Deny), answered as every other
+one. It stays open for 10 s after the last poll. A grant ends with the session, the mode or a cancel
+[RWS manual]. `exec` includes `modify`.
 """
 
 from collections.abc import Callable
@@ -14,29 +14,32 @@ from rapidgen.machine.scheduler import S
 from rapidgen.servers.rws.sessions import Session
 
 Privilege = Literal["modify", "exec"]
-PATIENCE = 10.0
+PROMPT_SECONDS = 10.0
 """s that the pendant's user has, from the last poll on."""
 _CHOICES = ("Grant", "Deny")
 
 
 class ManualPrivilege:
-    """Who may write from afar in manual mode, and who asks for it."""
+    """Holder of remote writing in manual mode, or its applicant."""
 
     def __init__(self, now: Callable[[], VirtualController], clock: Callable[[], float]) -> None:
-        """`now` gives the controller that runs, `clock` its time in s."""
+        """`now` returns the running controller, `clock` its time in s."""
         self._now = now
         self._clock = clock
         self.session: Session | None = None
-        """Who asks, or has it."""
+        """Session that requests or holds it."""
         self.privilege: Privilege = "modify"
         self.granted = False
         self._question: Question | None = None
         self._until = 0.0
         self._refused: dict[Session, str] = {}
-        """What became of requests that ended without a grant."""
+        """Results of requests that ended without a grant."""
 
     def ask(self, session: Session, privilege: Privilege) -> bool:
-        """Put the question on the pendant; False: somebody else asks, or has it."""
+        """Open the prompt on the pendant.
+
+        False: another session has requested or holds it.
+        """
         if self.session not in (None, session):
             return False
         if self.session is session and self.granted and self._holds(privilege):
@@ -53,27 +56,30 @@ class ManualPrivilege:
         question.changed.add(lambda: self._answered(question))
         self.keep(session)
         self._watch()
-        if question.answered:  # as soon as it was asked
+        if question.answered:  # as soon as it was requested
             self._answered(question)
         return True
 
     def keep(self, session: Session) -> None:
-        """A poll: the question stands for a while longer."""
+        """Poll: keep the prompt open for another period."""
         if session is self.session:
-            self._until = self._clock() + PATIENCE
+            self._until = self._clock() + PROMPT_SECONDS
 
     def state(self, session: Session) -> str:
-        """GRANTED or PENDING, else how a request ended: DENIED, TIMEOUT; NONE: there was none."""
+        """Return GRANTED or PENDING, or how a request ended.
+
+        That is DENIED, TIMEOUT, or NONE without a request.
+        """
         if session is self.session:
             return "GRANTED" if self.granted else "PENDING"
         return self._refused.get(session, "NONE")
 
     def has(self, session: Session, privilege: Privilege) -> bool:
-        """Whether a session may do that in manual mode."""
+        """True if a session has this privilege in manual mode."""
         return session is self.session and self.granted and self._holds(privilege)
 
     def cancel(self, session: Session) -> None:
-        """Ask no more, or give it back."""
+        """Cancel the request, or release the privilege."""
         self._refused.pop(session, None)
         if session is self.session:
             self._end()

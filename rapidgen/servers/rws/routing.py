@@ -1,4 +1,4 @@
-"""Which handler serves which operation: `@serves(...)` puts it into the one table."""
+"""Routing table of operations, filled by `@serves(...)`."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -42,7 +42,7 @@ class _Row:
 
 @dataclass(frozen=True, slots=True)
 class RouteMatch:
-    """What a path leads to: a handler and its operation, or the methods that there would be."""
+    """Result of a path: a handler and its operation, or allowed methods."""
 
     handler: Handler | None
     names: Mapping[str, str]
@@ -54,7 +54,7 @@ class RouteMatch:
 def _rows(generation: Generation) -> tuple[_Row, ...]:
     routes = [(operation.route(generation), operation, handler) for operation, handler in _TABLE]
     rows = [_Row(r.pattern, r, handler, operation) for r, operation, handler in routes if r]
-    # What names more of its path goes first: `/ctrl/identity` before `/ctrl/{variable}`.
+    # The more specific path goes first: `/ctrl/identity` before `/ctrl/{variable}`.
     return tuple(sorted(rows, key=_vagueness))
 
 
@@ -64,7 +64,10 @@ def _vagueness(row: _Row) -> tuple[int, bool, int, bool]:
 
 
 def find(generation: Generation, method: str, path: str, query: Mapping[str, str]) -> RouteMatch:
-    """The handler of a request. With none, `allowed` empty is 404, else 405."""
+    """Return the handler of a request.
+
+    Without a handler, empty `allowed` means 404, else 405.
+    """
     action = f"action={query['action']}" if query.get("action") else ""
     request = (action,) if action else (f"resource={query.get('resource', '')}", "")
     allowed: list[str] = []

@@ -1,6 +1,7 @@
-"""The face on a port: aiohttp takes requests, the desk answers them on the controller's thread.
+"""RWS server on a port: aiohttp before the application.
 
-RWS 1.0 is plain HTTP, 2.0 is HTTPS with a certificate that the controller signed itself.
+The application answers on the controller's thread. RWS 1.0 is plain HTTP, 2.0 is HTTPS with a
+certificate that the controller signed itself.
 """
 
 import asyncio
@@ -39,9 +40,9 @@ def serve_rws(
     *,
     strict: bool = True,
 ) -> Service:
-    """Serve Robot Web Services of a cabinet in a thread.
+    """Serve Robot Web Services of a controller in a thread.
 
-    Without accounts they are ABB's own, which everybody knows: on loopback only. `host_key` of the
+    Without accounts ABB's own, which are public, are valid: on loopback only. `host_key` of the
     handle is the certificate's fingerprint. Raises DiagnosticError RG560 (not loopback), RG561.
     """
     if accounts is None or KNOWN in accounts.users.values():
@@ -85,7 +86,7 @@ class _Server:
 
     @property
     def port(self) -> int:
-        """Where it listens."""
+        """The port number."""
         return self._thread.port
 
     def stop(self) -> None:
@@ -99,7 +100,7 @@ class _Server:
         self._thread.soon(self._give_up)
 
     def _give_up(self) -> None:
-        """Nobody will answer what was asked: the controller restarts."""
+        """Abandon open requests, since the controller restarts."""
         for future in tuple(self._pending):
             if not future.done():
                 future.set_result(_RESTARTING)
@@ -113,7 +114,7 @@ class _Server:
             return web.Response(status=413)
         got = self._received(request, body)
         reply = await self._on_controller(lambda: self._application.handle(got))
-        # Without the query and the body: they may hold what nobody else should read.
+        # Without the query and the body: they may hold confidential data.
         _LOG.debug("%s %s: %d", request.method, request.path, reply.status)
         return _response(reply)
 
@@ -129,7 +130,7 @@ class _Server:
         return HttpRequest(request.method, request.raw_path, headers, body, number)
 
     async def _on_controller(self, function: Callable[[], HttpResponse]) -> HttpResponse:
-        """The outcome of a function on the controller's thread; 503 while it restarts."""
+        """Run a function on the controller's thread; 503 while it restarts."""
         future: asyncio.Future[HttpResponse] = self._thread.loop.create_future()
 
         def settle(reply: HttpResponse) -> None:
@@ -194,7 +195,7 @@ class _Server:
             done, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
             codes = [task.result() for task in done if task.exception() is None]
         finally:
-            # Nobody may read or write beside the close.
+            # No other task may read or write during the close.
             for task in both:
                 task.cancel()
             await asyncio.gather(*both, return_exceptions=True)
@@ -213,7 +214,7 @@ class _Server:
         return WSCloseCode.GOING_AWAY
 
     async def _hear(self, socket: web.WebSocketResponse) -> WSCloseCode:
-        """RWS 2.0: a client that sends anything is cut off, pings are not answered [VC 7.21]."""
+        """RWS 2.0: disconnect a client that sends; ignore pings [VC 7.21]."""
         async for message in socket:
             if message.type in (WSMsgType.TEXT, WSMsgType.BINARY) and not self._application.is_one:
                 return WSCloseCode.POLICY_VIOLATION

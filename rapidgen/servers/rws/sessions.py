@@ -1,7 +1,7 @@
-"""Sessions: who is logged in, for how long, and how much of it there may be.
+"""Sessions of logged-in clients and their limits.
 
-70 sessions in all, 300 s idle [RWS manual]; 20 requests a second on RWS 1.0 [RWS manual]. All on
-the controller's clock.
+70 sessions in all, 300 s idle [RWS manual]; 20 requests a second on RWS 1.0 [RWS manual]. All times
+are those of the controller's clock.
 """
 
 import secrets
@@ -11,14 +11,14 @@ from dataclasses import dataclass, field
 
 MOST = 70
 IDLE = 300.0
-"""s without a request after which a session ends."""
+"""s without a request that end a session."""
 RATE = 20
 """Requests in a second of the controller's clock."""
 
 
 @dataclass(slots=True, eq=False)
 class Session:
-    """One client."""
+    """Session of one client."""
 
     key: str
     user: str
@@ -33,7 +33,7 @@ class Session:
 
 
 class Sessions:
-    """All sessions of a face."""
+    """All sessions of a server."""
 
     def __init__(self, clock: Callable[[], float], *, limited: bool = True) -> None:
         """`limited`: there may be RATE requests in a second."""
@@ -64,7 +64,7 @@ class Sessions:
         return False
 
     def find(self, key: str) -> Session | None:
-        """The session of a cookie, kept alive by that; None: there is none any more."""
+        """Return the session of a cookie and keep it alive; None if it ended."""
         self._expire()
         session = self._sessions.get(key)
         if session is not None:
@@ -72,7 +72,7 @@ class Sessions:
         return session
 
     def begin(self, user: str) -> Session | None:
-        """A new session; None: there are too many."""
+        """Create a session; None if there are too many."""
         self._expire()
         if len(self._sessions) >= MOST:
             return None
@@ -88,7 +88,7 @@ class Sessions:
                 act()
 
     def end_all(self) -> None:
-        """A restart: nobody is logged in any more."""
+        """End all sessions, for a restart."""
         for session in tuple(self._sessions.values()):
             self.end(session)
         self._recent.clear()

@@ -1,7 +1,7 @@
-"""Subscriptions: groups of resources, watched at their priority, told over a websocket.
+"""Subscriptions: groups of resources with events over a websocket.
 
-Priority 0 is 5 s, 1 is 200 ms, 2 at once and only for signals and persistents [RWS manual].
-Events are XHTML in either generation; a signal's event repeats the text that was subscribed.
+Priority 0 is 5 s, 1 is 200 ms, 2 at once and only for signals and persistents [RWS manual]. Events
+are XHTML in either generation; a signal's event repeats the text that was subscribed.
 """
 
 from collections.abc import Callable, Iterable
@@ -21,12 +21,18 @@ Send = Callable[[bytes], None]
 
 
 Notify = Callable[[Item | None], None]
-"""Told that something changed; with the event where only that one knows it."""
+"""Callback for a change.
+
+It has the event if only the source knows it.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class EventSource:
-    """One resource: `item()` is its event now, `watch(told)` begins to watch and gives the end."""
+    """A resource: `item()` is its current event.
+
+    `watch(notify)` starts watching and returns the function that ends it.
+    """
 
     item: Callable[[], Item]
     watch: Callable[[Notify], Callable[[], None]]
@@ -46,7 +52,7 @@ class _Watch:
 
 @dataclass(slots=True, eq=False)
 class EventGroup:
-    """One subscription. `send` is there while somebody listens."""
+    """One subscription. `send` is set while a websocket is connected."""
 
     number: int
     session: Session
@@ -54,13 +60,13 @@ class EventGroup:
     send: Send | None = None
     hang_up: Callable[[], None] = lambda: None
     spent: bool = False
-    """RWS 2.0: its websocket was there once, and cannot be had again."""
+    """RWS 2.0: its websocket has existed; it cannot be opened again."""
     waiting: list[Item] = field(default_factory=list)
-    """Events before somebody listens."""
+    """Events before a websocket is connected."""
 
 
 class Groups:
-    """All subscriptions of a face."""
+    """All subscriptions of a server."""
 
     def __init__(
         self,
@@ -76,7 +82,7 @@ class Groups:
         self._made = 0
 
     def find(self, number: str, session: Session) -> EventGroup:
-        """A group of a session. Denied: it has none of that number."""
+        """Return a group of a session. RequestDenied: it has no such group."""
         group = self._groups.get(number)
         if group is None or group.session is not session:
             raise RequestDenied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
@@ -100,7 +106,7 @@ class Groups:
     def add(
         self, request: RwsRequest, group: EventGroup, requested: Iterable[WantedResource]
     ) -> None:
-        """More resources for a group, all or none. Denied."""
+        """Add resources to a group, all or none. Raises RequestDenied."""
         result = [_Watch(one, self._watched(request, one)) for one in requested]
         every = [*group.watches, *result]
         high = sum(w.wanted.priority == 2 for w in every)
@@ -113,7 +119,10 @@ class Groups:
             watch.end = watch.seen.watch(self._changed(group, watch))
 
     def remove(self, group: EventGroup, resource: str) -> None:
-        """One resource less; the last one ends the group. Denied: it has no such one."""
+        """Remove one resource; the last one ends the group.
+
+        RequestDenied: the group does not have it.
+        """
         for watch in group.watches:
             if watch.wanted.resource == resource:
                 self._end_watch(watch)
@@ -124,7 +133,7 @@ class Groups:
         raise RequestDenied(400, "E_INVALIDARG", f"no resource {resource}")
 
     def initial(self, group: EventGroup) -> list[Item]:
-        """What everything of a group is now."""
+        """Return the current events of a group."""
         return [w.seen.item() for w in group.watches if w.seen.has_state]
 
     def end(self, group: EventGroup) -> None:
@@ -136,7 +145,7 @@ class Groups:
         group.hang_up()
 
     def end_all(self) -> None:
-        """A restart: nobody is told anything any more."""
+        """End all groups, for a restart."""
         for group in tuple(self._groups.values()):
             self.end(group)
 
@@ -149,7 +158,10 @@ class Groups:
     # -- events ----------------------------------------------------------------------------------
 
     def listen(self, group: EventGroup, send: Send, hang_up: Callable[[], None]) -> None:
-        """Somebody listens from now on. Denied: RWS 2.0 gives a poll URL once."""
+        """Connect the websocket.
+
+        RequestDenied: RWS 2.0 uses a poll URL once.
+        """
         if group.spent and self._generation is not Generation.ONE:
             raise RequestDenied(404, "E_UNRESOLVED_URL", "used already")
         listening = sum(g.send is not None for g in self._groups.values())
@@ -170,7 +182,10 @@ class Groups:
             self.end(group)
 
     def _changed(self, group: EventGroup, watch: _Watch) -> Callable[[Item | None], None]:
-        """What is called at a change, with its event where a later look would miss it."""
+        """Return the callback for a change.
+
+        It receives the event if a later read would miss it.
+        """
 
         def now(item: Item) -> None:
             if group.send is None:
@@ -193,6 +208,6 @@ class Groups:
         return changed
 
     def _tell(self, group: EventGroup, item: Item) -> None:
-        """One message an event: a public client looks for one in each."""
+        """Send one message an event: a public client expects this."""
         assert group.send is not None
         group.send(write_events([item]))

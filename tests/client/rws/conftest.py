@@ -7,7 +7,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "servers" / "rws"))
 
-from served import make_cabinet
+from served import make_runner
 
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws.bodies import Generation
@@ -17,10 +17,10 @@ SPEED = 60
 
 
 class Served:
-    """A cabinet, its service and what a client needs to reach it."""
+    """A controller, its service and the client's arguments."""
 
-    def __init__(self, cabinet, service, generation, folder):
-        self.runner = cabinet
+    def __init__(self, controller_runner, service, generation, folder):
+        self.runner = controller_runner
         self.service = service
         self.generation = generation
         self.pins = folder / "known"
@@ -51,19 +51,19 @@ class Served:
 @pytest.fixture(params=list(Generation), ids=lambda g: f"rws{g.value}")
 def served(request, tmp_path):
     generation = request.param
-    with make_cabinet(tmp_path, generation, clock="real", speed=SPEED) as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, generation)
-        yield Served(cabinet, service, generation, tmp_path)
+    with make_runner(tmp_path, generation, clock="real", speed=SPEED) as controller_runner:
+        controller_runner.start()
+        service = serve_rws(controller_runner, generation)
+        yield Served(controller_runner, service, generation, tmp_path)
         service.close()
 
 
 @pytest.fixture
 def served_two(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO, clock="real", speed=SPEED) as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, Generation.TWO)
-        yield Served(cabinet, service, Generation.TWO, tmp_path)
+    with make_runner(tmp_path, Generation.TWO, clock="real", speed=SPEED) as controller_runner:
+        controller_runner.start()
+        service = serve_rws(controller_runner, Generation.TWO)
+        yield Served(controller_runner, service, Generation.TWO, tmp_path)
         service.close()
 
 
@@ -95,10 +95,10 @@ ENDMODULE
 @pytest.fixture(params=list(Generation), ids=lambda g: f"rws{g.value}")
 def asking(request, tmp_path):
     """A controller whose program asks."""
-    with make_cabinet(
+    with make_runner(
         tmp_path, request.param, program=ASKING, clock="real", speed=SPEED
-    ) as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, request.param)
-        yield Served(cabinet, service, request.param, tmp_path)
+    ) as controller_runner:
+        controller_runner.start()
+        service = serve_rws(controller_runner, request.param)
+        yield Served(controller_runner, service, request.param, tmp_path)
         service.close()

@@ -59,10 +59,10 @@ def test_the_log_tells_what_was_asked_for_and_no_secret(served, caplog):
     caplog.set_level(logging.DEBUG, "rapidgen.client")
     with Controller(served.address, **served.keywords) as controller:
         controller.set_symbol("T_ROB1/MainModule/name", '"secret value"')
-    told = [r for r in caplog.records if r.name == "rapidgen.client"]
-    assert any("logged in as" in r.getMessage() for r in told if r.levelno == logging.INFO)
-    assert any("POST /rw/" in r.getMessage() for r in told if r.levelno == logging.INFO)
-    assert not any(r.getMessage().split(": ")[1].startswith("GET") and r.levelno > 10 for r in told)
+    item = [r for r in caplog.records if r.name == "rapidgen.client"]
+    assert any("logged in as" in r.getMessage() for r in item if r.levelno == logging.INFO)
+    assert any("POST /rw/" in r.getMessage() for r in item if r.levelno == logging.INFO)
+    assert not any(r.getMessage().split(": ")[1].startswith("GET") and r.levelno > 10 for r in item)
     assert served.service.password not in caplog.text
     assert "secret value" not in caplog.text
 
@@ -95,7 +95,7 @@ def test_a_task_comes_with_cfg_files_and_a_restart(served):
         assert not controller.delete_file(place)
 
 
-def test_modules_are_loaded_and_what_is_wrong_with_them_is_told(served):
+def test_load_module_with_errors_lists_them(served):
     with Controller(served.address, **served.keywords) as controller:
         controller.write_file(
             "HOME/a.mod", b"MODULE A\n    PROC p()\n        y := ;\n    ENDPROC\n"
@@ -199,7 +199,7 @@ def test_mastership_is_given_back_and_never_taken_by_force(served):
             assert second.holder().user == "Admin"
 
 
-def test_write_access_that_was_left_behind_is_given_back(tmp_path, served):
+def test_abandoned_write_access_is_released(tmp_path, served):
     if served.generation is not Generation.EIGHT:
         return
     killed = Controller(served.address, **served.keywords)
@@ -222,7 +222,7 @@ def test_a_start_that_was_agreed_to_and_is_none_is_found_out(served):
             controller.start()
 
 
-def test_refusals_have_abbs_symbol_and_a_mend(served):
+def test_refusal_has_symbol_and_help(served):
     with Controller(served.address, **served.keywords) as controller:
         with pytest.raises(RwsError) as caught:
             controller.set_signal("doDefault", 1)
@@ -281,7 +281,7 @@ def test_external_axes_of_a_target_have_two_spellings(served, monkeypatch, spell
         assert controller.rob_target().extax == (0, 1, 2, 3, 4, 5)
 
 
-def test_a_restart_that_takes_too_long_is_told(served):
+def test_restart_too_slow_is_reported(served):
     with Controller(served.address, **served.keywords) as controller:
         controller.panel()
         with pytest.raises(RobotTimeout):
@@ -301,7 +301,7 @@ def test_an_address_may_be_of_ipv6(text, address):
 
 def test_without_a_password_nothing_is_sent():
     with pytest.raises(LoginFailed) as caught:
-        Controller("rws://192.0.2.1").connect()  # an address that nobody answers
+        Controller("rws://192.0.2.1").connect()  # an address without a server
     assert caught.value.diagnostics[0].code == "RG651"
 
 
@@ -329,7 +329,7 @@ def test_a_certificate_is_agreed_to_before_a_password_is_sent(served_two, tmp_pa
     assert seen[0].replace(":", "").lower() == served_two.service.host_key
     where = address.removeprefix("rws://")
     assert known(tmp_path / "p", where) == served_two.service.host_key
-    # Met before: nobody is asked.
+    # A known certificate: no question.
     Controller(address, password="robotics", pin_file=tmp_path / "p").connect().close()
     (tmp_path / "p").write_text(f"{where} {'0' * 64}\n")
     with pytest.raises(LoginFailed) as caught:

@@ -97,7 +97,7 @@ NOWHERE = Path("/nonexistent/known")
 
 def hostile(rng):
     """An answer: half of the right shape, with anything in it."""
-    # Every class at once: whoever asks finds what it looks for.
+    # Every class at once: any request finds its class.
     items = tuple(
         Item(
             kind, rng.choice(WORDS), {field: rng.choice(WORDS) for field in rng.sample(FIELDS, 12)}

@@ -1,4 +1,4 @@
-"""What a program asks on the pendant, and message queues, as a client meets them."""
+"""Pendant dialogs and message queues, as a client meets them."""
 
 import asyncio
 
@@ -60,7 +60,7 @@ def test_a_program_is_answered_on_asyncio(asking):
     assert asyncio.run(answered()) == 1
 
 
-def test_an_answer_that_is_agreed_to_and_not_taken_is_told(asking):
+def test_answer_accepted_but_ineffective_is_reported(asking):
     with Controller(asking.address, **asking.keywords) as controller:
         controller.start(cycle="once")
         while controller.dialog() is None:
@@ -83,7 +83,7 @@ def test_a_backup_is_restored(served):
         assert controller.read_file("HOME/a.txt") == b"old"
 
 
-def test_a_restart_that_is_agreed_to_and_does_not_come_is_told(served):
+def test_restart_accepted_but_missing_is_reported(served):
     served.on_controller(lambda: setattr(served.runner, "ask_restart", lambda: None))
     with Controller(served.address, **served.keywords) as controller:
         with pytest.raises(NotConfirmed):

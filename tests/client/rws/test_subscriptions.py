@@ -89,7 +89,7 @@ def test_a_websocket_that_is_lost_at_its_opening_is_opened_again(served, monkeyp
         assert len(opened) == 2
 
 
-def test_the_asynchronous_client_is_told_the_same(served):
+def test_async_subscription_receives_same_events(served):
     async def run():
         async with (
             AsyncController(served.address, **served.keywords) as controller,

@@ -8,7 +8,7 @@ from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.grants import GRANTS
 
 
-def test_grants_are_told_by_uas_name(served):
+def test_grants_are_uas_names(served):
     with Controller(served.address, **served.keywords) as controller:
         assert controller.grants() == frozenset(GRANTS)
 
@@ -22,7 +22,7 @@ def operator(served):
 
 
 def answered(served, text):
-    """Whoever holds the pendant answers as soon as a question comes."""
+    """Answer a question of the pendant as soon as it appears."""
 
     def attach():
         pendant = operator(served)
@@ -52,7 +52,7 @@ def test_manual_mode_is_written_in_when_the_pendant_grants_it(served):
             controller.set_symbol("T_ROB1/x", 3)
 
 
-def test_what_the_pendant_denies_is_told(served):
+def test_rmmp_denied_at_pendant_is_reported(served):
     manual(served)
     if served.generation is Generation.EIGHT:
         pytest.skip("RobotWare 8 has none that works")

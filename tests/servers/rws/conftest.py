@@ -5,7 +5,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from served import Caller, make_cabinet, make_desk
+from served import Caller, make_application, make_runner
 
 from rapidgen.wire.rws.bodies import Generation
 
@@ -13,19 +13,19 @@ from rapidgen.wire.rws.bodies import Generation
 @pytest.fixture
 def one(tmp_path):
     """A session of RWS 1.0 on the virtual clock."""
-    with make_cabinet(tmp_path) as cabinet:
-        yield Caller(make_desk(cabinet))
+    with make_runner(tmp_path) as runner:
+        yield Caller(make_application(runner))
 
 
 @pytest.fixture
 def two(tmp_path):
     """A session of RWS 2.0."""
-    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
-        yield Caller(make_desk(cabinet, Generation.TWO))
+    with make_runner(tmp_path, Generation.TWO) as runner:
+        yield Caller(make_application(runner, Generation.TWO))
 
 
 @pytest.fixture
 def eight(tmp_path):
     """A session of RobotWare 8."""
-    with make_cabinet(tmp_path, Generation.EIGHT) as cabinet:
-        yield Caller(make_desk(cabinet, Generation.EIGHT))
+    with make_runner(tmp_path, Generation.EIGHT) as runner:
+        yield Caller(make_application(runner, Generation.EIGHT))

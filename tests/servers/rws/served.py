@@ -1,4 +1,4 @@
-"""A cabinet with a small program, and desks over it, for tests of web services."""
+"""A controller with a small program, and RWS applications over it."""
 
 from dataclasses import replace
 
@@ -41,7 +41,7 @@ STARTED = {
 }  # fmt: skip
 
 
-def make_cabinet(folder, generation=Generation.ONE, program=MAIN, **options) -> ControllerRunner:
+def make_runner(folder, generation=Generation.ONE, program=MAIN, **options) -> ControllerRunner:
     """A controller with T_ROB1 and a main, and no driver: motors on, the program stands."""
     path = folder / "MainModule.mod"
     path.write_text(program)
@@ -51,16 +51,16 @@ def make_cabinet(folder, generation=Generation.ONE, program=MAIN, **options) -> 
 
 
 class Caller:
-    """A session at a desk: no network, the controller's own thread."""
+    """A session of an application: no network, the controller's own thread."""
 
-    def __init__(self, desk: RwsApplication, user: str = "Default User") -> None:
-        self.application = desk
-        self.session = desk.sessions.begin(user)
+    def __init__(self, app: RwsApplication, user: str = "Default User") -> None:
+        self.application = app
+        self.session = app.sessions.begin(user)
         self.accept = media.HAL
 
     @property
     def is_one(self):
-        """Whether it speaks RWS 1.0."""
+        """True for RWS 1.0."""
         return self.application.generation is Generation.ONE
 
     def send(self, method, target, form=None, body=None, **headers):
@@ -92,7 +92,9 @@ def code_of(reply):
     return media.read(reply.body, reply.header("content-type")).fault.code
 
 
-def make_desk(cabinet, generation=Generation.ONE, strict=True, **denied) -> RwsApplication:
-    """A desk with ABB's own login."""
+def make_application(
+    controller_runner, generation=Generation.ONE, strict=True, **denied
+) -> RwsApplication:
+    """An application with ABB's own login."""
     accounts = Accounts({"Default User": "robotics", "Admin": "robotics"}, **denied)
-    return RwsApplication(cabinet, generation, accounts, strict=strict)
+    return RwsApplication(controller_runner, generation, accounts, strict=strict)

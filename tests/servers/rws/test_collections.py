@@ -2,7 +2,7 @@
 `state` [VC 7.21]."""
 
 import pytest
-from served import Caller, make_cabinet, make_desk
+from served import Caller, make_application, make_runner
 
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -28,8 +28,8 @@ SINGLE = (
 
 @pytest.fixture(scope="module")
 def two(tmp_path_factory):
-    with make_cabinet(tmp_path_factory.mktemp("program"), Generation.TWO) as cabinet:
-        yield Caller(make_desk(cabinet, Generation.TWO))
+    with make_runner(tmp_path_factory.mktemp("program"), Generation.TWO) as controller_runner:
+        yield Caller(make_application(controller_runner, Generation.TWO))
 
 
 @pytest.mark.parametrize(

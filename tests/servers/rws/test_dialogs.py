@@ -1,7 +1,7 @@
 """Dialogs of the pendant, answered over web services [RWS manual 3HAC050973; code: App SDK]."""
 
 import pytest
-from served import STARTED, Caller, make_cabinet, make_desk
+from served import STARTED, Caller, make_application, make_runner
 
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -26,12 +26,12 @@ ENDMODULE
 
 @pytest.fixture(params=[Generation.ONE, Generation.TWO], ids=["one", "two"])
 def caller(request, tmp_path):
-    with make_cabinet(tmp_path, request.param, program=MAIN) as cabinet:
-        caller = Caller(make_desk(cabinet, request.param))
+    with make_runner(tmp_path, request.param, program=MAIN) as controller_runner:
+        caller = Caller(make_application(controller_runner, request.param))
         start = "?action=start" if caller.is_one else "/start"
         form = {**STARTED, "cycle": "once"}
         assert caller.post(f"/rw/rapid/execution{start}", form) == 204
-        cabinet.controller.run_for(0.5)
+        controller_runner.controller.run_for(0.5)
         yield caller
 
 
@@ -87,7 +87,7 @@ def test_of_two_dialogs_the_newer_one_is_active(caller):
     newer = controller.operator.ask("T_OTHER", "TPReadNum", "more?", (), float)
     (active,) = caller.get("/rw/rapid/uiinstr/active")
     assert active.text("stack").startswith("RAPID/T_OTHER/")
-    controller.operator.ask("", "RMMP", "may it?", (), str)  # nobody's program waits in it
+    controller.operator.ask("", "RMMP", "may it?", (), str)  # no program waits in it
     (still,) = caller.get("/rw/rapid/uiinstr/active")
     assert still == active
     controller.operator.withdraw(newer)
@@ -113,13 +113,13 @@ def test_an_answer_counts_when_it_is_complete_and_in_automatic_mode(caller):
     assert not caller.application.context.dialogs
 
 
-def test_who_subscribes_is_told_of_dialogs_and_texts(caller):
+def test_subscriber_receives_dialogs_and_texts(caller):
     form = {"resources": "1", "1": "/rw/rapid/uiinstr;uievent", "1-p": "1"}
     assert caller.post("/subscription", form) == 201
-    desk, controller = caller.application, caller.application.context.runner.controller
+    app, controller = caller.application, caller.application.context.runner.controller
     events = []
-    group = desk.groups.find("1", caller.session)
-    desk.groups.listen(group, events.append, lambda: None)
+    group = app.groups.find("1", caller.session)
+    app.groups.listen(group, events.append, lambda: None)
     controller.operator.write("T_ROB1", "hello")
     assert answer(caller, "TPAnswer", "1") == answer(caller, "TPCompleted", "TRUE") == 204
     controller.run_for(1.0)

@@ -9,7 +9,7 @@ import threading
 import pytest
 from abb_robot_client import rws as rpi
 from rwsuis import RWS
-from served import make_cabinet
+from served import make_runner
 
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws.bodies import Generation
@@ -17,9 +17,9 @@ from rapidgen.wire.rws.bodies import Generation
 
 @pytest.fixture
 def url(tmp_path):
-    with make_cabinet(tmp_path, clock="real", speed=200) as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, Generation.ONE)
+    with make_runner(tmp_path, clock="real", speed=200) as runner:
+        runner.start()
+        service = serve_rws(runner, Generation.ONE)
         yield f"http://{service.host}:{service.port}"
         service.close()
 

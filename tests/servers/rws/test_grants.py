@@ -1,7 +1,7 @@
-"""Who may what: grants by UAS name, and RMMP, which the pendant's user grants or denies."""
+"""Grants by UAS name, and RMMP, which the pendant's user grants."""
 
 import pytest
-from served import Caller, code_of, make_cabinet, make_desk
+from served import Caller, code_of, make_application, make_runner
 
 from rapidgen.machine.operator import Answer
 from rapidgen.wire.rws.bodies import Generation
@@ -11,10 +11,10 @@ from rapidgen.wire.rws.grants import GRANTS
 GRANT = Answer("Grant", dialog="RMMP")
 
 
-def pass_time(cabinet, seconds):
-    due = cabinet.now + seconds
-    cabinet.controller.scheduler.after(round(seconds * 1e9), lambda: None)
-    cabinet.run(lambda: cabinet.now >= due - 1e-9)
+def pass_time(controller_runner, seconds):
+    due = controller_runner.now + seconds
+    controller_runner.controller.scheduler.after(round(seconds * 1e9), lambda: None)
+    controller_runner.run(lambda: controller_runner.now >= due - 1e-9)
 
 
 # -- grants -----------------------------------------------------------------------------------
@@ -40,8 +40,8 @@ ONE = {
 def test_without_its_grant_a_request_is_refused(grant, tmp_path):
     method, target, form = ONE[grant]
     also = {"UAS_FTP_WRITE"} if grant == "UAS_FTP_READ" else set()
-    with make_cabinet(tmp_path) as cabinet:
-        application = make_desk(cabinet, denied=frozenset({grant, *also}))
+    with make_runner(tmp_path) as controller_runner:
+        application = make_application(controller_runner, denied=frozenset({grant, *also}))
         reply = Caller(application).send(method, target, form)
         assert (reply.status, code_of(reply)) == (403, CODES["E_UAS_REJECT"])
         allowed = Caller(application, "Admin").send(method, target, form)
@@ -50,22 +50,24 @@ def test_without_its_grant_a_request_is_refused(grant, tmp_path):
 
 def test_a_start_from_afar_takes_a_grant_of_its_own_on_robotware_7(tmp_path):
     """[real 7.21]: not even Admin could start or stop before it was given."""
-    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
+    with make_runner(tmp_path, Generation.TWO) as controller_runner:
         denied = frozenset({"UAS_REMOTE_START_STOP_IN_AUTO"})
-        caller = Caller(make_desk(cabinet, Generation.TWO, denied=denied))
+        caller = Caller(make_application(controller_runner, Generation.TWO, denied=denied))
         reply = caller.send("POST", "/rw/rapid/execution/stop", {"stopmode": "stop"})
         assert (reply.status, code_of(reply)) == (403, CODES["E_UAS_REJECT"])
 
 
 def test_stopping_takes_no_grant_on_robotware_6(tmp_path):
-    with make_cabinet(tmp_path) as cabinet:
-        caller = Caller(make_desk(cabinet, denied=frozenset(GRANTS)))
+    with make_runner(tmp_path) as controller_runner:
+        caller = Caller(make_application(controller_runner, denied=frozenset(GRANTS)))
         assert caller.post("/rw/rapid/execution?action=stop", {"stopmode": "stop"}) == 204
 
 
-def test_grants_are_told(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
-        caller = Caller(make_desk(cabinet, Generation.TWO, denied=frozenset({"UAS_BACKUP"})))
+def test_grants_are_listed(tmp_path):
+    with make_runner(tmp_path, Generation.TWO) as controller_runner:
+        caller = Caller(
+            make_application(controller_runner, Generation.TWO, denied=frozenset({"UAS_BACKUP"}))
+        )
         notify = {item.text("grantname") for item in caller.get("/uas/user/grants")}
         assert notify == set(GRANTS) - {"UAS_BACKUP"}
         (result,) = caller.get("/users/grant-exists?grant=UAS_BACKUP")
@@ -77,11 +79,11 @@ def test_grants_are_told(tmp_path):
 
 @pytest.fixture
 def manual(tmp_path):
-    """A session of RWS 1.0 in manual mode; nobody has granted it anything."""
-    with make_cabinet(tmp_path) as cabinet:
-        cabinet.controller.operator.attach()
-        cabinet.controller.set_mode("manual_reduced")
-        yield Caller(make_desk(cabinet))
+    """A session of RWS 1.0 in manual mode without a grant."""
+    with make_runner(tmp_path) as controller_runner:
+        controller_runner.controller.operator.attach()
+        controller_runner.controller.set_mode("manual_reduced")
+        yield Caller(make_application(controller_runner))
 
 
 def wants(caller):
@@ -132,19 +134,19 @@ def test_denied_at_the_pendant(manual):
 
 
 def test_a_question_stands_for_ten_seconds_after_the_last_poll(manual):
-    cabinet = manual.application.context.runner
+    controller_runner = manual.application.context.runner
     manual.post("/users/rmmp", {"privilege": "modify"})
     for _ in range(3):
-        pass_time(cabinet, 6)
+        pass_time(controller_runner, 6)
         assert polled(manual) == "PENDING"
-    pass_time(cabinet, 10.5)
-    assert not cabinet.controller.operator.questions
+    pass_time(controller_runner, 10.5)
+    assert not controller_runner.controller.operator.questions
     assert polled(manual) == "TIMEOUT"
 
 
 @pytest.mark.parametrize("end", ["cancel", "logout", "mode", "restart"])
 def test_what_was_granted_ends(manual, end):
-    desk, cabinet = manual.application, manual.application.context.runner
+    app, controller_runner = manual.application, manual.application.context.runner
     manual.post("/users/rmmp", {"privilege": "exec"})
     answer(manual, "Grant")
     assert wants(manual) == 204
@@ -153,14 +155,14 @@ def test_what_was_granted_ends(manual, end):
     elif end == "logout":
         manual.get("/logout")
     elif end == "mode":
-        cabinet.controller.set_mode("auto")
-        cabinet.controller.set_mode("manual_reduced")
+        controller_runner.controller.set_mode("auto")
+        controller_runner.controller.set_mode("manual_reduced")
     else:
-        restarts = cabinet.restarts
-        cabinet.ask_restart()
-        cabinet.run(lambda: cabinet.restarts > restarts)
-        cabinet.controller.set_mode("manual_reduced")
-    caller = manual if end in ("cancel", "mode") else Caller(desk)
+        restarts = controller_runner.restarts
+        controller_runner.ask_restart()
+        controller_runner.run(lambda: controller_runner.restarts > restarts)
+        controller_runner.controller.set_mode("manual_reduced")
+    caller = manual if end in ("cancel", "mode") else Caller(app)
     assert wants(caller) == 403
 
 
@@ -173,9 +175,9 @@ def test_one_session_at_a_time(manual):
 
 
 def test_a_script_answers(tmp_path):
-    with make_cabinet(tmp_path, answers=[GRANT]) as cabinet:
-        cabinet.controller.set_mode("manual_reduced")
-        caller = Caller(make_desk(cabinet))
+    with make_runner(tmp_path, answers=[GRANT]) as controller_runner:
+        controller_runner.controller.set_mode("manual_reduced")
+        caller = Caller(make_application(controller_runner))
         caller.post("/users/rmmp", {"privilege": "modify"})
-        pass_time(cabinet, 0.1)
+        pass_time(controller_runner, 0.1)
         assert polled(caller) == "GRANTED"

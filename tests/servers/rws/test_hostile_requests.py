@@ -1,10 +1,12 @@
-"""Requests that nobody honest sends: each is answered, and nothing comes of it that was not asked
-for. The long form, by lot, is `campaign.py`."""
+"""Malicious requests: each is answered and has no other effect.
+
+`campaign.py` has the long, random form.
+"""
 
 import os
 
 import pytest
-from served import Caller, make_cabinet, make_desk
+from served import Caller, make_application, make_runner
 
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -16,8 +18,8 @@ LONG = "9" * 5000
 @pytest.fixture(params=list(Generation), ids=lambda g: f"rws{g.value}")
 def caller(request, tmp_path):
     """A session of each generation; whatever RAPID wants to be left alone stands."""
-    with make_cabinet(tmp_path, request.param) as cabinet:
-        yield Caller(make_desk(cabinet, request.param))
+    with make_runner(tmp_path, request.param) as runner:
+        yield Caller(make_application(runner, request.param))
 
 
 def spelled(caller, one, two):
@@ -217,8 +219,8 @@ PROGRAM = f"MODULE MainModule\nVAR num {'a' * 32};\nPROC main()\nENDPROC\nENDMOD
 
 @pytest.mark.parametrize("pattern", ["(a+)+!", "(a|a)*!", ".*" * 30 + "!", "(a{1,9}){1,9}!", "(a"])
 def test_a_pattern_that_takes_for_ever_is_refused(tmp_path, pattern):
-    with make_cabinet(tmp_path, Generation.ONE, PROGRAM) as cabinet:
-        caller = Caller(make_desk(cabinet))
+    with make_runner(tmp_path, Generation.ONE, PROGRAM) as runner:
+        caller = Caller(make_application(runner))
         form = {"blockurl": "RAPID/T_ROB1", "regexp": pattern}
         assert caller.post("/rw/rapid/symbols?action=search-symbols", form) == 400
         for form["regexp"] in ("a.*|main", "[[a]*"):

@@ -4,7 +4,7 @@ Fields as abb_robot_client sends and reads them [code], and as RobotWare 7 wants
 """
 
 import pytest
-from served import STARTED, Caller, code_of, make_cabinet, make_desk
+from served import STARTED, Caller, code_of, make_application, make_runner
 
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -29,8 +29,8 @@ ENDMODULE
 
 @pytest.fixture(params=[Generation.ONE, Generation.TWO], ids=["one", "two"])
 def caller(request, tmp_path):
-    with make_cabinet(tmp_path, request.param, program=MAIN) as cabinet:
-        yield Caller(make_desk(cabinet, request.param))
+    with make_runner(tmp_path, request.param, program=MAIN) as controller_runner:
+        yield Caller(make_application(controller_runner, request.param))
 
 
 def create(caller, name, size="4"):

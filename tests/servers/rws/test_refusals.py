@@ -1,4 +1,4 @@
-"""What is refused, by status and code of each generation; a refused request changes nothing.
+"""Refusals by status and code of each generation, without effects.
 
 Sources of the answers that differ between generations: the handlers name them.
 """
@@ -6,7 +6,7 @@ Sources of the answers that differ between generations: the handlers name them.
 import re
 
 import pytest
-from served import Caller, make_cabinet, make_desk
+from served import Caller, make_application, make_runner
 
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -14,7 +14,7 @@ from rapidgen.wire.rws.codes import CODES
 
 TASK, UNIT = "/rw/rapid/tasks/T_ROB1", "/rw/motionsystem/mechunits/ROB_1"
 REASONS = {"E_REJECT": {-2}, "E_EXEC_STATE": {-508}, "E_UNEXPECTED": {-517}}
-"""What stands as `icode` behind the words; mostly -1, -517 where a symbol is missing."""
+"""`icode` after the words; mostly -1, -517 if a symbol is missing."""
 CFG, ELOG = "/rw/cfg/EIO/EIO_SIGNAL/instances", "/rw/elog"
 SYMBOL_ONE, SYMBOL_TWO = "/rw/rapid/symbol/data/RAPID", "/rw/rapid/symbol/RAPID"
 
@@ -137,8 +137,8 @@ WRITE = [
 @pytest.fixture(scope="module", params=[Generation.ONE, Generation.TWO], ids=["one", "two"])
 def caller(request, tmp_path_factory):
     """A session with every mastership, and program files in HOME that are none."""
-    with make_cabinet(tmp_path_factory.mktemp("program"), request.param) as cabinet:
-        home = cabinet.controller.files.path("HOME:")
+    with make_runner(tmp_path_factory.mktemp("program"), request.param) as controller_runner:
+        home = controller_runner.controller.files.path("HOME:")
         (home / "folder").mkdir()
         for name, text in (
             ("lists", "<Program><Module>gone.mod</Module></Program>"),
@@ -147,7 +147,7 @@ def caller(request, tmp_path_factory):
             ("out", "<Program><Module>../a.mod</Module></Program>"),
         ):
             (home / f"{name}.pgf").write_text(text)
-        result = Caller(make_desk(cabinet, request.param))
+        result = Caller(make_application(controller_runner, request.param))
         one = result.is_one
         for domain in ("rapid", "cfg", "motion") if one else ("edit", "motion"):
             path = f"/rw/mastership/{domain}{'?action=request' if one else '/request'}"
@@ -156,7 +156,7 @@ def caller(request, tmp_path_factory):
 
 
 def state_of(caller):
-    """What a request could have changed."""
+    """State that a request could have changed."""
     controller = caller.application.context.controller
     home = controller.files.path("HOME:")
     return (

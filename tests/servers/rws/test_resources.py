@@ -1,11 +1,14 @@
-"""Resources that public clients ask for beside the usual ones: what they show is what is, and a
-success shows elsewhere. Spellings: RWS manual 3HAC050973, [VC 6.16], [VC 7.21]."""
+"""Less common resources that public clients request.
+
+They show the actual state, and a success shows elsewhere. Spellings: RWS manual 3HAC050973, [VC
+6.16], [VC 7.21].
+"""
 
 import json
 from datetime import datetime
 
 import pytest
-from served import STARTED, Caller, code_of, make_cabinet, make_desk
+from served import STARTED, Caller, code_of, make_application, make_runner
 
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -16,8 +19,8 @@ EDIT = {Generation.ONE: "rapid?action=request", Generation.TWO: "edit/request"}
 
 @pytest.fixture(params=[Generation.ONE, Generation.TWO], ids=["one", "two"])
 def caller(request, tmp_path):
-    with make_cabinet(tmp_path, request.param) as cabinet:
-        yield Caller(make_desk(cabinet, request.param))
+    with make_runner(tmp_path, request.param) as controller_runner:
+        yield Caller(make_application(controller_runner, request.param))
 
 
 def edit(caller):
@@ -165,7 +168,7 @@ def test_a_program_is_saved_taken_out_and_loaded(caller):
     assert act(caller, program, "loadprog", missing, "load") in (400, 404)
 
 
-def test_a_program_is_loaded_in_place_of_the_rest_or_beside_it(caller):
+def test_load_program_replaces_or_adds_modules(caller):
     """System modules are no part of a program."""
     programs = caller.application.context.runner.programs
     task = caller.application.context.controller.rapid_tasks["T_ROB1"]
@@ -237,7 +240,9 @@ def test_a_step_is_for_manual_mode(caller):
     controller.set_mode("manual_reduced")
     controller.set_motors(True)
     lenient = Caller(
-        make_desk(caller.application.context.runner, caller.application.generation, strict=False)
+        make_application(
+            caller.application.context.runner, caller.application.generation, strict=False
+        )
     )
     for _ in range(2):
         assert act(lenient, "/rw/rapid/execution", "start", form) == 204
@@ -264,12 +269,12 @@ def test_sessions_are_listed_one_by_one_and_in_two_by_user(caller):
     assert len(caller.get("/users")) == before
 
 
-def test_nobody_is_local(one):
+def test_set_locale_local_is_refused(one):
     target = "/users?action=set-locale"
     assert [one.post(target, {"type": t}) for t in ("local", "remote", "here")] == [403, 204, 400]
 
 
-def test_energy_is_told_by_axis(caller):
+def test_energy_lists_axes(caller):
     """As in a body of a RobotWare 6: `mechunits`, in each of them `axes`."""
     if caller.is_one:
         reply = caller.send("GET", "/rw/system/energy?json=1")
@@ -284,9 +289,11 @@ def test_energy_is_told_by_axis(caller):
     datetime.strptime(state["time-stamp"], "%Y-%m-%d T %H:%M:%S")
 
 
-def test_who_may_less_cannot_be_somebody_who_may_more(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
-        application = make_desk(cabinet, Generation.TWO, denied=frozenset(["UAS_IO_WRITE"]))
+def test_impersonation_does_not_extend_grants(tmp_path):
+    with make_runner(tmp_path, Generation.TWO) as controller_runner:
+        application = make_application(
+            controller_runner, Generation.TWO, denied=frozenset(["UAS_IO_WRITE"])
+        )
         caller, admin = Caller(application), Caller(application, "Admin")
         more = {"uid": str(admin.session.number)}
         assert code_of(caller.send("POST", "/users/impersonate", more)) == CODES["E_UAS_REJECT"]
@@ -327,7 +334,7 @@ def test_a_locked_mode_cannot_be_changed(caller):
         ("Replace", "PERS num 3 := 1;"),
     ],
 )
-def test_a_piece_goes_before_behind_or_in_place_of_another(two, mode, result):
+def test_set_range_inserts_or_replaces_text(two, mode, result):
     base = "/rw/rapid/tasks/T_ROB1/modules/MainModule/text/range"
     edit(two)
     place = {"startrow": "2", "startcol": "14", "endrow": "2", "endcol": "14"}
@@ -345,7 +352,7 @@ def test_devices_are_those_of_a_network(caller):
     ]
     assert caller.get("/rw/iosystem/devices?network=Nowhere") == ()
     search = "/rw/iosystem/devices?action=search"
-    assert caller.post(search, {"network": "Local"}) == 400  # name or state has to be said
+    assert caller.post(search, {"network": "Local"}) == 400  # name or state is required
     assert caller.post(search, {"name": "drv"}) == 200
     if caller.is_one:
         search = "/rw/iosystem/networks?action=search"
@@ -366,7 +373,7 @@ def test_what_is_chosen_for_jogging_wants_mastership_of_rws_1(caller):
     assert caller.post(target, {"tool": "tool0"}) == (403 if caller.is_one else 204)
 
 
-def test_a_backup_takes_no_other_ones_place_and_a_broken_one_is_told(caller):
+def test_backup_existing_name_or_broken_folder_is_refused(caller):
     form = {"backup": "/fileservice/BACKUP/first"}
     assert act(caller, "/ctrl/backup", "backup", form, "create") == 202
     again = "/ctrl/backup" + ("?action=backup" if caller.is_one else "/create")
@@ -402,9 +409,9 @@ def test_a_literal_is_judged(caller):
 
 
 def test_a_backup_is_restored_with_modules_and_files(caller):
-    cabinet = caller.application.context.runner
+    controller_runner = caller.application.context.runner
     volume = "$BACKUP" if caller.is_one else "BACKUP"
-    saved = cabinet.controller.files.path("HOME:") / "kept.txt"
+    saved = controller_runner.controller.files.path("HOME:") / "kept.txt"
     saved.write_text("kept")
     form = {"backup": f"/fileservice/{volume}/first"}
     assert act(caller, "/ctrl/backup", "backup", form, "create") == 202
@@ -417,10 +424,10 @@ def test_a_backup_is_restored_with_modules_and_files(caller):
     if caller.is_one:
         assert caller.post("/rw/mastership/cfg?action=request") == 204
     assert act(caller, "/ctrl/backup", "restore", form) == 202
-    cabinet.run(lambda: cabinet.restarts == 1)
-    assert cabinet.controller.tasks["T_ROB1"]["x"] == 1
-    assert (cabinet.controller.files.path("HOME:") / "kept.txt").read_text() == "kept"
-    assert not cabinet.controller.failed
+    controller_runner.run(lambda: controller_runner.restarts == 1)
+    assert controller_runner.controller.tasks["T_ROB1"]["x"] == 1
+    assert (controller_runner.controller.files.path("HOME:") / "kept.txt").read_text() == "kept"
+    assert not controller_runner.controller.failed
 
 
 def test_groups_of_a_session_and_what_they_watch(caller):
@@ -472,7 +479,7 @@ def test_events_have_the_manuals_fields(caller, resource, kind):
         ("/rw/motionsystem/errorstate", "err-state"), ("/rw/system/options", "option"),
     ],
 )  # fmt: skip
-def test_what_is_told_of_the_controller(caller, path, name):
+def test_controller_resources_have_expected_fields(caller, path, name):
     assert caller.get(path)[0].text(name)
 
 
@@ -487,7 +494,7 @@ def test_the_log_is_saved_and_cleared(caller):
 
 
 def test_options_and_mechanics_are_in_the_cfg_of_every_controller(caller):
-    """[code: abb_librws]: names and attributes that it reads, and that nobody may change."""
+    """[code: abb_librws]: names and read-only attributes that it reads."""
 
     def first(path):
         item = caller.get(f"/rw/cfg/{path}/instances")[0]
@@ -507,7 +514,7 @@ def test_options_and_mechanics_are_in_the_cfg_of_every_controller(caller):
     assert float(first("moc/arm")["upper_joint_bound"]) < 9
 
 
-def test_the_mode_has_its_lock_behind_it(two):
+def test_opmode_links_to_its_lock(two):
     """rws2 takes the first of several [code: rws2, run on a GoFa]."""
     mode, lock = two.get("/rw/panel/opmode")
     assert (mode.text("opmode"), lock.kind) == ("AUTO", "pnl-opmode-lockstate-li")
@@ -569,11 +576,11 @@ def test_each_choice_for_jogging_is_shown_under_its_own_name(caller):
     ],
 )
 def test_a_module_is_saved_with_present_values(generation, folder, target, tmp_path):
-    with make_cabinet(tmp_path, generation) as cabinet:
-        caller = Caller(make_desk(cabinet, generation))
-        home = cabinet.controller.files.path("HOME:")
+    with make_runner(tmp_path, generation) as controller_runner:
+        caller = Caller(make_application(controller_runner, generation))
+        home = controller_runner.controller.files.path("HOME:")
         (home / "sub").mkdir()
-        cabinet.controller.tasks["T_ROB1"]["x"] = 7
+        controller_runner.controller.tasks["T_ROB1"]["x"] = 7
         form = {"name": "kept", "path": folder}
         status = caller.post(module(caller, ("action=save", "save")), form)
         saved = [path for path in home.rglob("*") if path.is_file()]

@@ -7,7 +7,7 @@ import socket
 import ssl
 
 import pytest
-from served import make_cabinet
+from served import make_runner
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
@@ -22,8 +22,11 @@ BASIC = "Basic " + base64.b64encode(b"Default User:robotics").decode()
 
 
 def trusting():
-    """TLS to whoever is there. Not 1.3: these websockets read in a thread of their own, and beside
-    the reading of a ticket a request is lost (transport.py)."""
+    """TLS to any server.
+
+    Not 1.3: these websockets read in a thread of their own, and while a ticket is read a concurrent
+    request is lost (transport.py).
+    """
     context = ssl.create_default_context()
     context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
     context.maximum_version = ssl.TLSVersion.TLSv1_2
@@ -32,9 +35,9 @@ def trusting():
 
 @pytest.fixture
 def port(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO, clock="real") as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, Generation.TWO)
+    with make_runner(tmp_path, Generation.TWO, clock="real") as runner:
+        runner.start()
+        service = serve_rws(runner, Generation.TWO)
         yield service.port
         service.close()
 
@@ -91,7 +94,7 @@ def test_a_client_that_sends_is_cut_off(subscribe):
     ("changed", "status"),
     [({"subprotocols": ["robapi2_subscription"]}, 400), ({"additional_headers": {}}, 403)],
 )
-def test_strangers_are_turned_away(subscribe, changed, status):
+def test_websocket_of_unknown_client_is_refused(subscribe, changed, status):
     wanted = {**subscribe("/rw/panel/opmode"), **changed}
     with pytest.raises(InvalidStatus) as caught, connect(**wanted):
         pass
@@ -99,9 +102,9 @@ def test_strangers_are_turned_away(subscribe, changed, status):
 
 
 def test_nothing_is_lost_between_the_answer_and_the_upgrade(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO, clock="real") as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, Generation.TWO)
+    with make_runner(tmp_path, Generation.TWO, clock="real") as runner:
+        runner.start()
+        service = serve_rws(runner, Generation.TWO)
         context = trusting()
         link = http.client.HTTPSConnection("127.0.0.1", service.port, context=context)
         form = write_form(write_wanted([WantedResource("/rw/iosystem/signals/diStart;state", 2)]))
@@ -160,9 +163,9 @@ def test_what_public_clients_subscribe_to_can_be(one, two):
 
 
 def test_a_stop_leaves_no_connection_open(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO, clock="real") as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, Generation.TWO)
+    with make_runner(tmp_path, Generation.TWO, clock="real") as runner:
+        runner.start()
+        service = serve_rws(runner, Generation.TWO)
         raw = socket.create_connection(("127.0.0.1", service.port))
         with trusting().wrap_socket(raw) as silent:  # does not answer the end of TLS
             silent.sendall(b"GET / HTTP/1.1\r\nHost: here\r\n\r\n")

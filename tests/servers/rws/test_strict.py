@@ -1,12 +1,14 @@
-"""What a controller refuses, and how: statuses and codes as they were seen [VC 6.16, VC 7.21,
-real 7.21, VC 8.1.1], limits as the manuals have them."""
+"""Refusals of a controller: statuses, codes and limits.
+
+Statuses and codes as observed [VC 6.16, VC 7.21, real 7.21, VC 8.1.1], limits as in the manuals.
+"""
 
 import base64
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from served import STARTED, Caller, code_of, make_cabinet, make_desk
+from served import STARTED, Caller, code_of, make_application, make_runner
 
 from rapidgen.servers.rws.messages import HttpRequest
 from rapidgen.servers.rws.sessions import IDLE, MOST, RATE
@@ -15,7 +17,7 @@ from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES
 
 
-def test_nobody_gets_in_without_a_login(one, two):
+def test_request_without_login_is_refused(one, two):
     challenge = one.application.handle(HttpRequest("GET", "/rw/system"))
     assert (challenge.status, challenge.header("www-authenticate")[:6]) == (401, "Digest")
     challenge = two.application.handle(HttpRequest("GET", "/rw/system"))
@@ -68,15 +70,15 @@ def test_verbs_of_another_generation_are_refused(one, two):
 
 
 def test_there_are_seventy_sessions_which_end_when_they_are_idle(one):
-    desk = one.application
-    for _ in range(MOST - len(desk.sessions)):
-        assert desk.sessions.begin("Admin") is not None
+    app = one.application
+    for _ in range(MOST - len(app.sessions)):
+        assert app.sessions.begin("Admin") is not None
     login = {"authorization": f"Basic {base64.b64encode(b'Admin:robotics').decode()}"}
-    assert desk.sessions.begin("Admin") is None
-    desk.context.runner.controller.run_for(IDLE + 1)
-    assert desk.sessions.begin("Admin") is not None
-    assert len(desk.sessions) == 1
-    assert desk.handle(HttpRequest("GET", "/rw/system", login)).status == 401
+    assert app.sessions.begin("Admin") is None
+    app.context.runner.controller.run_for(IDLE + 1)
+    assert app.sessions.begin("Admin") is not None
+    assert len(app.sessions) == 1
+    assert app.handle(HttpRequest("GET", "/rw/system", login)).status == 401
 
 
 def test_a_session_that_logs_out_is_gone_with_what_it_held(one):
@@ -143,8 +145,8 @@ def test_robotware_8_has_write_access_of_a_control_station(eight):
     # Not given back by a logout: another run of the same station can.
     eight.send("GET", "/logout")
     again, other = Caller(eight.application), Caller(eight.application)
-    stranger = "{11111111-1111-1111-1111-111111111111}"
-    other.post(register, {**station, "control-station-id": stranger})
+    other_session = "{11111111-1111-1111-1111-111111111111}"
+    other.post(register, {**station, "control-station-id": other_session})
     assert other.post("/rw/controlstation/writeaccess/request") == 403
     assert again.post(register, station) == 204
     assert again.post("/rw/controlstation/writeaccess/release") == 204
@@ -166,8 +168,8 @@ def test_modes_and_grants_are_held(one):
 
 
 def test_lenient_is_another_mode(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
-        caller = Caller(make_desk(cabinet, Generation.TWO, strict=False))
+    with make_runner(tmp_path, Generation.TWO) as controller_runner:
+        caller = Caller(make_application(controller_runner, Generation.TWO, strict=False))
         assert [caller.send("GET", "/rw/system", accept="*/*").status for _ in range(50)] == [
             200
         ] * 50
@@ -199,10 +201,13 @@ def test_hostile_requests_are_answered(hostile, method, path, query, body):
 @pytest.fixture(scope="module")
 def hostile(tmp_path_factory):
     with (
-        make_cabinet(tmp_path_factory.mktemp("one")) as first,
-        make_cabinet(tmp_path_factory.mktemp("two"), Generation.TWO) as second,
+        make_runner(tmp_path_factory.mktemp("one")) as first,
+        make_runner(tmp_path_factory.mktemp("two"), Generation.TWO) as second,
     ):
-        callers = [Caller(make_desk(first)), Caller(make_desk(second, Generation.TWO))]
+        callers = [
+            Caller(make_application(first)),
+            Caller(make_application(second, Generation.TWO)),
+        ]
         for caller in callers:
             caller.application.sessions.is_too_fast = lambda: False
         yield callers

@@ -1,7 +1,7 @@
 """A success is true: it shows in the running task, in a backup, after a restart."""
 
 import pytest
-from served import STARTED, Caller, code_of, make_cabinet, make_desk
+from served import STARTED, Caller, code_of, make_application, make_runner
 
 from rapidgen.system import read_backup
 from rapidgen.wire.rws import media
@@ -32,17 +32,17 @@ SIGNAL = 'EIO:CFG_1.0::\n#\nEIO_SIGNAL:\n\n      -Name "doNew" -SignalType "DO" 
 
 
 def restart(caller):
-    """A warm start on the virtual clock; a new session of the same desk."""
+    """A warm start on the virtual clock; a new session of the same application."""
     one = caller.application.generation is Generation.ONE
     target = "/rw/panel?action=restart" if one else "/ctrl/restart?mastership=implicit"
     if one:
         caller.post("/rw/mastership/cfg?action=request")
     assert caller.post(target, {"restart-mode": "restart"}) == 204
-    cabinet = caller.application.context.runner
-    before = cabinet.restarts
-    cabinet.run(lambda: cabinet.restarts > before)
+    controller_runner = caller.application.context.runner
+    before = controller_runner.restarts
+    controller_runner.run(lambda: controller_runner.restarts > before)
     assert caller.send("GET", "/rw/panel/opmode").status == 401
-    cabinet.controller.run_for(1.1)
+    controller_runner.controller.run_for(1.1)
     return Caller(caller.application)
 
 
@@ -124,7 +124,7 @@ def test_a_module_is_loaded_replaced_and_taken_out(one):
     assert one.post(f"{tasks}?action=unloadmod", {"module": "Helper"}) == 400
 
 
-def test_a_broken_module_is_loaded_and_told_of_when_it_is_asked(two):
+def test_load_broken_module_reports_build_errors_on_request(two):
     put(two, "HOME/a.mod", b"MODULE Bad\n    PROC p()\n        x := ;\n    ENDPROC\nENDMODULE\n")
     load = "/rw/rapid/tasks/T_ROB1/loadmod?mastership=implicit"
     assert two.post(load, {"modulepath": "HOME/a.mod"}) == 200
@@ -133,7 +133,7 @@ def test_a_broken_module_is_loaded_and_told_of_when_it_is_asked(two):
     pp = two.send("POST", "/rw/rapid/execution/resetpp?mastership=implicit")
     assert (pp.status, code_of(pp)) == (403, CODES["E_RAPID_SYNTAX_ERROR"])
     assert two.post("/rw/rapid/execution/start", STARTED) == 403
-    # A second main: told at PP to main, as on a controller.
+    # A second main: reported at PP to main, as on a controller.
     put(two, "HOME/b.mod", b"MODULE Two\n    PROC main()\n    ENDPROC\nENDMODULE\n")
     unload = "/rw/rapid/tasks/T_ROB1/unloadmod?mastership=implicit"
     assert two.post(unload, {"module": "Bad"}) == 204
@@ -146,8 +146,8 @@ def test_a_broken_module_is_loaded_and_told_of_when_it_is_asked(two):
 
 @pytest.mark.parametrize("generation", [Generation.ONE, Generation.TWO])
 def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation):
-    with make_cabinet(tmp_path, generation) as cabinet:
-        caller = Caller(make_desk(cabinet, generation))
+    with make_runner(tmp_path, generation) as controller_runner:
+        caller = Caller(make_application(controller_runner, generation))
         one = generation is Generation.ONE
         put(caller, "HOME/Back.mod", BACK)
         put(caller, "TEMP/a.cfg", TASK.format(6 if one else 7, "Back").encode())
@@ -157,9 +157,9 @@ def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation
             caller.post("/rw/mastership/cfg?action=request")
         reply = caller.send("POST", load, form)
         assert reply.status == (204 if one else 202)
-        cabinet.controller.tasks["T_ROB1"]["MainModule:x"] = 42
-        cabinet.controller.motion.group("rob1").jump((0.1, 0.2, 0, 0, 0.3, 0))
-        assert list(cabinet.controller.tasks) == ["T_ROB1"]
+        controller_runner.controller.tasks["T_ROB1"]["MainModule:x"] = 42
+        controller_runner.controller.motion.group("rob1").jump((0.1, 0.2, 0, 0, 0.3, 0))
+        assert list(controller_runner.controller.tasks) == ["T_ROB1"]
         again = caller.send("POST", load, form)
         if one:
             assert (again.status, code_of(again)) == (400, CODES["E_CFG_NAME_EXIST"])
@@ -167,7 +167,7 @@ def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation
             notify = caller.get(again.header("location"))[0]
             assert notify.text("code") == str(CODES["E_CFG_NAME_EXIST"])
         caller = restart(caller)
-        controller = cabinet.controller
+        controller = controller_runner.controller
         assert {t.name: t.state for t in controller.tasks.values()} == {
             "T_ROB1": "ready",
             "T_BACK": "running",
@@ -180,8 +180,8 @@ def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation
         assert controller.tasks["T_BACK"]["Back:k"] >= 3
 
 
-def test_a_task_without_its_module_is_a_system_failure_and_a_restart_mends_it(one):
-    cabinet = one.application.context.runner
+def test_missing_module_is_sysfail_until_restart(one):
+    controller_runner = one.application.context.runner
     put(one, "TEMP/a.cfg", TASK.format(6, "Back").encode())
     one.post("/rw/mastership/cfg?action=request")
     load = {"filepath": "$TEMP/a.cfg", "action-type": "add"}
@@ -194,12 +194,12 @@ def test_a_task_without_its_module_is_a_system_failure_and_a_restart_mends_it(on
     assert caller.post("/rw/panel/ctrlstate?action=setctrlstate", {"ctrl-state": "motoron"}) == 403
     put(caller, "HOME/Back.mod", BACK.replace(b"k + 1", b"k + "))
     caller = restart(caller)
-    assert cabinet.controller.failed
+    assert controller_runner.controller.failed
     assert any(e.text("code") == "40160" for e in caller.get("/rw/elog/0?lang=en"))
     put(caller, "HOME/Back.mod", BACK)
     caller = restart(caller)
-    assert not cabinet.controller.failed
-    assert cabinet.controller.tasks["T_BACK"].state == "running"
+    assert not controller_runner.controller.failed
+    assert controller_runner.controller.tasks["T_BACK"].state == "running"
 
 
 def test_single_instances_are_made_changed_and_deleted(two):
@@ -288,10 +288,10 @@ def test_files_stay_within_their_volumes(one):
 
 
 def test_collections_come_by_the_page_on_robotware_7(tmp_path):
-    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
-        two = Caller(make_desk(cabinet, Generation.TWO))
+    with make_runner(tmp_path, Generation.TWO) as controller_runner:
+        two = Caller(make_application(controller_runner, Generation.TWO))
         for number in range(120):
-            cabinet.controller.log.info(80_001, f"event {number}")
+            controller_runner.controller.log.info(80_001, f"event {number}")
         reply = two.send("GET", "/rw/elog/0?lang=en&limit=500")
         body = media.read(reply.body, reply.header("content-type"))
         assert len(body.items) == 50

@@ -1,4 +1,7 @@
-"""What each operation does, by theme: importing this package fills the one table."""
+"""Handlers of operations by theme.
+
+Importing this package fills the routing table.
+"""
 
 from rapidgen.servers.rws.handlers import backups as backups
 from rapidgen.servers.rws.handlers import cfg as cfg

@@ -21,11 +21,13 @@ def back_up_now(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     text = request.field("backup")
     if not text.startswith("/fileservice/"):
         raise RequestDenied(400, "E_INVALID_PATH", f"{text}: /fileservice/... is wanted")
-    path, cabinet = disk_path(context, text, request), context.runner
+    path, controller_runner = disk_path(context, text, request), context.runner
     if path.exists():
         raise RequestDenied(400, "E_DIR_EXIST", text)
     try:
-        back_up(cabinet.controller, cabinet.programs, cabinet.cfg, path)
+        back_up(
+            controller_runner.controller, controller_runner.programs, controller_runner.cfg, path
+        )
     except OSError as error:
         raise RequestDenied(400, "E_DIR_NOT_EXIST", text) from error
     context.controller.log.info(10_230, "Backup finished", text)
@@ -34,19 +36,19 @@ def back_up_now(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.BACKUP_STATE)
 def backup_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether a backup is under way: never, here."""
+    """Return the state of the backup; none ever runs here."""
     return show(Item("ctrl-backup", "state", {"state": "0", "backup-state": "idle"}))
 
 
 @serves(ops.BACKUPS)
 def backups(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What there is about backups: none is under way."""
+    """Return the backup resources; none runs."""
     return show(Item("ctrl-backup-info-li", "backup", {"state": "0"}, {"self": "state"}))
 
 
 @serves(ops.CHECK_RESTORE)
 def check_restore(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether a folder is a backup that could be restored."""
+    """Check whether a folder is a backup that could be restored."""
     path = disk_path(context, request.field("backup"), request)
     if not is_backup(path):
         return context.started("E_DIR_NOT_EXIST")
@@ -59,7 +61,10 @@ def check_restore(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.RESTORE)
 def restore(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Restart with what a backup holds: modules, cfg, HOME. Everybody is logged out."""
+    """Restart with a backup's modules, cfg and HOME.
+
+    All sessions end.
+    """
     context.masters.need(request, "cfg")
     text = request.field("backup")
     if not text.startswith("/fileservice/"):

@@ -1,4 +1,7 @@
-"""Configuration: read, single instances, whole files. What is changed counts after a restart."""
+"""Configuration: read, single instances, whole files.
+
+Changes take effect after a restart.
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -56,19 +59,22 @@ def get_types(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.CFG_INSTANCES)
 def get_instances(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Instances of a type with their attributes: by seventy in RWS 2.0 [VC 7.21]."""
+    """Return instances of a type with their attributes.
+
+    RWS 2.0 returns seventy at a time [VC 7.21].
+    """
     result = [_item(request, i) for i in _instances(context, request)]
     return page(request, result, 70, "instances", always=True)
 
 
 @serves(ops.CFG_INSTANCE)
 def get_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One instance."""
+    """Return one instance."""
     return show(_item(request, _one(context, request)))
 
 
 def _instances(context: "RwsContext", request: RwsRequest) -> Iterator[Instance]:
-    """Instances of the database; where it has none of a type, those that are built in."""
+    """Return the database's instances of a type, else the default ones."""
     text, kind = _domain(context, request), request.names["type"]
     result = tuple(text.instances(kind))
     return iter(result or built_in(context).get((text.domain, kind.upper()), ()))
@@ -96,7 +102,7 @@ def _item(request: RwsRequest, instance: Instance) -> Item:
 
 
 def _value(attribute: Attribute) -> str:
-    """A flag is true; several values stand behind each other."""
+    """Format a value: a flag is true; several values are concatenated."""
     return " ".join(map(str, attribute.values)) if attribute.values else "true"
 
 
@@ -114,7 +120,7 @@ def get_attributes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 def _with(context: "RwsContext", request: RwsRequest, instances: tuple[Instance, ...]) -> None:
-    """The database with these instances of a type, in place of those that it has."""
+    """Return the database with the instances of a type replaced."""
     text, name = _domain(context, request), request.names["type"]
     if not any(True for _ in text.instances(name)) and _is_built_in(context, text, name):
         raise RequestDenied(403, "E_REJECT", f"{name} is read only", -2)
@@ -133,7 +139,10 @@ def _with(context: "RwsContext", request: RwsRequest, instances: tuple[Instance,
 
 
 def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
-    """`Attr=v` in RWS 1.0, `Attr=[v,1]` in 2.0; None: a flag that is false."""
+    """Parse `Attr=v` of RWS 1.0 or `Attr=[v,1]` of 2.0.
+
+    None: a flag that is false.
+    """
     if not is_one:
         if not (value.startswith("[") and value.endswith("]") and "," in value):
             raise RequestDenied(400, "E_CFG_ATTRIBUTE_INVALID", f"{name}={value}: [value,1]")
@@ -145,7 +154,7 @@ def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
 
 @serves(ops.CFG_SET)
 def set_instance(context: "RwsContext", request: RwsRequest) -> None:
-    """Give attributes of an instance new values."""
+    """Set attributes of an instance."""
     if not request.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
         context.masters.need(request, "cfg")
     old = _one(context, request)
@@ -161,7 +170,7 @@ def set_instance(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.CFG_CREATE)
 def create_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A new instance with a name and nothing else."""
+    """Create an instance with a name and default attributes."""
     if not request.is_one:
         context.masters.need(request, "cfg")
     name, section = request.field("name"), request.names["type"]
@@ -185,7 +194,10 @@ def delete_instance(context: "RwsContext", request: RwsRequest) -> None:
 
 
 def _load(context: "RwsContext", request: RwsRequest) -> LoadResult:
-    """The database with a file loaded; with `add` any conflict refuses it whole. Denied."""
+    """Return the database with a file loaded.
+
+    With `add` any conflict rejects the whole file. Raises RequestDenied.
+    """
     mode = request.field("action-type", ("add", "replace", "add-with-reset"))
     words = request.field("filepath")
     if words.startswith("/fileservice"):
@@ -214,7 +226,7 @@ def _why(loaded: LoadResult) -> tuple[str, str]:
 
 @serves(ops.CFG_LOAD)
 def load(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
-    """Load a file; RWS 2.0 says where the job's end is told."""
+    """Load a file; RWS 2.0 returns the address of the job's result."""
     context.masters.need(request, "cfg")
     loaded = _load(context, request)
     if loaded.faults:
@@ -230,7 +242,7 @@ def load(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
 
 @serves(ops.CFG_VALIDATE)
 def validate(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What a load would say; nothing is changed."""
+    """Return the result of a load without changing the database."""
     loaded = _load(context, request)
     if loaded.faults:
         raise RequestDenied(400, *_why(loaded))

@@ -1,6 +1,7 @@
-"""Dialogs of the pendant (UI instructions) answered from afar [RWS manual 3HAC050973].
+"""Remote answers to pendant dialogs (UI instructions).
 
-TPReadFK and TPReadNum are answered by `TPAnswer` and then `TPCompleted`, the others by `Result`.
+[RWS manual 3HAC050973] TPReadFK and TPReadNum are answered by `TPAnswer` and then `TPCompleted`,
+the others by `Result`.
 """
 
 from typing import TYPE_CHECKING
@@ -16,18 +17,18 @@ if TYPE_CHECKING:
 
 
 def active(context: "RwsContext") -> Question | None:
-    """The dialog of a task that waits on the pendant, the newest; None: there is none."""
+    """Return the newest open dialog of a task; None if there is none."""
     result = [q for q in context.controller.operator.questions if q.task]
     return result[-1] if result else None
 
 
 def stack_of(question: Question) -> str:
-    """How a dialog is called: a place on the stack of its task."""
+    """Return a dialog's name: its place on the stack of its task."""
     return f"RAPID/{question.task}/%${question.number}"
 
 
-def told(question: Question, event: str = "SEND") -> dict[str, str]:
-    """What a dialog says of itself."""
+def dialog_fields(question: Question, event: str = "SEND") -> dict[str, str]:
+    """Return the fields of a dialog."""
     return {
         "instr": question.dialog,
         "event": event,
@@ -39,12 +40,12 @@ def told(question: Question, event: str = "SEND") -> dict[str, str]:
 
 @serves(ops.DIALOG)
 def get_dialog(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The dialog that waits; 404 while none does [VC 6.16]."""
+    """Return the open dialog; 404 without one [VC 6.16]."""
     question = active(context)
     if question is None:
         raise RequestDenied(404, "E_NO_DATA", "no active UI instruction")
     links = {"params": f"active/params/{stack_of(question)}".replace("%", "%25")}
-    return show(Item("rap-uiactive-li", question.dialog, told(question), links))
+    return show(Item("rap-uiactive-li", question.dialog, dialog_fields(question), links))
 
 
 def _asked_for(context: "RwsContext", request: RwsRequest) -> Question:
@@ -87,7 +88,7 @@ def get_parameters(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.DIALOG_PARAMETER)
 def get_parameter(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One parameter of a dialog."""
+    """Return one parameter of a dialog."""
     question, name = _asked_for(context, request), request.names["parameter"]
     match = {k.lower(): v for k, v in _parameters(context, question).items()}.get(name.lower())
     if match is None:
@@ -97,7 +98,10 @@ def get_parameter(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_DIALOG_PARAMETER)
 def set_parameter(context: "RwsContext", request: RwsRequest) -> None:
-    """Answer: the dialog is gone when it is complete, and the program goes on."""
+    """Set a parameter; a complete answer closes the dialog.
+
+    The program continues then.
+    """
     context.masters.need_mode(request.session)
     question, name = _asked_for(context, request), request.names["parameter"].lower()
     value = request.field("value").strip()

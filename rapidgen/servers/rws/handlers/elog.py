@@ -56,7 +56,7 @@ def get_events(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ELOG_EVENT)
 def get_event(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One entry."""
+    """Return one entry."""
     domain, number = request.names["domain"], request.names["number"]
     for event in _events(context, domain):
         if str(event.sequence) == number:
@@ -103,7 +103,7 @@ def clear_all(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.ELOG_NUMBER)
 def get_by_number(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
-    """One entry, whatever its domain."""
+    """Return one entry by its number, in any domain."""
     return get_event(context, replace(request, names={"domain": _ALL, **request.names}))
 
 

@@ -32,14 +32,17 @@ def execution(controller: "VirtualController") -> str:
 
 @serves(ops.EXECUTION)
 def get_execution(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether the program runs, and whether it begins again at its end."""
+    """Return whether the program runs, and whether it repeats at its end."""
     state = {"ctrlexecstate": execution(context.controller), "cycle": context.controller.cycle}
     return show(Item("rap-execution", "execution", state))
 
 
 @serves(ops.START)
 def start(context: "RwsContext", request: RwsRequest) -> None:
-    """Start the program. The success says that it was asked for: it may not run [real 7.21]."""
+    """Start the program.
+
+    A success means that the request was accepted: the program may not run [real 7.21].
+    """
     notify = {name: request.field(name, text) for name, text in _START.items()}
     controller = context.controller
     context.masters.need_start(request)
@@ -55,7 +58,7 @@ def start(context: "RwsContext", request: RwsRequest) -> None:
 
 def _may_start(context: "RwsContext", request: RwsRequest) -> None:
     if context.masters.is_editing and context.strict:
-        # Whoever holds mastership keeps RAPID from taking it [real 7.21].
+        # A client with mastership prevents RAPID from taking it [real 7.21].
         raise RequestDenied(
             403, "E_RESOURCE_HELD", "start is blocked while mastership is held", -13
         )
@@ -64,7 +67,10 @@ def _may_start(context: "RwsContext", request: RwsRequest) -> None:
 
 
 def _step(context: "RwsContext", mode: str) -> None:
-    """One statement of each selected task: in manual mode only [VC 7.21]."""
+    """Execute one statement of each selected task.
+
+    In manual mode only [VC 7.21].
+    """
     controller = context.controller
     if controller.mode == "auto":
         raise RequestDenied(403, "E_MODE_REJECT", "steps are for manual mode", -2)
@@ -81,7 +87,7 @@ def _step(context: "RwsContext", mode: str) -> None:
 
 @serves(ops.START_ENTRY)
 def start_entry(context: "RwsContext", request: RwsRequest) -> None:
-    """Start at the entry routine: the program pointer goes to main first."""
+    """Start at the entry routine, with the program pointer at main."""
     context.masters.need_start(request)
     context.masters.need_mode(request.session, "exec")
     _may_start(context, request)
@@ -126,7 +132,7 @@ def reset_pp(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SET_CYCLE)
 def set_cycle(context: "RwsContext", request: RwsRequest) -> None:
-    """Whether the program begins again at its end."""
+    """Set whether the program repeats at its end."""
     cycle = request.field("cycle", ("forever", "asis", "once"))
     if cycle != "asis":
         context.controller.cycle = "once" if cycle == "once" else "forever"

@@ -1,4 +1,7 @@
-"""The file service: volumes of the controller, HOME among them; there is no way out."""
+"""The file service: volumes of the controller, including HOME.
+
+No path leads out of them.
+"""
 
 import shutil
 from datetime import datetime, timezone
@@ -85,13 +88,13 @@ def delete(context: "RwsContext", request: RwsRequest) -> None:
 
 
 def _is_volume(context: "RwsContext", path: Path) -> bool:
-    """Whether it is a disk itself, however it was spelled: `HOME/.`, `HOME/a/..`."""
+    """True for the volume itself, in any spelling: `HOME/.`, `HOME/a/..`."""
     return path.parent == context.controller.files.folder
 
 
 @serves(ops.FILE_ACTION)
 def act(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
-    """RWS 1.0: `fs-action` says what; it must stand in the body."""
+    """RWS 1.0: execute `fs-action`, which must be in the body."""
     action = request.field("fs-action", ("create", "copy", "rename"))
     return {"create": create, "copy": copy, "rename": rename}[action](context, request)
 
@@ -122,7 +125,7 @@ def copy(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.RENAME_FILE)
 def rename(context: "RwsContext", request: RwsRequest) -> None:
-    """Give a file or a folder another name."""
+    """Rename a file or a folder."""
     path, target = _two(context, request)
     if target.exists():
         raise RequestDenied(403, "E_ALREADY_EXISTS", target.name)
@@ -140,7 +143,10 @@ def _two(context: "RwsContext", request: RwsRequest) -> tuple[Path, Path]:
 
 
 def _new(context: "RwsContext", request: RwsRequest, folder: Path | None, text: str) -> Path:
-    """The place that `fs-newname` names: in a folder, or a whole `/fileservice/...`."""
+    """Return the path of `fs-newname`.
+
+    It is a name in the folder, or a whole `/fileservice/...`.
+    """
     name = request.field("fs-newname")
     if name.startswith("/fileservice/"):
         return disk_path(context, name, request)

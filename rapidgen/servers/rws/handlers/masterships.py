@@ -1,4 +1,7 @@
-"""Mastership of RobotWare 6 and 7, control stations and write access of RobotWare 8."""
+"""Mastership of RobotWare 6 and 7; stations and write access of 8.
+
+Stations are RobotWare 8's control stations.
+"""
 
 import re
 from typing import TYPE_CHECKING
@@ -33,7 +36,7 @@ def masterships(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.MASTERSHIP)
 def mastership(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Who has a domain."""
+    """Return the holder of a domain."""
     _gone(context)
     domain = request.names["domain"]
     if domain not in context.masters.domains:
@@ -62,7 +65,7 @@ def request(context: "RwsContext", asked: RwsRequest) -> None:
 
 @serves(ops.RELEASE, ops.RELEASE_ALL)
 def release(context: "RwsContext", request: RwsRequest) -> None:
-    """Give one domain back, or all of them."""
+    """Release one domain, or all."""
     _gone(context)
     for domain in _named(context, request):
         context.masters.release(request.session, domain)
@@ -78,7 +81,7 @@ def request_with_id(context: "RwsContext", asked: RwsRequest) -> RwsResponse:
 
 @serves(ops.RELEASE_WITH_ID)
 def release_with_id(context: "RwsContext", request: RwsRequest) -> None:
-    """Give a domain back by the number of who has it."""
+    """Release a domain by the number of its holder."""
     _gone(context)
     number, domain = request.field("mastershipid"), request.names["domain"]
     holder = context.masters.holders.get(domain)
@@ -89,7 +92,7 @@ def release_with_id(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.WATCHDOG)
 def watchdog(context: "RwsContext", request: RwsRequest) -> None:
-    """The session is there still: every request says so."""
+    """Keep the session alive, as every request does."""
     _gone(context)
 
 
@@ -103,7 +106,7 @@ def _named(context: "RwsContext", request: RwsRequest) -> tuple[str, ...]:
 
 @serves(ops.STATION_REGISTER)
 def register_station(context: "RwsContext", request: RwsRequest) -> None:
-    """The session becomes part of a control station; its id stands in braces."""
+    """Add the session to a control station; its id is in braces."""
     guid = request.field("control-station-id")
     if not _GUID.fullmatch(guid):
         raise RequestDenied(400, "E_INVALIDARG", "control-station-id", -20_103)
@@ -114,27 +117,27 @@ def register_station(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.STATION_TYPE)
 def station_type(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What kind of control station this session is of."""
+    """Return the type of this session's control station."""
     notify = {"control-station-type": "remote" if request.session.station else "none"}
     return show(Item("controlstation-type", "type", notify))
 
 
 @serves(ops.STATION_ID)
 def station_id(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Which control station this session is of."""
+    """Return the id of this session's control station."""
     return show(Item("control-station", "id", {"control-station-Id": request.session.station}))
 
 
 @serves(ops.LOCAL_STATION)
 def local_station(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether a pendant is there: none is, here."""
+    """Return whether a pendant is connected: never here."""
     notify = {"local-control-station-isconnected": "false"}
     return show(Item("controlstation-local-isconnected", "isconnected", notify))
 
 
 @serves(ops.WRITE_ACCESS)
 def write_access(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Which control station may write."""
+    """Return the control station with write access."""
     masters = context.masters
     notify = {
         "control-station-write-access-held": "true" if masters.station else "false",
@@ -158,7 +161,7 @@ def request_write(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.WRITE_RELEASE)
 def release_write(context: "RwsContext", request: RwsRequest) -> None:
-    """Give write access back."""
+    """Release write access."""
     masters, station = context.masters, request.session.station
     if not station or masters.station != station:
         raise RequestDenied(403, "E_NO_WRITE_ACCESS", "session does not have SPoC", -20_107)
@@ -167,7 +170,7 @@ def release_write(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.MOTION_ALLOWED)
 def motion_allowed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether a start may move something."""
+    """Return whether a start may move a robot."""
     notify = {"is-enabled": "true" if context.masters.motion_allowed else "false"}
     return show(Item("controstation-allow-motion-control", "allowmotioncontrol", notify))
 

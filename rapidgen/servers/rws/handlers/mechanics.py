@@ -1,6 +1,7 @@
-"""Mechanical units beyond their positions: axes, base frame, what is chosen for jogging.
+"""Mechanical units: axes, base frame, choices for jogging.
 
-Classes and fields: RWS manual 3HAC050973, and what was seen [VC 7.21].
+Their positions are in `motion`. Classes and fields: RWS manual 3HAC050973, and observations [VC
+7.21].
 """
 
 from math import isfinite
@@ -44,7 +45,7 @@ def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.CHECK_COUNT)
 def check_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether the motion system has changed since a count."""
+    """Return whether the motion system has changed since a count."""
     count = request.names.get("count") or request.query.get("changecount", "")
     changed = "FALSE" if whole("changecount", count) == context.runner.restarts else "TRUE"
     name = request.kind("changestate", "change-state")
@@ -54,13 +55,13 @@ def check_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ERROR_STATE)
 def error_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Errors of the motion system; collisions are none here."""
+    """Return errors of the motion system; there are no collisions here."""
     return show(Item("ms-errorstate", "errorstate", {"err-state": "HPJ_OK", "err-count": "0"}))
 
 
 @serves(ops.BASE_FRAME)
 def base_frame(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Where a robot stands in the world: at its origin, here."""
+    """Return a robot's base frame, which is the world's origin here."""
     find_group(context, request)
     names = ("x", "y", "z", "q1", "q2", "q3", "q4")
     notify = {name: "1" if name == "q1" else "0" for name in names}
@@ -69,7 +70,7 @@ def base_frame(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.AXES)
 def axes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """How many axes a unit has."""
+    """Return the number of axes of a unit."""
     count = len(find_group(context, request).config.joints)
     numbers = map(str, range(1, count + 1))
     links = (Item("ms-mechunit-axis-li", n, {}, {"self": f"axes/{n}"}) for n in numbers)
@@ -78,7 +79,7 @@ def axes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.AXIS)
 def axis(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One axis, from 1 on; all are calibrated here."""
+    """Return one axis, counted from 1; all are calibrated here."""
     number, count = request.names["axis"], len(find_group(context, request).config.joints)
     whole("axis", number, 1, count)
     return show(
@@ -114,7 +115,7 @@ def _must_be(context: "RwsContext", group: MotionGroup, name: str, kind: str) ->
 
 @serves(ops.LEAD_THROUGH)
 def lead_through(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether a robot is led by hand."""
+    """Return whether a robot is in lead-through."""
     unit = find_group(context, request).config.mechanical_unit
     notify = {"status": "Active" if unit in context.led else "Inactive"}
     return show(Item("ms-mechunit-lead-through", "lead-through", notify))
@@ -122,8 +123,10 @@ def lead_through(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_LEAD_THROUGH)
 def lead(context: "RwsContext", request: RwsRequest) -> None:
-    """Lead by hand, or no more. With motors off or a running program nothing comes of it, though
-    it is agreed to [real 7.21]."""
+    """Switch lead-through on or off.
+
+    With motors off or a running program it is accepted without effect [real 7.21].
+    """
     unit = find_group(context, request).config.mechanical_unit
     requested = request.field("status", ("active", "inactive"))
     if requested == "inactive":
@@ -134,7 +137,10 @@ def lead(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SET_POSITION)
 def set_position(context: "RwsContext", request: RwsRequest) -> None:
-    """Put the standing robot elsewhere, degrees and mm: virtual controllers only [VC 7.21]."""
+    """Move the stopped robot to a position, degrees and mm.
+
+    Only virtual controllers do this [VC 7.21].
+    """
     group = find_group(context, request)
     arm, external = _numbers(request, "rob_joint"), _numbers(request, "ext_joint")
     if len(arm) != 6:
@@ -163,7 +169,10 @@ def _numbers(request: RwsRequest, name: str) -> list[float]:
 
 @serves(ops.JOG)
 def jog(context: "RwsContext", request: RwsRequest) -> None:
-    """Jogging wants an enabling device: virtual controllers refuse it [VC 6.16, VC 7.21]."""
+    """Refuse jogging without an enabling device, as virtual controllers do.
+
+    [VC 6.16, VC 7.21]
+    """
     for name in ("jogmode", "mechunit", "ccount"):
         request.field(name)
     if context.controller.mode == "auto":

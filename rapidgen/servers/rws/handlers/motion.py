@@ -23,7 +23,10 @@ _EXTERNAL = "abcdef"
 
 
 def find_group(context: "RwsContext", request: RwsRequest) -> MotionGroup:
-    """The robot of a request. Denied: there is none of that name."""
+    """Return the robot of a request.
+
+    RequestDenied: there is none of that name.
+    """
     name = request.names["unit"]
     for group in context.controller.motion.groups.values():
         if group.config.mechanical_unit.lower() == name.lower():
@@ -33,7 +36,7 @@ def find_group(context: "RwsContext", request: RwsRequest) -> MotionGroup:
 
 @serves(ops.MECHUNITS)
 def get_units(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Robots; units of their own are not listed."""
+    """Return robots; single units are not listed."""
     groups = context.controller.motion.groups.values()
     names = [group.config.mechanical_unit for group in groups]
     result = (Item("ms-mechunit-li", n, {"mode": "Activated"}) for n in names if n)
@@ -45,7 +48,10 @@ _STATIC = ("type", "task-name", "axes", "axes-total", "is-integrated-unit", "has
 
 @serves(ops.MECHUNIT)
 def get_unit(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One robot, with what has been chosen for jogging; `resource` asks for parts of it."""
+    """Return one robot with its choices for jogging.
+
+    `resource` selects parts of it.
+    """
     group = find_group(context, request)
     count, chosen = (
         str(len(group.config.joints)),
@@ -82,7 +88,7 @@ def _is_asked(name: str, parts: set[str]) -> bool:
 
 @serves(ops.JOINT_TARGET)
 def get_joints(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Where the joints are."""
+    """Return the joints."""
     group = find_group(context, request)
     value = joint_target(group.map, group.positions())
     notify = dict(zip(_AXES, map(str, value.robax.values()), strict=True))
@@ -92,8 +98,10 @@ def get_joints(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 def _pose(context: "RwsContext", request: RwsRequest) -> Value:
-    """The TCP of a tool in a work object; `Base` is the world's here: robots stand at its origin
-    unless their object says otherwise."""
+    """Return the TCP of a tool in a work object.
+
+    `Base` equals the world here: robots are at its origin unless their object says otherwise.
+    """
     return _pose_of(context, request, find_group(context, request))
 
 
@@ -115,7 +123,10 @@ def _pose_of(
 
 
 def _datum(context: "RwsContext", group: MotionGroup, name: str, kind: str) -> Value | None:
-    """A tool or an object of the robot's task; None: tool0 or wobj0. Denied: there is none."""
+    """Return a tool or object of the robot's task.
+
+    Without a name it is tool0 or wobj0. RequestDenied: there is none.
+    """
     if name.lower() in ("tool0", "wobj0"):
         return None
     task = context.controller.tasks[group.config.task]
@@ -129,12 +140,15 @@ def _datum(context: "RwsContext", group: MotionGroup, name: str, kind: str) -> V
 
 @serves(ops.ROB_TARGET)
 def get_target(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Where the TCP is, as a robtarget."""
+    """Return the TCP as a robtarget."""
     return show(Item("ms-robtargets", "robtarget", _rob_target(_pose(context, request))))
 
 
 def _rob_target(value: Value, external: str = "") -> dict[str, str]:
-    """A robtarget's fields; `external` spells those of external axes, by number from 1 on."""
+    """Return a robtarget's fields.
+
+    `external` is the spelling of external axes, by number from 1.
+    """
     notify = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
     notify |= dict(zip(("q1", "q2", "q3", "q4"), map(str, value.rot.values()), strict=True))
     conf = ("cf1", "cf4", "cf6", "cfx")
@@ -145,7 +159,7 @@ def _rob_target(value: Value, external: str = "") -> dict[str, str]:
 
 @serves(ops.CARTESIAN)
 def get_cartesian(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Where the TCP is; RWS 1.0 calls the configuration j1 to jx."""
+    """Return the TCP; RWS 1.0 calls the configuration j1 to jx."""
     value = _pose(context, request)
     names = ("j1", "j4", "j6", "jx") if request.is_one else ("cf1", "cf4", "cf6", "cfx")
     notify = dict(zip(("x", "y", "z"), map(str, value.trans.values()), strict=True))
@@ -159,7 +173,10 @@ def get_cartesian(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.TASK_MOTION)
 def get_motion(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Positions of a task's robot [RWS manual 3HAC050973]; without `resource` what there is."""
+    """Return positions of a task's robot [RWS manual 3HAC050973].
+
+    Without `resource` it is the list of resources.
+    """
     task = find_task(context, request.names["task"], request)
     kind = request.query.get("resource", "")
     if not kind:

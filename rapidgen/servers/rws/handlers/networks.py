@@ -1,4 +1,4 @@
-"""Networks and devices that signals stand on: they run, always, here."""
+"""Networks and devices of signals; they always run here."""
 
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ _DEVICE = {"lstate": "enabled", "pstate": "running", "address": "-"}
 
 @serves(ops.IO_SYSTEM)
 def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What the I/O system has."""
+    """Return the parts of the I/O system."""
     names = ("networks", "devices", "signals")
     return show(*(Item(f"ios-{n}-li", n, {}, {"self": f"iosystem/{n}"}) for n in names))
 
@@ -46,13 +46,13 @@ def _device(name: str, kind: str) -> Item:
 
 @serves(ops.NETWORKS)
 def get_networks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Networks that signals stand on."""
+    """Return the networks of signals."""
     return show(*(_network(n, "ios-network-li") for n in networks(context)), collection=True)
 
 
 @serves(ops.NETWORK)
 def get_network(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One network."""
+    """Return one network."""
     for name in networks(context):
         if name.lower() == request.names["network"].lower():
             return show(_network(name, request.kind("ios-network", "ios-network-li")))
@@ -61,7 +61,7 @@ def get_network(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.DEVICES)
 def get_devices(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Devices that signals stand on."""
+    """Return the devices of signals."""
     only = request.query.get("network")
     result = (d for d in devices(context) if only in (None, network_of(d)))
     return show(*(_device(d, "ios-device-li") for d in result), collection=True)
@@ -69,7 +69,7 @@ def get_devices(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.DEVICE)
 def get_device(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One device, by its name or with its network."""
+    """Return one device, by its name or with its network."""
     requested = request.names["device"].lower()
     for name in devices(context):
         if requested in (name.lower(), f"{network_of(name)}/{name}".lower()):
@@ -79,7 +79,7 @@ def get_device(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SEARCH_NETWORKS)
 def search_networks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Networks by name and state; one of them has to be said [RWS manual]."""
+    """Return networks by name and state; one is required [RWS manual]."""
     name, state = (request.form.get(k, "").lower() for k in ("name", "state"))
     if not (name or state):
         raise RequestDenied(400, "E_INVALIDARG", "name or state")
@@ -89,7 +89,10 @@ def search_networks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SEARCH_DEVICES)
 def search_devices(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Devices by name, state and network; one of the first two has to be said."""
+    """Return devices by name, state and network.
+
+    One of the first two is required.
+    """
     name, state, network = (request.form.get(k, "").lower() for k in ("name", "lstate", "network"))
     if not (name or state):
         raise RequestDenied(400, "E_INVALIDARG", "name or lstate")

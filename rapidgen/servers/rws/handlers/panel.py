@@ -59,7 +59,10 @@ def set_ctrl_state(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.OPMODE)
 def get_opmode(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The operating mode; in RWS 2.0 with a link to its lock behind it [code: rws2, GoFa]."""
+    """Return the operating mode.
+
+    In RWS 2.0 a link to its lock follows [code: rws2, GoFa].
+    """
     mode = Item("pnl-opmode", "opmode", {"opmode": opmode(context.controller)})
     lock = Item("pnl-opmode-lockstate-li", "lock-state", {}, {"self": "lock-state"})
     return show(mode, *(() if request.is_one else (lock,)))
@@ -67,7 +70,10 @@ def get_opmode(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_OPMODE)
 def set_opmode(context: "RwsContext", request: RwsRequest) -> None:
-    """The key of a virtual controller; a real one's cannot be turned from afar."""
+    """Turn the key of a virtual controller.
+
+    A real controller has no remote key.
+    """
     text = ("auto", "man", "manfs" if request.is_one else "manf")
     if context.mode_lock:
         raise RequestDenied(403, "E_RESOURCE_HELD", "the mode is locked", -2)
@@ -103,14 +109,17 @@ def set_speed_plainly(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.COLLISION)
 def get_collision(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Collision detection; RobotWare 6 writes the class with a blank behind it."""
+    """Return collision detection.
+
+    RobotWare 6 writes the class with a trailing blank.
+    """
     name = request.kind("coldetstate ", "coldetstate")
     return show(Item("pnl-coldetstate", "coldetstate", {name: "INIT"}))
 
 
 @serves(ops.PANEL)
 def get_panel(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What the panel has."""
+    """Return the resources of the panel."""
     names = (request.kind("ctrlstate", "ctrl-state"), "opmode", "speedratio", "coldetstate")
     result = (Item(f"pnl-{name.replace('-', '')}-li", name, {}, {"self": name}) for name in names)
     return show(*result)
@@ -118,13 +127,13 @@ def get_panel(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ACKNOWLEDGE)
 def acknowledge(context: "RwsContext", request: RwsRequest) -> None:
-    """Confirm a change of mode, which stands at once here."""
+    """Confirm a change of mode, which takes effect at once here."""
     request.field("opmode", ("auto", "manf", "coldet"))
 
 
 @serves(ops.LOCK_STATE)
 def get_lock(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether the mode is locked by a pin."""
+    """Return whether the mode is locked by a pin."""
     notify = {"lockstate": context.mode_lock or "Unlocked"}
     return show(Item("pnl-opmode-lockstate-li", "lock-state", notify))
 
@@ -156,5 +165,8 @@ def set_language(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.EMERGENCY_STOP)
 def emergency_stop(context: "RwsContext", request: RwsRequest) -> None:
-    """The button of a virtual controller: `off` presses it, `on` lets it go [VC 7.21]."""
+    """Press (`off`) or release (`on`) the emergency stop.
+
+    Only virtual controllers do this [VC 7.21].
+    """
     context.controller.set_e_stop(request.field("state", ("on", "off")) == "off")

@@ -1,4 +1,4 @@
-"""Program pointers: where they are, where they are put; the stack below them."""
+"""Program pointers of tasks, read and set, and the call stack."""
 
 from typing import TYPE_CHECKING
 
@@ -17,14 +17,17 @@ if TYPE_CHECKING:
 
 
 def place_of(task: Task) -> Location | None:
-    """Where a task stands; None while it has not begun."""
+    """Return the position of a task; None before its start."""
     stack = task.stack()
     return task.pointer.next_statement() or (stack[-1] if stack else None)
 
 
 @serves(ops.POINTER)
 def get_pointer(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Program and motion pointer of a task; the second is where the first is, here."""
+    """Return program and motion pointer of a task.
+
+    Both are equal here.
+    """
     task = find_task(context, request.names["task"], request)
     place = place_of(task)
     if place is None:
@@ -43,7 +46,10 @@ def get_pointer(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.COUNTER)
 def get_counter(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The program pointer once more, as the manual of RWS 1.0 has it for a task's execution."""
+    """Return the program pointer as execution data of a task.
+
+    The manual of RWS 1.0 has it in this form too.
+    """
     place = place_of(find_task(context, request.names["task"], request))
     row, column = (place.span.line, place.span.column) if place else (0, 0)
     notify = {"module": place.module if place else "", "routine": place.routine if place else ""}
@@ -79,7 +85,7 @@ def pointer_to_main(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.POINTER_TO_CURSOR)
 def pointer_to_cursor(context: "RwsContext", request: RwsRequest) -> None:
-    """Program pointer of one task to a statement of the routine in which it stands."""
+    """Set one task's program pointer to a statement of its routine."""
     task = _movable(context, request)
     request.field("module")
     field = request.kind("line", "begin-position-row")
@@ -92,7 +98,10 @@ def pointer_to_cursor(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.ACTIVATION_RECORD)
 def get_frame(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One frame of the stack, from the innermost on; 400 where there is none [VC 6.16]."""
+    """Return one frame of the stack, from the innermost on.
+
+    400 if there is none [VC 6.16].
+    """
     task = find_task(context, request.names["task"], request)
     frames = task.stack()[::-1]
     number = whole("stackframe", request.query.get("stackframe", "1"), 1, len(frames))
@@ -112,7 +121,7 @@ def get_frame(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ROUTINES)
 def get_routines(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Procedures of a task without parameters: what could be called as a service routine."""
+    """Return procedures without parameters, callable as service routines."""
     task = find_task(context, request.names["task"], request)
     name, url = (
         request.kind("routine-name", "routine_name"),

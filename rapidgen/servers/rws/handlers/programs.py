@@ -1,4 +1,7 @@
-"""Programs of tasks: what is wrong with them, and program files (.pgf), which list modules."""
+"""Programs of tasks: build errors, and program files (.pgf).
+
+A program file lists modules.
+"""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,7 +28,7 @@ if TYPE_CHECKING:
 
 @serves(ops.PROGRAM)
 def get_program(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
-    """The program of a task; nothing where there is none."""
+    """Return the program of a task; empty if there is none."""
     task = find_task(context, request.names["task"], request)
     if not context.runner.programs.modules(task):
         return None
@@ -35,7 +38,7 @@ def get_program(context: "RwsContext", request: RwsRequest) -> RwsResponse | Non
 
 @serves(ops.BUILD_ERRORS)
 def get_build_errors(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What is wrong with the program of a task."""
+    """Return the build errors of a task's program."""
     task = find_task(context, request.names["task"], request)
     names = {m.file.path: m.name for m in context.runner.programs.modules(task)}
     result = []
@@ -59,7 +62,10 @@ def _own(context: "RwsContext", task: Task) -> list[str]:
 
 @serves(ops.LOAD_PROGRAM)
 def load(context: "RwsContext", request: RwsRequest) -> None:
-    """Load the modules that a program file lists, from its folder; `replace` takes out the rest."""
+    """Load the modules of a program file from its folder.
+
+    `replace` unloads the others.
+    """
     context.masters.need(request, "rapid")
     task = find_task(context, request.names["task"], request)
     text = request.field("progpath")
@@ -85,7 +91,10 @@ def load(context: "RwsContext", request: RwsRequest) -> None:
 
 
 def _listed(path: Path, request: RwsRequest, words: str) -> list[str]:
-    """Files of a program, which lie in its folder. Denied: it is none."""
+    """Return the module files of a program file.
+
+    They lie in its folder. RequestDenied: it is not a program file.
+    """
     try:
         root = fromstring(read_foreign(path, LARGEST_MODULE))
     except OSError as error:
@@ -113,7 +122,10 @@ def unload(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SAVE_PROGRAM)
 def save(context: "RwsContext", request: RwsRequest) -> None:
-    """Write the program's modules and its program file into a folder, made where it is none."""
+    """Save the program's modules and program file into a folder.
+
+    The folder is created if it is missing.
+    """
     task = find_task(context, request.names["task"], request)
     words = request.field("path")
     folder = disk_path(context, words, request)

@@ -26,7 +26,7 @@ _OF_A_TASK = "rmq_"
 
 
 def find(context: "RwsContext", name: str) -> ClientQueue:
-    """A client's queue. Denied: there is none."""
+    """Return a client's queue. RequestDenied: there is none."""
     match = context.queues.get(name.lower())
     if match is None:
         raise RequestDenied(404, "E_INVALIDSLOTID", f"no queue {name}")
@@ -56,13 +56,13 @@ def get_queues(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.QUEUE)
 def get_queue(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One queue of a client."""
+    """Return one queue of a client."""
     return show(_item("dipc-queue", find(context, request.names["queue"])))
 
 
 @serves(ops.CREATE_QUEUE)
 def create(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A queue of this client's; it ends with the session."""
+    """Create a queue of this client; it ends with the session."""
     name = request.field("dipc-queue-name")
     size = whole("dipc-queue-size", request.field("dipc-queue-size"), 1, 10_000)
     largest = whole("dipc-max-msg-size", request.field("dipc-max-msg-size"), 1, LARGEST)
@@ -92,7 +92,10 @@ def delete(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SEND_MESSAGE)
 def send(context: "RwsContext", request: RwsRequest) -> None:
-    """Put a message into a queue: of another client, or of a task, whose program gets it."""
+    """Put a message into a queue of a client or a task.
+
+    The task's program receives it.
+    """
     name, data = request.names["queue"], request.field("dipc-data")
     if not request.is_one:
         request.field("dipc-userdef")  # 400 without it [VC 7.21]
@@ -132,7 +135,10 @@ def _to_task(context: "RwsContext", name: str, data: str, sender: str, user: str
 
 @serves(ops.READ_MESSAGE)
 def read(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
-    """The first message, taken out of the queue; an empty list, or 204, where there is none."""
+    """Remove and return the first message.
+
+    Without one the answer is an empty list, or 204.
+    """
     queue = find(context, request.names["queue"])
     notify = taken(queue)
     if notify is None:
@@ -141,7 +147,7 @@ def read(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
 
 
 def taken(queue: ClientQueue) -> dict[str, str] | None:
-    """What the first message says, taken out of the queue; None: there is none."""
+    """Remove and return the data of the first message; None without one."""
     result = queue.take()
     if result is None:
         return None

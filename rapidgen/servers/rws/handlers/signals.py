@@ -1,4 +1,7 @@
-"""Signals: read, set, looked for. Their access level says who may set them."""
+"""Signals: read, set and search.
+
+Their access level decides which client may set them.
+"""
 
 from typing import TYPE_CHECKING
 
@@ -13,7 +16,10 @@ if TYPE_CHECKING:
     from rapidgen.servers.rws.context import RwsContext
 
 _WRITABLE = ("all",)
-"""Access levels that let a remote client write: `Default` is RAPID and local manual [VC 6.16]."""
+"""Access levels with remote writing.
+
+`Default` is RAPID and local manual [VC 6.16].
+"""
 
 
 def value_of(signal: Signal) -> str:
@@ -28,12 +34,18 @@ def title_of(signal: Signal) -> str:
 
 
 def network_of(device: str) -> str:
-    """Networks are not modelled: DRV_1 and PANEL are Local, the rest stands on one of its own."""
+    """Return the network of a signal.
+
+    Networks are not modelled: DRV_1 and PANEL are Local, the others are on one of their own.
+    """
     return "Local" if device.upper().startswith(("DRV_", "PANEL")) else "Virtual1"
 
 
 def find(context: "RwsContext", path: str) -> Signal:
-    """The signal at the end of a path. Denied: there is none, or not on that device."""
+    """Return the signal at the end of a path.
+
+    RequestDenied: there is none, or it is not on that device.
+    """
     parts = path.split("/")
     signal = context.controller.io.get(parts[-1])
     if signal is None or len(parts) not in (1, 3):
@@ -75,7 +87,7 @@ def get_signals(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SIGNAL)
 def get_signal(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One signal."""
+    """Return one signal."""
     signal = find(context, request.names["signal"])
     return show(item(signal, request.kind("ios-signal", "ios-signal-li"), request))
 
@@ -104,7 +116,7 @@ def set_signal(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SEARCH_SIGNALS)
 def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Signals whose name holds a text, of a type, of a device [VC 7.21]."""
+    """Return signals by part of the name, type or device [VC 7.21]."""
     requested = {k: request.form.get(k, "").lower() for k in ("name", "type", "device")}
     result = [s for s in context.controller.io.signals.values() if _fits(s, requested)]
     return page(request, [item(s, "ios-signal-li", request) for s in result], 100, "signals")
@@ -112,7 +124,10 @@ def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SEARCH_SIGNALS_TWICE)
 def search_twice(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Signals that fit up to two sets of criteria, both of them [VC 6.16, VC 7.21]."""
+    """Return signals that match one of two sets of criteria.
+
+    [VC 6.16, VC 7.21]
+    """
     result = list(context.controller.io.signals.values())
     for one in ("", "1", "2"):
         requested = {
@@ -132,7 +147,7 @@ def _fits(signal: Signal, requested: dict[str, str]) -> bool:
 
 @serves(ops.SIGNAL_CONFIG)
 def get_config(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What EIO.cfg says of a signal."""
+    """Return the EIO.cfg entry of a signal."""
     spec = find(context, request.names["signal"]).spec
     notify = {"name": spec.name, "type": spec.type, "device": spec.device, "access": spec.access}
     return show(Item("ios-signal-config-general", spec.name, notify))

@@ -1,4 +1,4 @@
-"""Subscriptions asked for over HTTP; what is told goes over a websocket."""
+"""Subscriptions over HTTP; a websocket carries their events."""
 
 from typing import TYPE_CHECKING
 
@@ -31,7 +31,7 @@ def _opened(
 
 @serves(ops.SUBSCRIBE)
 def subscribe(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A new group; the body is XHTML whatever was asked for."""
+    """Create a group; the body is XHTML for any accepted type."""
     return _opened(context, request, context.groups.begin(request, _wanted(request)), 201)
 
 
@@ -52,7 +52,7 @@ def unsubscribe(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.UNSUBSCRIBE_ONE)
 def unsubscribe_one(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One resource less."""
+    """Remove one resource."""
     group = context.groups.find(request.names["group"], request.session)
     suffix = f";{request.suffix}" if request.suffix else ""
     context.groups.remove(group, f"/{request.names['resource']}{suffix}")
@@ -69,7 +69,7 @@ def get_groups(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SUBSCRIPTION)
 def get_group(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What a group of this session watches."""
+    """Return the resources of a group of this session."""
     group = context.groups.find(request.names["group"], request.session)
     result = (
         Item("sub-resource-li", w.wanted.resource, {"priority": str(w.wanted.priority)})

@@ -25,9 +25,12 @@ if TYPE_CHECKING:
 _ELEMENT = re.compile(r"(\w+)\{\s*(\d{1,9}(?:\s*,\s*\d{1,9})*)\s*\}")
 _KINDS = {"PERS": ("per", "pers"), "VAR": ("var", "var"), "CONST": ("con", "constant")}
 _SLOW = re.compile(r"\)[*+{]|(?:[*+{].*){4}", re.DOTALL)
-"""Patterns that could take for ever: repeated groups, more than three repetitions."""
+"""Patterns that could run for ever: nested or many repetitions.
+
+Repeated groups, and more than three repetitions, are rejected.
+"""
 LARGEST = 16_000
-"""Characters of a value that is given whole [mem: the limit itself is not known]."""
+"""Longest value returned whole [mem: the limit itself is not known]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +53,10 @@ class Datum:
 
 
 def find(context: "RwsContext", path: str, request: RwsRequest) -> Datum:
-    """The datum of `TASK/MODULE/NAME` or `TASK/NAME`. Denied: there is none."""
+    """Return the datum of `TASK/MODULE/NAME` or `TASK/NAME`.
+
+    RequestDenied: there is none.
+    """
     parts = path.split("/")
     if len(parts) not in (2, 3):
         raise _unknown(request, path)
@@ -94,7 +100,7 @@ def get_symbol(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_SYMBOL)
 def set_symbol(context: "RwsContext", request: RwsRequest) -> None:
-    """Give a datum a value: at once, wherever it is read."""
+    """Set a datum, effective at once for every reader."""
     if request.is_one:
         context.masters.need_mode(request.session)  # RobotWare 6 takes mastership by itself
     else:
@@ -123,7 +129,7 @@ def set_symbol(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.VALIDATE_VALUE)
 def validate(context: "RwsContext", request: RwsRequest) -> None:
-    """Whether a text is a value of a type: 204, or 400."""
+    """Check whether a text is a value of a type: 204, or 400."""
     find_task(context, request.names.get("task") or request.field("task"), request)
     name, text = request.field(request.kind("datatype", "dattyp")), request.field("value")
     result = find_type(name.lower())
@@ -137,7 +143,7 @@ def validate(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SYMBOL_PROPERTIES)
 def get_properties(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What a datum is."""
+    """Return the properties of a datum."""
     path = request.names["symbol"]
     result = find(context, path, request)
     for item, _ in _data(result.task, ""):
@@ -161,7 +167,9 @@ def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     module = parts[2] if len(parts) > 2 else ""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of `[[`, which Python would like to be told from sets
+            warnings.simplefilter(
+                "ignore"
+            )  # of `[[`, which Python warns may become a set operation
             pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
     except (re.error, OverflowError, RecursionError) as error:
         raise RequestDenied(400, "E_INVALIDARG", "regexp") from error
@@ -193,10 +201,13 @@ def _data(task: TaskView, only: str) -> Iterator[tuple[Item, str]]:
                 continue
             short, long = _KINDS[node.kind]
             url = f"RAPID/{task.name}/{module.name}/{node.name}"
-            yield Item(f"rap-symprop{long}", url, _told(url, node, type_, dims, short)), short
+            yield (
+                Item(f"rap-symprop{long}", url, _property_fields(url, node, type_, dims, short)),
+                short,
+            )
 
 
-def _told(
+def _property_fields(
     url: str, node: n.DataDeclaration, type_: Type, dims: tuple[int, ...], kind: str
 ) -> dict[str, str]:
     return {

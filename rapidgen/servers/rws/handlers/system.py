@@ -1,4 +1,4 @@
-"""The controller itself: identity, system, clock, variables, restart, jobs."""
+"""The controller: identity, system, clock, variables, restart, jobs."""
 
 from typing import TYPE_CHECKING
 
@@ -25,7 +25,7 @@ def version(context: "RwsContext") -> tuple[int, int]:
 
 @serves(ops.CONTROLLER, ops.IDENTITY)
 def identity(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Who this controller is; it says that it is a virtual one."""
+    """Return the identity of this controller, which is virtual."""
     notify = {
         "ctrl-name": context.controller.system.name,
         "ctrl-id": context.runner.id,
@@ -66,7 +66,7 @@ def _options(kind: str) -> list[Item]:
 
 @serves(ops.OPTIONS)
 def get_options(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What is installed."""
+    """Return the installed options."""
     return show(*_options("sys-option"), collection=True)
 
 
@@ -80,7 +80,7 @@ def get_products(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ROBOT_TYPE)
 def get_robot_type(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The robot's type, where a backup tells it."""
+    """Return the robot's type if a backup gives it."""
     types = context.controller.system.robot_types
     return show(Item("sys-robottype", "robottype", {"robot-type": types[0][1] if types else ""}))
 
@@ -95,7 +95,7 @@ def get_clock(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.VARIABLE)
 def get_variable(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Where a variable points to: here to the volume of that name."""
+    """Return the value of a variable: the volume of that name here."""
     name = request.names["variable"]
     folder = _VARIABLES.get(name.upper())
     if folder is None:
@@ -105,7 +105,10 @@ def get_variable(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.RESTART, ops.RESTART_AT_CTRL)
 def restart(context: "RwsContext", request: RwsRequest) -> None:
-    """A warm start: everybody is logged out. Other kinds are not offered here."""
+    """Restart with a warm start, which ends all sessions.
+
+    Other kinds are not offered here.
+    """
     context.masters.need(request, "cfg")
     mode = request.field("restart-mode", (*_MODES, "xstart", "shutdown"))
     if mode != "restart":
@@ -115,7 +118,7 @@ def restart(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.PROGRESS)
 def get_progress(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """How far a job is: all are done at once here."""
+    """Return the progress of a job: all end at once here."""
     code = context.progress.get(request.names["id"])
     if code is None:
         raise RequestDenied(404, "E_UNRESOLVED_URL", request.path)
@@ -124,15 +127,16 @@ def get_progress(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.LICENSE)
 def get_license(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A virtual controller has none."""
+    """Return the license, which a virtual controller does not have."""
     return show(Item("sys-license", "license", {"license": "virtual controller"}))
 
 
 @serves(ops.ENERGY)
 def get_energy(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Energy is not modelled: the state -1 says that no value is valid [RWS manual].
+    """Return energy data: the state -1, no valid value [RWS manual].
 
-    Fields and axes as in a body of a RobotWare 6 that an exporter of metrics has in its tests.
+    Energy is not modelled. Fields and axes are as in a body of a RobotWare 6 in the tests of an
+    exporter of metrics.
     """
     now = date_time(context.controller.scheduler).strftime("%Y-%m-%d T %H:%M:%S")
     notify = {"state": "-1", "energy-state": "blocked", "change-count": "0"}
@@ -162,7 +166,7 @@ def get_vision(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.TIME_ZONE)
 def get_time_zone(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The controller's clock knows no zone here: it is UTC's."""
+    """Return the time zone of the controller's clock: UTC here."""
     return show(Item("ctrl-timezone", "timezone", {"timezone": "UTC"}))
 
 
@@ -174,7 +178,7 @@ def set_clock(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.RESTART_COUNT)
 def restart_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """How often it has restarted."""
+    """Return the number of restarts."""
     notify = {"restart-count": str(context.runner.restarts)}
     return show(Item("ctrl-restart-count", "restartcount", notify))
 
@@ -194,7 +198,7 @@ def virtual_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.VIRTUAL_SPEED)
 def virtual_speed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """How fast virtual time is, in percent of the real one."""
+    """Return the speed of virtual time, in percent of real time."""
     notify = {"vtcurrspeed": f"{100 * context.controller.scheduler.speed:g}"}
     return show(Item("ctrl-vtspeed", "vtspeed", notify))
 

@@ -29,7 +29,10 @@ _STATUS = {
 
 
 def find_task(context: "RwsContext", name: str, request: RwsRequest) -> Task:
-    """A task by name. Denied: there is none (400 on RobotWare 6, 404 on 7)."""
+    """Return a task by name.
+
+    RequestDenied: there is none (400 on RobotWare 6, 404 on 7).
+    """
     for task in context.controller.rapid_tasks.values():
         if task.name.lower() == name.lower():
             return task
@@ -37,7 +40,10 @@ def find_task(context: "RwsContext", name: str, request: RwsRequest) -> Task:
 
 
 def execution_state(task: Task, request: RwsRequest) -> str:
-    """A task's execution state; RobotWare 6 cuts the words to four letters [code: librws]."""
+    """Return a task's execution state.
+
+    RobotWare 6 cuts the words to four letters [code: librws].
+    """
     word = _EXECUTION[task.state]
     return word[:4] if request.is_one else word
 
@@ -69,7 +75,7 @@ def get_tasks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.TASK)
 def get_task(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One task."""
+    """Return one task."""
     return show(
         _item(context, find_task(context, request.names["task"], request), "rap-task", request)
     )
@@ -106,7 +112,7 @@ def selection(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.CHANGE_COUNT)
 def change_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """How often a task's program was changed."""
+    """Return the number of changes of a task's program."""
     task = find_task(context, request.names["task"], request)
     count = str(context.runner.programs.changes[task.name])
     notify = {"struc-change-count": count, "change-count": count}
@@ -115,7 +121,10 @@ def change_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ACTIVATE, ops.DEACTIVATE)
 def activate(context: "RwsContext", request: RwsRequest) -> None:
-    """The task selection panel: which NORMAL tasks are started with the program."""
+    """Select the NORMAL tasks that start with the program.
+
+    This is the task selection panel.
+    """
     # RobotWare 6 takes mastership by itself [RWS manual].
     context.masters.need(request, "rapid", by_itself=request.is_one)
     task = find_task(context, request.names.get("task") or request.field("task"), request)
@@ -143,7 +152,10 @@ def task_to_boot(context: "RwsContext", request: RwsRequest) -> Task:
 
 @serves(ops.MODULES)
 def get_modules(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Modules of a task; they stand in `state` in HAL, though they are many [VC 7.21]."""
+    """Return the modules of a task.
+
+    HAL has them in `state`, though they are many [VC 7.21].
+    """
     result = context.runner.programs.modules(task_to_boot(context, request))
     return show(
         *(
@@ -159,7 +171,7 @@ def get_modules(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.MODULE)
 def get_module(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """One module: its file."""
+    """Return the file of one module."""
     task, name = task_to_boot(context, request), request.names["module"]
     result = [m for m in context.runner.programs.modules(task) if m.name.lower() == name.lower()]
     if not result:
@@ -178,7 +190,10 @@ def no_module(request: RwsRequest, name: str) -> RequestDenied:
 
 @serves(ops.LOAD_MODULE)
 def load_module(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
-    """Load a module; what is wrong in it is told by `builderror`, not here [VC 7.21]."""
+    """Load a module; `builderror` reports its errors, not this answer.
+
+    [VC 7.21]
+    """
     context.masters.need(request, "rapid")
     task = find_task(context, request.names["task"], request)
     text = request.field("modulepath")
@@ -206,14 +221,17 @@ def unload_module(context: "RwsContext", request: RwsRequest) -> None:
 
 
 def load_refused(request: RwsRequest, fault: CannotLoad, what: str) -> RequestDenied:
-    """The answer to a module that is not taken, or not given away."""
+    """Return the answer to a module that cannot be loaded or saved."""
     name = str(fault)
     return RequestDenied(_STATUS[name][0 if request.is_one else 1], name, what, -507)
 
 
 @serves(ops.SAVE_MODULE)
 def save_module(context: "RwsContext", request: RwsRequest) -> None:
-    """Write a module with the present values of its persistents; an ending is put behind."""
+    """Save a module with its current persistents.
+
+    The file name gets an extension.
+    """
     task, name = task_to_boot(context, request), request.names["module"]
     module = task.program.modules.get(name.lower())
     if module is None:

@@ -1,4 +1,7 @@
-"""Texts of modules: read, written, looked through. Rows and columns count from 1 on."""
+"""Texts of modules: read, write, search.
+
+Rows and columns count from 1.
+"""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -49,7 +52,7 @@ def get_text(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.MODULE_COUNT)
 def get_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """How often the program that a module is in was changed."""
+    """Return the number of changes of the program of a module."""
     count = _count(context, _module(context, request).task)
     return show(Item("rap-module-changecount", request.names["module"], {"count": count}))
 
@@ -96,7 +99,7 @@ def get_range(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.TEXT_SEARCH)
 def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Where a text stands, whatever its case."""
+    """Return the positions of a text, in any case."""
     requested = request.query.get("text", "").lower()
     result: list[Item] = []
     if not requested:
@@ -111,14 +114,14 @@ def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_TEXT)
 def set_text(context: "RwsContext", request: RwsRequest) -> None:
-    """Another source for a module; what is wrong in it is told by `builderror`."""
+    """Replace the source of a module; `builderror` reports its errors."""
     context.masters.need(request, "rapid")
     _put(context, request, _module(context, request), request.field("text"))
 
 
 @serves(ops.SET_TEXT_RANGE)
 def set_range(context: "RwsContext", request: RwsRequest) -> None:
-    """Another text for a piece of the source, or one more before or behind it."""
+    """Replace a range of the source, or insert before or after it."""
     context.masters.need(request, "rapid")
     module, more = _module(context, request), request.field("text")
     piece = _range(module.text, request.form)

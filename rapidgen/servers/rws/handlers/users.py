@@ -34,8 +34,11 @@ def register(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.USERS)
 def users(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Who is logged in: one entry a session, in RWS 2.0 one a user [code: abb-rws-client]; of the
-    class it is known that `user` is in it, the rest is [mem]."""
+    """Return the users logged in.
+
+    One entry a session, in RWS 2.0 one a user [code: abb-rws-client]; the class is known to hold
+    `user`, the rest is [mem].
+    """
     sessions: dict[object, Session] = {}
     for session in context.sessions():
         sessions.setdefault(session.number if request.is_one else session.user, session)
@@ -58,7 +61,10 @@ def users(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_LOCALE)
 def set_locale(context: "RwsContext", request: RwsRequest) -> None:
-    """Local users press the enabling device within 5 s, which nobody does here."""
+    """Set the locale.
+
+    Local users press the enabling device within 5 s; there are none here.
+    """
     if request.field("type", ("local", "remote")) == "local":
         raise RequestDenied(403, "E_REJECT", "no enabling device is pressed", -2)
 
@@ -86,13 +92,13 @@ def all_grants(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.PASSWORD_CHANGE)
 def password_change(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether this user may change the password: nobody may, here."""
+    """Return whether this user may change the password: never here."""
     return show(Item("uas-password-change-allow", "allow", {"password-change-allow": "false"}))
 
 
 @serves(ops.LOGIN_INFO)
 def login_info(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Who is logged in."""
+    """Return the user logged in."""
     return show(Item("user-login-info", request.session.user, {"name": request.session.user}))
 
 
@@ -102,7 +108,7 @@ def _grants(context: "RwsContext", request: RwsRequest) -> list[str]:
 
 @serves(ops.GRANTS)
 def grants(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What this user may do."""
+    """Return the grants of this user."""
     if request.is_one:
         return show(*(Item("user-grant", g) for g in _grants(context, request)), collection=True)
     result = (Item("uas-grant", g, {"grantname": g}) for g in _grants(context, request))
@@ -111,7 +117,7 @@ def grants(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.GRANT_EXISTS)
 def grant_exists(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether this user may do one thing."""
+    """Return whether this user has one grant."""
     requested = request.query.get("grant", "")
     notify = "true" if requested in _grants(context, request) else "false"
     return show(Item("user-grant-status", requested, {"status": notify}))
@@ -119,7 +125,7 @@ def grant_exists(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.RETCODE)
 def retcode(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """What a code means; without one, all of them."""
+    """Return the meaning of a code, or of all codes."""
     if "code" not in request.query:
         result = [
             Item("err-desc", str(code), {"name": name, "code": str(code)})
@@ -156,14 +162,14 @@ def ask_rmmp(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.CANCEL_RMMP)
 def cancel_rmmp(context: "RwsContext", request: RwsRequest) -> None:
-    """Ask no more, or give it back."""
+    """Cancel the request, or release the privilege."""
     _no_rmmp_on_8(context)
     context.masters.manual.cancel(request.session)
 
 
 @serves(ops.RMMP)
 def rmmp(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Who may write in manual mode, or asks for it."""
+    """Return the holder of remote writing, or its applicant."""
     _no_rmmp_on_8(context)
     manual = context.masters.manual
     who = manual.session
@@ -186,9 +192,10 @@ _POLLED = {
 
 @serves(ops.RMMP_POLL)
 def poll_rmmp(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Whether it was granted; keeps the question on the pendant. In automatic mode it need not be.
+    """Return the state of the request, which keeps the prompt open.
 
-    PENDING and GRANTED are ABB's words [code: abb_robot_client], those for a refusal are ours.
+    In automatic mode no grant is needed. PENDING and GRANTED are ABB's words [code:
+    abb_robot_client], those for a refusal are ours.
     """
     _no_rmmp_on_8(context)
     manual = context.masters.manual
@@ -200,7 +207,7 @@ def poll_rmmp(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.GRANT_RMMP)
 def grant_rmmp(context: "RwsContext", request: RwsRequest) -> None:
-    """A local user's answer to a request: nobody is local here."""
+    """Refuse a local user's answer: no user is local here."""
     request.field("uid")
     request.field("privilege", ("modify", "exec", "deny"))
     raise RequestDenied(403, "E_REJECT", "only a local user grants", -2)

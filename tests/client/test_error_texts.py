@@ -1,4 +1,4 @@
-"""What errors say, what wrong arguments get, and how things show themselves."""
+"""Texts of errors, wrong arguments, and display of objects."""
 
 import math
 import struct
@@ -72,7 +72,7 @@ def test_what_is_no_number_is_not_called_too_fast(irb120, value):
     assert [d.code for d in error.value.diagnostics] == ["RG613"]
 
 
-def test_each_fault_of_a_trajectory_has_a_mend(irb120):
+def test_trajectory_faults_have_a_help(irb120):
     names = ["joint_1", "joint_2", "joint_3", "joint_4", "joint_5"]
     for points in (
         Trajectory([0, 1], [HOME[1:]] * 2, names),
@@ -86,14 +86,14 @@ def test_each_fault_of_a_trajectory_has_a_mend(irb120):
     assert "--speed" in error.value.diagnostics[0].help
 
 
-def test_a_resampling_that_is_named_mends(irb120):
+def test_resampling_from_help_fixes_the_trajectory(irb120):
     for duration in np.random.default_rng(7).uniform(0.5, 60, 100):
         dense = Trajectory(np.linspace(0, duration, 2000), np.zeros((2000, 6)))
         check_trajectory(dense.resampled(0.1), irb120, start=HOME)
 
 
 @pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 shows no notes")
-def test_a_traceback_shows_place_and_mend(tmp_path):
+def test_traceback_shows_place_and_help(tmp_path):
     bad = tmp_path / "cell.yaml"
     bad.write_text("model: irb120\nmodle: irb120\n")
     with pytest.raises(DiagnosticError) as error:
@@ -116,7 +116,7 @@ def test_a_traceback_shows_place_and_mend(tmp_path):
     ],
 )
 @pytest.mark.parametrize("call", ["execute", "check", "way_for"])
-def test_what_is_no_trajectory_is_told_the_way_to_one(connected, call, given, way):
+def test_execute_of_other_type_names_conversion(connected, call, given, way):
     with connected() as (robot, controller):
         with pytest.raises(InvalidTrajectory) as error:
             getattr(robot, call)(given)
@@ -126,7 +126,7 @@ def test_what_is_no_trajectory_is_told_the_way_to_one(connected, call, given, wa
 
 
 @pytest.mark.parametrize("given", [PATH, "move", None])
-def test_what_is_no_program_is_told(connected, given):
+def test_run_of_other_type_is_rejected(connected, given):
     with connected() as (robot, controller):
         with pytest.raises(InvalidProgram, match=type(given).__name__):
             robot.run(given)
@@ -193,7 +193,7 @@ def test_a_way_that_is_none_moves_nothing(connected, way):
 
 
 def edited(script_hello, offset, packing, *values):
-    """A HELLO with other bytes in its content, which begins behind 16 bytes of head."""
+    """A HELLO with other bytes in its content, which follows 16 bytes of head."""
     data = bytearray(script_hello)
     struct.pack_into(packing, data, 16 + offset, *values)
     return bytes(data)
