@@ -1,9 +1,10 @@
-"""Carry out a plan so that a cut at any point leaves the old set, the new set, or a refusal.
+"""Execution of a plan, safe against interruption.
 
-Order: journal, backup, every new file beside its old one and read back; then the mark
-`switching`, the fence (a module of each task with a BUILD_ID that none other has, so that no
-trajectory is taken), the files, the fence's own files, everything read back once more, the
-manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
+An interruption at any point leaves the old set, the new set, or a state that the driver rejects.
+Order: journal, backup, every new file written next to its old one and read back; then the mark
+`switching`, the fence (a module of each task with a BUILD_ID that no other has, so that the driver
+accepts no trajectory), the files, the fence's own files, everything read back once more, the
+manifest, and last the journal's end. Before `switching` exists, no old file is changed.
 """
 
 from collections.abc import Callable
@@ -58,13 +59,15 @@ def apply(
     say: Say = lambda _: None,
     given_up: Callable[[], bool] = lambda: False,
 ) -> None:
-    """Do exactly what `plan` says; nothing when it is empty. `live` is for web services.
+    """Execute exactly what `plan` says; do nothing if it is empty.
 
-    `given_up` is asked until files are switched: then the controller stays as it was (RG545).
+    `live` is for web services. `given_up` is checked until files are switched: then the controller
+    stays as it was (RG545).
 
     Raises DiagnosticError: RG520, RG521, RG528, RG531, RG534, RG535, RG537, RG541 (conflicts),
-    RG522, RG540 (the controller moved on, is another one), RG527, RG543 (cut), RG542 (not in this
-    state), RG544 (not what was deployed); TransportFault before that: then nothing old was changed.
+    RG522, RG540 (the controller changed, or is another one), RG527, RG543 (interrupted), RG542
+    (wrong state), RG544 (not what was deployed); TransportFault before that: then no old file was
+    changed.
     """
     conflicts = conflicts_of(plan, overwrite=overwrite)
     if conflicts:
@@ -112,12 +115,15 @@ def _apply_files(transport: Transport, plan: Plan, say: Say, given_up: Callable[
 
 
 def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
-    """RG520, RG521, RG528, RG531: only `overwrite` replaces that; the others: nothing does."""
+    """Return all conflicts of a plan.
+
+    `overwrite` resolves only RG520, RG521, RG528 and RG531.
+    """
     findings = [] if overwrite else [_conflict(change) for change in plan.conflicts]
     if plan.damaged and not overwrite:
         findings.insert(0, error("RG531", None, plan.damaged, DAMAGED))
     if plan.neighbour is not None:
-        findings.append(_beside(plan, plan.neighbour))
+        findings.append(_other_driver_error(plan, plan.neighbour))
     if plan.in_memory:
         findings.append(
             error(
@@ -137,7 +143,7 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
             "RG535",
             None,
             f"{change.key.partition(' ')[2]} is {change.note}",
-            "rename the signal on the controller, or whatever uses it",
+            "rename the signal on the controller, or in the files that use it",
         )
         for change in plan.cfg
         if change.action == "clash"
@@ -155,7 +161,7 @@ def _in_the_way(module: MemoryModule) -> Diagnostic:
     )
 
 
-def _beside(plan: Plan, other: OtherDriver) -> Diagnostic:
+def _other_driver_error(plan: Plan, other: OtherDriver) -> Diagnostic:
     help = "its modules have names of ours, and both serve the same ports: " + "; ".join(
         f"({n}) {step.what}" for n, step in enumerate(plan.steps, 1)
     )
@@ -187,7 +193,7 @@ def moved_on(target: str) -> DiagnosticError:
 
 
 def _begin(transport: Transport, plan: Plan, say: Say) -> FileOperations:
-    """The state folder, what rename does here, and room on the disk."""
+    """Create the state folder; check rename and free disk space."""
     folder = FileOperations(transport, plan, "none", say).folder
     try:
         transport.make_folder(folder)
@@ -204,7 +210,7 @@ def _begin(transport: Transport, plan: Plan, say: Say) -> FileOperations:
 
 
 def _prepare(work: FileOperations) -> Journal:
-    """Journal, backup and staged files; on a refusal all of it is taken away again."""
+    """Write journal, backup and staged files; remove all on a refusal."""
     plan, old = work.plan, work.plan.state.journal
     number = old.id if old and plan.repair else 1 + (plan.had.id if plan.had else 0)
     known = {p: set(hashes) for p, hashes in (old.known if old and plan.repair else {}).items()}
@@ -230,7 +236,7 @@ def _prepare(work: FileOperations) -> Journal:
         tuple(staged),
     )
     _write_journal(work, journal)
-    # Only now, as the new journal knows the contents that the old staged files explained.
+    # Only now, as the new journal knows the contents that explain the old staged files.
     delete_all(work, (path for path in (old.staged if old else ()) if path not in staged))
     try:
         if not plan.repair:
@@ -247,7 +253,7 @@ def _prepare(work: FileOperations) -> Journal:
 
 
 def _switch(work: FileOperations) -> None:
-    """Fence in, the old set's own key modules out, the rest, fence out."""
+    """Put the fence in, remove the old set's key modules, switch, remove it."""
     plan = work.plan
     fences = _fences(work)
     fenced = [c for c in plan.changes if c.path in fences and c.kind != "syspar"]
@@ -262,7 +268,7 @@ def _switch(work: FileOperations) -> None:
         delete(work, change.where)
     remaining = [c for c in plan.changes if c.after is not None and c.action != "same"]
     remaining = [c for c in remaining if c not in fenced]
-    # SYSPAR before the cfg file that says what is ours in it.
+    # SYSPAR before the cfg file that lists our instances in it.
     for change in sorted(remaining, key=lambda c: c.kind != "syspar"):
         work.say(f"switching {change.shown}")
         swap(work, change.where, NEW, change.after or b"", exists=change.before is not None)
@@ -272,7 +278,7 @@ def _switch(work: FileOperations) -> None:
 
 
 def _fences(work: FileOperations) -> dict[str, bytes]:
-    """Fences of the new set; none when the whole switch is one atomic rename."""
+    """Return fences of the new set; none if the switch is one atomic rename."""
     steps = [c for c in work.plan.changes if c.action != "same" and c.kind != "cfg"]
     if work.plan.wanted is None or not steps or (work.mode == "replace" and len(steps) == 1):
         return {}
@@ -280,7 +286,10 @@ def _fences(work: FileOperations) -> dict[str, bytes]:
 
 
 def _old_fences(plan: Plan) -> frozenset[str]:
-    """Modules whose absence keeps every task of the old set from loading: they go first."""
+    """Return modules without which no task of the old set loads.
+
+    They are removed first.
+    """
     if plan.had is None:
         return frozenset()
     files = [
@@ -300,7 +309,10 @@ def _verify(work: FileOperations) -> None:
 
 
 def _finish(work: FileOperations, journal: Journal | None) -> None:
-    """Manifest, then the end of the notes; without a journal only the notes are cleared."""
+    """Write the manifest, then end the journal.
+
+    Without a journal only the notes are cleared.
+    """
     folder = work.folder
     present = names(work.transport, folder)
     if journal is not None and journal.new is not None:
@@ -325,13 +337,13 @@ def _finish(work: FileOperations, journal: Journal | None) -> None:
 
 
 def _clean(work: FileOperations) -> None:
-    """Take away what an earlier run left half-done; what it switched is in the plan already."""
+    """Remove files of an interrupted run; the plan has those it switched."""
     journal = work.plan.state.journal
     if work.plan.repair:
         return
     staged = journal.staged if journal is not None else ()
     if work.plan.state.switching and journal is None:
-        # Two ran at once: what one of them staged no journal tells any more.
+        # Two runs overlapped: no journal lists the files that one of them staged.
         staged = tuple(c.where + suffix for c in work.plan.changes for suffix in (NEW, FENCE))
     delete_all(work, [*staged, f"{work.folder}/manifest.json{NEW}"])
     finished = journal is not None and work.plan.had is not None and work.plan.had.id == journal.id
@@ -344,7 +356,10 @@ def _clean(work: FileOperations) -> None:
 
 
 def _undo_preparation(work: FileOperations, journal: Journal) -> None:
-    """Best effort: what stays is named in the journal, and the next run takes it away."""
+    """Undo the preparation as far as possible.
+
+    The journal names the remaining files, and the next run removes them.
+    """
     try:
         delete_all(work, journal.staged)
         if work.plan.wanted is not None:
@@ -361,7 +376,10 @@ def _undo_preparation(work: FileOperations, journal: Journal) -> None:
 
 
 def _write_journal(work: FileOperations, journal: Journal) -> None:
-    """Into the file that is not in use, then the other goes: one of them is always whole."""
+    """Write the journal into its unused file, then delete the other.
+
+    So one of them is always complete.
+    """
     current = work.plan.state.journal_file
     write(work, _journal_path(work), encode(journal_json(journal)))
     if current:
@@ -374,14 +392,14 @@ def _journal_path(work: FileOperations) -> str:
 
 
 def _hold(work: FileOperations, journal: Journal) -> None:
-    """That this run's journal still stands: another run takes it away, or writes over it.
+    """Check that this run's journal exists.
 
-    Raises TransportFault RG522.
+    Another run deletes or overwrites it. Raises TransportFault RG522.
     """
     if read_or_none(work.transport, _journal_path(work)) != encode(journal_json(journal)):
         raise TransportFault(
             "denied",
-            f"{work.plan.target}: another deployment came between",
+            f"{work.plan.target}: another deployment interfered",
             code="RG522",
             help="find out whose it is, let it end, then plan again",
         )
@@ -409,7 +427,7 @@ def _conflict(change: FileChange) -> Diagnostic:
             "RG528",
             None,
             f"{change.shown}: {change.doubt}",
-            "--overwrite goes on without it: the driver's file goes, and nothing comes back"
+            "--overwrite continues without it: the driver's file is deleted without a replacement"
             if change.after is None
             else "--overwrite puts back what the copy holds now: look at the file afterwards",
         )

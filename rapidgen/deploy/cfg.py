@@ -1,10 +1,10 @@
-"""cfg instances: what has to be added, changed or taken away, and merging them into SYSPAR.
+"""cfg instances to add, change or delete, and their merge into SYSPAR.
 
 Loading parameters on a controller adds instances, and replaces those of the same name or refuses
-them (120006 [real 6.03]); it never removes one. Instances without a name (CAB_TASK_MODULES,
-SYSSIG_OUT, ...) are told apart by the attributes that make them what they are; names compare
-without case [backup 6.06]. Motion tasks, unit groups and the firewall's rules are the controller's
-own: they get back what they had, and are never taken away.
+them (120006 [real 6.03]); it never deletes one. Instances without a name (CAB_TASK_MODULES,
+SYSSIG_OUT, ...) are identified by their key attributes; names compare without case [backup 6.06].
+Motion tasks, unit groups and the firewall's rules are the controller's own: they get back their
+earlier values, and are never deleted.
 """
 
 from collections.abc import Iterable, Mapping
@@ -23,28 +23,34 @@ _KEYS: dict[str, tuple[str, ...]] = {
     "EIO_CROSS": ("Res",),
 }
 _OWN = ("MECHANICAL_UNIT_GROUP", "FIREWALL_MANAGEMENT")
-"""The firewall's rules are delivered with the controller, closed [backup 7.5, 7.6]."""
+"""Sections of the firewall, delivered closed [backup 7.5, 7.6]."""
 _THEIRS = ("name", "type", "motiontask")
-"""What a motion task of a controller has without any driver [eight backups, RW 5.15 to 6.13]."""
+"""Attributes of a motion task without any driver.
+
+[eight backups, RW 5.15 to 6.13]
+"""
 
 
 CfgAction = Literal["add", "change", "same", "use", "clash", "restore", "leave", "remove"]
-"""`use`: somebody else's signal of the same kind, or output that drives it, is there and stays;
-`clash`: one of another kind; `restore`: gets back what it had before the first deployment;
-`leave`: the controller's own, no longer in our files."""
+"""Kind of the change.
+
+`use`: a foreign signal of the same kind, or an output that drives it, exists and stays; `clash`:
+one of another kind; `restore`: gets back its values from before the first deployment; `leave`: the
+controller's own, no longer in our files.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class CfgChange:
-    """One instance: `key` is `SECTION name` as shown."""
+    """Change of one instance: `key` is `SECTION name` as shown."""
 
     domain: str
     key: str
     action: CfgAction
     note: str = ""
-    """What differs, where a person has to see to it."""
+    """Difference that a person has to resolve."""
     named: bool = True
-    """Whether loading can tell which instance it replaces."""
+    """True if loading can identify the instance that it replaces."""
 
 
 Key = tuple[str, str, str]
@@ -53,7 +59,10 @@ Keyed = dict[Key, Instance]
 
 
 def keyed(texts: Iterable[CfgText]) -> Keyed:
-    """All instances by what makes them what they are; of duplicates the last, as in loading."""
+    """Return all instances by their keys.
+
+    Of duplicates it is the last, as in loading.
+    """
     return {
         (text.domain, section.name, shown_key(section.name, instance).casefold()): instance
         for text in texts
@@ -63,21 +72,25 @@ def keyed(texts: Iterable[CfgText]) -> Keyed:
 
 
 def is_unconfirmed(text: CfgText) -> bool:
-    """Whether it is a file of instances that no controller has answered: all of it is optional."""
+    """True if a file has instances that no controller has confirmed.
+
+    All of them are optional.
+    """
     return text.path.casefold().endswith("_open.cfg")
 
 
 def name_of(key: Key) -> str:
-    """A key as one text, the way a manifest holds it; without case."""
+    """Return a key as one text, as in a manifest, without case."""
     return " ".join(key).casefold()
 
 
 def compare(
     desired: Keyed, present: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> tuple[CfgChange, ...]:
-    """Changes from `present` to `desired`; what is only in `own_files` (deployed before) goes.
+    """Return changes from `present` to `desired`.
 
-    `before` has the instances from before the first deployment, as far as they were seen.
+    Instances only in `own_files` (deployed before) are deleted. `before` has the instances from
+    before the first deployment, as far as known.
     """
     result = []
     for key, instance in desired.items():
@@ -102,7 +115,7 @@ def compare(
 def without_used(
     desired: Keyed, present: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> Keyed:
-    """`desired`, with what somebody else has defined to the same end as it is."""
+    """Return `desired` with foreign definitions of equal effect unchanged."""
     result = {}
     for key, instance in desired.items():
         if _toward(key, instance, present, own_files, before)[0] != "use":
@@ -115,9 +128,10 @@ def without_used(
 def merged(
     present: CfgText, desired: Keyed, own_files: frozenset[str], before: Mapping[str, Json]
 ) -> CfgText:
-    """`present` with the wanted instances of its domain, and without those only in `own_files`.
+    """Return `present` with the wanted instances of its domain.
 
-    An instance of ours that was there before the first deployment gets its old attributes back.
+    Those only in `own_files` are deleted. An instance of ours that existed before the first
+    deployment gets its old attributes back.
     """
     domain = present.domain
     left = {key: i for key, i in desired.items() if key[0] == domain}
@@ -154,17 +168,20 @@ def merged(
 def is_controllers_own(
     key: Key, instance: Instance, before: Mapping[str, Json], *, uninstall: bool
 ) -> bool:
-    """Whether it is the controller's own and nothing says that a deployment brought it."""
+    """True if an instance is the controller's own.
+
+    No record says that a deployment added it.
+    """
     return is_delivered(key[1], instance) and not (uninstall and name_of(key) in before)
 
 
 def is_delivered(section: str, instance: Instance) -> bool:
-    """Whether a controller has such an instance before anybody adds one."""
+    """True if controllers are delivered with such an instance."""
     return section in _OWN or (section == "CAB_TASKS" and instance.flag("MotionTask"))
 
 
 def attributes_text(attributes: Iterable[Attribute]) -> str:
-    """Attributes the way a cfg file has them, on one line."""
+    """Return attributes as in a cfg file, on one line."""
     return " ".join(
         " ".join([f"-{a.name}", *(f'"{v}"' if isinstance(v, str) else str(v) for v in a.values)])
         for a in attributes
@@ -174,9 +191,10 @@ def attributes_text(attributes: Iterable[Attribute]) -> str:
 def remember(
     desired: Keyed, present: Keyed, before: Mapping[str, Json], own_files: frozenset[str]
 ) -> Members:
-    """`before` with an entry for each wanted instance: what was there first, or None.
+    """Return `before` with an entry for each wanted instance.
 
-    Of one that is ours without an entry nobody saw what was there first.
+    The entry is the original instance, or None. For an instance of ours without an entry the
+    original is unknown.
     """
     result = dict(before)
     for key in desired:
@@ -188,7 +206,7 @@ def remember(
 
 
 def _last(text: CfgText, section: Section) -> bool:
-    """Whether it is the last section of its name: there new instances go."""
+    """True for the last section of its name: new instances go there."""
     return [s for s in text.sections if s.name == section.name][-1] is section
 
 
@@ -199,7 +217,7 @@ def _toward(
     own_files: frozenset[str],
     before: Mapping[str, Json],
 ) -> tuple[CfgAction, str]:
-    """What becomes of a wanted instance, and why where a person has to know."""
+    """Return the change of a wanted instance, and a reason for the user."""
     other = present.get(key)
     if other is None:
         return _driven(key, instance, present, own_files)
@@ -211,21 +229,21 @@ def _toward(
         kind, needed = other.text("SignalType"), instance.text("SignalType")
         if kind.casefold() != needed.casefold():
             return "clash", f"{kind or 'of no type'} there, the driver needs {needed}"
-        return ("same" if _equal(instance, other) else "use"), "somebody else's, of the same kind"
+        return ("same" if _equal(instance, other) else "use"), "a foreign one of the same kind"
     return ("same" if _equal(instance, other) else "change"), ""
 
 
 def _driven(
     key: Key, instance: Instance, present: Keyed, own_files: frozenset[str]
 ) -> tuple[CfgAction, str]:
-    """A new system output, where somebody else's may drive the same signal already."""
+    """Return a new system output; a foreign one may drive the same signal."""
     if key[1] != "SYSSIG_OUT":
         return "add", ""
     signal = _signal(instance)
     for name, other in present.items():
         if name[1] == key[1] and _signal(other) == signal and name_of(name) not in own_files:
             if other.text("Status").casefold() == instance.text("Status").casefold():
-                return "use", f"somebody else's: {shown_key(key[1], other)}"
+                return "use", f"a foreign one: {shown_key(key[1], other)}"
             return "clash", f"driven by {other.text('Status')} there"
     return "add", ""
 
@@ -240,7 +258,7 @@ def _change(key: Key, instance: Instance, action: CfgAction, note: str = "") -> 
 
 
 def shown_key(section: str, instance: Instance) -> str:
-    """What tells an instance from the others of its section."""
+    """Return the identifying part of an instance within its section."""
     names = _KEYS.get(section)
     if names is None:
         name = instance.text("Name")
@@ -269,7 +287,10 @@ def _to_json(instance: Instance) -> list[Json]:
 
 
 def instance_from(data: Json) -> Instance:
-    """An instance as a manifest holds it. Raises TypeError or ValueError for anything else."""
+    """Parse an instance of a manifest.
+
+    Raises TypeError or ValueError for other data.
+    """
     attributes = []
     for name, values in map(items, items(data)):
         retained = tuple(v for v in items(values) if isinstance(v, str | int | float))

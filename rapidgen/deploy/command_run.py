@@ -1,4 +1,4 @@
-"""What the verbs have in common: the wanted set, plans of all targets, one question, the work."""
+"""Steps common to the commands: set, plans, confirmation, execution."""
 
 import json
 import sys
@@ -36,7 +36,10 @@ _LARGEST_PLAN = 100_000_000
 
 @dataclass(frozen=True, slots=True)
 class FleetJob:
-    """One verb on several controllers. `find` gives the set that has to lie on a controller."""
+    """One command on several controllers.
+
+    `find` returns the set for a controller.
+    """
 
     verb: Verb
     targets: tuple[Target, ...]
@@ -47,16 +50,19 @@ class FleetJob:
     backup: Path | None = None
     """A backup of the one controller, for what its transport does not see."""
     restart: bool = False
-    """Whether a controller may be restarted, warm."""
+    """True if a controller may be restarted, warm."""
     wait: float = 0.0
     """s for what only people do at a controller."""
     hello: Hello | None = None
-    """Which build serves a state port; looked at after a restart."""
+    """Returns the build that serves a state port, after a restart."""
     giving_up: Interruption = field(default_factory=Interruption)
     """Ctrl-C while plans are carried out."""
 
     def loaded(self) -> tuple[CfgText, ...]:
-        """What that backup says is loaded. Raises DiagnosticError RG536, RG701, RG702."""
+        """Return the loaded cfg of that backup.
+
+        Raises DiagnosticError RG536, RG701, RG702.
+        """
         if self.backup is None:
             return ()
         if len(self.targets) != 1:
@@ -70,7 +76,10 @@ class FleetJob:
 
 
 def desired_set(config: str, overrides: Sequence[str] = ()) -> DriverSet:
-    """The driver of a configuration or shipped name (built here), or of a generated folder."""
+    """Return the driver of a configuration, shipped name or generated folder.
+
+    The first two are built here.
+    """
     if (Path(config) / "manifest.json").is_file():
         return from_folder(Path(config))
     from rapidgen.config import load_config
@@ -90,7 +99,10 @@ def config_name(config: str) -> str:
 
 
 def plan_all(job: FleetJob) -> list[Plan]:
-    """Plans of all targets. Raises the faults of those that could not be planned, or RG113."""
+    """Return plans of all targets.
+
+    Raises the faults of those that could not be planned, or RG113.
+    """
 
     loaded = job.loaded()
 
@@ -112,8 +124,10 @@ def plan_all(job: FleetJob) -> list[Plan]:
 
 
 def _check_data(desired: DriverSet, backup: Path) -> None:
-    """Refuse a set that reads data or calls routines of a user's program that the backup does not
-    have (RG113, RG114)."""
+    """Refuse a set that the user's program of the backup does not fit.
+
+    It reads data (RG113) or calls routines (RG114) that are missing there.
+    """
     given = desired.generated.get("configuration")
     config = from_manifest(given) if given is not None else None
     if config is not None and any(
@@ -125,10 +139,10 @@ def _check_data(desired: DriverSet, backup: Path) -> None:
 
 
 def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
-    """Carry the plans out; a controller that has changed since refuses (RG522).
+    """Execute the plans; refuse a controller that has changed since (RG522).
 
-    Where somebody is giving up nothing more is begun: see the outcomes. KeyboardInterrupt does the
-    same, and nobody hears of the outcomes.
+    After an interruption no further target is started: see the outcomes. KeyboardInterrupt does the
+    same and is raised without outcomes.
     """
     by_target = dict(zip(job.targets, plans, strict=True))
     giving_up = job.giving_up
@@ -168,29 +182,38 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
 
 
 def refuse_conflicts(job: FleetJob, plans: Sequence[Plan]) -> None:
-    """RG520, RG521, RG531, RG534 to RG537 of all targets, before anything is changed on any."""
+    """Raise conflicts of all targets before any of them is changed.
+
+    RG520, RG521, RG531, RG534 to RG537.
+    """
     result = [d for plan in plans for d in conflicts_of(plan, overwrite=job.overwrite)]
     if result:
         raise DiagnosticError(result, exit_code=1)
 
 
 def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
-    """The one question. Raises DiagnosticError RG533 when the answer is no, or none can be had."""
+    """Ask for confirmation.
+
+    Raises DiagnosticError RG533 if the answer is no, or there is none.
+    """
     if yes:
         return
     if not sys.stdin.isatty():
         raise refusal(
             "RG533",
             None,
-            "nobody is there to answer: nothing was changed",
-            f"it would have been asked: {question} Where that is right, say --yes",
+            "there is no terminal to confirm on: nothing was changed",
+            f"the question is: {question} To answer yes, add --yes",
         )
     if not ask(question):
-        raise refused("RG533", "not confirmed: nothing was changed", "run it again to be asked")
+        raise refused("RG533", "not confirmed: nothing was changed", "run it again to confirm")
 
 
 def history(target: Target, access: Access, name: str) -> tuple[StoredSet, ...]:
-    """Backups on a controller, the oldest first. Raises DiagnosticError RG524, RG529, RG531."""
+    """Return backups on a controller, the oldest first.
+
+    Raises DiagnosticError RG524, RG529, RG531.
+    """
     with connected(target, access) as transport:
         plan = make_plan(transport, None, verb="rollback")
         _check_name(plan, name)
@@ -198,9 +221,10 @@ def history(target: Target, access: Access, name: str) -> tuple[StoredSet, ...]:
 
 
 def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSet | None:
-    """The set to go back to: that of backup `number`, or the one before the last deployment.
+    """Return the earlier set.
 
-    After a cut it is the set from before it (None when there was none). Raises RG528.
+    It is that of backup `number`, or the one before the last deployment. After an interruption it
+    is the set from before it (None if there was none). Raises RG528.
     """
     home = find_layout(transport).home
     plan = make_plan(transport, None, verb="rollback")
@@ -216,8 +240,8 @@ def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSe
     if not past:
         raise refused(
             "RG528",
-            f"{plan.target}: no earlier set is kept there",
-            "`rapidgen uninstall` goes back to the state before the first deployment",
+            f"{plan.target}: there is no earlier set",
+            "`rapidgen uninstall` restores the state before the first deployment",
         )
     return backup_set(transport, home, past[-1].id)
 
@@ -229,10 +253,10 @@ def write_plans(path: Path, plans: Sequence[Plan]) -> None:
 
 
 def check_plans(path: Path, plans: Sequence[Plan]) -> None:
-    """That the plans made now are those in the file, one by one.
+    """Check that new plans equal those in the file, one by one.
 
     Raises DiagnosticError RG523 (not a plan, of another robot or build), RG522 (the controller
-    moved on), RG540 (another controller).
+    changed), RG540 (another controller).
     """
     try:
         stored = json.loads(read_foreign(path, _LARGEST_PLAN).decode())["plans"]
@@ -258,7 +282,7 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
 
 
 def save_edits(plans: Sequence[Plan], folder: Path) -> list[Path]:
-    """Copies of hand edits that `uninstall --overwrite` is about to take away, on this machine."""
+    """Copy local changes that `uninstall --overwrite` removes to this machine."""
     saved = []
     for plan in plans:
         for change in plan.conflicts:
@@ -277,7 +301,10 @@ def save_neighbours(plans: Sequence[Plan], folder: Path) -> list[Path]:
 
 
 def _keep(path: Path, data: bytes) -> Path:
-    """Where the copy lies now: under a name of its own (`SYS-2.cfg`) beside one that is another."""
+    """Return the path of the copy.
+
+    It gets its own name (`SYS-2.cfg`) if another copy exists.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     place, number = path, 1
     while place.exists() and not _is_same(place, data):
@@ -288,7 +315,7 @@ def _keep(path: Path, data: bytes) -> Path:
 
 
 def _is_same(place: Path, data: bytes) -> bool:
-    """Whether a file has these bytes; what cannot be read is something else."""
+    """True if a file has these bytes; an unreadable one counts as different."""
     try:
         return read_foreign(place, len(data)) == data
     except OSError:

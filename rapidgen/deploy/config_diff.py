@@ -1,4 +1,4 @@
-"""What differs between two configurations, in the keys and units that people write."""
+"""Differences of two configurations, in the keys and units of users."""
 
 from collections.abc import Iterator
 from math import degrees
@@ -21,8 +21,10 @@ _NOT_SET = ("source", "unsure")
 
 
 def changed_keys(old: Json, new: Json) -> list[str]:
-    """`state.rate: 10 → 20` for each key of two models as manifests have them; a line says how
-    many more there are."""
+    """Return `state.rate: 10 → 20` for each changed key of two models.
+
+    The models are as in manifests; a last line gives the number of further ones.
+    """
     before, after = dict(_leaves(old)), dict(_leaves(new))
     keys = [key for key in {**before, **after} if before.get(key) != after.get(key)]
     text = [f"{k}: {before.get(k, 'none')} → {after.get(k, 'none')}" for k in keys[:_SHOWN]]

@@ -1,4 +1,4 @@
-"""What stands between a driver and a controller: looked at from outside, nothing changed."""
+"""Checks between a driver and a controller, from outside and read-only."""
 
 import socket
 from collections import Counter
@@ -29,17 +29,23 @@ from rapidgen.wire.simple_message.spec import Reason
 Verdict = Literal["ok", "warn", "fail", "unknown"]
 
 Hello = Callable[[str, int], str | None]
-"""BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
+"""Returns BUILD_ID of the driver at a state port, or None.
 
-Told = Callable[[str, int], Reason | None]
-"""The error that the driver at a state port tells; None: none. OSError: nobody."""
+None: another program answers. Raises OSError: no answer.
+"""
+
+GetError = Callable[[str, int], Reason | None]
+"""Returns the error that the driver at a state port reports, or None.
+
+Raises OSError: no answer.
+"""
 
 _FEATURES = ("623-1 Multitasking", "616-1 PC Interface")
 
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One thing that was looked at, and the mend where it is not ok."""
+    """One check, and the help if it is not ok."""
 
     area: str
     verdict: Verdict
@@ -53,14 +59,15 @@ def run_checks(
     desired: DriverSet,
     *,
     hello: Hello,
-    text: Told = lambda _host, _port: None,
+    text: GetError = lambda _host, _port: None,
     robot_host: str = "",
     backup: Path | None = None,
     timeout: float = 2.0,
 ) -> tuple[Check, ...]:
-    """All checks of one controller. `robot_host` is where its ports are, if not the URL's host.
+    """Run all checks of one controller.
 
-    `backup` says what is loaded where that is not seen. Raises DiagnosticError RG536, RG701, RG702.
+    `robot_host` is the host of its ports, if it is not the URL's. `backup` says what is loaded if
+    that is not visible. Raises DiagnosticError RG536, RG701, RG702.
     """
     loaded = loaded_cfg(backup) if backup is not None else ()
     host = robot_host or target.host
@@ -80,7 +87,7 @@ def run_checks(
 
 
 def _running(
-    host: str, desired: DriverSet, hello: Hello, text: Told, timeout: float
+    host: str, desired: DriverSet, hello: Hello, text: GetError, timeout: float
 ) -> Iterator[Check]:
     groups = members(desired.generated.get("groups") or {})
     if not host:
@@ -94,7 +101,7 @@ def _running(
                 result = _state_port(where, host, port, desired.build_id, hello)
                 yield result
                 if result.verdict != "unknown":
-                    yield from _told_error(where, host, port, text)
+                    yield from _driver_error(where, host, port, text)
                 continue
             try:
                 socket.create_connection((host, port), timeout).close()
@@ -135,15 +142,15 @@ def _state_port(where: str, host: str, port: int, build: str, hello: Hello) -> C
     return Check("driver", "ok", f"{where}: build {running} runs")
 
 
-def _told_error(where: str, host: str, port: int, told: Told) -> Iterator[Check]:
+def _driver_error(where: str, host: str, port: int, get_error: GetError) -> Iterator[Check]:
     """An error of the driver that does not go away by itself."""
     try:
-        reason = told(host, port)
+        reason = get_error(host, port)
     except OSError:
-        return  # it has gone since it told its build
+        return  # it disconnected after sending its build
     fix = fix_of(reason, "")
     if reason is not None and fix:
-        yield Check("driver", "fail", f"{where}: {reason.text}, nothing moves", fix)
+        yield Check("driver", "fail", f"{where}: {reason.text}, no motion is possible", fix)
 
 
 def _default_login(target: Target, access: Access) -> Iterator[Check]:
@@ -195,28 +202,28 @@ def _contents(
         yield Check(
             "deployment",
             "warn",
-            f"build {plan.had.build_id} lies there, the configuration gives {desired.build_id}",
+            f"build {plan.had.build_id} is installed, the configuration gives {desired.build_id}",
             "`rapidgen plan` shows the difference",
         )
     for change in plan.conflicts:
-        what = {"edited": "edited by hand", "stranger": "a stranger's file"}.get(
+        what = {"edited": "changed locally", "stranger": "a stranger's file"}.get(
             change.conflict, change.doubt
         )
-        yield Check("files", "fail", f"{change.shown}: {what}", "`rapidgen plan` says more")
+        yield Check("files", "fail", f"{change.shown}: {what}", "`rapidgen plan` has details")
     yield from _clashes(transport, plan, desired)
-    yield from _beside(plan)
+    yield from _other_driver_check(plan)
     yield from _configuration(plan, desired)
     yield _space(transport, desired)
 
 
 def _live(plan: Plan, live: OnlinePlan, generation: Generation) -> Iterator[Check]:
-    """What only web services tell."""
+    """Return the checks that need web services."""
     yield Check("controller", "ok", f"{live.shown}, id {live.id}")
     if live.mode != "AUTO":
-        help = "switch it to automatic at the pendant: nobody writes from afar before"
+        help = "switch it to automatic at the pendant: remote writing needs it"
         yield Check("mode", "warn", f"it is {live.mode}", help)
     if live.running:
-        help = f"it has to stand for a restart: `rapidgen stop-program {plan.target}`"
+        help = f"it must be stopped for a restart: `rapidgen stop-program {plan.target}`"
         yield Check("program", "warn", "it runs", help)
     for module in live.clash:
         help = "unload it, or `rapidgen deploy --overwrite`, which saves it first"
@@ -226,19 +233,19 @@ def _live(plan: Plan, live: OnlinePlan, generation: Generation) -> Iterator[Chec
         help = "RobotStudio, User Authorization: give it to this user, or log in as another"
         yield Check("grants", "warn", f"the user lacks {', '.join(lacking)}", help)
     if live.silent:
-        what = f"{', '.join(live.silent)} of the driver stand: its ports do not answer"
+        what = f"{', '.join(live.silent)} of the driver are stopped: its ports do not answer"
         yield Check("tasks", "fail", what, "`rapidgen deploy --restart`, or menu > Restart")
     if plan.is_pending:
         help = "`rapidgen deploy --restart`, or menu > Restart"
         yield Check("restart", "warn", "everything is loaded: a restart is pending", help)
     elif live.orphans:
-        what = f"{', '.join(live.orphans)} was taken out of cfg: a restart is pending"
+        what = f"{', '.join(live.orphans)} was deleted from cfg: a restart is pending"
         help = "`rapidgen uninstall --restart`, or menu > Restart"
         yield Check("restart", "warn", what, help)
 
 
 def _clashes(transport: Transport, plan: Plan, desired: DriverSet) -> Iterator[Check]:
-    """Modules beside ours with a name of ours, or with a main routine."""
+    """Return foreign modules with a name of ours, or with a main routine."""
     home = plan.layout.home
     own_files = {c.where for c in plan.changes}
     names = {m[1].lower() for f in desired.files if (m := MODULE.search(f.data))}
@@ -343,7 +350,7 @@ def _configuration(plan: Plan, desired: DriverSet) -> Iterator[Check]:
     )
 
 
-def _beside(plan: Plan) -> Iterator[Check]:
+def _other_driver_check(plan: Plan) -> Iterator[Check]:
     if plan.neighbour is None:
         return
     names = [n.shown for n in plan.neighbour.instances]
@@ -351,7 +358,7 @@ def _beside(plan: Plan) -> Iterator[Check]:
         "drivers",
         "fail" if names else "warn",
         f"another driver is there: {'; '.join(names or plan.neighbour.files)}",
-        "`rapidgen plan` has the steps by which it goes; both together do not load",
+        "`rapidgen plan` has the steps to remove it; both together do not load",
     )
 
 
@@ -359,7 +366,7 @@ def _space(transport: Transport, desired: DriverSet) -> Check:
     needed = 3 * sum(len(f.data) for f in desired.files)
     free = transport.free()
     if free is None:
-        return Check("disk", "unknown", f"{needed // 1000} kB needed, free space is not told")
+        return Check("disk", "unknown", f"{needed // 1000} kB needed, the free space is unknown")
     if free < needed:
         return Check("disk", "fail", f"{free} bytes free, {needed} needed", "delete old backups")
     return Check("disk", "ok", f"{free // 1_000_000} MB free")

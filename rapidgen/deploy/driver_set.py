@@ -1,4 +1,4 @@
-"""The set of files that belongs on a controller, made from a generated folder's files."""
+"""Set of files for a controller, made from a generated folder."""
 
 import hashlib
 import json
@@ -17,18 +17,18 @@ from rapidgen.system.paths import read_limited
 Kind = Literal["module", "cfg"]
 
 STATE = "rapidgen_deploy"
-"""Folder in HOME that a deployment keeps for itself (no dot: some FTP servers hide those)."""
+"""Folder in HOME for a deployment (no dot: some FTP servers hide those)."""
 
 NEW, FENCE = ".rg-new", ".rg-fence"
 """Suffixes of staged files."""
 
 INCOMPLETE = b"incomplete--"
-"""Stands for BUILD_ID in a fence; as long as one, and equal to none."""
+"""Placeholder of BUILD_ID in a fence: as long, and different from all."""
 
 
 @dataclass(frozen=True, slots=True)
 class SetFile:
-    """One file as it has to lie on the controller; `path` is relative to HOME."""
+    """One file for the controller; `path` is relative to HOME."""
 
     path: str
     data: bytes
@@ -42,7 +42,7 @@ class SetFile:
 
 @dataclass(frozen=True, slots=True)
 class DriverSet:
-    """A complete driver: modules and cfg files, in the order in which they are written."""
+    """A complete driver: modules and cfg files, in the order of writing."""
 
     name: str
     build_id: str
@@ -78,9 +78,10 @@ def digest(data: bytes) -> str:
 
 
 def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> DriverSet:
-    """The set that the files of a generated folder make (keys as in manifest.json, and itself).
+    """Return the set of a generated folder's files.
 
-    Raises DiagnosticError RG530 when files and manifest do not belong together.
+    Keys are as in manifest.json, which is included. Raises DiagnosticError RG530 if files and
+    manifest do not belong together.
     """
     try:
         manifest = json.loads(files["manifest.json"])
@@ -91,7 +92,7 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
                 continue
             data = files[path]
             if digest(data) != entry["sha256"]:
-                raise _bad(f"{path} of {source} is not what its manifest says", "build it again")
+                raise _bad(f"{path} of {source} does not match its manifest", "build it again")
             where = path.removeprefix("HOME/") if kind == "module" else f"{STATE}/{path}"
             tasks = tuple(str(task) for task in entry.get("task") or ())
             desired.append(
@@ -121,7 +122,10 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
 
 
 def from_folder(folder: Path) -> DriverSet:
-    """The set in a generated folder. Raises DiagnosticError RG530, RG704, RG711."""
+    """Return the set of a generated folder.
+
+    Raises DiagnosticError RG530, RG704, RG711.
+    """
     manifest = read_manifest(folder)
     files = {"manifest.json": read_limited(folder / "manifest.json", below=folder)}
     for entry in items(manifest["files"]):

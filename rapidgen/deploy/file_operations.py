@@ -1,4 +1,7 @@
-"""The small steps of one run: verified writing, switching by what the server can, deleting."""
+"""Steps of one run: verified writing, switching, deleting.
+
+Switching uses what the server supports.
+"""
 
 import logging
 from collections.abc import Callable, Iterable
@@ -12,14 +15,14 @@ from rapidgen.deploy.transports.transport import Transport, TransportFault, pare
 _LOG = logging.getLogger("rapidgen.deploy")
 
 Rename = Literal["replace", "move", "none"]
-"""rename() replaces an existing file; or only takes a free name; or does not work."""
+"""rename() replaces an existing file, only takes a free name, or fails."""
 
 Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
 class FileOperations:
-    """What every part of one run needs to know."""
+    """Data that every part of one run needs."""
 
     transport: Transport
     plan: Plan
@@ -28,7 +31,10 @@ class FileOperations:
     made: set[str] = field(default_factory=set)
     """Folders that are known to be there."""
     given_up: Callable[[], bool] = lambda: False
-    """Whether somebody wants it ended; asked only while that leaves everything as it was."""
+    """True if the user wants to end.
+
+    Checked only while an end leaves everything unchanged.
+    """
 
     @property
     def home(self) -> str:
@@ -69,7 +75,7 @@ def swap(work: FileOperations, where: str, suffix: str, data: bytes, *, exists: 
 
 
 def delete(work: FileOperations, path: str) -> None:
-    """Delete a file that may be gone already."""
+    """Delete a file that may be missing."""
     try:
         work.transport.delete(path)
         _LOG.info("%s: deleted %s", work.plan.target, path)
@@ -102,7 +108,7 @@ def delete_folder(work: FileOperations, folder: str) -> None:
 
 
 def names(transport: Transport, folder: str) -> frozenset[str]:
-    """Names in a folder; none where there is no folder."""
+    """Return names in a folder; none if it is missing."""
     try:
         return frozenset(e.name for e in transport.entries(folder))
     except TransportFault as fault:
@@ -112,7 +118,7 @@ def names(transport: Transport, folder: str) -> frozenset[str]:
 
 
 def probe(transport: Transport, folder: str) -> Rename:
-    """Try on two files of our own what rename() does here. Leaves nothing behind."""
+    """Test rename() on two temporary files and remove them."""
     one, two = f"{folder}/probe.one", f"{folder}/probe.two"
     try:
         transport.write(one, b"new")
@@ -146,11 +152,11 @@ def _forget(transport: Transport, folder: str, members: tuple[str, ...]) -> None
 
 
 def check_not_interrupted(work: FileOperations) -> None:
-    """Raises TransportFault RG545 when somebody has given up."""
+    """Raise TransportFault RG545 if the user has interrupted the run."""
     if work.given_up():
         raise TransportFault(
             "denied",
-            f"{work.plan.target}: given up before anything was switched, all is as it was",
+            f"{work.plan.target}: interrupted before any file was switched, all is as it was",
             code="RG545",
             help="run the same command again",
         )

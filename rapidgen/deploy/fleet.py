@@ -1,4 +1,4 @@
-"""The same work on several controllers, some at a time, stopping at the first failure."""
+"""Parallel work on several controllers, ended by the first failure."""
 
 import contextlib
 import threading
@@ -23,7 +23,7 @@ Word = Literal["done", "same", "failed", "given up", "not begun"]
 
 @dataclass(frozen=True, slots=True)
 class TargetOutcome:
-    """What became of one controller."""
+    """Result of one controller."""
 
     target: Target
     word: Word
@@ -49,9 +49,10 @@ def parse_targets(urls: Iterable[str]) -> tuple[Target, ...]:
 
 
 class Interruption:
-    """Ctrl-C while work is under way: no other is begun, and `say` hears of it, each time.
+    """Ctrl-C during work: no other target is started.
 
-    `begin` is for a thread or an exception, not for a signal's handler: it takes a lock.
+    `say` is called for each. `begin` is for a thread or an exception, not for a signal's handler:
+    it takes a lock.
     """
 
     def __init__(self, say: Callable[[str], None] = lambda _: None) -> None:
@@ -62,9 +63,9 @@ class Interruption:
         return self._event.is_set()
 
     def begin(self) -> None:
-        """Somebody has given up."""
+        """Record that the user has interrupted the work."""
         self._event.set()
-        self._say("given up: what is being switched is switched first, nothing else is begun")
+        self._say("interrupted: switching ends first, no other target is started")
 
 
 def on_all(
@@ -74,10 +75,10 @@ def on_all(
     parallel: int,
     giving_up: Interruption | None = None,
 ) -> list[T | DiagnosticError | None]:
-    """`work` on each target, `parallel` at a time; None for those that were not begun.
+    """Run `work` on each target, `parallel` at a time; None: not started.
 
-    After the first DiagnosticError no further target is begun; those under way end. So it is where
-    somebody is `giving_up`, and with KeyboardInterrupt, which is raised then.
+    After the first DiagnosticError no further target is started; active ones end. The same holds if
+    `giving_up` returns true, and for KeyboardInterrupt, which is raised then.
     """
     stop = threading.Event()
     given_up = Interruption() if giving_up is None else giving_up
@@ -96,7 +97,7 @@ def on_all(
             futures = [pool.submit(guarded, target) for target in targets]
             wait(futures)
         except KeyboardInterrupt:
-            # Wherever it came: leaving the pool waits for what is under way, and begins the rest.
+            # At any point: leaving the pool waits for active targets, and would start the others.
             given_up.begin()
             raise
     return [future.result() for future in futures]

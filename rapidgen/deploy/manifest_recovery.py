@@ -1,4 +1,4 @@
-"""A damaged manifest: what can still be said of a controller, from its backups and its files."""
+"""Recovery of a damaged manifest from backups and files."""
 
 import json
 from dataclasses import replace
@@ -9,10 +9,11 @@ from rapidgen.deploy.transports.transport import Transport, TransportFault, read
 
 
 def recovered_manifest(transport: Transport, home: str, desired: DriverSet) -> Manifest:
-    """A manifest for what lies there: the newest whole backup's, with the files as they are now.
+    """Return a manifest for the current files.
 
-    What lies at the places of the wanted set is taken for ours: the next backup keeps all of it.
-    Without a backup nobody knows what was there before the first deployment. Raises TransportFault.
+    It is that of the newest complete backup, with the files as they are now. Files at the paths of
+    the wanted set count as ours: the next backup keeps all of them. Without a backup the state
+    before the first deployment is unknown. Raises TransportFault.
     """
     backups = _backups(transport, home)
     numbers = sorted(backups)
@@ -34,7 +35,10 @@ def recovered_manifest(transport: Transport, home: str, desired: DriverSet) -> M
 
 
 def copies(transport: Transport, home: str) -> int:
-    """Number from which copies of strangers' files are free to be named. Raises TransportFault."""
+    """Return the first free number for copies of foreign files.
+
+    Raises TransportFault.
+    """
     result = [int(n.partition(".")[0]) for n in _names(transport, f"{home}{STATE}/backup/origin")]
     return max(result, default=-1) + 1
 
@@ -51,7 +55,7 @@ def _backups(transport: Transport, home: str) -> dict[int, Manifest]:
 
 
 def _names(transport: Transport, folder: str) -> list[str]:
-    """Names that begin with a number; none where there is no folder."""
+    """Return names that begin with a number; none without a folder."""
     try:
         return [e.name for e in transport.entries(folder) if e.name.partition(".")[0].isdecimal()]
     except TransportFault as fault:

@@ -1,9 +1,9 @@
-"""What files alone do not do: loading parameters, restarts, and who does it where.
+"""Manual steps of a deployment: loading parameters, restarts.
 
-Which restart makes a task read its modules again follows the task's type: a SEMISTATIC task
-starts from the beginning at every restart and reads its modules then [manual]; a STATIC one goes
-on where it was and needs its program reset; modules of NORMAL tasks that CAB_TASK_MODULES names
-are loaded at a restart when the file is newer ([mem]). Nothing here restarts anything.
+The type of a task decides which restart makes it read its modules again: a SEMISTATIC task starts
+from the beginning at every restart and reads its modules then [manual]; a STATIC one continues and
+needs its program reset; modules of NORMAL tasks that CAB_TASK_MODULES names are loaded at a restart
+if the file is newer ([mem]). This module restarts nothing.
 """
 
 from collections.abc import Sequence
@@ -22,12 +22,15 @@ _TOPICS = {
     "SYSSIG_OUT": "I/O System > System Output",
     "FIREWALL_MANAGEMENT": "Communication > Firewall Manager",
 }
-"""Topic and type: the first two from abb_driver's page, the last from ABB's, others [mem]."""
+"""Topic and type of each domain.
+
+The first two from abb_driver's page, the last from ABB's, others [mem].
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class ManualStep:
-    """One thing that a person does; `stops_motion` means that every motion ends with it."""
+    """One manual step; `stops_motion` means that every motion ends."""
 
     who: str
     what: str
@@ -36,10 +39,10 @@ class ManualStep:
 
 CFG_FIRST = ManualStep(
     "you",
-    "have the instances below deleted and the controller restarted before the files go: else it "
-    "starts with tasks whose modules are missing; a new backup shows it (--backup)",
+    "have the instances below deleted and the controller restarted before the files are removed: "
+    "else it starts with tasks whose modules are missing; a new backup shows it (--backup)",
 )
-"""Of an uninstall, where what is loaded is not seen or was still there."""
+"""Notes of an uninstall if loaded cfg is unknown or still present."""
 
 
 def steps_of(
@@ -51,10 +54,11 @@ def steps_of(
     gone: bool,
     written: bool,
 ) -> tuple[ManualStep, ...]:
-    """Steps after the files have been switched; none where nothing loaded changes.
+    """Return steps after the switch; none if no loaded file changes.
 
-    `modules` are the new and changed ones with their tasks, `gone` that some went, `desired` and
-    `old` the cfg files of the new and the last set, `written` that SYSPAR itself was changed.
+    `modules` are the new and changed ones with their tasks, `gone` that some were deleted,
+    `desired` and `old` the cfg files of the new and the last set, `written` that SYSPAR itself was
+    changed.
     """
     steps = [] if written else [*_delete(cfg), *_load(cfg, desired), *_give_back(cfg)]
     types = {
@@ -88,7 +92,7 @@ def steps_of(
 
 
 def _files(names: Sequence[str]) -> str:
-    """One by its name, more by their number: the plan tells which files change."""
+    """Return one file by name, several by their number; the plan lists them."""
     return names[0] if len(names) == 1 else f"{len(names)} files"
 
 
@@ -138,8 +142,10 @@ def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
 
 
 def _by_file(names: Sequence[str]) -> list[str]:
-    """`FILE TASK` of many as `FILE, FILE in TASK, TASK`: files of the same tasks together, their
-    folder once, before them."""
+    """Return `FILE TASK` of many as `FILE, FILE in TASK, TASK`.
+
+    Files of the same tasks are grouped, their folder is given once.
+    """
     files: dict[str, list[str]] = {}
     for name in names:
         file, _, task = name.partition(" ")
@@ -155,7 +161,10 @@ def _by_file(names: Sequence[str]) -> list[str]:
 
 
 def _load(cfg: Sequence[CfgChange], desired: Sequence[CfgText]) -> list[ManualStep]:
-    """Files that hold something new. Adding refuses what is there already (120006 [real 6.03])."""
+    """Return files with new instances.
+
+    Adding refuses existing ones (120006 [real 6.03]).
+    """
     changes = {(c.domain, c.key): c for c in cfg}
     steps = []
     # Signals come before what names them.
@@ -174,7 +183,7 @@ def _load(cfg: Sequence[CfgChange], desired: Sequence[CfgText]) -> list[ManualSt
         what += f"Control Panel > Configuration > File > Load parameters {mode}"
         foreign = [c.key.partition(" ")[2] for c in own if c.action == "use"]
         if foreign:
-            what += f"; in a copy without {', '.join(foreign)}: somebody else's, used as they are"
+            what += f"; in a copy without {', '.join(foreign)}: foreign instances, used as they are"
         if is_unconfirmed(text):
             what += "; it may be refused: leave it out, the driver serves and stops without it"
         steps.append(ManualStep("pendant", what))

@@ -1,10 +1,10 @@
-"""Another driver on the same controller: which cfg instances have to go before ours is loaded.
+"""Another driver on the controller, and its conflicting cfg instances.
 
-abb_driver's modules have names of ours (ROS_common, ROS_socket, ROS_messages, ROS_motion, ...),
-and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]. Which of two
-modules of one name a task gets nobody has told; that both give it their data is 40160 and a task
-that does not run [VC 6.15]. The same is true of a driver that was copied there by hand. Its files
-are never touched.
+They have to be deleted before ours is loaded. abb_driver's modules have names of ours (ROS_common,
+ROS_socket, ROS_messages, ROS_motion, ...), and three of them are loaded into every task [backup
+6.06 with abb_driver: `-AllTask`]. It is not documented which of two modules of one name a task
+gets; if both declare its data the result is 40160 and a task that does not run [VC 6.15]. The same
+holds for a driver that was copied there manually. Its files are never changed.
 """
 
 import re
@@ -33,7 +33,7 @@ class ForeignInstance:
 
     @property
     def shown(self) -> str:
-        """As plans name it, with who loads it where that is not one task."""
+        """Its name in plans, with its tasks unless there is only one."""
         every = [a for a in self.instance.attributes if a.name.casefold().startswith("all")]
         name = shown_key(self.section, self.instance)
         return f"{self.section} {name} {attributes_text(every)}".strip()
@@ -41,14 +41,17 @@ class ForeignInstance:
 
 @dataclass(frozen=True, slots=True)
 class OtherDriver:
-    """Another driver. Without `instances` only its files are seen: what is loaded is not."""
+    """Another driver.
+
+    Without `instances` only its files are visible: loaded cfg is not.
+    """
 
     instances: tuple[ForeignInstance, ...]
     files: tuple[str, ...]
     """Paths in HOME."""
 
     def texts(self, present: Sequence[CfgText]) -> tuple[CfgText, ...]:
-        """cfg files that, loaded, bring the other driver's instances back."""
+        """Return cfg files that restore the other driver's instances."""
         result = []
         for text in present:
             own = [n for n in self.instances if n.domain == text.domain]
@@ -63,22 +66,24 @@ class OtherDriver:
 
 @dataclass(frozen=True, slots=True)
 class OwnContents:
-    """What is ours: module names with their tasks, cfg instances, and paths in HOME."""
+    """Our names: modules with tasks, cfg instances, and paths in HOME."""
 
     modules: dict[str, frozenset[str]]
     instances: frozenset[str]
     paths: frozenset[str]
     tasks: frozenset[str] = frozenset()
-    """Background tasks that no deployment has brought yet, without case: one that is there with a
-    module of its own is somebody else's."""
+    """Background tasks that no deployment has added yet, without case.
+
+    An existing one with a module of its own is foreign.
+    """
 
 
 def find_other_driver(
     transport: Transport, home: str, present: Sequence[CfgText], own: OwnContents
 ) -> OtherDriver | None:
-    """The other driver, if there is one. `present` is empty where loaded cfg is not seen.
+    """Return the other driver, if there is one.
 
-    Raises TransportFault.
+    `present` is empty if loaded cfg is not visible. Raises TransportFault.
     """
     if not present:
         lying = _files(transport, home, own)
@@ -113,10 +118,10 @@ def find_other_driver(
 
 
 def in_memory(transport: Transport, modules: dict[str, frozenset[str]]) -> tuple[str, ...]:
-    """Modules with names of ours that a backup holds as its programs: RAPID/TASKn/PROGMOD, SYSMOD.
+    """Return modules of a backup's programs with names of ours.
 
-    They were in the tasks' memory when it was made [backup 6.06], and are what it restores, not
-    the files in HOME. Raises TransportFault.
+    They are in RAPID/TASKn/PROGMOD or SYSMOD. They were in the tasks' memory when the backup was
+    made [backup 6.06], and it restores them, not the files in HOME. Raises TransportFault.
     """
     result = []
     for folder in _folders(transport, "", "rapid"):
@@ -138,8 +143,11 @@ def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
 
 
 def _is_other(row: Instance, source: bytes | None, own: OwnContents) -> bool:
-    """Whether a row of CAB_TASK_MODULES loads abb_driver, a name of ours into a task of ours, or
-    anything into a task that has only its name from us."""
+    """True if a row of CAB_TASK_MODULES belongs to another driver.
+
+    It loads abb_driver, a name of ours into a task of ours, or anything into a task that shares
+    only its name with ours.
+    """
     match = MODULE.search(source or b"")
     stem = row.text("File").replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
     name = match[1].decode("latin-1") if match else row.text("ModName") or stem
@@ -152,7 +160,7 @@ def _is_other(row: Instance, source: bytes | None, own: OwnContents) -> bool:
 
 
 def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset[str]:
-    """Background tasks into which nothing else is loaded by name."""
+    """Return background tasks without other modules by name."""
     retained = {r.text("Task").casefold() for r in rows if r not in out}
     gone = {r.text("Task").casefold() for r in out} - retained - {""}
     motion = {
@@ -164,9 +172,9 @@ def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset
 
 
 def _files(transport: Transport, home: str, own: OwnContents) -> tuple[str, ...]:
-    """Modules in HOME and its folders that are not ours and have a name of ours or abb_driver's.
+    """Return foreign modules in HOME with a name of ours or abb_driver's.
 
-    Its page says HOME:/ROS; nothing keeps them from lying elsewhere.
+    Folders of HOME are included: abb_driver's page says HOME:/ROS, other places are possible.
     """
     result = []
     top = transport.entries(home.rstrip("/"))
@@ -183,7 +191,7 @@ def _files(transport: Transport, home: str, own: OwnContents) -> tuple[str, ...]
 
 
 def _names(transport: Transport, folder: str) -> tuple[str, ...]:
-    """Names in what may be a folder: not every server tells."""
+    """Return names in a possible folder; some servers do not report it."""
     try:
         return tuple(entry.name for entry in transport.entries(folder))
     except TransportFault as fault:

@@ -1,6 +1,6 @@
-"""What a deployment would do: files, cfg instances, restarts, and what is left to people.
+"""Plan of a deployment: files, cfg instances, restarts, manual steps.
 
-planning.py makes one, apply.py carries it out.
+planner.py makes one, apply.py executes it.
 """
 
 import difflib
@@ -21,17 +21,20 @@ DAMAGED = (
     "`rapidgen deploy ... --overwrite` writes a new one: the newest backup's, with the files as "
     "they lie there now; a backup keeps all of them"
 )
-"""The way out of RG531."""
+"""Help of RG531."""
 
 Verb = Literal["deploy", "rollback", "uninstall"]
 Action = Literal["add", "change", "same", "remove", "restore"]
 Conflict = Literal["", "edited", "stranger", "kept"]
-"""`kept`: the copy of what was there before the first deployment is damaged or gone."""
+"""`kept`: the copy from before the first deployment is damaged or missing."""
 
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Where things lie below the URL's folder: `home` is '' or 'HOME/', `syspar` '' or a folder."""
+    """Layout below the URL's folder.
+
+    `home` is '' or 'HOME/', `syspar` is '' or a folder.
+    """
 
     home: str
     syspar: str
@@ -39,7 +42,10 @@ class Layout:
 
 @dataclass(frozen=True, slots=True)
 class FileChange:
-    """One file. `path` is in HOME (or the SYSPAR file's own), `where` below the URL's folder."""
+    """Change of one file.
+
+    `path` is in HOME (or the SYSPAR file's own), `where` below the URL's folder.
+    """
 
     path: str
     where: str
@@ -50,7 +56,7 @@ class FileChange:
     after: bytes | None = field(default=None, repr=False)
     conflict: Conflict = ""
     foreign: bool = False
-    """A stranger's file lies there and will be kept for `uninstall`."""
+    """True if a foreign file is there; it is kept for `uninstall`."""
     note: str = ""
 
     @property
@@ -59,7 +65,7 @@ class FileChange:
         if self.conflict == "kept":
             return f"the copy of what was there before the first deployment is {self.note}"
         if self.conflict == "edited":
-            return f"edited by hand since the last deployment{': ' * bool(self.note)}{self.note}"
+            return f"changed locally since the last deployment{': ' * bool(self.note)}{self.note}"
         return "not put there by rapidgen" if self.conflict else ""
 
     @property
@@ -79,7 +85,7 @@ class FileChange:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Everything that would be done, and the state of the controller it is true for."""
+    """All changes, and the state of the controller for which they hold."""
 
     verb: Verb
     target: str
@@ -102,22 +108,28 @@ class Plan:
     repair: bool = False
     """A run was cut while it switched files."""
     origin: Mapping[str, FileRecord] = field(default_factory=dict, repr=False)
-    """Copies of strangers' files, by path."""
+    """Copies of foreign files, by path."""
     cfg_before: Mapping[str, Json] = field(default_factory=dict, repr=False)
     cfg_present: tuple[CfgText, ...] = field(default=(), repr=False)
     """Loaded cfg: SYSPAR, or that of a backup; empty where it is not seen."""
     cfg_ours: frozenset[str] = field(default=frozenset(), repr=False)
-    """cfg instances that earlier deployments brought."""
+    """cfg instances that earlier deployments added."""
     neighbour: OtherDriver | None = None
     """Another driver that has to go first."""
     in_memory: tuple[str, ...] = ()
-    """A backup's programs with names of ours: they would be restored in the place of ours."""
+    """A backup's programs with names of ours.
+
+    They would be restored instead of ours.
+    """
     damaged: str = ""
-    """Why the manifest on the controller cannot be used, if so: only `overwrite` replaces it."""
+    """Reason why the controller's manifest is unusable.
+
+    Only `overwrite` replaces it.
+    """
     copies: int = 0
-    """Number of the next copy of a stranger's file."""
+    """Number of the next copy of a foreign file."""
     live: OnlinePlan | None = None
-    """What is done besides files; None where files are all that is reached."""
+    """Changes besides files; None if only files are accessible."""
 
     @property
     def conflicts(self) -> tuple[FileChange, ...]:
@@ -125,7 +137,10 @@ class Plan:
 
     @property
     def is_empty(self) -> bool:
-        """Nothing to do: no file, no record of one, no interrupted run to put right."""
+        """True if there is nothing to do.
+
+        No file, no record of one, no interrupted run to repair.
+        """
         return self.files_match and (self.live is None or self.live.is_empty)
 
     @property
@@ -151,7 +166,7 @@ class Plan:
 
 
 def plan_json(plan: Plan) -> Members:
-    """The plan as `--output` writes it: hashes and words, no contents, no secrets."""
+    """Return the plan for `--output`: hashes and words, no contents or secrets."""
     return {
         "format": 1,
         "verb": plan.verb,
@@ -195,5 +210,5 @@ def plan_json(plan: Plan) -> Members:
 
 
 def lines_of(data: bytes | None) -> list[str]:
-    """A file's lines; none of a file that is not there."""
+    """Return a file's lines; none for a missing file."""
     return data.decode("latin-1").splitlines() if data else []

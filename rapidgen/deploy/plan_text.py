@@ -24,16 +24,19 @@ _SIGNS = {
     "clash": "x",
 }
 
-_SAID = {
+_ACTION_TEXTS = {
     "add": "new, {size}",
     "same": "same",
     "remove": "were deployed by rapidgen, no longer belong there",
-    "restore": "what was there before the first deployment comes back",
+    "restore": "restores the state before the first deployment",
 }
 
 
 def plan_text(plan: Plan) -> str:
-    """The plan in lines: files, cfg instances, what people do (`!`), what is not seen (`?`)."""
+    """Return the plan in lines.
+
+    Files, cfg instances, manual steps (`!`), unknowns (`?`).
+    """
     ware = f"RobotWare {plan.robotware[0]}.{plan.robotware[1]:02d}" if plan.wanted else "uninstall"
     build = f", build {plan.build_id}" if plan.build_id else ""
     where = f": {plan.live.shown}" if plan.live else ""
@@ -42,7 +45,7 @@ def plan_text(plan: Plan) -> str:
         out.append(f"  * {plan.interrupted}: this run puts it right")
     if plan.damaged:
         in_use = "the newest backup's" if plan.had and plan.had.history else "no backup's"
-        out.append(f"  ? {plan.damaged}: {in_use} is taken  -> needs --overwrite")
+        out.append(f"  ? {plan.damaged}: {in_use} is assumed  -> needs --overwrite")
     out += _changed_keys(plan)
     out += _file_lines(plan)
     for change in plan.conflicts:
@@ -65,7 +68,7 @@ def plan_text(plan: Plan) -> str:
         else:
             out.append(f"  ! {step.who}: {step.what}{stop}")
     if not plan.steps and not plan.is_empty:
-        out.append("  = no restart: no module and nothing that is loaded changes")
+        out.append("  = no restart: no module and no loaded file changes")
     if plan.live is None or not plan.files_match:
         out.append(f"  ? switching: {plan.rename}")
     out += [f"  ? {line}" for line in plan.unseen]
@@ -74,7 +77,7 @@ def plan_text(plan: Plan) -> str:
 
 
 def plans_text(plans: Sequence[Plan], *, diff: bool = False) -> str:
-    """All plans: what is the same for several controllers once, then one line a controller."""
+    """Return all plans: common parts once, then one line a controller."""
     alike: dict[tuple[str, str], list[Plan]] = {}
     for plan in plans:
         body = plan_text(plan).partition("\n")[2] + (diff_text(plan) if diff else "")
@@ -106,13 +109,13 @@ def diff_text(plan: Plan) -> str:
 
 
 def table(outcomes: Sequence[TargetOutcome]) -> str:
-    """One line a controller."""
+    """Return a table with one line a controller."""
     width = max(len(o.target.shown) for o in outcomes)
     return "".join(f"{o.target.shown:<{width}}  {o.word:<8}  {o.detail}\n" for o in outcomes)
 
 
 def outcomes_json(outcomes: Sequence[TargetOutcome]) -> Members:
-    """What became of the controllers, as data, with all errors."""
+    """Return the results of the controllers as data, with all errors."""
     return {
         "controllers": [
             {
@@ -133,7 +136,7 @@ def size_text(size: int) -> str:
 
 
 def _changed_keys(plan: Plan) -> list[str]:
-    """What differs between the configuration of the last deployment and this one."""
+    """Return the differences to the configuration of the last deployment."""
     if plan.had is None or plan.wanted is None:
         return []
     old = plan.had.generated.get("configuration")
@@ -150,8 +153,8 @@ def _file_lines(plan: Plan) -> list[str]:
             return "", ""
         folder = change.shown.rpartition("/")[0]
         if change.action != "change":
-            return folder, _SAID[change.action]
-        return (folder, "nothing but the build's id") if _is_new_id(plan, change) else ("", "")
+            return folder, _ACTION_TEXTS[change.action]
+        return (folder, "only the build's id") if _is_new_id(plan, change) else ("", "")
 
     together: dict[tuple[str, str], list[FileChange]] = {}
     for change in plan.changes:
@@ -170,7 +173,7 @@ def _file_lines(plan: Plan) -> list[str]:
 
 
 def _is_new_id(plan: Plan, change: FileChange) -> bool:
-    """Whether nothing differs but the id of the build."""
+    """True if only the id of the build differs."""
     if plan.had is None or change.before is None:
         return False
     return change.before.replace(plan.had.build_id.encode(), plan.build_id.encode()) == change.after
@@ -182,7 +185,7 @@ def _words(change: FileChange) -> str:
     if change.action == "remove":
         return "was deployed by rapidgen, no longer belongs there"
     if change.action == "restore":
-        return "what was there before the first deployment comes back"
+        return "restores the state before the first deployment"
     if change.action == "same":
         return "same, not put there by rapidgen" if change.foreign else "same"
     added, removed = change.counts()
@@ -193,7 +196,7 @@ def _cfg_lines(plan: Plan, domain: str) -> list[str]:
     changes = [c for c in plan.cfg if c.domain == domain]
     out = []
     text = [c for c in changes if c.action != "same"]
-    for _, group in groupby(text, _told_together):
+    for _, group in groupby(text, _line_key):
         first, *more = group
         names = [c.key.partition(" ")[2] for c in (first, *more)]
         displayed = f"{_first(names)}{f': {note}' if (note := _note(first)) else ''}"
@@ -205,15 +208,17 @@ def _cfg_lines(plan: Plan, domain: str) -> list[str]:
     return out
 
 
-def _told_together(change: CfgChange) -> str:
-    """What instances of one line have in common: new ones and those that go their section,
-    others nothing."""
+def _line_key(change: CfgChange) -> str:
+    """Return the key by which instances share a line.
+
+    New and deleted ones share a line by section, others never.
+    """
     alone = change.action not in ("add", "remove") or change.note
     return change.key if alone else f"{change.action} {change.key.partition(' ')[0]}"
 
 
 def _first(names: Sequence[str]) -> str:
-    """Names as far as a line goes, and how many more there are."""
+    """Return the first names of a line, and the number of further ones."""
     displayed = [
         name for n, name in enumerate(names) if n == 0 or len(", ".join(names[: n + 1])) < 70
     ]
@@ -234,7 +239,7 @@ def _summary(plan: Plan) -> str:
     if plan.is_empty:
         return "Plan: nothing to do."
     if plan.files_match:
-        return f"Plan: no file; {'a restart' if plan.is_pending else 'what stands above'}."
+        return f"Plan: no file; {'a restart' if plan.is_pending else 'the steps above'}."
     counts = Counter(c.action for c in plan.changes)
     text = [
         f"{counts['add']} to add",

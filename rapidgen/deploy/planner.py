@@ -1,4 +1,4 @@
-"""How a plan is made: the controller's files and notes, held against the wanted set."""
+"""Making of a plan: the controller's state compared with the wanted set."""
 
 import difflib
 import json
@@ -52,12 +52,12 @@ def make_plan(
     verb: Verb = "deploy",
     loaded: tuple[CfgText, ...] = (),
 ) -> Plan:
-    """Read the controller and plan the way to `desired` (None: to the state before the first).
+    """Read the controller and plan the changes to `desired`.
 
-    `loaded` is what a backup says is loaded, for a transport that does not see it.
-    Raises TransportFault; DiagnosticError RG524 (another robot's driver), RG525 (RobotWare),
-    RG529 (nothing deployed), RG531 (the manifest on the controller is damaged), RG538 (no such
-    motion task), RG539 (a task is left out).
+    `desired` None: the state before the first deployment. `loaded` is a backup's loaded cfg, for a
+    transport that cannot read it. Raises TransportFault; DiagnosticError RG524 (another robot's
+    driver), RG525 (RobotWare), RG529 (nothing deployed), RG531 (the manifest on the controller is
+    damaged), RG538 (no such motion task), RG539 (a task is left out).
     """
     layout = find_layout(transport)
     state = read_state(transport, layout.home)
@@ -102,7 +102,7 @@ def make_plan(
     wanted_cfg = desired.cfg if desired else ()
     seen = bool(syspar) and transport.reach.writes_cfg
     if seen:
-        # A system that starts from these files has nobody who could leave a row out.
+        # A system that starts from these files has no user who could omit a row.
         wanted_cfg = tuple(text for text in wanted_cfg if not is_unconfirmed(text))
     present = texts if texts or view else old_cfg
     own_files = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
@@ -166,14 +166,14 @@ def make_plan(
         steps = (CFG_FIRST, *steps)
     unseen = list(transport.reach.unseen)
     if live is not None:
-        pass  # all of it was asked for
+        pass  # all of it was requested
     elif loaded and not syspar:
-        unseen.append("loaded cfg is what the backup says; what was changed since is not seen")
+        unseen.append("loaded cfg is taken from the backup; later changes are not visible")
     elif not seen and desired is not None:
         unseen.append(
             "cfg instances are compared with the last deployment"
             if had is not None
-            else "cfg instances are taken for missing: what is loaded is not seen"
+            else "cfg instances are assumed missing: loaded cfg is not visible"
         )
         unseen.append(f"whether this is RobotWare {_ware(desired.robotware)}: not seen")
     print_of = [(c.where, digest(c.before) if c.before is not None else "") for c in changes]
@@ -212,17 +212,20 @@ def _nothing_there(transport: Transport) -> DiagnosticError:
     return refused(
         "RG529",
         f"{transport.shown}: no deployment of rapidgen lies there",
-        "check the URL; `rapidgen doctor` tells what lies there",
+        "check the URL; `rapidgen doctor` shows the files there",
     )
 
 
 def find_layout(transport: Transport) -> Layout:
-    """HOME itself, or a system folder (a backup, a virtual controller) that holds HOME."""
+    """Return HOME itself, or a system folder that contains HOME.
+
+    The latter is a backup or a virtual controller.
+    """
     # Of two names that differ in case the one in capitals counts.
     result = sorted((e.name for e in transport.entries("") if e.folder is not False), reverse=True)
     names = {name.casefold(): name for name in result}
     home, syspar = names.get("home", ""), names.get("syspar", "")
-    # A folder `home` alone may be anybody's, one beside SYSPAR is that of a copied backup.
+    # A folder `home` alone may be any folder; next to SYSPAR it is that of a copied backup.
     if not home or (home != "HOME" and not syspar):
         return Layout("", "")
     return Layout(f"{home}/", f"{syspar}/" if syspar else "")
@@ -230,7 +233,7 @@ def find_layout(transport: Transport) -> Layout:
 
 @dataclass(frozen=True, slots=True)
 class _Base:
-    """What counts as ours on the controller, whatever was interrupted."""
+    """Files that count as ours, after any interruption."""
 
     had: Manifest | None
     records: dict[str, FileRecord]
@@ -240,10 +243,13 @@ class _Base:
     interrupted: str
     repair: bool
     pieces: dict[str, list[bytes]]
-    """Staged contents by path: without rename a cut leaves the beginning of one in place."""
+    """Staged contents by path.
+
+    Without rename an interruption leaves a partial file.
+    """
 
     def owns(self, path: str, data: bytes) -> bool:
-        """Whether these contents were put there by a deployment, if only in part."""
+        """True if a deployment wrote these contents, also partially."""
         known = digest(data) in self.known.get(path, ())
         return known or any(piece.startswith(data) for piece in self.pieces.get(path, ()))
 
@@ -263,7 +269,7 @@ def _base(transport: Transport, home: str, state: StateFolder) -> _Base:
         else:
             interrupted = f"{journal.verb} {journal.id} was cut before it changed anything"
     elif state.switching:
-        interrupted = "a deployment was cut, and its journal is lost"
+        interrupted = "a deployment was interrupted, and its journal is lost"
     elif state.litter:
         interrupted = "a deployment was cut before it began"
     manifests = [had, journal.new if journal is not None and repair else None]
@@ -403,7 +409,10 @@ def _names(desired: DriverSet | None) -> dict[str, frozenset[str]]:
 
 
 def _edited_lines(record: FileRecord | None, current: bytes, pristine: bytes) -> str:
-    """Where the hand edit is, when what was deployed is known: it equals what is wanted."""
+    """Return the lines of a local change.
+
+    Known if the deployed file equals the wanted one.
+    """
     if record is None or record.sha256 != digest(pristine):
         return ""
     matcher = difflib.SequenceMatcher(None, lines_of(pristine), lines_of(current), autojunk=False)
@@ -413,7 +422,10 @@ def _edited_lines(record: FileRecord | None, current: bytes, pristine: bytes) ->
 
 
 def _old_cfg(changes: list[FileChange]) -> tuple[CfgText, ...]:
-    """cfg files of the last deployment, as they lie there; an unreadable one counts as none."""
+    """Return current cfg files of the last deployment.
+
+    An unreadable one counts as missing.
+    """
     result = []
     for change in changes:
         if change.kind == "cfg" and change.before is not None:

@@ -1,4 +1,4 @@
-"""What a run keeps for later: backups, strangers' files, the manifest; and what it throws away."""
+"""Data that a run keeps: backups, foreign files, manifest; clean-up."""
 
 from dataclasses import replace
 from datetime import datetime, timezone
@@ -22,7 +22,10 @@ from rapidgen.deploy.transports.transport import Transport, parent, read_or_none
 
 
 def back_up(work: FileOperations, number: int) -> None:
-    """Strangers' files for `uninstall`, and the whole set as it lies there, edits included."""
+    """Back up foreign files for `uninstall`, and the whole current set.
+
+    The set includes local changes.
+    """
     plan, had = work.plan, work.plan.had
     if plan.wanted is None:
         return
@@ -49,15 +52,18 @@ def back_up(work: FileOperations, number: int) -> None:
 
 
 def foreign_files(plan: Plan) -> list[tuple[FileRecord, bytes]]:
-    """Files that are not ours and are about to be replaced, or taken over because they are equal,
-    and cfg files before our first instance."""
+    """Return foreign files to keep.
+
+    They are replaced, or taken over as equal; cfg files from before our first instance are
+    included.
+    """
     count = plan.copies
     result: list[tuple[FileRecord, bytes]] = []
     for change in plan.changes:
         if change.foreign and change.before is not None:
             retained = plan.origin.get(change.path)
             if retained is not None and retained.sha256 == digest(change.before):
-                continue  # it came back once, and nobody has changed it since
+                continue  # it was restored once, and is unchanged since
             record = FileRecord(
                 change.path,
                 digest(change.before),
@@ -70,7 +76,7 @@ def foreign_files(plan: Plan) -> list[tuple[FileRecord, bytes]]:
 
 
 def new_manifest(plan: Plan, desired: DriverSet, number: int) -> Manifest:
-    """The manifest that stands when the run is done."""
+    """Return the manifest for the end of the run."""
     had = plan.had
     files = tuple(FileRecord(f.path, f.sha256, len(f.data), f.kind, f.tasks) for f in desired.files)
     history = had.history if had else ()
@@ -120,7 +126,7 @@ def delete_backups(work: FileOperations, *, keep: frozenset[str]) -> None:
 
 
 def delete_backup(work: FileOperations, name: str) -> None:
-    """One backup; `backup.json` first, without which the rest counts as none."""
+    """Delete one backup, `backup.json` first: without it the rest is ignored."""
     folder = f"{work.folder}/backup/{name}"
     for member in sorted(names(work.transport, folder), key=lambda n: n != "backup.json"):
         delete(work, f"{folder}/{member}")
@@ -128,9 +134,10 @@ def delete_backup(work: FileOperations, name: str) -> None:
 
 
 def delete_empty_folders(work: FileOperations) -> None:
-    """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR.
+    """Delete folders of removed files that are empty, the deepest first.
 
-    A run that was cut may have removed the files already: the sets before and after it know them.
+    Never HOME or SYSPAR. An interrupted run may have deleted the files already: the sets before and
+    after it list them.
     """
     journal = work.plan.state.journal
     sets = [work.plan.had, *((journal.old, journal.new) if journal else ())]

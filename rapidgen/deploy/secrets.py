@@ -1,4 +1,7 @@
-"""Passwords: from a file with tight permissions, the environment, or a prompt; never shown."""
+"""Passwords from a protected file, the environment, or a prompt.
+
+They are never shown.
+"""
 
 import getpass
 import os
@@ -20,7 +23,7 @@ ENVIRONMENT = "RAPIDGEN_PASSWORD"
 DEFAULTS = frozenset(
     {("Default User", "robotics"), ("Admin", "robotics"), ("anonymous", "anonymous@")}
 )
-"""Logins that ABB's controllers are delivered with, and the one without a password."""
+"""Default logins of ABB's controllers, and the one without a password."""
 
 
 _LARGEST = 1_000_000
@@ -48,8 +51,11 @@ class Secret:
 
 @dataclass(frozen=True, slots=True)
 class Credentials:
-    """Who logs in, and how. `identity` and `known_hosts` are files for SFTP, `fingerprint` and
-    `agree` (asks a person about host and fingerprint) are for TLS with a pinned certificate."""
+    """User and login method.
+
+    `identity` and `known_hosts` are files for SFTP, `fingerprint` and `agree` (asks the user about
+    host and fingerprint) are for TLS with a pinned certificate.
+    """
 
     user: str
     password: Secret = field(default_factory=lambda: Secret(""))
@@ -60,7 +66,7 @@ class Credentials:
 
     @property
     def is_default(self) -> bool:
-        """Whether everybody who knows ABB's controllers knows this login."""
+        """True for ABB's published default login."""
         return (self.user, self.password.get()) in DEFAULTS
 
 
@@ -79,12 +85,12 @@ def find_password(
     ask: bool,
     needed: bool = True,
 ) -> Credentials:
-    """`login` with user and password completed: file, then environment, then prompt.
+    """Complete user and password of `login`: file, environment, prompt.
 
-    The file is TOML: a table for each host, `host:port`, or `default`, with `user` and
-    `password`. `needed`: there is no other way to log in; where it is not, nobody is asked
-    without a terminal, and the password stays empty. Raises DiagnosticError RG511 (file readable by
-    others, or not understood), RG512 (nobody to ask).
+    The file is TOML: a table for each host, `host:port`, or `default`, with `user` and `password`.
+    `needed`: there is no other way to log in; otherwise no prompt appears without a terminal, and
+    the password stays empty. Raises DiagnosticError RG511 (file readable by others, or invalid),
+    RG512 (no terminal to prompt on).
     """
     if secrets is not None:
         entry = _entry(secrets, host, port)
@@ -98,14 +104,17 @@ def find_password(
         prompt = f"password of {login.user or 'the default user'} at {host}: "
         return replace(login, password=Secret(getpass.getpass(prompt)))
     if ask and needed:
-        # A host's name without quotes is a table in tables: TOML, and nothing for that host.
+        # A host's name without quotes is a nested table in TOML, not that host.
         help = (
             f"--secrets FILE, or {ENVIRONMENT}; it may be empty"
             if secrets is None
             else f'{secrets} has none for it: ["{host}"], in quotes, and below it password = "..."'
         )
         raise refusal(
-            "RG512", None, f"{host} wants a password, and nobody is here to be asked", help
+            "RG512",
+            None,
+            f"{host} requires a password, and there is no terminal to prompt on",
+            help,
         )
     return login
 

@@ -1,8 +1,8 @@
-"""What a deployment writes down on the controller, and reads back as a stranger's words.
+"""State of a deployment on the controller, read as untrusted data.
 
-`manifest.json` says what lies there (written last), `journal.a`/`journal.b` what is under way
-(the one not in use is written, then the other deleted, so that one is always whole), `switching`
-that old files are being replaced, and `backup/<number>/` what was there before a deployment.
+`manifest.json` describes the deployed set (written last), `journal.a`/`journal.b` the active run
+(the unused one is written, then the other deleted, so that one is always complete), `switching`
+that old files are being replaced, and `backup/<number>/` the files before a deployment.
 """
 
 import json
@@ -29,7 +29,7 @@ DAMAGE = (
     RecursionError,
     TransportFault,
 )
-"""What reading a damaged or hostile state file raises."""
+"""Exceptions of reading a damaged or hostile state file."""
 
 
 class LaterFormat(ValueError):
@@ -41,7 +41,7 @@ _SHA = re.compile(r"[0-9a-f]{64}")
 
 @dataclass(frozen=True, slots=True)
 class FileRecord:
-    """One file: its path in HOME, its hash, and the name of a copy in a backup folder."""
+    """One file: path in HOME, hash, and name of its copy in a backup."""
 
     path: str
     sha256: str
@@ -63,7 +63,10 @@ class StoredSet:
 
 @dataclass(frozen=True, slots=True)
 class Manifest:
-    """What the last deployment left, or what a backup keeps (with `stored` in its records)."""
+    """Result of the last deployment, or content of a backup.
+
+    A backup has `stored` in its records.
+    """
 
     id: int
     time: str
@@ -72,10 +75,13 @@ class Manifest:
     robotware: tuple[int, int]
     files: tuple[FileRecord, ...]
     origin: tuple[FileRecord, ...] = ()
-    """Strangers' files that were overwritten: kept for `uninstall`."""
+    """Foreign files that were overwritten, kept for `uninstall`."""
     history: tuple[StoredSet, ...] = ()
     cfg_before: Mapping[str, Json] = field(default_factory=dict)
-    """cfg instances of SYSPAR before the first deployment: key to attributes, or null."""
+    """cfg instances of SYSPAR before the first deployment.
+
+    Attributes by key, or null.
+    """
     generated: Mapping[str, Json] = field(default_factory=dict)
 
     def record(self, path: str) -> FileRecord | None:
@@ -85,7 +91,10 @@ class Manifest:
 
 @dataclass(frozen=True, slots=True)
 class Journal:
-    """A deployment under way: enough to finish or undo it, whatever became of the manifest."""
+    """An active deployment: enough data to finish or undo it.
+
+    It does not need the manifest.
+    """
 
     id: int
     attempt: int
@@ -100,23 +109,26 @@ class Journal:
 
 @dataclass(frozen=True, slots=True)
 class StateFolder:
-    """All that the state folder says."""
+    """Contents of the state folder."""
 
     manifest: Manifest | None = None
     journal: Journal | None = None
     journal_file: str = ""
     switching: bool = False
     damaged: str = ""
-    """Why manifest.json cannot be used, if so."""
+    """Reason why manifest.json is unusable, if it is."""
     later: bool = False
-    """It is not damaged, but of a later format."""
+    """True if it is of a later format instead of damaged."""
     digest: str = ""
     present: bool = False
     litter: bool = False
     """Files of a run that was cut while it tried out what rename does."""
 
     def carried(self, had: Manifest | None, *, repair: bool) -> str:
-        """Name of the robot whose driver lies there, if only in part (`repair`); '' for none."""
+        """Name of the robot whose driver is there, also partially; '' for none.
+
+        See `repair`.
+        """
         half = self.journal.new if repair and self.journal is not None else None
         return next((m.name for m in (had, half) if m is not None), "")
 
@@ -148,7 +160,7 @@ def read_state(transport: Transport, home: str) -> StateFolder:
         try:
             journal = journal_from(json.loads(text))
         except DAMAGE:
-            # Cut while it was written: then nothing that it announces was done.
+            # Interrupted while it was written: then its announced work was not done.
             continue
         journals.append((journal.attempt, name, journal, text))
     switching = "switching" in names
@@ -165,7 +177,7 @@ def read_state(transport: Transport, home: str) -> StateFolder:
 
 
 def manifest_json(manifest: Manifest) -> Members:
-    """As it stands on the controller."""
+    """Return manifest.json as on the controller."""
     return {
         "format": FORMAT,
         **asdict(manifest),
@@ -198,7 +210,7 @@ def manifest_from(read: Json) -> Manifest:
 
 
 def _instances(read: Json) -> Members:
-    """What was there before the first deployment: instances, or null for those that were not."""
+    """Parse original instances, or null for missing ones."""
     result = members(read)
     for old in result.values():
         if old is not None:
@@ -207,7 +219,7 @@ def _instances(read: Json) -> Members:
 
 
 def journal_json(journal: Journal) -> Members:
-    """As it stands on the controller."""
+    """Return the journal as on the controller."""
     return {
         "format": FORMAT,
         **asdict(journal),
@@ -242,9 +254,9 @@ def encode(data: Members) -> bytes:
 
 
 def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest, dict[str, bytes]]:
-    """A backup: its manifest and its files by path in HOME, checked against their hashes.
+    """Read a backup: manifest, and files by path, with checked hashes.
 
-    Raises DiagnosticError RG528 when it is not there or not whole.
+    Raises DiagnosticError RG528 if it is missing or incomplete.
     """
     folder = f"{home}{STATE}/backup/{number}"
     raw = read_or_none(transport, f"{folder}/backup.json")
@@ -264,12 +276,15 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
 
 
 def read_kept(transport: Transport, home: str, record: FileRecord) -> bytes | None:
-    """The copy of a stranger's file, damaged or not; None when it is gone."""
+    """Return the copy of a foreign file, also a damaged one; None if missing."""
     return read_or_none(transport, f"{home}{STATE}/backup/{record.stored}")
 
 
 def next_copy(retained: Iterable[FileRecord]) -> int:
-    """Number of the next copy of a stranger's file: above those that are kept."""
+    """Return the number of the next copy of a foreign file.
+
+    It is above those that are kept.
+    """
     stems = [r.stored.rpartition("/")[2].partition(".")[0] for r in retained]
     return 1 + max((int(stem) for stem in stems if stem.isdecimal()), default=-1)
 

@@ -1,4 +1,4 @@
-"""SYSPAR beside HOME: the cfg that a backup, or a virtual controller's next start, is made of."""
+"""SYSPAR next to HOME: the cfg of a backup or a virtual controller."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from rapidgen.system.paths import read_limited
 
 @dataclass(frozen=True, slots=True)
 class SysparFile:
-    """One cfg file as it lies there."""
+    """One cfg file of the folder."""
 
     text: CfgText
     data: bytes
@@ -28,13 +28,13 @@ class SysparChange:
     before: bytes | None
     after: bytes | None
     foreign: bool
-    """Whether no deployment has touched the file before."""
+    """True if no deployment has changed the file before."""
 
 
 def read_syspar(transport: Transport, folder: str) -> tuple[SysparFile, ...]:
-    """All cfg files of the folder ('SYSPAR/'; '' means there is none).
+    """Read all cfg files of the folder ('SYSPAR/'; '' means there is none).
 
-    Raises DiagnosticError RG701, RG702 for one that cannot be read.
+    Raises DiagnosticError RG701, RG702 for an unreadable one.
     """
     result = []
     for entry in transport.entries(folder.rstrip("/")) if folder else ():
@@ -45,10 +45,10 @@ def read_syspar(transport: Transport, folder: str) -> tuple[SysparFile, ...]:
 
 
 def loaded_cfg(backup: Path) -> tuple[CfgText, ...]:
-    """What was loaded on the controller when it made this backup: the cfg files of its SYSPAR.
+    """Return the loaded cfg of a backup: the cfg files of its SYSPAR.
 
-    Raises DiagnosticError RG536 when there is none; RG701, RG702, RG704, RG705, RG706 for one that
-    cannot be read.
+    Raises DiagnosticError RG536 if there is none; RG701, RG702, RG704, RG705, RG706 for an
+    unreadable one.
     """
     folder = next((f for f in _folders(backup) if f.name.casefold() == "syspar"), None)
     files = sorted(folder.iterdir()) if folder else []
@@ -79,11 +79,11 @@ def syspar_changes(
     before: Mapping[str, Json],
     originals: Mapping[str, bytes | None],
 ) -> list[SysparChange]:
-    """Files in which something differs. Signals that somebody else has defined stay.
+    """Return the changed SYSPAR files. Foreign signals stay.
 
-    `before` has the instances from before the first deployment, `originals` the files from
-    then by SYSPAR path (None: the copy is lost): such a file comes back byte for byte where nothing
-    else was changed since, and one that was not there goes.
+    `before` has the instances from before the first deployment, `originals` the files from then by
+    SYSPAR path (None: the copy is lost): such a file is restored byte for byte if no other change
+    was made since, and one that did not exist is deleted.
     """
     present = {f.text.domain: f for f in files}
     instances = without_used(keyed(desired), keyed(f.text for f in files), own_files, before)

@@ -15,7 +15,7 @@ from rapidgen.diagnostics import DiagnosticError, refusal, suggest
 
 @dataclass(frozen=True, slots=True)
 class Access:
-    """How to log in, the same for all targets of a command."""
+    """Login settings common to all targets of a command."""
 
     user: str = ""
     secrets: Path | None = None
@@ -25,7 +25,10 @@ class Access:
     timeout: float = 10.0
     fingerprint: str = ""
     agree: Callable[[str, str], bool] | None = None
-    """Asks a person about a certificate (host:port, fingerprint); None: nobody is there."""
+    """Asks the user about a certificate (host:port, fingerprint).
+
+    None: there is no terminal.
+    """
 
 
 def parse_target(url: str) -> Target:
@@ -66,13 +69,16 @@ def parse_target(url: str) -> Target:
 
 
 def _refuse_password(place: str) -> None:
-    """Refuse USER:PASSWORD@HOST before anything shows the URL. Raises DiagnosticError RG510."""
+    """Refuse USER:PASSWORD@HOST before any output shows the URL.
+
+    Raises DiagnosticError RG510.
+    """
     found = re.match(r"/*[^/@]*:[^/@]*@([^/:?#]*)", place)
     if found is not None:
         raise refusal(
             "RG510",
             None,
-            f"a password stands in the URL of {found[1]}",
+            f"the URL of {found[1]} contains a password",
             "URLs end in histories and logs: use --secrets FILE, RAPIDGEN_PASSWORD, "
             "or wait for the prompt",
         )
@@ -85,7 +91,10 @@ def connect(target: Target, access: Access) -> Transport:
 
 
 def credentials(target: Target, access: Access) -> Credentials:
-    """User and password for a target; IRC5's own user name where none is given."""
+    """Return user and password of a target.
+
+    IRC5's default user name if none is given.
+    """
     login = Credentials(
         target.user or access.user,
         identity=access.identity,

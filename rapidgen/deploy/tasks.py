@@ -1,7 +1,7 @@
-"""Tasks that a set needs and does not write: are they there, do they start ours, do they stay?
+"""Tasks that a set needs and does not write.
 
-A task starts with `main` unless its -Entry says otherwise [backup 5.15]; abb_driver's page has
-people rename main and set it.
+Checks that they exist, start our main and stay. A task starts with `main` unless its -Entry says
+otherwise [backup 5.15]; abb_driver's page tells users to rename main and set it.
 """
 
 import re
@@ -40,7 +40,7 @@ def entry_steps(desired: DriverSet, loaded: Sequence[CfgText], target: str) -> l
 
 
 def check_complete(desired: DriverSet, cfg: Sequence[CfgChange]) -> None:
-    """Raises DiagnosticError RG539 where a task would be taken away that the set's modules need.
+    """Raise DiagnosticError RG539 if a needed task would be deleted.
 
     A build for a cell writes what the cell's backup lacks; a backup with this driver lacks nothing.
     """

@@ -97,16 +97,15 @@ def driver(build: str = "0123456789ab", **options) -> DriverSet:
 
 
 def modules_on(home: Path) -> dict[str, bytes]:
-    """What is in the places that cfg names, whoever put it there."""
+    """Modules in the places that cfg names, also foreign ones."""
     return {p: (home / p).read_bytes() for p in MODULES if (home / p).is_file()}
 
 
 def verdict(home: Path, *sets: DriverSet | None) -> str:
-    """What a controller that restarts now finds: 'set 0', 'set 1', ..., 'empty' or 'refuses'.
+    """Result of a restart: 'set 0', 'set 1', ..., 'empty' or 'refuses'.
 
-    Written without the code under test. A module that is missing, or does not end as a module
-    does, keeps its tasks from loading; and ROS_common refuses where any BUILD_ID differs.
-    'MIXED' is what must never be.
+    Written without the code under test. A module that is missing, or truncated, keeps its tasks
+    from loading; and ROS_common refuses if any BUILD_ID differs. 'MIXED' must never occur.
     """
     result = modules_on(home)
     for number, wanted in enumerate(sets):

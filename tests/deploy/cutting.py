@@ -15,7 +15,7 @@ MODES = ("replace", "move", "none")
 
 
 class Cutting(FolderTransport):
-    """A folder behind a line that is cut at one operation; then nothing works any more."""
+    """A folder whose connection fails at one operation and stays down."""
 
     def __init__(self, root, mode, at=None, how="before"):
         super().__init__(root)

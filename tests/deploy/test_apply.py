@@ -49,7 +49,7 @@ def test_a_manifest_that_says_otherwise_is_written_anew(kit, home, transport):
     plan = make_plan(transport, wanted)
     assert {c.action for c in plan.changes} == {"same"}
     assert not plan.is_empty
-    assert "no restart: no module and nothing that is loaded changes" in plan_text(plan)
+    assert "no restart: no module and no loaded file changes" in plan_text(plan)
     kit.deploy(transport, wanted)
     assert make_plan(transport, wanted).is_empty
     assert "0" * 64 not in path.read_text()
@@ -122,7 +122,7 @@ def test_an_edit_by_hand_is_kept_until_overwrite_and_then_saved(kit, home, trans
     assert target.read_bytes() == edited
 
 
-def test_a_strangers_file_is_refused_then_kept_and_put_back(kit, home, transport):
+def test_foreign_file_is_refused_then_kept_and_restored(kit, home, transport):
     target = home / "rapidgen/ROS_motion.mod"
     target.parent.mkdir()
     target.write_text("MODULE ROS_motion\nENDMODULE\n")
@@ -139,9 +139,7 @@ def test_a_strangers_file_is_refused_then_kept_and_put_back(kit, home, transport
 
 
 @pytest.mark.parametrize("left", [b"MODULE", None], ids=["damaged", "gone"])
-def test_a_strangers_file_whose_copy_was_spoilt_is_not_given_back_unasked(
-    kit, home, transport, left
-):
+def test_rollback_keeps_foreign_file_with_damaged_copy(kit, home, transport, left):
     target = home / "rapidgen/ROS_motion.mod"
     target.parent.mkdir()
     target.write_text("MODULE theirs\nENDMODULE\n")
@@ -188,7 +186,7 @@ def test_a_first_deployment_that_was_cut_keeps_other_robots_away(kit, home):
     assert tree(home) == {}
 
 
-def test_a_strangers_file_that_came_back_and_was_changed_is_kept_anew(kit, home, transport):
+def test_restored_foreign_file_after_change_is_kept_again(kit, home, transport):
     target, other = home / "rapidgen/ROS_motion.mod", home / "rapidgen/ROS_stateServer.mod"
     target.parent.mkdir()
     target.write_text("MODULE first\nENDMODULE\n")
@@ -213,7 +211,7 @@ def test_of_two_deployments_at_once_one_is_refused_and_nothing_is_left(kit, home
     kit.deploy(transport, kit.driver(OLD))
 
     class Slow(FolderTransport):
-        """Somebody else deploys from beginning to end right after this file was written."""
+        """Another deployment runs completely right after this file was written."""
 
         reached = False
 
@@ -232,7 +230,7 @@ def test_of_two_deployments_at_once_one_is_refused_and_nothing_is_left(kit, home
     assert not [p for p in home.rglob("*") if ".rg-" in p.name]
 
 
-def test_the_last_word_is_not_said_over_another_deployment(kit, home):
+def test_apply_end_does_not_overwrite_other_deployment(kit, home):
     """Its files lie there, read back as its own, and the other run's notes say otherwise."""
 
     class Slow(FolderTransport):
@@ -261,7 +259,7 @@ def test_backups_are_pruned_and_all_of_them_can_be_restored(kit, home, transport
 def test_a_damaged_backup_is_refused(kit, home, transport):
     kit.deploy(transport, kit.driver(OLD))
     kit.deploy(transport, kit.driver(NEW))
-    (home / "rapidgen_deploy/backup/2/0.bin").write_bytes(b"spoilt")
+    (home / "rapidgen_deploy/backup/2/0.bin").write_bytes(b"damaged")
     for number in (2, 7):
         assert refused(backup_set, transport, "", number) == ["RG528"]
 
@@ -292,12 +290,12 @@ def test_a_damaged_manifest_is_refused_and_overwrite_is_the_way_out(
         kit.deploy(transport, new)
     path = home / "rapidgen_deploy/manifest.json"
     path.write_bytes(spoil(json.loads(path.read_bytes())))
-    spoilt = tree(home)
+    damaged = tree(home)
     for wanted in (old, new):
         assert refused(kit.deploy, transport, wanted) == ["RG531"]
     for verb in ("uninstall", "rollback"):
         assert refused(make_plan, transport, None, verb=verb) == ["RG531"]
-    assert tree(home) == spoilt
+    assert tree(home) == damaged
     kit.deploy(transport, new, overwrite=True)
     assert kit.verdict(home, new) == "set 0"
     assert make_plan(transport, new).is_empty
@@ -308,7 +306,7 @@ def test_a_damaged_manifest_is_refused_and_overwrite_is_the_way_out(
         f.path: f.data for f in (old, new)[sets - 1].files
     }
     kit.deploy(transport, None, verb="uninstall")
-    # Which stranger's file was replaced stands in the manifest, and in every backup.
+    # The replaced foreign file is in the manifest, and in every backup.
     assert tree(home) == (before if sets == 2 else {})
 
 

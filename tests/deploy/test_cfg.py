@@ -1,4 +1,4 @@
-"""cfg instances beside HOME: seen, merged, and taken back."""
+"""cfg instances next to HOME: read, merged, and removed."""
 
 import json
 

@@ -34,7 +34,7 @@ def start_of(case, kit, home):
     (home / "mine.mod").write_text("MODULE mine\nENDMODULE\n")
     if case == "first":
         return None, old, "deploy", False
-    if case == "stranger":
+    if case == "foreign":
         (home / "rapidgen").mkdir()
         (home / "rapidgen/ROS_motion.mod").write_text("MODULE mine\nENDMODULE\n")
         return None, old, "deploy", True
@@ -54,11 +54,11 @@ def start_of(case, kit, home):
     return new, backup_set(transport, "", 2), "rollback", False
 
 
-CASES = ("first", "stranger", "update", "fewer", "uninstall", "edited", "rollback")
+CASES = ("first", "foreign", "update", "fewer", "uninstall", "edited", "rollback")
 
 
 def edited_set(kit, home, base):
-    """What lies in `home` as a set, hand edits included."""
+    """Return the files in `home` as a set, local changes included."""
     files = tuple(
         type(f)(f.path, (home / f.path).read_bytes(), f.kind, f.tasks) for f in base.files
     )
@@ -73,7 +73,7 @@ def test_cut_everywhere(kit, tmp_path, case, mode):
     before, after, verb, overwrite = start_of(case, kit, start)
     if case == "edited":
         before = edited_set(kit, start, before)
-    stranger = case == "stranger"
+    foreign = case == "foreign"
     work = tmp_path / "work"
     allowed = {"set 0", "set 1", "refuses", *(() if before and after else ("empty",))}
 
@@ -98,7 +98,7 @@ def test_cut_everywhere(kit, tmp_path, case, mode):
             kit.deploy(Cutting(work, mode, at, how), after, verb=verb, overwrite=overwrite)
         place = f"{case} {mode}: {how} {name} {path} ({at}/{total})"
         result = kit.verdict(work, before, after)
-        if not stranger:
+        if not foreign:
             assert result in allowed, place
         assert (work / "mine.mod").read_text() == "MODULE mine\nENDMODULE\n", place
         undo = tmp_path / "undo"
@@ -118,7 +118,7 @@ def test_cut_everywhere(kit, tmp_path, case, mode):
             continue
         back = earlier_set(transport, "cell1", None)
         kit.deploy(transport, back, verb="rollback", overwrite=overwrite)
-        if stranger:
+        if foreign:
             target = undo / "rapidgen/ROS_motion.mod"
             assert target.read_text() == "MODULE mine\nENDMODULE\n", place
         else:

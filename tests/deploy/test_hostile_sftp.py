@@ -83,7 +83,7 @@ class Line:
     """A proxy that spoils the packet `number` of one direction; counts those of both."""
 
     def __init__(self, port, rng, direction, number):
-        self.behind, self.rng, self.spoilt = port, rng, (direction, number)
+        self.target_port, self.rng, self.damaged = port, rng, (direction, number)
         self.count = [0, 0]
         self.listener = socket.create_server(("127.0.0.1", 0))
         self.port = self.listener.getsockname()[1]
@@ -93,7 +93,7 @@ class Line:
     def _accept(self):
         with contextlib.suppress(OSError):
             client, _ = self.listener.accept()
-            server = socket.create_connection(("127.0.0.1", self.behind))
+            server = socket.create_connection(("127.0.0.1", self.target_port))
             back = threading.Thread(target=self._pipe, args=(server, client, 1))
             back.start()
             self._pipe(client, server, 0)
@@ -104,7 +104,7 @@ class Line:
     def _pipe(self, source, sink, direction):
         with contextlib.suppress(OSError):
             while block := source.recv(65536):
-                if (direction, self.count[direction]) == self.spoilt:
+                if (direction, self.count[direction]) == self.damaged:
                     block = spoil(self.rng, block)
                 self.count[direction] += 1
                 sink.sendall(block)
@@ -120,7 +120,7 @@ class Line:
         self.listener.close()
 
 
-def test_a_spoilt_line_is_a_diagnostic(service, tmp_path):
+def test_damaged_connection_is_a_diagnostic(service, tmp_path):
     def look(transport):
         make_plan(transport, None, verb="rollback")
 

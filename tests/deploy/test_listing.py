@@ -37,7 +37,7 @@ def test_known_forms(line, entry):
     assert parse_list(["total 4\r", line + "\r"]) == (entry,)
 
 
-def test_a_form_that_nobody_knows_is_told_apart_from_an_empty_folder():
+def test_parse_list_unknown_form_is_none():
     assert parse_list(["total 0", ""]) == ()
     assert parse_list(["!! what is this", "and this"]) is None
     assert parse_names(["/hd0a/HOME/a.mod\r", "b.mod"]) == (Entry("a.mod"), Entry("b.mod"))

@@ -1,6 +1,7 @@
-"""Deployed drivers on the cfg of delivered controllers: they load, run, and go without a trace.
+"""Deployed drivers on the cfg of delivered controllers.
 
-The cfg is `base_system`'s, whose lines have their backups beside them.
+They load, run, and uninstall without a trace. The cfg is `base_system`'s, whose lines have their
+backups next to them.
 """
 
 import pytest

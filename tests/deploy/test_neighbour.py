@@ -137,7 +137,7 @@ def test_nothing_is_deployed_before_its_instances_are_out(kit, controller):
     assert [step.stops_motion for step in plan.steps].count(True) == 1
 
 
-def test_once_they_are_out_it_is_deployed_beside_the_old_files_and_taken_off_again(kit, controller):
+def test_deploy_next_to_removed_driver_and_uninstall(kit, controller):
     transport = FolderTransport(controller)
     (controller / "SYSPAR/SYS.cfg").write_text(CLEAN)
     before = files(controller)
@@ -317,7 +317,7 @@ def test_doctor_names_it_and_a_copy_loads_it_again(kit, controller, tmp_path, mo
     assert len([i for s in retained.sections for i in s.instances]) == len(GOES)
 
 
-def test_somebody_elses_task_with_a_name_of_ours_is_not_taken_over(kit, controller):
+def test_foreign_task_with_our_name_is_not_taken_over(kit, controller):
     path = controller / "SYSPAR/SYS.cfg"
     path.write_text(CLEAN + THEIR_TASK)
     transport = FolderTransport(controller)
@@ -330,7 +330,7 @@ def test_somebody_elses_task_with_a_name_of_ours_is_not_taken_over(kit, controll
     assert files(controller) == before
     path.write_text(CLEAN)
     kit.deploy(transport, kit.driver(BUILD))
-    # Whoever loads a module into a task of the driver afterwards has decided so.
+    # A module that is loaded later into a task of the driver is intentional.
     text = path.read_text().replace(
         "CAB_TASK_MODULES:\n",
         'CAB_TASK_MODULES:\n\n      -File "HOME:/x.mod" -Task "T_ROS_state"\n',

@@ -38,7 +38,7 @@ def test_a_line_in_the_registry_is_enough(monkeypatch, tmp_path):
     )
 
 
-def test_an_unknown_scheme_is_told_what_there_is():
+def test_unknown_scheme_error_lists_schemes():
     assert message("gopher://cell") == (
         "RG509",
         "--to gopher://cell: unknown scheme 'gopher'",

@@ -53,7 +53,7 @@ def instance(**attributes):
         ("SYSSIG_OUT", instance(Signal="do1", Status="Error", Arg1=4), "Error do1 4"),
         ("SYSSIG_IN", instance(Action="Start", Name="di1", Arg1="CONT"), "di1 Start"),
         ("EIO_CROSS", instance(Act1="di1", Res="do1"), "do1"),
-        # A section whose instances have no name, and that nobody knows: all that is there.
+        # An unknown section without instance names: all of it.
         ("OTHER", instance(A=1, B=("x", 2)), "1 x 2"),
     ],
 )

@@ -39,7 +39,10 @@ def controller(tmp_path):
 
 @pytest.fixture
 def home(tmp_path):
-    """The same, where only HOME is seen, as over FTP: nobody saw what was loaded before."""
+    """The same with only HOME visible, as over FTP.
+
+    Earlier loaded cfg is unknown.
+    """
     tree = {p.removeprefix("HOME/"): t for p, t in RECORDED.items() if p.startswith("HOME/")}
     manifest = json.loads(tree["rapidgen_deploy/manifest.json"])
     tree["rapidgen_deploy/manifest.json"] = json.dumps(manifest | {"cfg_before": {}, "origin": []})
@@ -58,7 +61,7 @@ def new(kit, build="dddddddddddd", **options):
 
 
 def old_world(home):
-    """What a restart finds while the first release's cfg is loaded: 'old' or 'refuses'."""
+    """Result of a restart with the first release's cfg: 'old' or 'refuses'."""
     result = {
         name: (home / "ROS" / name).read_text() if (home / "ROS" / name).is_file() else ""
         for names in OLD_TASKS.values()
@@ -164,7 +167,7 @@ def test_uninstall_where_only_home_is_seen_wants_the_instances_out_first(kit, ho
     transport = FolderTransport(home)
     kit.deploy(transport, new(kit))
     first = make_plan(transport, None, verb="uninstall").steps[0].what
-    assert "before the files go" in first
+    assert "before the files are removed" in first
     clean = 'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name "T_ROB1" -Type "NORMAL" -MotionTask\n'
     plan = make_plan(transport, None, verb="uninstall", loaded=(parse_cfg(clean),))
     assert not plan.cfg

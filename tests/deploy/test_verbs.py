@@ -99,7 +99,7 @@ def test_a_plan_is_short_and_tells_what_was_configured_otherwise(run, home):
     assert "files, nothing but the build's id\n" in out
 
 
-def test_keys_are_told_as_people_write_them(run, home):
+def test_changed_keys_use_units_of_the_configuration(run, home):
     url = ("--to", f"dir://{home}")
     assert run("deploy", "irb120", *url, "--yes")[0] == 0
     changed = ("joints.joint_2.upper=90", "trajectory.start_tolerance=0.3", "ports.motion=12000")
@@ -121,7 +121,7 @@ def test_lines_of_files_are_shown_where_more_than_the_builds_id_differs(run, hom
     assert len(re.findall(r"^[-+] ", out, re.MULTILINE)) >= 2
 
 
-def test_a_fleet_is_told_once_and_summed_up(run, tmp_path):
+def test_plan_of_fleet_shows_common_parts_once(run, tmp_path):
     homes = [tmp_path / f"c{n}" for n in range(6)]
     for home in homes:
         home.mkdir()
@@ -171,7 +171,7 @@ def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built,
 def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
     run, built, kit, tmp_path, monkeypatch, number
 ):
-    """The first controller is done, the second as it was, the third not begun."""
+    """The first controller is done, the second unchanged, the third not started."""
     homes = [tmp_path / f"c{n}" for n in range(3)]
     for home in homes:
         home.mkdir()
@@ -199,7 +199,7 @@ def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
     assert [list(home.iterdir()) for home in homes[1:]] == [[], []]
     words = [line.split()[1:3] for line in out.splitlines()]
     assert words == [["done", "6"], ["given", "up"], ["not", "begun"]]
-    assert "given up: what is being switched is switched first" in err
+    assert "interrupted: switching ends first" in err
     assert len(handled) == 1
     assert handled[0] not in (signal.default_int_handler, signal.SIG_DFL)
 
@@ -229,7 +229,7 @@ def test_an_interruption_begins_nothing_more_wherever_it_comes(monkeypatch):
     assert started == ["first"]
 
 
-def test_nobody_there_to_answer(run, built, home, monkeypatch):
+def test_confirmation_without_terminal_is_refused(run, built, home, monkeypatch):
     class NoTerminal:
         def isatty(self):
             return False
@@ -413,7 +413,7 @@ def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp
     assert "s3cret" not in render(refusal(find_password, *requested, **given).diagnostics)
 
 
-def test_no_password_is_tried_where_nobody_can_be_asked(run, home, built, monkeypatch):
+def test_password_without_terminal_is_not_tried(run, home, built, monkeypatch):
     monkeypatch.delenv("RAPIDGEN_PASSWORD", raising=False)
     monkeypatch.setattr("sys.stdin", io.StringIO())
     server = serve_ftp(home)

@@ -1,1 +1,1 @@
-"""What files alone cannot do, over Robot Web Services: cfg, program memory, restart, read back."""
+"""Deployment over Robot Web Services: cfg, program memory, restart."""

@@ -1,8 +1,9 @@
-"""Carry out what is not files, in an order in which a cut leaves the old set, the new, or neither.
+"""Online steps of a deployment, safe against interruption.
 
-Files before cfg: a new task without its module is a system failure. What goes is deleted from cfg
-before its files go. Program memory comes last, right before the restart. All of it is found again
-by the next plan, which looks at the controller and not at notes.
+An interruption leaves the old set, the new one, or neither. Files precede cfg: a new task without
+its module is a system failure. Instances are deleted from cfg before their files. Program memory is
+last, right before the restart. The next plan finds all of it again, as it reads the controller and
+not notes.
 """
 
 import time
@@ -33,21 +34,21 @@ if TYPE_CHECKING:
 _LOOK = 1.0
 """s between two looks whether a person has done it."""
 _PROMPT = 10.0
-"""s that a question of RMMP stands on the pendant [RWS manual]."""
+"""s for which the prompt of RMMP stays on the pendant [RWS manual]."""
 _SESSION_ENDS = 310.0
-"""s after which the session of a run that was killed has ended: 300 s idle [RWS manual]."""
+"""s after which the session of a killed run ends: 300 s idle [RWS manual]."""
 _MANUAL = ("MANR", "MANF")
 _SCRATCH = "TEMP/rapidgen_{}.cfg"
 
 
 @dataclass(frozen=True, slots=True)
 class OnlineOptions:
-    """What may be done over web services, and how long is waited for people."""
+    """Permitted actions over web services, and waits for people."""
 
     restart: bool = False
-    """Whether the controller may be restarted, warm."""
+    """True if the controller may be restarted, warm."""
     wait: float = 0.0
-    """s for automatic mode, for a program to be stopped, for somebody else's mastership."""
+    """s to wait for automatic mode, a stopped program, or mastership."""
     proof: PostRestartCheck = field(default_factory=PostRestartCheck)
     pause: Callable[[float], None] = time.sleep
 
@@ -67,15 +68,20 @@ class OnlineRun:
 
     @property
     def rearranges(self) -> bool:
-        """Whether memory is changed now: what that stops comes back by a restart, or belongs to
-        the driver that goes."""
+        """True if program memory is changed now.
+
+        A restart starts the tasks that this stops, or they belong to the deleted driver.
+        """
         live = self.live
         stops = set(live.started) - (set(live.owned) if self.plan.wanted is None else set())
         return live.touches_memory and (self.options.restart or not stops)
 
 
 def check(run: OnlineRun) -> None:
-    """Raises DiagnosticError RG540 (another controller), RG542 (not in this state)."""
+    """Check identity and state.
+
+    Raises DiagnosticError RG540 (another controller), RG542 (wrong state).
+    """
     target, live = run.plan.target, run.live
     if run.services.identity().id != live.id:
         raise another(run.plan, live.id)
@@ -95,14 +101,14 @@ def check(run: OnlineRun) -> None:
         raise refused(
             "RG542",
             f"taking modules out stops {', '.join(others)} on {target}, which is not the driver's",
-            "say --restart: a warm start brings it back",
+            "add --restart: a warm start does it",
         )
 
 
 def _await_earlier_run(run: OnlineRun) -> None:
-    """Wait while another run of rapidgen has mastership, also one that was killed.
+    """Wait for an earlier run's mastership, also of a killed one.
 
-    Nothing has been stopped or written yet. `_await` refuses what is still held then.
+    Nothing has been stopped or written yet. `_await` refuses mastership held after that.
     """
     left, text = max(run.options.wait, _SESSION_ENDS), False
     while (who := _holder(run)) is not None and who.application == APPLICATION and left > 0:
@@ -128,7 +134,10 @@ def _holder(run: OnlineRun) -> MastershipHolder | None:
 
 
 def _await(run: OnlineRun) -> None:
-    """Wait for what only people do. Raises DiagnosticError RG542 when the time is over."""
+    """Wait for actions of people.
+
+    Raises DiagnosticError RG542 after the time limit.
+    """
     left, text, refusal = run.options.wait, "", ""
     granted = False
     while (missing := _missing(run, granted=granted)) is not None:
@@ -164,15 +173,15 @@ def _ask_pendant(run: OnlineRun) -> tuple[bool, str]:
 
 
 def _missing(run: OnlineRun, *, granted: bool) -> tuple[str, str] | None:
-    """What is in the way, and what a person does about it."""
+    """Return the blocker and the action that removes it."""
     target = run.plan.target
     mode = run.services.panel().mode
     if mode != "AUTO" and not (granted and mode in _MANUAL):
-        what = f"{target} is in mode {mode or '?'}, which lets nobody write from afar"
+        what = f"{target} is in mode {mode or '?'}, which does not permit remote writing"
         return what, "switch it to automatic at the pendant and acknowledge"
     if (who := _holder(run)) is not None:
         what = f"mastership of {who.domain} at {target} is held by {who}"
-        return what, "let them give it back, or end their session"
+        return what, "let them release it, or end their session"
     stops = (run.options.restart and run.live.restart) or run.rearranges
     if stops and run.services.execution().running:
         what = f"the program of {target} runs, and what is planned stops it"
@@ -190,7 +199,10 @@ def another(plan: Plan, id: str) -> DiagnosticError:
 
 
 def before_files(run: OnlineRun) -> None:
-    """A backup by the controller; what is in the way of files that go. Raises DiagnosticError."""
+    """Let the controller make a backup; delete cfg before its files.
+
+    Raises DiagnosticError.
+    """
     if run.live.is_empty:
         return
     with _steps(run):
@@ -208,7 +220,7 @@ def before_files(run: OnlineRun) -> None:
 
 @contextmanager
 def writing(run: OnlineRun) -> Iterator[None]:
-    """What files are written under: write access on RobotWare 8 [real 8.1.0], else nothing."""
+    """Hold write access on RobotWare 8 [real 8.1.0], else nothing."""
     if run.services.generation is not Generation.EIGHT:
         yield
         return
@@ -217,7 +229,10 @@ def writing(run: OnlineRun) -> Iterator[None]:
 
 
 def after_files(run: OnlineRun) -> None:
-    """cfg, program memory, restart, read back. Raises DiagnosticError RG543, RG544."""
+    """Change cfg and program memory, restart, and read back.
+
+    Raises DiagnosticError RG543, RG544.
+    """
     if run.live.is_empty:
         return
     with _steps(run):
@@ -249,7 +264,7 @@ def after_files(run: OnlineRun) -> None:
 
 
 def _point(run: OnlineRun) -> None:
-    """Program pointers to main in the driver's own motion tasks, and in no other."""
+    """Set program pointers of the driver's own motion tasks to main."""
     for task, module in run.live.mains:
         try:
             run.services.set_pointer(task, module, "main")
@@ -307,7 +322,7 @@ def _count(text: CfgText) -> int:
 
 @contextmanager
 def _steps(run: OnlineRun) -> Iterator[None]:
-    """Turns what a step says into a refusal that tells the way on."""
+    """Turn an error of a step into a refusal with a help."""
     try:
         yield
     except (RobotError, TransportFault) as cause:

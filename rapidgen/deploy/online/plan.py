@@ -1,4 +1,7 @@
-"""What a deployment does besides files: cfg, modules in memory, a restart. Made of one look."""
+"""Online plan: cfg, modules in memory, a restart.
+
+It is made from one snapshot.
+"""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -29,12 +32,12 @@ if TYPE_CHECKING:
 _GRANTED = ", or Grant when it asks whether rapidgen may write"
 _OR_GRANT = {Generation.ONE: _GRANTED, Generation.TWO: _GRANTED}
 BY_SERVICES = "web services"
-"""Who does the steps that no person has to do."""
+"""Texts of the automatic steps."""
 
 
 @dataclass(frozen=True, slots=True)
 class AttributeChange:
-    """Attributes of one instance that get new values; `old` ones are written down."""
+    """New attributes of one instance; `old` ones are recorded."""
 
     domain: str
     section: str
@@ -45,7 +48,7 @@ class AttributeChange:
 
 @dataclass(frozen=True, slots=True)
 class MemoryModule:
-    """A module in a task; `path` is the file below HOME that is loaded, where one is."""
+    """A module in a task; `path` is the file below HOME to load, if any."""
 
     task: str
     module: str
@@ -69,28 +72,31 @@ class OnlinePlan:
     """Those that come back changed."""
     change: tuple[AttributeChange, ...] = ()
     load: tuple[CfgText, ...] = ()
-    """What is loaded, by `add`: signals before what names them."""
+    """Files to load with `add`: signals before instances that name them."""
     optional: tuple[CfgText, ...] = ()
-    """What a controller may refuse; it goes along with the rest only."""
+    """Instances that a controller may refuse; loaded only with the others."""
     clash: tuple[MemoryModule, ...] = ()
-    """Somebody else's modules that ours cannot stand beside: unloaded only with `--overwrite`."""
+    """Foreign modules in conflict with ours; `--overwrite` unloads them."""
     unload: tuple[MemoryModule, ...] = ()
     replace: tuple[MemoryModule, ...] = ()
     """Modules of NORMAL tasks, which a restart would leave as they are."""
     restore: tuple[MemoryModule, ...] = ()
     """Saved modules that come back."""
     restart: bool = False
-    """Whether something counts only after a restart."""
+    """True if a change takes effect only after a restart."""
     symbols: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """Where BUILD_ID is in each task."""
+    """Symbol of BUILD_ID in each task."""
     started: tuple[str, ...] = ()
-    """Background tasks that run: whatever changes memory stops them."""
+    """Running background tasks: a change of memory stops them."""
     owned: tuple[str, ...] = ()
-    """Those of them that a deployment brought."""
+    """Those that a deployment added."""
     silent: tuple[str, ...] = ()
-    """Background tasks of the driver that stand: a run that was killed had stopped them."""
+    """Stopped background tasks of the driver, after a killed run."""
     pointers: tuple[str, ...] = ()
-    """NORMAL tasks that are not the driver's: where no pointer can be set alone, theirs go, too."""
+    """Foreign NORMAL tasks.
+
+    If single pointers cannot be set, theirs are set too.
+    """
     mains: tuple[tuple[str, str], ...] = ()
     """NORMAL tasks whose `main` is ours, with its module."""
     running: bool = False
@@ -98,7 +104,7 @@ class OnlinePlan:
     orphans: tuple[str, ...] = ()
     """Background tasks without cfg, which a restart ends."""
     grants: frozenset[str] = frozenset()
-    """What the user may do; none where the controller does not tell."""
+    """Grants of the user; empty if the controller reports none."""
 
     @property
     def touches_cfg(self) -> bool:
@@ -113,7 +119,7 @@ class OnlinePlan:
         return not (self.touches_cfg or self.touches_memory or self.restart)
 
     def lacking(self, generation: Generation, *, restart: bool) -> tuple[str, ...]:
-        """Grants that the user has not, and that this takes."""
+        """Return the grants that the plan needs and the user lacks."""
         if not self.grants or any("FULL_ACCESS" in grant for grant in self.grants):
             return ()
         desired = [ops.READ_FILE, ops.WRITE_FILE, ops.BACKUP]
@@ -129,7 +135,7 @@ class OnlinePlan:
 
     @property
     def fingerprint(self) -> Members:
-        """What the plan is true for: not whether a program runs just now."""
+        """Return the state for which the plan holds, without execution."""
         text: Members = {
             "id": self.id,
             "delete": [r.name for r in (*self.delete, *self.again)],
@@ -153,7 +159,10 @@ def make_live_plan(
     conflict: tuple[MemoryModule, ...],
     restore: tuple[MemoryModule, ...],
 ) -> OnlinePlan:
-    """`old`: modules of earlier sets with their tasks; `own_files` and `before` as in a plan."""
+    """Make an online plan.
+
+    `old`: modules of earlier sets with their tasks; `own_files` and `before` as in a plan.
+    """
     rows = {row.name: row for row in view.rows}
     delete, again, change = [], [], []
     for one in cfg:
@@ -178,11 +187,11 @@ def make_live_plan(
     stale = bool(running & own_files - rows.keys())
     background = [t for t in view.tasks if t.kind != "normal" and t.execution == "started"]
     if desired is not None:
-        # A NORMAL task is given its modules as it stands, where nothing runs beside it.
+        # A NORMAL task gets its modules while stopped, if no other task runs.
         hot = set() if background else _loaded_whole(desired, replace)
         stale = stale or any(view.builds.get(t) != desired.build_id for t in needed - hot)
     known = needed | {t.casefold() for names in old.values() for t in names}
-    # Nobody starts them but a restart, also where all modules are those that are wanted.
+    # Only a restart starts them, also if all modules are the wanted ones.
     silent = tuple(
         t.name
         for t in view.tasks
@@ -221,9 +230,9 @@ def find_clashes(
     desired: DriverSet | None,
     old: Mapping[str, tuple[str, ...]],
 ) -> tuple[MemoryModule, ...]:
-    """Modules in the driver's tasks with a name of ours that we did not load, or another `main`.
+    """Return foreign modules with a name of ours, or another `main`.
 
-    Raises RobotError.
+    They are in the driver's tasks. Raises RobotError.
     """
     result = []
     for task, names in view.modules.items():
@@ -246,7 +255,10 @@ def find_clashes(
 
 
 def _by_task(modules: Sequence[MemoryModule]) -> list[tuple[str, str, bool]]:
-    """Modules of one task and one reason as one text, their reason, whether they are several."""
+    """Join modules of one task and reason.
+
+    Returns the text, the reason, and whether there are several.
+    """
     result: dict[tuple[str, str], list[str]] = {}
     for module in modules:
         result.setdefault((module.task, module.why), []).append(module.module)
@@ -256,7 +268,7 @@ def _by_task(modules: Sequence[MemoryModule]) -> list[tuple[str, str, bool]]:
 def live_steps(
     live: OnlinePlan, verb: str, host: str, generation: Generation
 ) -> tuple[ManualStep, ...]:
-    """What the plan says of it: by web services, and by people."""
+    """Return the steps of a plan: by web services, and by people."""
     by = BY_SERVICES
     gone = Counter(row.domain for row in (*live.delete, *live.again))
     steps = [
@@ -293,7 +305,9 @@ def live_steps(
     if live.restart:
         others = sorted(set(live.started) - set(live.owned))
         adjacent = f"; it stops {', '.join(others)}, too" if others else ""
-        adjacent += f"; it starts {', '.join(live.silent)}, which stand" if live.silent else ""
+        adjacent += (
+            f"; it starts {', '.join(live.silent)}, which are stopped" if live.silent else ""
+        )
         what = f"a warm start: --restart does it, or menu > Restart{adjacent}"
         steps.append(ManualStep("you", what, stops_motion=True))
     if verb != "uninstall":
@@ -336,7 +350,7 @@ def _change(row: Row, new: Instance) -> AttributeChange:
 
 
 def _dependents_first(rows: list[Row]) -> tuple[Row, ...]:
-    """What names something goes before that: outputs before signals, modules before tasks."""
+    """Order deletions: outputs before signals, modules before tasks."""
     order = [section for _, section in SECTIONS]
 
     def place(row: Row) -> int:
@@ -391,7 +405,7 @@ def _memory(
 
 
 def _loaded_whole(desired: DriverSet, replace: Sequence[MemoryModule]) -> set[str]:
-    """Tasks, in lower case, each of whose modules is loaded anew."""
+    """Return tasks, in lower case, whose modules are all loaded anew."""
     coming = {m.shown.casefold() for m in replace}
     missing = {
         task.casefold()
@@ -416,7 +430,7 @@ def _module_name(data: bytes) -> str:
 
 
 def has_main(services: "Controller", task: str, module: str) -> bool:
-    """Whether a module in a task declares a main. Raises RobotError."""
+    """True if a module in a task declares a main. Raises RobotError."""
     try:
         text = services.module_text(task, module)
     except RwsError as error:

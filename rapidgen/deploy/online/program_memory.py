@@ -1,6 +1,6 @@
-"""Modules in the memory of tasks: saved with their persistents, unloaded, loaded.
+"""Modules in program memory: saved with persistents, unloaded, loaded.
 
-A controller loads and unloads only while nothing is executed: background tasks, too [real 7.21].
+A controller loads and unloads only while no task runs, including background tasks [real 7.21].
 """
 
 from contextlib import suppress
@@ -18,12 +18,15 @@ if TYPE_CHECKING:
     from rapidgen.client.rws import Controller
 
 UNLOADED = "unloaded"
-"""Folder of the state folder: a folder for each task, with the modules that were unloaded."""
+"""Folder of the state folder for unloaded modules, one folder a task."""
 _SCRATCH = "rapidgen_saved"
 
 
 def saved(transport: Transport, home: str, view: ControllerSnapshot) -> tuple[MemoryModule, ...]:
-    """Modules that an earlier deployment saved, of tasks that are there. Raises TransportFault."""
+    """Return modules that an earlier deployment saved, of existing tasks.
+
+    Raises TransportFault.
+    """
     folder, result = f"{home}{STATE}/{UNLOADED}", []
     for task in _names(transport, folder):
         if any(t.name == task for t in view.tasks):
@@ -35,9 +38,9 @@ def saved(transport: Transport, home: str, view: ControllerSnapshot) -> tuple[Me
 
 
 def save(services: "Controller", work: FileOperations, module: MemoryModule) -> None:
-    """Its text with the present values of its persistents, into the state folder; read back.
+    """Save a module with its current persistents, and read it back.
 
-    Raises RobotError, TransportFault.
+    It is saved in the state folder. Raises RobotError, TransportFault.
     """
     place = services.save_module(module.task, module.module, _SCRATCH)
     data = services.read_file(place)
@@ -48,17 +51,17 @@ def save(services: "Controller", work: FileOperations, module: MemoryModule) -> 
 
 
 def rearrange(services: "Controller", work: FileOperations, live: OnlinePlan, wait: float) -> None:
-    """Take out what goes, bring in what comes; every background task stands afterwards.
+    """Unload and load modules; background tasks are stopped afterwards.
 
-    `wait`: s for somebody else's mastership.
+    `wait`: s to wait for another client's mastership.
 
-    Raises RobotError, TransportFault; DiagnosticError RG543 when a module is not where it should.
+    Raises RobotError, TransportFault; DiagnosticError RG543 if a module is missing.
     """
     for module in live.clash:
         work.say(f"saving {module.shown}")
         save(services, work, module)
     if live.started:
-        # What cannot be loaded shall not be stopped.
+        # Stop no task if loading is impossible.
         with services.mastership("rapid", wait=wait):
             pass
         work.say(f"stopping {', '.join(live.started)}")
@@ -74,21 +77,24 @@ def rearrange(services: "Controller", work: FileOperations, live: OnlinePlan, wa
 
 
 def _leave(services: "Controller", live: OnlinePlan) -> None:
-    """Program pointers of tasks whose modules go to their main: what a stopped program stands in
-    cannot be unloaded [code: a RobotWare 6 client]. Other tasks keep theirs."""
-    # What is to be loaded again may lie there: the driver's own module of that name.
+    """Set pointers of tasks with unloaded modules to main.
+
+    A module with the pointer of a stopped program cannot be unloaded [code: a RobotWare 6 client].
+    Other tasks keep their pointers.
+    """
+    # The driver's own module of that name may be saved there, to be loaded again.
     tasks = {module.task for module in live.restore}
     lying = {(t, m.name.casefold()) for t in sorted(tasks) for m in services.modules(t)}
     again = [m for m in live.restore if (m.task, m.module.casefold()) in lying]
     for module in (*live.clash, *live.unload, *live.replace, *again):
         if has_main(services, module.task, module.module):
-            # Refused where the program has errors: then no pointer stands in it either.
+            # Refused if the program has errors: then no pointer is in it either.
             with suppress(RwsError):
                 services.set_pointer(module.task, module.module, "main")
 
 
 def forget_saved(work: FileOperations, live: OnlinePlan) -> None:
-    """Delete the saved modules that lie in their tasks again. Raises TransportFault."""
+    """Delete saved modules that are loaded again. Raises TransportFault."""
     for module in live.restore:
         delete(work, module.path)
     for task in dict.fromkeys(module.task for module in live.restore):

@@ -1,7 +1,7 @@
-"""What a controller has besides its files: who it is, its cfg, its tasks and their memory.
+"""Snapshot of a controller: identity, cfg, tasks and their memory.
 
-Only reads. An instance comes from a controller with all of its attributes, those that nobody has
-set among them; what is compared are the attributes that we ever wrote.
+Reads only. The controller reports instances with all attributes, including defaults; only
+attributes that we have ever written are compared.
 """
 
 import re
@@ -26,8 +26,10 @@ SECTIONS = (
     ("EIO", "EIO_SIGNAL"),
     ("EIO", "SYSSIG_OUT"),
 )
-"""What another driver, a signal of another kind or a missing task is seen by; what names another
-one comes after it."""
+"""Sections that reveal another driver, a clash or a missing task.
+
+An instance that names another one comes after it.
+"""
 _NONE = ("E_CFG_DOMAIN_INVALID", "E_CFG_TYPE_INVALID", "E_CFG_INSTANCE_INVALID")
 
 
@@ -42,13 +44,13 @@ class Row:
 
     @property
     def name(self) -> str:
-        """As plans and manifests name it, without case."""
+        """Name in plans and manifests, without case."""
         return f"{self.domain} {self.section} {shown_key(self.section, self.instance)}".casefold()
 
 
 @dataclass(frozen=True, slots=True)
 class ControllerSnapshot:
-    """One look at a controller."""
+    """Snapshot of a controller."""
 
     id: str
     shown: str
@@ -56,15 +58,15 @@ class ControllerSnapshot:
     mode: str
     state: str
     running: bool
-    """Whether the program of the NORMAL tasks runs."""
+    """True if the program of the NORMAL tasks runs."""
     tasks: tuple[TaskState, ...]
     rows: tuple[Row, ...]
     modules: Mapping[str, tuple[str, ...]]
-    """Modules in the memory of the tasks that were asked for, by lower-case name of the task."""
+    """Modules in memory of the given tasks, by lower-case task name."""
     builds: Mapping[str, str]
-    """BUILD_ID in the memory of those tasks; empty where there is none."""
+    """BUILD_ID in memory of those tasks; empty if there is none."""
     grants: frozenset[str] = frozenset()
-    """What the user may do, by UAS name; none where the controller does not tell."""
+    """Grants of the user by UAS name; empty if the controller reports none."""
 
     @property
     def orphans(self) -> tuple[str, ...]:
@@ -87,7 +89,7 @@ class ControllerSnapshot:
         return tuple(result)
 
     def normal(self, task: str) -> bool:
-        """Whether a task keeps its modules over a restart."""
+        """True if a task keeps its modules over a restart."""
         return any(t.kind == "normal" and t.name.casefold() == task.casefold() for t in self.tasks)
 
 
@@ -97,8 +99,11 @@ def look(
     tasks: Iterable[str],
     symbols: Mapping[str, tuple[str, ...]],
 ) -> ControllerSnapshot:
-    """Read all of it. `references` are the instances that we write or have written, `tasks` those
-    whose memory matters, `symbols` where BUILD_ID is in each (`MODULE/NAME`). Raises RobotError."""
+    """Read the snapshot.
+
+    `references` are the instances that we write or have written, `tasks` those whose memory
+    matters, `symbols` the place of BUILD_ID in each (`MODULE/NAME`). Raises RobotError.
+    """
     who, panel = services.identity(), services.panel()
     there = services.tasks()
     known = {t.name.casefold(): t.name for t in there}
@@ -116,9 +121,9 @@ def look(
         tuple(_rows(services, references)),
         {t.casefold(): tuple(m.name for m in services.modules(t)) for t in own},
         {
-            # A cut may leave old and new modules in what a restart keeps. Others are read from
-            # files, but for the one whose file was not there just then: the one that is switched
-            # last, which is loaded first.
+            # An interruption may leave old and new modules in the memory that a restart keeps.
+            # Others are read from files, except the one whose file was missing at that moment: the
+            # one that is switched last and loaded first.
             t.casefold(): build_in(services, t, _some(symbols.get(t, ()), complete=t in normal))
             for t in own
         },
@@ -131,9 +136,9 @@ def _some(symbols: Sequence[str], *, complete: bool) -> Sequence[str]:
 
 
 def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:
-    """BUILD_ID in a task's memory; empty where there is none, or where its modules differ.
+    """Return BUILD_ID in a task's memory.
 
-    Raises RobotError.
+    Empty if there is none, or if its modules differ. Raises RobotError.
     """
     result: set[str] = set()
     for symbol in symbols:
@@ -148,7 +153,7 @@ def build_in(services: "Controller", task: str, symbols: Sequence[str]) -> str:
 
 
 def build_symbols(desired: DriverSet) -> dict[str, tuple[str, ...]]:
-    """Where BUILD_ID is in each task: `MODULE/NAME` for each module that has it."""
+    """Return `MODULE/NAME` of each module with a BUILD_ID, by task."""
     declared = rf'^\s*(?:LOCAL\s+)?CONST\s+string\s+(\w+)\s*:=\s*"{re.escape(desired.build_id)}"'
     pattern = re.compile(declared.encode(), re.M | re.I)
     result: dict[str, tuple[str, ...]] = {}
@@ -180,7 +185,7 @@ def _instance(section: str, text: CfgInstance, known: Sequence[Instance]) -> Ins
         seen = _through(text, reference)
         if shown_key(section, seen).casefold() == shown_key(section, reference).casefold():
             return seen
-    # Nobody asked for it: what is empty or false says nothing.
+    # A default that no plan set: empty and false mean nothing.
     given = [(k, v) for k, v in text.attributes.items() if v and v.lower() != "false"]
     return Instance(tuple(_attribute(k, v, flag=v.lower() == "true") for k, v in given))
 

@@ -1,4 +1,4 @@
-"""After a restart: is it the same controller, does it have what was deployed, does that serve?"""
+"""Verification after a restart: identity, deployed set, service."""
 
 import time
 from collections.abc import Callable
@@ -16,7 +16,10 @@ if TYPE_CHECKING:
     from rapidgen.client.rws import Controller
 
 Hello = Callable[[str, int], str | None]
-"""BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
+"""Returns BUILD_ID of the driver at a state port, or None.
+
+None: another program answers. Raises OSError: no answer.
+"""
 
 _LOOK = 0.5
 """s between two looks at a port."""
@@ -24,11 +27,14 @@ _LOOK = 0.5
 
 @dataclass(frozen=True, slots=True)
 class PostRestartCheck:
-    """How it is looked whether the driver serves. `host` is where its ports are."""
+    """Settings of the check that the driver serves.
+
+    `host` is the host of its ports.
+    """
 
     hello: Hello | None = None
     host: str = ""
-    patience: float = 20.0
+    timeout: float = 20.0
     """s until a port has to answer."""
 
 
@@ -40,10 +46,10 @@ def verify(
     proof: PostRestartCheck,
     say: Callable[[str], None],
 ) -> None:
-    """Look at everything, and tell all that is wrong at once. `last` is the number of the last
-    event before the restart; None: there was none.
+    """Verify everything and report all faults together.
 
-    Raises DiagnosticError RG540, RG544; RobotError.
+    `last` is the number of the last event before the restart; None: there was none. Raises
+    DiagnosticError RG540, RG544; RobotError.
     """
     result = services.identity()
     faults = []
@@ -66,7 +72,7 @@ def verify(
             error(
                 "RG544",
                 None,
-                f"{plan.target} {'took it' if last is None else 'restarted'}, and {faults[0]}",
+                f"{plan.target} {'accepted it' if last is None else 'restarted'}, and {faults[0]}",
                 f"go back: {way_back(plan)} with --restart; a backup was made before",
                 notes=(*faults[1:], *map(str, events[:5])),
             )
@@ -83,7 +89,7 @@ def way_back(plan: Plan) -> str:
 def _driver(
     services: "Controller", plan: Plan, live: OnlinePlan, there: dict[str, str]
 ) -> list[str]:
-    """What is wrong with the tasks."""
+    """Return the faults of the tasks."""
     if plan.wanted is None:
         gone = [c.key.partition(" ")[2] for c in plan.cfg if c.action == "remove"]
         names = [n for n in gone if n.casefold() in there and n in live.owned]
@@ -110,27 +116,32 @@ def _events(services: "Controller", last: int) -> tuple[LogEvent, ...]:
 
 
 def _ports(plan: Plan, proof: PostRestartCheck) -> list[str]:
-    """State ports that do not tell our BUILD_ID."""
+    """Return state ports that do not report our BUILD_ID."""
     if proof.hello is None or plan.wanted is None:
         return []
     faults = []
     groups = members(plan.wanted.generated.get("groups") or {})
-    end = time.monotonic() + proof.patience
+    end = time.monotonic() + proof.timeout
     for name, group in groups.items():
         port = members(members(group).get("ports") or {}).get("state")
         if port is None:
             continue
         where = f"{name} state {proof.host}:{whole(port)}"
-        text = _told(proof, whole(port), end)
+        text = _running_build(proof, whole(port), end)
         if text is None:
-            faults.append(f"nobody serves {where}: is a firewall between, or `sim --ports auto`?")
+            faults.append(
+                f"there is no server at {where}: is a firewall between, or `sim --ports auto`?"
+            )
         elif text != plan.wanted.build_id:
             faults.append(f"{where} serves {text or 'something else'}")
     return faults
 
 
-def _told(proof: PostRestartCheck, port: int, end: float) -> str | None:
-    """BUILD_ID of what answers, '' for another program; None: nobody does."""
+def _running_build(proof: PostRestartCheck, port: int, end: float) -> str | None:
+    """Return the BUILD_ID that answers, '' for another program, or None.
+
+    None: no answer.
+    """
     assert proof.hello is not None
     while True:
         try:

@@ -1,1 +1,4 @@
-"""Ways to the files of a controller: the scheme of a URL names one, `registry` lists them."""
+"""Transports to the files of a controller, selected by a URL's scheme.
+
+`registry` lists them.
+"""

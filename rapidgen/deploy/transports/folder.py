@@ -1,4 +1,7 @@
-"""dir:// - a folder on this machine: a mounted disk, a backup, a virtual controller's HOME."""
+"""dir:// - a folder on this machine.
+
+A mounted disk, a backup, a virtual controller's HOME.
+"""
 
 import errno
 import os
@@ -88,7 +91,7 @@ class FolderTransport:
         pass
 
     def _real(self, path: str) -> Path:
-        """The file behind a path, links followed."""
+        """Return the file of a path, links followed."""
         real = (self._root / path).resolve()
         if not real.is_relative_to(self._root):
             raise TransportFault("outside", f"{path} is a link that leads out of {self._root}")
@@ -106,9 +109,9 @@ def open_folder(target: Target, _login: Credentials, _timeout: float) -> FolderT
 
 
 def _open_to_write(path: Path) -> BinaryIO:
-    """An empty regular file; a pipe or a device that has its name is not written to."""
+    """Open an empty regular file; refuse a pipe or a device of that name."""
     flags = os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY
-    file = open(os.open(path, flags, 0o666), "wb")  # noqa: SIM115 - it is closed by who asked
+    file = open(os.open(path, flags, 0o666), "wb")  # noqa: SIM115 - the caller closes it
     try:
         if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
             raise OSError(errno.EINVAL, "it is no regular file", str(path))

@@ -1,9 +1,9 @@
-"""ftp:// - the standard library's ftplib, passive and binary, with bounded answers.
+"""ftp:// - the standard library's ftplib, passive, binary, bounded.
 
-ftplib trusts a server's amount and pace of text; here a line, an answer, a listing, a file and
-the time for each are limited. Data connections go to the host that was asked (ftplib ignores
-the address in the answer to PASV). Only RETR, STOR, LIST or NLST, CWD, MKD, RMD, DELE and, where
-known, MLSD and RNFR/RNTO are needed.
+ftplib trusts the amount and pace of a server's text; here a line, an answer, a listing, a file and
+the time for each are limited. Data connections go to the requested host (ftplib ignores the address
+in the answer to PASV). Only RETR, STOR, LIST or NLST, CWD, MKD, RMD, DELE and, if available, MLSD
+and RNFR/RNTO are needed.
 """
 
 import ftplib
@@ -38,11 +38,14 @@ _SPACE_WORDS = (
 
 
 class FtpTransport:
-    """One FTP session. `home` is absolute on the server; '' is where the login ends."""
+    """One FTP session.
+
+    `home` is absolute on the server; '' is the folder of the login.
+    """
 
     services = None
     reach = TransportCapabilities(
-        rename="found out at deploy: rename over, delete and rename, or overwriting in place",
+        rename="detected at deploy: rename over, delete and rename, or overwriting in place",
         writes_cfg=False,
         unseen=(
             "loaded configuration, tasks, operating mode and running programs are not seen",
@@ -173,7 +176,10 @@ class FtpTransport:
 
     @contextmanager
     def _deadline(self) -> Iterator[Callable[[], float]]:
-        """Seconds left for one transfer: a server that drips does not hold us for ever."""
+        """Return the s left for one transfer.
+
+        So a slow server cannot block us for ever.
+        """
         end = time.monotonic() + 6 * self._timeout
 
         def left() -> float:
@@ -188,7 +194,7 @@ class FtpTransport:
     def _faults(
         self, place: str, path: str | None = None, *, login: bool = False
     ) -> Iterator[None]:
-        """Every way in which ftplib can fail, as a TransportFault."""
+        """Turn every failure of ftplib into a TransportFault."""
         if self._dead:
             raise TransportFault("lost", f"{place}: the connection has ended")
         try:
@@ -235,7 +241,10 @@ class FtpTransport:
         return "denied"
 
     def _is_missing(self, path: str) -> bool:
-        """550 means "not there" and "not allowed" alike: the listing of the folder tells."""
+        """True if a file is missing.
+
+        550 means "missing" and "not allowed" alike: the folder's listing decides.
+        """
         if not path:
             return True
         try:
@@ -259,7 +268,7 @@ class _Session(ftplib.FTP):
         return super().connect(host, port, timeout)
 
     def getline(self) -> str:
-        """One line of an answer, read from the socket itself so that its time is limited."""
+        """Read one line of an answer from the socket, with a time limit."""
         end = time.monotonic() + self._allowed
         while b"\n" not in self._pending:
             left = end - time.monotonic()

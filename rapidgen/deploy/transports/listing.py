@@ -1,8 +1,8 @@
-"""What FTP servers answer to MLSD, LIST and NLST, as entries.
+"""Answers of FTP servers to MLSD, LIST and NLST, parsed as entries.
 
-RFC 959 leaves LIST open; met in the field are `ls -l` (with and without the group column), DOS,
-and the columns of VxWorks' own server, on which IRC5 runs ([mem]). A line that is none of them
-is passed over; a name that could lead elsewhere is dropped.
+RFC 959 leaves LIST open; observed are `ls -l` (with and without the group column), DOS, and the
+columns of VxWorks' own server, on which IRC5 runs ([mem]). Other lines are skipped; a name that
+could lead elsewhere is dropped.
 """
 
 import re
@@ -27,7 +27,10 @@ _VXWORKS = re.compile(
 
 
 def parse_list(lines: Iterable[str]) -> tuple[Entry, ...] | None:
-    """Entries of a LIST answer; None when it has lines and not one is of a known form."""
+    """Return entries of a LIST answer.
+
+    None if it has lines and none is of a known form.
+    """
     result: list[Entry] = []
     understood = True
     for line in lines:
@@ -42,7 +45,10 @@ def parse_list(lines: Iterable[str]) -> tuple[Entry, ...] | None:
 
 
 def parse_names(lines: Iterable[str]) -> tuple[Entry, ...]:
-    """Entries of an NLST answer. Some servers give whole paths: the last part counts."""
+    """Return entries of an NLST answer.
+
+    Some servers return whole paths: the last part counts.
+    """
     return _kept(Entry(re.split(r"[/\\]", line.strip("\r\n"))[-1]) for line in lines)
 
 

@@ -1,4 +1,7 @@
-"""Which transports there are. A new one is a file beside this one, and a line in `SCHEMES`."""
+"""Registry of transports.
+
+A new one is a file in this folder and an entry in `SCHEMES`.
+"""
 
 import logging
 from dataclasses import dataclass
@@ -12,13 +15,16 @@ _LOG = logging.getLogger("rapidgen.deploy")
 
 @dataclass(frozen=True, slots=True)
 class Scheme:
-    """One transport. `opener` is `file:callable` of this folder, imported when it is used."""
+    """One transport.
+
+    `opener` is `file:callable` of this folder, imported on use.
+    """
 
     opener: str
     port: int = 0
-    """TCP port where a URL has none; 0: a folder of this machine, without host and login."""
+    """Default TCP port; 0: a local folder, without host and login."""
     takes_keys: bool = False
-    """Whether an SSH key can stand for a password."""
+    """True if an SSH key can replace a password."""
 
 
 SCHEMES = {
@@ -32,7 +38,10 @@ SCHEMES = {
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A controller to deploy to. `path` is absolute, or '' for the folder of the login."""
+    """A deployment target.
+
+    `path` is absolute, or '' for the folder of the login.
+    """
 
     scheme: str
     host: str
@@ -53,7 +62,10 @@ class Target:
         return f"{self.scheme}://{host}{port}{self.path}"
 
     def open(self, login: Credentials, timeout: float) -> Transport:
-        """A logged-in transport; s for each answer. Raises TransportFault RG501..RG506."""
+        """Open a logged-in transport; s for each answer.
+
+        Raises TransportFault RG501..RG506.
+        """
         module, _, name = self.way.opener.partition(":")
         opened: Transport = getattr(import_module(f"{__package__}.{module}"), name)(
             self, login, timeout

@@ -32,7 +32,7 @@ class RwsTransport:
     """Files below `folder` (`HOME`) of a controller, and its other services."""
 
     reach = TransportCapabilities(
-        rename="delete, then rename (Robot Web Services give a file a free name only)",
+        rename="delete, then rename (Robot Web Services only rename to a free name)",
         writes_cfg=False,
         unseen=(),
     )
@@ -83,7 +83,7 @@ class RwsTransport:
             with _faults(path):
                 self.services.make_folder(self._path(path))
         except TransportFault as fault:
-            # What "there is one already" is called differs: a look tells.
+            # Controllers report an existing file differently: check whether it exists.
             name = path.rpartition("/")[2].casefold()
             if fault.kind == "lost" or not any(
                 e.folder and e.name.casefold() == name for e in self.entries(parent(path))
@@ -112,7 +112,10 @@ class RwsTransport:
 
 
 def open_services(target: Target, login: Credentials, timeout: float) -> RwsTransport:
-    """Log in. Raises TransportFault RG501, RG502, RG504; DiagnosticError RG509."""
+    """Log in.
+
+    Raises TransportFault RG501, RG502, RG504; DiagnosticError RG509.
+    """
     folder = target.path.strip("/") or "HOME"
     if folder.upper().lstrip("$") != "HOME":
         raise refusal(
@@ -144,8 +147,8 @@ def _faults(path: str) -> Iterator[None]:
         first = error.diagnostics[0]
         code = "RG501" if type(error) is ConnectionFailed else ""
         text = first.message if path in first.message else f"{path}: {first.message}"
-        mend = first.help if isinstance(error, LoginFailed) or code else ""
-        raise TransportFault(_kind(error), text, code=code, help=mend) from error
+        help_text = first.help if isinstance(error, LoginFailed) or code else ""
+        raise TransportFault(_kind(error), text, code=code, help=help_text) from error
 
 
 def _kind(error: RobotError) -> Kind:

@@ -1,4 +1,7 @@
-"""sftp:// - paramiko: the host key must be known, keys and agent before the password."""
+"""sftp:// - paramiko with a known host key.
+
+Keys and agent are tried before the password.
+"""
 
 import errno
 import logging
@@ -34,19 +37,25 @@ _GARBLED = (
     AttributeError,
     OverflowError,
 )
-"""What paramiko raises on answers that are no SFTP.
+"""Exceptions of paramiko for invalid SFTP answers.
 
-tests/deploy/test_hostile_sftp.py meets SSHException, SFTPError and ValueError (text that is no
-UTF-8); the others are what paramiko's indexing and unpacking could raise, and were not met.
+tests/deploy/test_hostile_sftp.py produces SSHException, SFTPError and ValueError (text that is not
+UTF-8); paramiko's indexing and unpacking could raise the others, which were not observed.
 """
 
 
 _NOTHING_TO_SHOW = "No authentication methods available"
-"""paramiko's words for a login without password, key and agent; it has no exception for it."""
+"""paramiko's text for a login without password, key and agent.
+
+It has no exception for it.
+"""
 
 
 class SftpTransport:
-    """One SFTP session. `home` is absolute on the server; '' is where the login ends."""
+    """One SFTP session.
+
+    `home` is absolute on the server; '' is the folder of the login.
+    """
 
     services = None
     reach = TransportCapabilities(
@@ -61,7 +70,7 @@ class SftpTransport:
         self.shown = target.shown
         self._login = login
         self._dead = False
-        # What goes wrong is raised; paramiko's own log would print it a second time.
+        # Failures are raised; paramiko's own log would print them a second time.
         logging.getLogger("paramiko").addHandler(logging.NullHandler())
         self._client = paramiko.SSHClient()
         self._client.set_missing_host_key_policy(_Unknown(self.shown))
@@ -103,8 +112,8 @@ class SftpTransport:
                 f"the host key of {self.shown} has changed: {_print(error.key)}, "
                 f"known is {_print(error.expected_key)}",
                 code="RG503",
-                help="find out why (a new controller, or somebody between); then "
-                f"`ssh-keygen -R {_name(host, port)}` and take the new key",
+                help="find out why (a new controller, or an attacker in between); then "
+                f"`ssh-keygen -R {_name(host, port)}` and accept the new key",
             ) from None
         except paramiko.AuthenticationException as error:
             raise TransportFault(
@@ -218,7 +227,7 @@ class SftpTransport:
 
     @contextmanager
     def _faults(self, place: str) -> Iterator[None]:
-        """Every way in which paramiko can fail, as a TransportFault."""
+        """Turn every failure of paramiko into a TransportFault."""
         if self._dead:
             raise TransportFault("lost", f"{place}: the connection has ended")
         try:
@@ -243,7 +252,7 @@ class SftpTransport:
 
 
 class _Unknown(paramiko.MissingHostKeyPolicy):
-    """An unknown key is refused, with its fingerprint and the way to take it."""
+    """Refuses an unknown key, and shows its fingerprint and how to accept it."""
 
     def __init__(self, displayed: str) -> None:
         self._shown = displayed
@@ -261,7 +270,7 @@ class _Unknown(paramiko.MissingHostKeyPolicy):
 
 
 def _readable(option: str, path: str, code: str) -> None:
-    """Refuse a file of ours that is not there before anybody looks for a fault of the line."""
+    """Refuse a missing local file before it is taken for a connection fault."""
     try:
         if path:
             open(path, "rb").close()

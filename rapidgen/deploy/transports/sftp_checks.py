@@ -1,8 +1,8 @@
-"""Answers of an SFTP server, checked before paramiko takes them apart.
+"""Checks of an SFTP server's answers before paramiko parses them.
 
-paramiko pads an answer that is too short with zeros, and believes every count in it: a listing
-of 2^30 names, or a file that ends in zeros, out of a few senseless bytes. So every answer is
-walked once by the lengths that it names (draft-ietf-secsh-filexfer-02, which is version 3).
+paramiko pads a short answer with zeros, and trusts every count in it: a listing of 2^30 names, or a
+file that ends in zeros, from a few invalid bytes. So every answer is checked by the lengths in it
+(draft-ietf-secsh-filexfer-02, which is version 3).
 """
 
 from typing import NoReturn
@@ -14,14 +14,17 @@ from rapidgen.deploy.transports.transport import LISTING_LIMIT
 _VERSION, _STATUS, _HANDLE, _DATA, _NAME, _ATTRS, _EXTENDED = 2, 101, 102, 103, 104, 105, 201
 _SIZE, _OWNER, _MODE, _TIMES, _MORE = 1, 2, 4, 8, 0x8000_0000
 _STRAYS = 1000
-"""Answers that nobody waits for; a few come after a failed write."""
+"""Unrequested answers; a few arrive after a failed write."""
 
 
 class CheckedClient(SFTPClient):
-    """paramiko's client; SFTPError on an answer that is none, ConnectionError on an ended line."""
+    """paramiko's client with checked answers.
+
+    SFTPError for an invalid answer, ConnectionError for a closed connection.
+    """
 
     names = 0
-    """Names that came since a listing was begun; whoever begins one sets it to 0."""
+    """Names since the start of a listing; each listing sets it to 0."""
     _strays = 0
 
     def _read_packet(self) -> tuple[int, bytes]:
@@ -37,12 +40,15 @@ class CheckedClient(SFTPClient):
         if kind != _VERSION and int.from_bytes(data[:4], "big") not in self._expecting:  # type: ignore[attr-defined]
             self._strays += 1
             if self._strays > _STRAYS:
-                raise SFTPError("answers to nothing, without an end")
+                raise SFTPError("answers without a request, without an end")
         return kind, data
 
 
 def _names(kind: int, data: bytes) -> int:
-    """How many names a sound answer holds, at least 1 for a listing; SFTPError: not sound."""
+    """Return the number of names of a valid answer.
+
+    At least 1 for a listing. SFTPError: invalid.
+    """
     if kind in (_VERSION, _EXTENDED):
         _skip(data, 0, 4)
         return 0
@@ -88,7 +94,7 @@ def _number(data: bytes, at: int) -> int:
 
 def _skip(data: bytes, at: int, width: int) -> int:
     if at + width > len(data):
-        _unsound("an answer that ends too early")
+        _unsound("a truncated answer")
     return at + width
 
 

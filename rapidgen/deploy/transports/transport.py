@@ -1,8 +1,8 @@
-"""The seam under a deployment: file operations on one controller, and what they cannot reach.
+"""Interface of transports: file operations on one controller.
 
-Every transport is a folder of files behind relative POSIX paths. What a server answers is not
-trusted: sizes, times and names are bounded, and every failure is a `TransportFault`. What a
-transport does beyond files is behind its `services`.
+Every transport is a folder of files with relative POSIX paths. A server's answers are not trusted:
+sizes, times and names are bounded, and every failure is a `TransportFault`. Functions beyond files
+are in its `services`.
 """
 
 import re
@@ -15,7 +15,10 @@ if TYPE_CHECKING:
     from rapidgen.client.rws import Controller
 
 FILE_LIMIT = 8 * 1024 * 1024
-"""Largest file that is read from a controller; a RAPID module of 8 MB is refused elsewhere too."""
+"""Largest file that is read from a controller.
+
+A RAPID module of 8 MB is refused elsewhere too.
+"""
 LISTING_LIMIT = 20_000
 """Most names in one folder."""
 
@@ -26,7 +29,7 @@ _CODES: dict[Kind, tuple[str, str]] = {
     "denied": ("RG506", "give this user the right to write there, or name another folder"),
     "unsupported": ("RG506", "use another transport, or a server that knows this command"),
     "full": ("RG507", "free space on the controller's disk (old backups, logs), then run again"),
-    "lost": ("RG505", "run the same command again: it finishes or undoes what was under way"),
+    "lost": ("RG505", "run the same command again: it finishes or undoes the interrupted run"),
     "garbled": ("RG504", "look whether this is the controller's server, then run again"),
     "login": ("RG502", "check user and password (`rapidgen deploy --help` says where from)"),
     "outside": ("RG508", "paths stay inside the folder that the URL names"),
@@ -36,17 +39,23 @@ _SEGMENT = re.compile(r"[A-Za-z0-9_$(){}\[\]@#%&+=,;!~'. -]{1,120}")
 
 
 class TransportFault(DiagnosticError):
-    """A file operation that failed; `kind` is for the code, the diagnostic for the user."""
+    """A failed file operation.
+
+    `kind` is for the code, the diagnostic for the user.
+    """
 
     def __init__(self, kind: Kind, message: str, *, help: str = "", code: str = "") -> None:
-        known, mend = _CODES[kind]
-        super().__init__(error(code or known, None, message, help or mend), exit_code=1)
+        known, help_text = _CODES[kind]
+        super().__init__(error(code or known, None, message, help or help_text), exit_code=1)
         self.kind = kind
 
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A name in a folder. `size` and `folder` are None where the listing does not say."""
+    """A name in a folder.
+
+    `size` and `folder` are None if the listing does not have them.
+    """
 
     name: str
     size: int | None = None
@@ -55,19 +64,23 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class TransportCapabilities:
-    """What a transport can and cannot do. Lines of `unseen` stand in every plan."""
+    """Capabilities of a transport. Every plan shows the lines of `unseen`."""
 
     rename: str
-    """How the switch is made, in words."""
+    """Description of the switch."""
     writes_cfg: bool
-    """Whether SYSPAR beside HOME is what the next start reads (a backup, a virtual controller)."""
+    """True if the next start reads SYSPAR next to HOME.
+
+    That is a backup or a virtual controller.
+    """
     unseen: tuple[str, ...]
 
 
 class Transport(Protocol):
-    """Files of one controller. Paths are relative to the folder of the URL ('' is that folder).
+    """Files of one controller.
 
-    Every method raises TransportFault.
+    Paths are relative to the folder of the URL ('' is that folder). Every method raises
+    TransportFault.
     """
 
     reach: TransportCapabilities
@@ -76,22 +89,22 @@ class Transport(Protocol):
 
     @property
     def services(self) -> "Controller | None":
-        """Web services of the same controller; None where there are files and nothing else."""
+        """Web services of the same controller; None if there are only files."""
 
     def entries(self, folder: str) -> tuple[Entry, ...]:
-        """What lies in a folder; kind 'missing' where there is none."""
+        """List a folder; kind 'missing' if there is none."""
 
     def read(self, path: str) -> bytes:
-        """A whole file; kind 'missing' where there is none."""
+        """Read a whole file; kind 'missing' if there is none."""
 
     def write(self, path: str, data: bytes) -> None:
         """Create or overwrite a file. Not atomic: a cut leaves a part of it."""
 
     def rename(self, old: str, new: str) -> None:
-        """Rename, over an existing file where the server does that, else 'denied'."""
+        """Rename, over an existing file if the server can, else 'denied'."""
 
     def delete(self, path: str) -> None:
-        """Delete a file; kind 'missing' where there is none."""
+        """Delete a file; kind 'missing' if there is none."""
 
     def make_folder(self, path: str) -> None:
         """Make a folder; one that is there already is fine."""
@@ -100,14 +113,17 @@ class Transport(Protocol):
         """Delete an empty folder."""
 
     def free(self) -> int | None:
-        """Free bytes on the disk, or None where the transport cannot tell."""
+        """Free bytes on the disk, or None if unknown."""
 
     def close(self) -> None:
         """End the connection; never raises."""
 
 
 def refused(code: str, message: str, help: str = "") -> DiagnosticError:
-    """What a controller's state forbids, to be raised: no place in a text, exit code 1."""
+    """Return a refusal by the controller's state, without a place in a text.
+
+    Exit code 1.
+    """
     return refusal(code, None, message, help, exit_code=1)
 
 
@@ -129,7 +145,7 @@ def parent(path: str) -> str:
 
 
 def read_or_none(transport: Transport, path: str) -> bytes | None:
-    """The file, or None when there is none."""
+    """Return the file, or None if there is none."""
     try:
         return transport.read(path)
     except TransportFault as fault:

@@ -31,7 +31,7 @@ UNPACKED = ROOT / "build" / "servers" / "root"
 USER, PASSWORD = "Default User", "robot-test"
 HASH = "$1$rapidgen$Z4.YQEqmTI.KLC/JtVMCd."  # of PASSWORD, as AuthUserFile wants it
 IS_ROOT = os.geteuid() == 0
-NOBODY = 65534
+UNPRIVILEGED = 65534
 
 
 @dataclass
@@ -187,9 +187,9 @@ def pure_ftpd(folder: Path, home: Path, host: str, port: int) -> tuple[list[str]
     database = folder / "pure.pdb"
     users = folder / "users"
     if home.stat().st_uid == 0:
-        os.chown(home, NOBODY, NOBODY)
+        os.chown(home, UNPRIVILEGED, UNPRIVILEGED)
     # The tool refuses a user name with a space; the server reads what the file says.
-    users.write_text(f"{USER}:{HASH}:{NOBODY}:{NOBODY}::{home}/./::::::::::::\n")
+    users.write_text(f"{USER}:{HASH}:{UNPRIVILEGED}:{UNPRIVILEGED}::{home}/./::::::::::::\n")
     subprocess.run([tool, "mkdb", str(database), "-f", str(users)], check=True, env=environment())
     command = [program("pure-ftpd"), "-S", f"{host},{port}", "-l", f"puredb:{database}"]
     command += ["-g", str(folder / "pid"), "-u", "1", "-H", "-U", "022:022"]
@@ -247,7 +247,7 @@ def server(request, monkeypatch, caplog) -> Iterator[Server]:
         host = own_address()
         if kind in OURS:
             service = OURS[kind](home, host, user=USER, password=PASSWORD)
-            # What it says is shown where a test is red.
+            # pytest shows its output if a test fails.
             caplog.set_level(logging.DEBUG, "pyftpdlib")
             scheme = "ftp" if kind == "pyftpdlib" else "sftp"
             known = folder / "known_hosts"
@@ -261,7 +261,7 @@ def server(request, monkeypatch, caplog) -> Iterator[Server]:
         command, login, access = DEBIAN[kind](folder, home, host, port)
         process = start(command, host, port, folder)
         scheme = "sftp" if kind == "sshd" else "ftp"
-        # Behind a login that ends in HOME there is nothing to name.
+        # The login ends in HOME: there is no path to give.
         place = str(home) if kind in ("sshd",) else ""
         url = f"{scheme}://{login}:{port}{place}"
         try:

@@ -32,7 +32,7 @@ class Proxy:
     """
 
     def __init__(self, server, act=lambda number, line: None, *, data_limit=None):
-        self.host, self.port_behind = server.target.host, server.port
+        self.host, self.target_port = server.target.host, server.port
         self.act, self.ftp = act, server.target.scheme == "ftp"
         self.data_limit = data_limit
         self.count, self.log, self.cut = 0, [], False
@@ -55,7 +55,7 @@ class Proxy:
             while True:
                 client, _ = self.listener.accept()
                 self._keep(client)
-                server = socket.create_connection((self.host, self.port_behind))
+                server = socket.create_connection((self.host, self.target_port))
                 self._keep(server)
                 self._spawn(self._commands, client, server)
                 self._spawn(self._answers, server, client)
@@ -280,7 +280,7 @@ def test_cut_in_the_middle_of_data(kit, server, tmp_path):
 @pytest.mark.parametrize("server", ["proftpd"], indirect=True)
 @pytest.mark.parametrize("without", ["RNFR", "MLSD"])
 def test_commands_that_a_server_does_not_know(kit, server, without):
-    """No rename: it degrades to overwriting in place, behind the fence."""
+    """No rename: deployment overwrites in place, within the fence."""
 
     def act(_, line):
         if line.split()[0] == without.encode():

@@ -7,7 +7,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from at_desk import PASSWORD, Line, connect, pass_time
+from in_process import PASSWORD, Line, connect, pass_time
 
 from rapidgen.config import load_config
 from rapidgen.controller.runner import ControllerRunner
@@ -30,7 +30,7 @@ ENDMODULE
 RELEASES = {Generation.ONE: (6, 15), Generation.TWO: (7, 6), Generation.EIGHT: (7, 6)}
 
 
-def empty_cabinet(folder, generation, **options):
+def empty_runner(folder, generation, **options):
     """T_ROB1 with a MainModule that has `main`, and no driver."""
     path = folder / "MainModule.mod"
     path.write_text(MAIN)
@@ -41,7 +41,7 @@ def empty_cabinet(folder, generation, **options):
 
 
 def overrides_of(generation):
-    """What an irb120 needs for a controller of this generation."""
+    """Overrides of an irb120 for a controller of this generation."""
     major, minor = RELEASES[generation]
     ware = f"controller.robotware={major}.{minor:02d}"
     return [ware, "controller.type=omnicore"] if major > 6 else [ware]
@@ -58,15 +58,15 @@ def model(generation):
     return load_config("irb120", overrides=tuple(overrides_of(generation)))
 
 
-def home_of(cabinet):
+def home_of(controller_runner):
     """All files of HOME."""
-    root = cabinet.controller.files.path("HOME:")
+    root = controller_runner.controller.files.path("HOME:")
     return {p.relative_to(root).as_posix(): p.read_bytes() for p in root.rglob("*") if p.is_file()}
 
 
-def cfg_of(cabinet):
+def cfg_of(controller_runner):
     """The whole database as text."""
-    texts = sorted(cabinet.cfg.domains, key=lambda text: text.domain)
+    texts = sorted(controller_runner.cfg.domains, key=lambda text: text.domain)
     return [write_cfg(text) for text in texts]
 
 
@@ -81,7 +81,7 @@ def run(transport, wanted, verb="deploy", *, overwrite=True, message=None, resta
 class Kit:
     """The functions above, for tests."""
 
-    empty_cabinet = staticmethod(empty_cabinet)
+    empty_runner = staticmethod(empty_runner)
     build = staticmethod(build)
     model = staticmethod(model)
     home_of = staticmethod(home_of)

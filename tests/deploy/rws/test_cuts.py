@@ -1,8 +1,8 @@
-"""A deployment that is cut at a request, and then somebody restarts the controller.
+"""Deployments interrupted at a request, then a restart.
 
-What boots is the old set, the new one, or one that does not move; the next run, of whichever kind,
-puts it right. Some of the kinds of requests that change something are cut once each; RAPIDGEN_LONG
-takes every request, before and after it was done (`make rws-interruptions`).
+The controller boots the old set, the new one, or one that does not move; the next run, of any kind,
+repairs it. Some of the kinds of requests that change something are interrupted once each;
+RAPIDGEN_LONG takes every request, before and after it was done (`make rws-interruptions`).
 """
 
 import os
@@ -20,7 +20,7 @@ from rapidgen.wire.rws.bodies import Generation
 LONG = bool(os.environ.get("RAPIDGEN_LONG"))
 HOWS = ("before", "after")
 FAILED = "failed.txt"
-"""What the copies of the process that went wrong have said."""
+"""Output of the failed copies of the process."""
 
 
 def kinds(log):
@@ -35,15 +35,15 @@ def kinds(log):
     return sorted(result.values())
 
 
-def restarted(cabinet, rws):
-    cabinet.ask_restart()
-    rws.pass_time(cabinet, 1.0)
+def restarted(controller_runner, rws):
+    controller_runner.ask_restart()
+    rws.pass_time(controller_runner, 1.0)
 
 
-def verdict(cabinet, *sets):
+def verdict(controller_runner, *sets):
     """'empty', 'set 0', ... or 'refuses'; 'MIXED' must never be. Not by the code in test."""
-    tasks = cabinet.controller.rapid_tasks
-    programs = cabinet.programs
+    tasks = controller_runner.controller.rapid_tasks
+    programs = controller_runner.programs
     lying = {n: {m.name for m in programs.modules(t)} for n, t in tasks.items()}
     texts = [programs.text(t, m) or "" for n, t in tasks.items() for m in lying[n]]
     known = "|".join(["incomplete--", *(wanted.build_id for wanted in sets)])
@@ -59,12 +59,12 @@ def verdict(cabinet, *sets):
                 expected.setdefault(task, set()).add(name[1].decode())
         if lying == expected and ids == {wanted.build_id} and not faulty:
             return f"set {number}"
-    moves = "ROS_motion" in lying["T_ROB1"]  # without it there is nobody who could
+    moves = "ROS_motion" in lying["T_ROB1"]  # without it no user could answer
     return "MIXED" if moves and not faulty and len(ids) == 1 else "refuses"
 
 
 def attempt(function, *args):
-    """What it was refused with, or None."""
+    """Return the refusal, or None."""
     try:
         function(*args)
     except DiagnosticError as error:
@@ -79,9 +79,9 @@ class Forks:
     each.
     """
 
-    def __init__(self, cabinet, wanted):
+    def __init__(self, controller_runner, wanted):
         """`wanted(number, method, target)`: how a request is cut, in every way of these."""
-        self.runner, self.wanted = cabinet, wanted
+        self.runner, self.wanted = controller_runner, wanted
         self.cut = None
         """In a copy: where it is cut, and how."""
         self.done, self.failed = 0, []
@@ -93,7 +93,7 @@ class Forks:
         return None
 
     def _copy(self, number, how):
-        """Whether this is the copy, which is cut."""
+        """True in the copy, which is interrupted."""
         retained = self.runner.folder.with_name(f"{self.runner.folder.name}-kept")
         shutil.copytree(self.runner.folder, retained)
         sys.stdout.flush()
@@ -117,13 +117,13 @@ def run_cut(rws, generation, folder, case, wanted=lambda *request: (), again=Non
     by a request's number and how it was cut.
     """
     old, new = rws.build(generation), rws.build(generation, "trajectory.capacity=500")
-    with rws.empty_cabinet(folder, generation) as cabinet:
-        empty = rws.home_of(cabinet), rws.cfg_of(cabinet)
+    with rws.empty_runner(folder, generation) as controller_runner:
+        empty = rws.home_of(controller_runner), rws.cfg_of(controller_runner)
         before = {"first": [], "rollback": [old, new]}.get(case, [old])
         for earlier in before:
-            rws.run(rws.connect(rws.Line(cabinet, generation)), earlier)
-        forks = Forks(cabinet, wanted)
-        line = rws.Line(cabinet, generation, cut=forks)
+            rws.run(rws.connect(rws.Line(controller_runner, generation)), earlier)
+        forks = Forks(controller_runner, wanted)
+        line = rws.Line(controller_runner, generation, cut=forks)
 
         def complete():
             transport = rws.connect(line)
@@ -138,7 +138,7 @@ def run_cut(rws, generation, folder, case, wanted=lambda *request: (), again=Non
                 raise error
             if forks.cut:
                 deployed = forks.cut[0] % 2 if again is None else again
-                judge(rws, generation, cabinet, (old, new), empty, again=deployed)
+                judge(rws, generation, controller_runner, (old, new), empty, again=deployed)
         except BaseException:
             if not forks.cut:
                 raise
@@ -152,20 +152,23 @@ def run_cut(rws, generation, folder, case, wanted=lambda *request: (), again=Non
         return line.log, forks.done, forks.failed
 
 
-def judge(rws, generation, cabinet, sets, empty, again):
-    """What boots is whole, and the next run puts it right: another deployment, or taking it off."""
-    restarted(cabinet, rws)
-    assert verdict(cabinet, *sets) != "MIXED"
-    transport = rws.connect(rws.Line(cabinet, generation))
+def judge(rws, generation, controller_runner, sets, empty, again):
+    """Check that the booted set is complete and that the next run repairs.
+
+    The next run is another deployment, or uninstalling.
+    """
+    restarted(controller_runner, rws)
+    assert verdict(controller_runner, *sets) != "MIXED"
+    transport = rws.connect(rws.Line(controller_runner, generation))
     if again:
         rws.run(transport, sets[1])
-        assert verdict(cabinet, *sets) == "set 1"
+        assert verdict(controller_runner, *sets) == "set 1"
         assert rws.run(transport, sets[1]).is_empty
     result = attempt(rws.run, transport, None, "uninstall")
     assert result is None or result.diagnostics[0].code == "RG529", result
-    restarted(cabinet, rws)
-    assert verdict(cabinet, *sets) == "empty"
-    assert (rws.home_of(cabinet), rws.cfg_of(cabinet)) == empty
+    restarted(controller_runner, rws)
+    assert verdict(controller_runner, *sets) == "empty"
+    assert (rws.home_of(controller_runner), rws.cfg_of(controller_runner)) == empty
 
 
 CASES = [
@@ -200,8 +203,10 @@ def test_cut_at_a_request(rws, generation, case, tmp_path):
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="copies of a process")
 def test_cut_while_the_file_that_is_switched_last_is_away(rws, tmp_path):
-    """A background task then keeps that one module, of the set that was to be left behind: the
-    next deployment of this set must not take the task for current."""
+    """A background task keeps that one module of the other set.
+
+    The next deployment of this set must not take the task for current.
+    """
 
     def away(_number, method, target):
         return ("after",) if method == "DELETE" and "ROS_common" in target else ()

@@ -15,14 +15,14 @@ SPEED = 10
 def test_empty_deployed_started_moved(rws, generation, tmp_path):
     wanted, model = rws.build(generation), load_config("irb120")
     group = model.groups[0]
-    with rws.empty_cabinet(
+    with rws.empty_runner(
         tmp_path, generation, clock="real", speed=SPEED, ports="auto"
-    ) as cabinet:
-        cabinet.start()
-        transport = rws.connect(rws.Line(cabinet, generation, on_thread=True))
+    ) as controller_runner:
+        controller_runner.start()
+        transport = rws.connect(rws.Line(controller_runner, generation, on_thread=True))
 
         def at(port):
-            match = cabinet.controller.network.listeners.get(port)
+            match = controller_runner.controller.network.listeners.get(port)
             if match is None:
                 raise ConnectionRefusedError
             return match[1]

@@ -1,4 +1,7 @@
-"""The verbs over a real connection: TLS, a pinned certificate, a password that nobody sees."""
+"""Commands over a real connection: TLS, pinned certificate, password.
+
+No output shows the password.
+"""
 
 import socket
 from contextlib import ExitStack
@@ -46,15 +49,17 @@ def served(rws, tmp_path, monkeypatch):
     """An empty controller with RWS 2.0 on a port, and the password in the environment."""
     monkeypatch.setenv("RAPIDGEN_PASSWORD", WORD)
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
-    with rws.empty_cabinet(tmp_path, Generation.TWO, clock="real", speed=20) as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, Generation.TWO, accounts=Accounts({"Default User": WORD}))
-        yield cabinet, service
+    with rws.empty_runner(tmp_path, Generation.TWO, clock="real", speed=20) as controller_runner:
+        controller_runner.start()
+        service = serve_rws(
+            controller_runner, Generation.TWO, accounts=Accounts({"Default User": WORD})
+        )
+        yield controller_runner, service
         service.close()
 
 
 def test_plan_and_doctor_on_the_command_line(served, rws, run):
-    cabinet, service = served
+    controller_runner, service = served
     url = f"rws://{service.host}:{service.port}"
     pin = ("--fingerprint", service.host_key)
     code, _, why = run("plan", "irb120", "--to", url, *SEVEN)
@@ -65,16 +70,16 @@ def test_plan_and_doctor_on_the_command_line(served, rws, run):
     assert (code, f"via {url}: cell (virtual, RobotWare 7." in displayed) == (2, True), message
     code, looked, _ = run("doctor", "irb120", "--to", url, *SEVEN, *pin)
     assert code == 1
-    assert f"id {cabinet.id}" in looked
+    assert f"id {controller_runner.id}" in looked
     assert "T_ROB1/MainModule is loaded, and has a main, too" in looked
     assert "the delivered password is not accepted" in looked
-    assert not rws.home_of(cabinet)
+    assert not rws.home_of(controller_runner)
     assert WORD not in why + displayed + message + looked
 
 
-def test_nobody_there_and_somebody_else(served):
+def test_missing_and_other_server_are_refused(served):
     _, service = served
-    with socket.socket() as deaf:  # bound, so nobody else's, and without listen()
+    with socket.socket() as deaf:  # bound, so that no other process gets it, and without listen()
         deaf.bind(("127.0.0.1", 0))
         port = deaf.getsockname()[1]
         result = refusal(connect, parse_target(f"rws://127.0.0.1:{port}"), Access(timeout=2))
@@ -88,22 +93,22 @@ def test_nobody_there_and_somebody_else(served):
 
 
 def test_a_fleet_is_deployed_side_by_side(rws, tmp_path, monkeypatch):
-    """Two controllers at a time, and one that is in the way of nobody but itself."""
+    """Two controllers at a time; the failure of one does not stop the others."""
     monkeypatch.setenv("RAPIDGEN_PASSWORD", WORD)
     wanted = rws.build(Generation.ONE)
     with ExitStack() as stack:
-        cabinets, urls = [], []
+        runners, urls = [], []
         for name in ("a", "b"):
             (tmp_path / name).mkdir()
-            cabinet = stack.enter_context(
-                rws.empty_cabinet(tmp_path / name, Generation.ONE, clock="real", speed=20)
+            controller_runner = stack.enter_context(
+                rws.empty_runner(tmp_path / name, Generation.ONE, clock="real", speed=20)
             )
-            cabinet.id = name
-            cabinet.start()
+            controller_runner.id = name
+            controller_runner.start()
             accounts = Accounts({"Default User": WORD})
-            service = serve_rws(cabinet, Generation.ONE, accounts=accounts)
+            service = serve_rws(controller_runner, Generation.ONE, accounts=accounts)
             stack.callback(service.close)
-            cabinets.append(cabinet)
+            runners.append(controller_runner)
             urls.append(f"rws://{service.host}:{service.port}")
         targets = parse_targets(urls)
         job = FleetJob(
@@ -113,5 +118,5 @@ def test_a_fleet_is_deployed_side_by_side(rws, tmp_path, monkeypatch):
         assert [plan.live.id for plan in plans] == ["a", "b"]
         outcomes = apply_all(job, plans, lambda _: None)
         assert [outcome.word for outcome in outcomes] == ["done", "done"], outcomes
-        assert [cabinet.restarts for cabinet in cabinets] == [1, 1]
+        assert [controller_runner.restarts for controller_runner in runners] == [1, 1]
         assert all(plan.is_empty for plan in plan_all(job))

@@ -1,4 +1,4 @@
-"""What a plan says and what is refused: a pending restart, modules in the way, a program."""
+"""Plans and refusals by state: pending restart, clashes, programs."""
 
 import json
 import shutil
@@ -19,8 +19,8 @@ from tests.refusal import refusal, refused
 @pytest.fixture
 def cell(rws, tmp_path):
     """An empty controller with RWS 1.0, and a transport to it."""
-    with rws.empty_cabinet(tmp_path, Generation.ONE) as cabinet:
-        yield cabinet, rws.connect(rws.Line(cabinet, Generation.ONE))
+    with rws.empty_runner(tmp_path, Generation.ONE) as controller_runner:
+        yield controller_runner, rws.connect(rws.Line(controller_runner, Generation.ONE))
 
 
 @pytest.fixture(scope="module")
@@ -28,17 +28,20 @@ def wanted(rws):
     return rws.build(Generation.ONE)
 
 
-def modules(cabinet, task="T_ROB1"):
-    return [m.name for m in cabinet.programs.modules(cabinet.controller.rapid_tasks[task])]
+def modules(controller_runner, task="T_ROB1"):
+    return [
+        m.name
+        for m in controller_runner.programs.modules(controller_runner.controller.rapid_tasks[task])
+    ]
 
 
 def test_a_plan_and_a_look_change_nothing(rws, cell, wanted, tmp_path):
-    cabinet, transport = cell
-    before = rws.home_of(cabinet), rws.cfg_of(cabinet)
+    controller_runner, transport = cell
+    before = rws.home_of(controller_runner), rws.cfg_of(controller_runner)
     line = transport.services._carrier.line
     plan = make_plan(transport, wanted)
     assert {m for m, t in line.log if not t.startswith("/users")} == {"GET"}
-    assert (rws.home_of(cabinet), rws.cfg_of(cabinet)) == before
+    assert (rws.home_of(controller_runner), rws.cfg_of(controller_runner)) == before
     text = plan_text(plan)
     assert "(virtual, RobotWare 6.15" in text
     for cfg in wanted.cfg:
@@ -47,37 +50,40 @@ def test_a_plan_and_a_look_change_nothing(rws, cell, wanted, tmp_path):
     assert "> save and unload T_ROB1/MainModule, which has a main, too (--overwrite)" in text
     assert "! you: a warm start: --restart does it" in text
     write_plans(tmp_path / "plan.json", [plan])
-    assert json.loads((tmp_path / "plan.json").read_text())["plans"][0]["controller"] == cabinet.id
+    assert (
+        json.loads((tmp_path / "plan.json").read_text())["plans"][0]["controller"]
+        == controller_runner.id
+    )
 
 
 def test_a_plan_is_of_one_controller(rws, cell, wanted, tmp_path):
-    cabinet, transport = cell
+    controller_runner, transport = cell
     plan = make_plan(transport, wanted)
     write_plans(tmp_path / "plan.json", [plan])
-    cabinet.id = "ANOTHER"
+    controller_runner.id = "ANOTHER"
     again = make_plan(transport, wanted)
     assert refusal(check_plans, tmp_path / "plan.json", [again]).diagnostics[0].code == "RG540"
     other = replace(plan, live=replace(plan.live, id="ELSE"))
     assert "RG540" in refused(rws.apply, transport, other, overwrite=True)
-    assert not rws.home_of(cabinet)
+    assert not rws.home_of(controller_runner)
 
 
-def test_what_is_in_the_way_is_unloaded_only_when_that_was_said(rws, cell, wanted):
-    cabinet, transport = cell
+def test_clashing_module_is_unloaded_only_with_overwrite(rws, cell, wanted):
+    controller_runner, transport = cell
     assert "RG541" in refused(rws.run, transport, wanted, overwrite=False)
-    assert not rws.home_of(cabinet)
+    assert not rws.home_of(controller_runner)
     transport.services.set_symbol("T_ROB1/MainModule/x", 7)
     rws.run(transport, wanted)
-    assert "MainModule" not in modules(cabinet)
-    saved = rws.home_of(cabinet)["rapidgen_deploy/unloaded/T_ROB1/MainModule.mod"]
+    assert "MainModule" not in modules(controller_runner)
+    saved = rws.home_of(controller_runner)["rapidgen_deploy/unloaded/T_ROB1/MainModule.mod"]
     assert b"PERS num x := 7;" in saved
     rws.run(transport, None, "uninstall")
-    assert modules(cabinet) == ["MainModule"]
+    assert modules(controller_runner) == ["MainModule"]
     assert transport.services.symbol("T_ROB1/MainModule/x") == 7
 
 
 def test_a_program_that_runs_is_not_stopped(rws, cell, wanted):
-    cabinet, transport = cell
+    controller_runner, transport = cell
     rws.run(transport, wanted)
     transport.services.motors(True)
     transport.services.start()
@@ -86,23 +92,23 @@ def test_a_program_that_runs_is_not_stopped(rws, cell, wanted):
         "! you: stop the program: `rapidgen stop-program rws://cell` (stops motion)"
         in plan_text(plan)
     )
-    files = rws.home_of(cabinet)
+    files = rws.home_of(controller_runner)
     assert "RG542" in refused(rws.run, transport, None, "uninstall")
-    assert rws.home_of(cabinet) == files
+    assert rws.home_of(controller_runner) == files
     assert transport.services.execution().running
 
 
 def test_manual_mode_is_a_persons_step(rws, cell, wanted):
-    cabinet, transport = cell
-    cabinet.controller.set_mode("manual_reduced")
+    controller_runner, transport = cell
+    controller_runner.controller.set_mode("manual_reduced")
     assert "! pendant: automatic mode (it is MANR)" in plan_text(make_plan(transport, wanted))
     assert "RG542" in refused(rws.run, transport, wanted)
-    assert not rws.home_of(cabinet)
+    assert not rws.home_of(controller_runner)
 
 
-def grants_rmmp(cabinet, answer="Grant"):
-    """Whoever holds the pendant answers as soon as it asks; what it asked."""
-    operator, requested = cabinet.controller.operator, []
+def grants_rmmp(controller_runner, answer="Grant"):
+    """Grant every question at the pendant; return the questions."""
+    operator, requested = controller_runner.controller.operator, []
     operator.attach()
 
     def look():
@@ -116,38 +122,38 @@ def grants_rmmp(cabinet, answer="Grant"):
 
 
 def test_manual_mode_is_written_in_when_the_pendant_grants_it(rws, cell, wanted):
-    cabinet, transport = cell
-    cabinet.controller.set_mode("manual_reduced")
-    requested, message = grants_rmmp(cabinet), []
+    controller_runner, transport = cell
+    controller_runner.controller.set_mode("manual_reduced")
+    requested, message = grants_rmmp(controller_runner), []
     rws.run(transport, wanted, message=message)
     assert "rapidgen" in requested[0]
     assert any("Press Grant there within 10 s" in line for line in message)
-    assert rws.home_of(cabinet)
-    assert cabinet.restarts == 1
+    assert rws.home_of(controller_runner)
+    assert controller_runner.restarts == 1
 
 
 def test_what_the_pendant_denies_changes_nothing(rws, cell, wanted):
-    cabinet, transport = cell
-    cabinet.controller.set_mode("manual_reduced")
-    grants_rmmp(cabinet, "Deny")
+    controller_runner, transport = cell
+    controller_runner.controller.set_mode("manual_reduced")
+    grants_rmmp(controller_runner, "Deny")
     text = refused(rws.run, transport, wanted)
     assert "RG542" in text
-    assert not rws.home_of(cabinet)
+    assert not rws.home_of(controller_runner)
 
 
-def test_a_grant_that_is_missing_is_told_before_anything_is_changed(rws, cell, wanted):
-    cabinet, transport = cell
-    office = transport.services._carrier.line.desk.context
+def test_missing_grant_is_refused_before_changes(rws, cell, wanted):
+    controller_runner, transport = cell
+    office = transport.services._carrier.line.app.context
     office.login = replace(office.login, denied=frozenset({"UAS_CFG_WRITE"}))
     plan = make_plan(transport, wanted)
     assert "! you: give the user UAS_CFG_WRITE in RobotStudio" in plan_text(plan)
     text = refused(rws.run, transport, wanted)
     assert "RG542" in text
-    assert not rws.home_of(cabinet)
+    assert not rws.home_of(controller_runner)
 
 
 def test_an_uninstall_without_a_restart_is_pending_until_one(rws, cell, wanted):
-    cabinet, transport = cell
+    controller_runner, transport = cell
     rws.run(transport, wanted)
     transport.services.stop(everything=True)
     message = []
@@ -160,20 +166,20 @@ def test_an_uninstall_without_a_restart_is_pending_until_one(rws, cell, wanted):
     result = {(c.area, c.verdict): c.found for c in _contents(transport, wanted, ())}
     assert "a restart is pending" in result["restart", "warn"]
     rws.run(transport, None, "uninstall")
-    assert cabinet.restarts == 2
+    assert controller_runner.restarts == 2
     assert "RG529" in refused(make_plan, transport, None, verb="uninstall")
 
 
 def test_people_are_waited_for(rws, cell, wanted):
-    cabinet, transport = cell
+    controller_runner, transport = cell
     rws.run(transport, wanted)
     transport.services.motors(True)
     transport.services.start()
-    cabinet.controller.set_mode("manual_reduced")
-    acts = [lambda: cabinet.controller.set_mode("auto")]
+    controller_runner.controller.set_mode("manual_reduced")
+    acts = [lambda: controller_runner.controller.set_mode("auto")]
 
     def person(seconds):
-        rws.pass_time(cabinet, seconds)
+        rws.pass_time(controller_runner, seconds)
         if acts:
             acts.pop()()
 
@@ -181,22 +187,22 @@ def test_people_are_waited_for(rws, cell, wanted):
     rws.run(transport, None, "uninstall", wait=30, pause=person, message=message)
     (waited,) = [line for line in message if line.startswith("waiting")]
     assert "is in mode MANR" in waited
-    assert modules(cabinet) == ["MainModule"]
+    assert modules(controller_runner) == ["MainModule"]
 
 
-def test_nothing_is_held_and_nobody_is_logged_in_at_the_end(rws, cell, wanted):
+def test_run_end_releases_mastership_and_sessions(rws, cell, wanted):
     _, transport = cell
     rws.run(transport, wanted, restart=False)
-    desk = transport.services._carrier.line.desk
+    app = transport.services._carrier.line.app
     for domain in ("cfg", "rapid"):
         assert transport.services.holder(domain) is None
-    assert len(desk.sessions) == 1
+    assert len(app.sessions) == 1
     transport.close()
-    assert len(desk.sessions) == 0
+    assert len(app.sessions) == 0
 
 
-def test_a_restart_that_is_pending_is_told_until_it_was(rws, cell, wanted):
-    cabinet, transport = cell
+def test_pending_restart_is_shown_until_done(rws, cell, wanted):
+    controller_runner, transport = cell
     message = []
     rws.run(transport, wanted, restart=False, message=message)
     assert message[-1].startswith("restart pending")
@@ -206,31 +212,31 @@ def test_a_restart_that_is_pending_is_told_until_it_was(rws, cell, wanted):
     assert "  * everything is loaded, and counts after a restart: restart pending" in plan_text(
         plan
     )
-    assert not cabinet.restarts
-    cabinet.ask_restart()  # somebody at the pendant
-    rws.pass_time(cabinet, 1.0)
+    assert not controller_runner.restarts
+    controller_runner.ask_restart()  # a person at the pendant
+    rws.pass_time(controller_runner, 1.0)
     assert make_plan(transport, wanted).is_empty
 
 
-def test_no_restart_but_a_warm_one_and_only_when_it_was_said(rws, cell, wanted):
-    cabinet, transport = cell
+def test_restart_is_warm_and_needs_the_option(rws, cell, wanted):
+    controller_runner, transport = cell
     rws.run(transport, wanted, restart=False)
     line = transport.services._carrier.line
     assert not [t for _, t in line.log if "restart" in t]
     rws.run(transport, wanted)
-    assert cabinet.restarts == 1
+    assert controller_runner.restarts == 1
     assert len([t for _, t in line.log if "action=restart" in t]) == 1
     assert not [t for _, t in line.log if "reset" in t]
 
 
 def test_a_controller_that_restarts_is_busy_for_a_while(rws, cell, wanted):
-    cabinet, transport = cell
+    controller_runner, transport = cell
     line, busy = transport.services._carrier.line, []
     handle = line.handle
 
     def slow(got):
-        if cabinet.restarts and len(busy) < 10:
-            rws.pass_time(cabinet, 0.5)
+        if controller_runner.restarts and len(busy) < 10:
+            rws.pass_time(controller_runner, 0.5)
             busy.append(got.target)
             return rws.busy
         return handle(got)
@@ -244,19 +250,19 @@ def test_normal_tasks_that_stand_are_updated_without_a_restart(rws, generation, 
     """Commissioning: all tasks of the driver are NORMAL."""
     slow = ("commissioning=true",)
     old, new = rws.build(generation, *slow), rws.build(generation, *slow, "trajectory.capacity=500")
-    with rws.empty_cabinet(tmp_path, generation) as cabinet:
-        transport = rws.connect(rws.Line(cabinet, generation))
+    with rws.empty_runner(tmp_path, generation) as controller_runner:
+        transport = rws.connect(rws.Line(controller_runner, generation))
         rws.run(transport, old)
         transport.services.motors(True)
         transport.services.start()
-        restarts = cabinet.restarts
+        restarts = controller_runner.restarts
         assert "RG542" in refused(rws.run, transport, new, restart=False)  # the user stops it
         transport.services.stop()
         message = []
         plan = rws.run(transport, new, restart=False, message=message)
         assert not plan.live.restart
         assert not [step for step in plan.steps if "warm start" in step.what]
-        assert cabinet.restarts == restarts
+        assert controller_runner.restarts == restarts
         assert make_plan(transport, new).is_empty
         assert not [line for line in message if line.startswith("!")]  # every pointer is at main
         transport.services.start()
@@ -279,35 +285,37 @@ def test_an_update_and_the_way_back(rws, cell, wanted):
 
 def test_a_driver_that_was_loaded_by_hand_comes_back_with_its_background_tasks(rws, cell, wanted):
     """Its tasks stand in modules that are to be loaded again."""
-    cabinet, transport = cell
+    controller_runner, transport = cell
     rws.run(transport, wanted)
-    shutil.rmtree(cabinet.controller.files.path("HOME:/rapidgen_deploy"))
-    shutil.rmtree(cabinet.controller.files.path("HOME:/rapidgen"))
-    before = {task: modules(cabinet, task) for task in cabinet.controller.rapid_tasks}
-    rws.pass_time(cabinet, 1.0)
-    assert cabinet.controller.rapid_tasks["T_ROS_CONTROL"].stack()
-    transport = rws.connect(rws.Line(cabinet, Generation.ONE))
+    shutil.rmtree(controller_runner.controller.files.path("HOME:/rapidgen_deploy"))
+    shutil.rmtree(controller_runner.controller.files.path("HOME:/rapidgen"))
+    before = {
+        task: modules(controller_runner, task) for task in controller_runner.controller.rapid_tasks
+    }
+    rws.pass_time(controller_runner, 1.0)
+    assert controller_runner.controller.rapid_tasks["T_ROS_CONTROL"].stack()
+    transport = rws.connect(rws.Line(controller_runner, Generation.ONE))
     text = plan_text(rws.run(transport, rws.build(Generation.ONE, "trajectory.capacity=500")))
     (row,) = (line for line in text.splitlines() if "save and unload T_ROB1/" in line)
     assert row.count("ROS_") > 3
     assert row.endswith("each of which has a name of ours (--overwrite)")
-    rws.pass_time(cabinet, 1.0)
+    rws.pass_time(controller_runner, 1.0)
     rws.run(transport, None, "uninstall")
-    assert {t: sorted(modules(cabinet, t)) for t in before} == {
+    assert {t: sorted(modules(controller_runner, t)) for t in before} == {
         t: sorted(names) for t, names in before.items()
     }
 
 
 def test_old_and_new_modules_in_one_task_are_not_taken_for_new(rws, cell, wanted):
-    """What a cut after the first of them leaves: it has the new BUILD_ID, the others have not."""
-    cabinet, transport = cell
+    """An interruption after the first module: it alone has the new BUILD_ID."""
+    controller_runner, transport = cell
     newer = rws.build(Generation.ONE, "trajectory.capacity=500")
     rws.run(transport, wanted)
     rws.run(transport, newer, restart=False)
     transport.services.stop(everything=True)
     transport.services.load_module("T_ROB1", "HOME/rapidgen/ROS_common.sys", replace=True)
-    cabinet.ask_restart()
-    rws.pass_time(cabinet, 1.0)
+    controller_runner.ask_restart()
+    rws.pass_time(controller_runner, 1.0)
     assert "T_ROB1/ROS_motion" in [m.shown for m in make_plan(transport, newer).live.replace]
     rws.run(transport, newer)
     assert make_plan(transport, newer).is_empty
@@ -315,8 +323,8 @@ def test_old_and_new_modules_in_one_task_are_not_taken_for_new(rws, cell, wanted
 
 def test_success_and_then_a_system_failure(rws, cell, wanted):
     """2xx on all of it, and what boots is broken: the way back is offered, and works."""
-    cabinet, transport = cell
-    home = rws.home_of(cabinet)
+    controller_runner, transport = cell
+    home = rws.home_of(controller_runner)
     bad = [
         replace(f, data=f.data.replace(b"ENDMODULE", b"  oops := ;\r\nENDMODULE"))
         if f.path.endswith("ROS_stateServer.mod")
@@ -330,8 +338,8 @@ def test_success_and_then_a_system_failure(rws, cell, wanted):
     assert "`rapidgen uninstall` with --restart" in result.help
     assert any("ROS_stateServer" in note for note in result.notes)
     rws.run(transport, None, "uninstall")
-    assert rws.home_of(cabinet) == home
-    assert modules(cabinet) == ["MainModule"]
+    assert rws.home_of(controller_runner) == home
+    assert modules(controller_runner) == ["MainModule"]
     assert transport.services.panel().state != "sysfail"
 
 
@@ -344,8 +352,8 @@ def test_rollback_out_of_a_system_failure(rws, generation, tmp_path):
         else f
         for f in new.files
     ]
-    with rws.empty_cabinet(tmp_path, generation) as cabinet:
-        transport = rws.connect(rws.Line(cabinet, generation))
+    with rws.empty_runner(tmp_path, generation) as controller_runner:
+        transport = rws.connect(rws.Line(controller_runner, generation))
         rws.run(transport, old)
         (result,) = refusal(rws.run, transport, replace(new, files=tuple(bad))).diagnostics
         assert result.code == "RG544"
@@ -370,7 +378,7 @@ def test_a_port_must_serve_our_build(rws, cell, wanted):
     assert "rob1 state cell:11002 serves another-one!" in result.message
 
 
-def test_no_password_in_what_is_said(rws, cell, wanted, tmp_path):
+def test_messages_contain_no_password(rws, cell, wanted, tmp_path):
     _, transport = cell
     message = []
     plan = rws.run(transport, wanted, message=message)
@@ -380,86 +388,89 @@ def test_no_password_in_what_is_said(rws, cell, wanted, tmp_path):
     assert rws.PASSWORD not in "".join(text)
 
 
-def background(cabinet):
+def background(controller_runner):
     """States of the driver's background tasks."""
-    tasks = cabinet.controller.rapid_tasks.values()
+    tasks = controller_runner.controller.rapid_tasks.values()
     return {task.state for task in tasks if task.spec.type != "NORMAL"}
 
 
-def killed_after(rws, cabinet, wanted, target):
+def killed_after(rws, controller_runner, wanted, target):
     """A run that is killed after a request; where later runs go, and what it had got done."""
-    line = rws.Line(cabinet, Generation.ONE)
+    line = rws.Line(controller_runner, Generation.ONE)
     line.cut = lambda number, got: "after" if target in got.target else None
     killed = rws.connect(line)
     with pytest.raises(DiagnosticError):
         rws.run(killed, wanted)
     assert line.dead
-    later = rws.Line(cabinet, Generation.ONE)
-    later.desk = line.desk  # the same controller: the session is still there
+    later = rws.Line(controller_runner, Generation.ONE)
+    later.app = line.app  # the same controller: the session is still there
     return rws.connect(later)
 
 
 @pytest.mark.parametrize("target", ["/rw/rapid/execution?action=stop", "action=loadmod"])
 def test_a_run_that_was_killed_while_tasks_stand_is_taken_up_again(rws, cell, wanted, target):
     """The controller ends a session after 300 idle seconds [RWS manual]."""
-    cabinet, transport = cell
+    controller_runner, transport = cell
     rws.run(transport, wanted)
     newer = rws.build(Generation.ONE, "trajectory.capacity=500")
-    transport = killed_after(rws, cabinet, newer, target)
-    assert background(cabinet) == {"stopped"}
-    since, message = cabinet.now, []
-    rws.run(transport, newer, message=message, pause=lambda s: rws.pass_time(cabinet, s))
+    transport = killed_after(rws, controller_runner, newer, target)
+    assert background(controller_runner) == {"stopped"}
+    since, message = controller_runner.now, []
+    rws.run(transport, newer, message=message, pause=lambda s: rws.pass_time(controller_runner, s))
     held = [text for text in message if text.startswith("waiting for mastership")]
-    # Whoever is killed while it stops tasks has no mastership.
+    # A run that is killed while it stops tasks has no mastership.
     assert len(held) == ("loadmod" in target)
-    assert (cabinet.now - since > 250) == ("loadmod" in target)
+    assert (controller_runner.now - since > 250) == ("loadmod" in target)
     assert all("another run of rapidgen" in text for text in held)
-    assert background(cabinet) == {"running"}
+    assert background(controller_runner) == {"running"}
     assert transport.services.symbol("T_ROS_RECV/ROS_common/ROS_BUILD_ID") == newer.build_id
 
 
 def test_background_tasks_that_were_left_stopped_are_started_by_a_restart(rws, cell, wanted):
     """Nothing is to be loaded: the killed run had only stopped them, or the old set is wanted."""
-    cabinet, transport = cell
+    controller_runner, transport = cell
     rws.run(transport, wanted)
     assert make_plan(transport, wanted).is_empty
     transport.services.stop(everything=True)
-    assert background(cabinet) == {"stopped"}
+    assert background(controller_runner) == {"stopped"}
     plan = make_plan(transport, wanted)
     assert plan.is_pending
     names = ", ".join(plan.live.silent)
     assert {"T_ROS_RECV", "T_ROS_STATE", "T_ROS_CONTROL"} <= {*plan.live.silent}
-    assert f"it starts {names}, which stand" in plan_text(plan)
+    assert f"it starts {names}, which are stopped" in plan_text(plan)
     result = {c.area: (c.verdict, c.found) for c in _contents(transport, wanted, ())}
-    assert result["tasks"] == ("fail", f"{names} of the driver stand: its ports do not answer")
+    assert result["tasks"] == (
+        "fail",
+        f"{names} of the driver are stopped: its ports do not answer",
+    )
     rws.run(transport, wanted)
-    assert background(cabinet) == {"running"}
+    assert background(controller_runner) == {"running"}
     assert make_plan(transport, wanted).is_empty
 
 
 @pytest.mark.parametrize("domain", ["cfg", "rapid"])
-def test_where_somebody_else_has_mastership_nothing_is_stopped(rws, cell, wanted, domain):
-    cabinet, transport = cell
+def test_foreign_mastership_prevents_any_stop(rws, cell, wanted, domain):
+    controller_runner, transport = cell
     rws.run(transport, wanted)
-    line = rws.Line(cabinet, Generation.ONE)
-    line.desk = transport.services._carrier.line.desk
+    line = rws.Line(controller_runner, Generation.ONE)
+    line.app = transport.services._carrier.line.app
     other = rws.connect(line).services
     other.take_mastership(domain)
-    line.desk.sessions.all()[-1].application = "RobotStudio"
+    line.app.sessions.all()[-1].application = "RobotStudio"
     newer = rws.build(Generation.ONE, "trajectory.capacity=500")
-    before = rws.home_of(cabinet), rws.cfg_of(cabinet)
+    before = rws.home_of(controller_runner), rws.cfg_of(controller_runner)
     error = refusal(rws.run, transport, newer)
     assert error.diagnostics[0].code == "RG542"
     assert f"mastership of {domain} at rws://cell is held by " in error.diagnostics[0].message
     assert "RobotStudio" in error.diagnostics[0].message
-    assert (rws.home_of(cabinet), rws.cfg_of(cabinet)) == before
-    assert background(cabinet) == {"running"}
-    said = []
+    assert (rws.home_of(controller_runner), rws.cfg_of(controller_runner)) == before
+    assert background(controller_runner) == {"running"}
+    messages = []
 
     def person(seconds):
-        rws.pass_time(cabinet, seconds)
+        rws.pass_time(controller_runner, seconds)
         other.give_mastership(domain)
 
-    rws.run(transport, newer, message=said, wait=30, pause=person)
-    assert any("waiting for a person: mastership of" in text for text in said)
-    assert background(cabinet) == {"running"}
+    rws.run(transport, newer, message=messages, wait=30, pause=person)
+    assert any("waiting for a person: mastership of" in text for text in messages)
+    assert background(controller_runner) == {"running"}

@@ -5,19 +5,21 @@ from rapidgen.wire.rws.bodies import Generation
 
 def test_deployed_restarted_and_taken_off_again(rws, generation, tmp_path):
     wanted = rws.build(generation)
-    with rws.empty_cabinet(tmp_path, generation) as cabinet:
-        home, cfg = rws.home_of(cabinet), rws.cfg_of(cabinet)
-        line = rws.Line(cabinet, generation)
+    with rws.empty_runner(tmp_path, generation) as controller_runner:
+        home, cfg = rws.home_of(controller_runner), rws.cfg_of(controller_runner)
+        line = rws.Line(controller_runner, generation)
         transport = rws.connect(line)
         rws.run(transport, wanted)
-        assert len(line.desk.sessions) == 1  # the restart has left none behind
+        assert len(line.app.sessions) == 1  # the restart has dropped every session
         if generation is Generation.EIGHT:
             changes = [target for method, target in line.log if method != "GET"]
             first = next(n for n, t in enumerate(changes) if t.startswith("/fileservice/HOME"))
             assert changes[first - 1].endswith("/writeaccess/request")
         assert rws.run(transport, wanted).is_empty
         assert rws.run(transport, None, "uninstall")
-        assert rws.home_of(cabinet) == home
-        assert rws.cfg_of(cabinet) == cfg
-        modules = cabinet.programs.modules(cabinet.controller.rapid_tasks["T_ROB1"])
+        assert rws.home_of(controller_runner) == home
+        assert rws.cfg_of(controller_runner) == cfg
+        modules = controller_runner.programs.modules(
+            controller_runner.controller.rapid_tasks["T_ROB1"]
+        )
         assert [m.name for m in modules] == ["MainModule"]

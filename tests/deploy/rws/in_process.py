@@ -1,4 +1,7 @@
-"""A client at the desk of a virtual controller: every request, and no network; it can be cut."""
+"""A client of a virtual controller in process, with interruptions.
+
+It sends every request without a network.
+"""
 
 import base64
 import hashlib
@@ -31,11 +34,17 @@ class Line:
     was done; None: not at all."""
 
     def __init__(
-        self, cabinet, generation, *, strict=True, on_thread=False, cut=lambda number, got: None
+        self,
+        controller_runner,
+        generation,
+        *,
+        strict=True,
+        on_thread=False,
+        cut=lambda number, got: None,
     ):
-        self.runner, self.generation = cabinet, generation
+        self.runner, self.generation = controller_runner, generation
         accounts = Accounts({"Default User": PASSWORD})
-        self.desk = RwsApplication(cabinet, generation, accounts, strict=strict)
+        self.app = RwsApplication(controller_runner, generation, accounts, strict=strict)
         self.on_thread, self.cut = on_thread, cut
         self.count, self.log, self.dead = 0, [], False
 
@@ -54,13 +63,13 @@ class Line:
     def handle(self, got):
         if not self.on_thread:
             pass_time(self.runner, 0.06)  # 20 requests a second are let through
-            return self.desk.handle(got)
+            return self.app.handle(got)
         done, result, restarts = threading.Event(), [], self.runner.restarts
-        if not self.runner.post(lambda: (result.append(self.desk.handle(got)), done.set())):
+        if not self.runner.post(lambda: (result.append(self.app.handle(got)), done.set())):
             return HttpResponse(503)
         while not done.wait(0.05):
             if self.runner.restarts > restarts:
-                return HttpResponse(503)  # nobody will answer any more
+                return HttpResponse(503)  # no answer arrives any more
         return result[0]
 
     def pause(self, seconds):
@@ -74,13 +83,17 @@ def _lost():
     return ConnectionLost.because("RG601", "the line is cut")
 
 
-def pass_time(cabinet, seconds):
+def pass_time(controller_runner, seconds):
     """Simulated time, over restarts."""
-    due = cabinet.now + seconds
-    while cabinet.now < due - 1e-9:
-        restarts = cabinet.restarts
-        cabinet.controller.scheduler.after(round((due - cabinet.now) * 1e9), lambda: None)
-        cabinet.run(lambda n=restarts: cabinet.now >= due - 1e-9 or cabinet.restarts > n)
+    due = controller_runner.now + seconds
+    while controller_runner.now < due - 1e-9:
+        restarts = controller_runner.restarts
+        controller_runner.controller.scheduler.after(
+            round((due - controller_runner.now) * 1e9), lambda: None
+        )
+        controller_runner.run(
+            lambda n=restarts: controller_runner.now >= due - 1e-9 or controller_runner.restarts > n
+        )
 
 
 class AtDesk:
@@ -129,7 +142,7 @@ class AtDesk:
                 word = base64.b64encode(f"{self.core.user}:{self.core.login.password}".encode())
                 headers["authorization"] = f"Basic {word.decode()}"
             else:
-                session = self.line.desk.sessions.begin(self.core.user)
+                session = self.line.app.sessions.begin(self.core.user)
                 self.cookies[SESSION] = session.key
         if self.cookies:
             headers["cookie"] = "; ".join(f"{k}={v}" for k, v in self.cookies.items())
