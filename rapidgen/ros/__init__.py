@@ -1,6 +1,6 @@
-"""A ROS action server, its topics and its services over the client, without ROS.
+"""ROS action server, topics and services over the client, without ROS.
 
-`goals` says what a FollowJointTrajectory goal means, `following` carries one out, `keeping` holds
-the link to the robot, `states` and `status` are what is published. Only `node` imports rclpy, and
-late: everything else runs, and is tested, where no ROS is.
+`goals` defines the meaning of a FollowJointTrajectory goal, `goal_execution` executes one,
+`robot_link` keeps the connection to the robot, `time_stamps` and `status_messages` are published.
+Only `node` imports rclpy, and late: all other modules run, and are tested, without ROS.
 """

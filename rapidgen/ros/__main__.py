@@ -1,4 +1,7 @@
-"""`python -m rapidgen.ros --ros-args -p config:=robot.yaml`: the node, without a workspace."""
+"""`python -m rapidgen.ros --ros-args -p config:=robot.yaml`.
+
+It runs the node without a workspace.
+"""
 
 import sys
 from importlib.util import find_spec

@@ -1,6 +1,7 @@
-"""A goal carried out: SUCCEEDED only on the controller's DONE, everything else with its reason.
+"""Execution of a goal: SUCCEEDED only on the controller's DONE.
 
-One `GoalExecutor` is one motion group. It runs on the loop of its robot, also on a virtual clock.
+Every other result has its reason. One `GoalExecutor` is one motion group. It runs on the loop of
+its robot, also on a virtual clock.
 """
 
 import asyncio
@@ -36,39 +37,50 @@ from rapidgen.ros.goals import (
 from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
 
 _APPROACH = 0.1
-"""Share of the axes' speeds at which a replacing goal's first point is gone to."""
+"""Share of the axes' speeds for the approach of a replacing goal."""
 _GRACE = 1e-9
 _STANDS = 1e-4
-"""rad, m: a robot that is not further away has not begun to move."""
+"""rad, m: a robot within this distance has not begun to move."""
 _MAY_HAVE_MOVED = (MotionError, ConnectionLost, RobotTimeout, ProtocolError, StopFailed)
-"""What ends the sending of a goal and does not say that the robot stands where it stood."""
+"""Errors during the sending of a goal that leave the robot's state open.
+
+The robot may not be where it was.
+"""
 _LONGER = "plan with a longer sampling period"
-_MENDS = {
+_ROS_HELPS = {
     "RG615": "plan with the speeds of joint_limits.yaml as `rapidgen ros2` writes it",
-    "RG616": "plan again from there, or `replace: approach` goes to the first point",
+    "RG616": "plan again from there, or `replace: approach` moves to the first point first",
     "RG617": _LONGER,
     "RG618": f"{_LONGER}, or `dense: resample` replaces points",
 }
-"""What to do, for whom ROS sends the goal: the client's own words are Python's."""
+"""Helps for users of ROS, since the client's own help is for Python."""
 
 
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """What the user said of goals; the defaults refuse what is in doubt."""
+    """The user's policy for goals; the defaults refuse in doubt."""
 
     defaults: Defaults = field(default_factory=Defaults)
     replace: Literal["refuse", "approach"] = "refuse"
-    """A goal while another one moves: refused, or the robot stops and goes from there to the
-    first point of the new one, on a straight way in joint space that nobody planned."""
+    """Goal during another one's motion: refused, or an approach.
+
+    With an approach the robot stops and moves to the first point of the new goal, on a straight
+    path in joint space that no planner has checked.
+    """
     dense: Literal["refuse", "resample"] = "refuse"
-    """Points nearer in time than the controller's planner follows: refused, or replaced by
-    points on the same way that are far enough apart."""
+    """Points nearer in time than the path planner can follow.
+
+    They are refused, or replaced by points on the same path at a sufficient distance.
+    """
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GoalFeedback:
-    """Of FollowJointTrajectory: positions rad or m and velocities (k,), `time` s since the start;
-    `error` is desired minus actual."""
+    """Feedback of FollowJointTrajectory.
+
+    Positions in rad or m and velocities (k,), `time` s since the start; `error` is desired minus
+    actual.
+    """
 
     names: tuple[str, ...]
     time: float
@@ -85,7 +97,7 @@ class GoalFeedback:
 
 
 class ActiveGoal:
-    """A goal from its acceptance to its end, and whether somebody wants it to end."""
+    """A goal from its acceptance to its end, with its cancellation."""
 
     def __init__(self) -> None:
         self.ending = asyncio.Event()
@@ -94,7 +106,7 @@ class ActiveGoal:
         self.is_called_off = False
 
     def cancel(self) -> None:
-        """End it, on the follower's loop; `follow` returns when the robot stands."""
+        """Cancel it, on the follower's loop; `follow` returns at rest."""
         self.ending.set()
 
     def replace(self) -> None:
@@ -103,7 +115,7 @@ class ActiveGoal:
         self.ending.set()
 
     def cancel_pending(self) -> None:
-        """End it before it begins: somebody wants the robot to stand."""
+        """Cancel it before its start, because of a stop."""
         self.is_called_off = True
         self.ending.set()
 
@@ -118,7 +130,7 @@ class GoalExecutor:
         now: Callable[[], float],
         note: Callable[[str], None],
     ) -> None:
-        """`now` is s of ROS time; `note` takes what the user should know of a goal."""
+        """`now` is s of ROS time; `note` receives messages about a goal."""
         self._robot = robot
         self._policy = policy
         self._now = now
@@ -126,19 +138,19 @@ class GoalExecutor:
         self._current: ActiveGoal | None = None
         self._unsent: set[ActiveGoal] = set()
         self._stood = 0.0
-        """s of `_samples`: when the robot was last seen where the motion under way began."""
+        """s of `_samples`: last observation at the start of the active motion."""
 
     @property
     def is_busy(self) -> bool:
-        """Whether a goal is under way."""
+        """True if a goal is active."""
         return self._current is not None
 
     async def follow(
         self, goal: Goal, tell: Callable[[GoalFeedback], None], under: ActiveGoal
     ) -> Outcome:
-        """Carry out a goal; returns when it is over and, after a stop, the robot stands.
+        """Execute a goal; return at its end, after a stop at rest.
 
-        `under` is how it is cancelled, also before this is called.
+        `under` cancels it, also before this call.
         """
         self._unsent.add(under)
         try:
@@ -169,7 +181,10 @@ class GoalExecutor:
         return await self._carried_out(requested, under, tell)
 
     async def _enter(self, under: ActiveGoal) -> None:
-        """Take the place of the goal under way, once nobody has it. Raises GoalRefused."""
+        """Wait until no goal is active, then become the active one.
+
+        Raises GoalRefused.
+        """
         while (other := self._current) is not None:
             if self._policy.replace == "refuse":
                 raise GoalRefused(
@@ -187,7 +202,7 @@ class GoalExecutor:
         if await self._waited(requested.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
         self._unsent.discard(under)
-        # Without a link nothing is sent.
+        # Without a link no byte is sent.
         may_move = self._robot.is_connected
         try:
             requested = self._fitted(requested)
@@ -200,19 +215,19 @@ class GoalExecutor:
         except RobotError as error:
             return _aborted(Code.INVALID_GOAL, error)
         if execution is None:
-            return _ended_early(under, "while it was sent; the robot stands")
+            return _ended_early(under, "while it was sent; the robot is at rest")
         for note in requested.notes:
             self._note(note)
         return await self._until_over(requested, execution, under, tell)
 
     async def _waited(self, start: float, under: ActiveGoal) -> bool:
-        """Wait for the moment `start` s of ROS time; True when the goal is ended before it.
+        """Wait for `start` s of ROS time; True if the goal is cancelled before.
 
-        Without a link there is nothing to wait for.
+        Without a link it returns at once.
         """
         while (left := start - self._now()) > 0 and self._robot.is_connected:
             ending = asyncio.ensure_future(under.ending.wait())
-            # ROS time may be simulated, at a speed of its own: it is looked at again.
+            # ROS time may be simulated at another speed: read it repeatedly.
             await asyncio.wait({ending}, timeout=min(left, 0.1))
             if under.ending.is_set():
                 break
@@ -238,11 +253,13 @@ class GoalExecutor:
         return Feature.FEEDBACK in self._robot.driver.features
 
     def _from_here(self, requested: ValidatedGoal) -> ValidatedGoal:
-        """With a way from where the robot stands to a first point elsewhere: in the time that the
-        goal has for it, else where the user's policy says so."""
+        """Prepend a path from the robot's position to a first point elsewhere.
+
+        Its time is the one in the goal, else that of the user's policy.
+        """
         group, state, trajectory = self._robot.group, self._robot.state, requested.trajectory
         current, first = np.array(state.joints), trajectory.positions[0]
-        # Where the controller takes it as it is, nothing is added.
+        # If the controller accepts it as it is, it stays unchanged.
         if (np.abs(current - first) <= group.start_tolerance).all():
             return requested
         seconds = float(trajectory.times[0])
@@ -254,16 +271,16 @@ class GoalExecutor:
             seconds = max(seconds, group.policy.min_segment)
         if not math.isfinite(seconds):
             raise GoalRefused(
-                Code.INVALID_GOAL, "the axes' speeds are not known: there is no way to the start"
+                Code.INVALID_GOAL, "the axes' speeds are not known: there is no path to the start"
             )
         report = (
-            f"a way of {seconds:.2f} s was put in front, from where the robot stood to the first "
+            f"a path of {seconds:.2f} s was prepended, from the robot's position to the first "
             f"point, {np.abs(current - first).max():.3f} (rad, m) away"
         )
         return requested.with_trajectory(trajectory.starting_at(state, seconds), report)
 
     async def _accepted(self, trajectory: Trajectory, under: ActiveGoal) -> AsyncExecution | None:
-        """The motion; None when the goal was ended before the controller took it."""
+        """Return the motion; None if the goal was cancelled before acceptance."""
         sending = asyncio.ensure_future(self._robot.execute(trajectory))
         ending = asyncio.ensure_future(under.ending.wait())
         standing = asyncio.ensure_future(self._note_standing())
@@ -275,11 +292,11 @@ class GoalExecutor:
             await asyncio.gather(sending, return_exceptions=True)
             return None
         finally:
-            # Sending that is cancelled here stops the robot: nobody waits for it any more.
+            # Cancelling the task here stops the robot: it has no other waiter.
             await _cancelled(sending, ending, standing)
 
     async def _note_standing(self) -> None:
-        """Keep when the robot was last seen where it stands, until it moves."""
+        """Record the last observation at the current position until it moves."""
         fed, state = self._robot.feedback, self._robot.state
         current = np.array(state.joints)
         self._stood = fed.time if self._measures and fed is not None else state.time
@@ -308,11 +325,11 @@ class GoalExecutor:
                 reached = await result
             except MotionStopped as error:
                 if expected:
-                    return violation or _ended_early(under, "the robot stands")
+                    return violation or _ended_early(under, "the robot is at rest")
                 return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
             except RobotError as error:
                 return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
-            # The controller may have been faster than whoever wanted it to end.
+            # The controller may have finished before the cancellation.
             return violation or self._reached(requested, reached)
         finally:
             await _cancelled(result, watching, ending)
@@ -320,7 +337,7 @@ class GoalExecutor:
     async def _watch(
         self, requested: ValidatedGoal, tell: Callable[[GoalFeedback], None]
     ) -> Outcome:
-        """Tell feedback; returns when a tolerance is violated."""
+        """Publish feedback; return if a tolerance is violated."""
         before: float | None = None
         desired = unsure = 0.0
         async for time, joints, velocity in self._samples():
@@ -328,7 +345,7 @@ class GoalExecutor:
                 # It began somewhere between the sample in which it stood and this one.
                 before, unsure = time, max(time - self._stood, 0.0)
             passed, before = max(time - before, 0.0), time
-            # Simulated or real, the controller's time; slower under an override, none in a pause.
+            # The controller's time, simulated or real; slower under an override, none in a pause.
             desired += passed * self._pace
             report = GoalFeedback(
                 requested.trajectory.names,
@@ -346,13 +363,16 @@ class GoalExecutor:
 
     @property
     def _pace(self) -> float:
-        """Seconds of the trajectory in a second, as this client knows it."""
+        """Return the speed of the trajectory as a share, as far as known."""
         if self._robot.state.trajectory is TrajectoryState.PAUSED:
             return 0.0
         return self._robot.override
 
     async def _samples(self) -> AsyncIterator[tuple[float, Array, Array]]:
-        """Time s, joints and velocities (k,): by the controller's clock where it tells it."""
+        """Yield time s, joints and velocities (k,), by the controller's clock.
+
+        Without feedback the time is that of reception.
+        """
         robot = self._robot
         while True:
             if self._measures:
@@ -363,7 +383,7 @@ class GoalExecutor:
                 yield state.time, np.array(state.joints), np.array(state.velocity)
 
     def _reached(self, requested: ValidatedGoal, result: Result) -> Outcome:
-        """DONE, and whether the robot stands where it was asked to."""
+        """Return the result of DONE, after checking the goal tolerances."""
         off = np.abs(np.array(result.state.joints) - requested.trajectory.positions[-1])
         worst = int(np.argmax(off - requested.goal))
         if off[worst] > requested.goal[worst]:
@@ -374,7 +394,7 @@ class GoalExecutor:
                 f"{requested.trajectory.names[worst]}, and {requested.goal[worst]:g} was allowed",
             )
         report = (
-            f"done in {result.seconds:.2f} s, {requested.trajectory.duration:.2f} s were asked for"
+            f"done in {result.seconds:.2f} s, {requested.trajectory.duration:.2f} s were commanded"
         )
         return Outcome(
             FinalStatus.SUCCEEDED, Code.SUCCESSFUL, "; ".join((report, *requested.notes))
@@ -382,7 +402,10 @@ class GoalExecutor:
 
 
 def resampled(requested: ValidatedGoal, shortest: float) -> ValidatedGoal:
-    """Points at least `shortest` s apart, where some are nearer; how far off is noted."""
+    """Replace points so that they are at least `shortest` s apart.
+
+    The largest deviation is noted.
+    """
     trajectory = requested.trajectory
     times = trajectory.times
     if len(times) < 3 or np.diff(times).min() >= shortest - _GRACE:
@@ -400,7 +423,7 @@ def resampled(requested: ValidatedGoal, shortest: float) -> ValidatedGoal:
 
 
 def with_time_to_stop(requested: ValidatedGoal, shortest: float) -> ValidatedGoal:
-    """A last segment below `shortest` s is given that time; the way is the same.
+    """Extend a last segment below `shortest` s; the path stays.
 
     Planners that sample at a period leave such a rest at the end of nearly every path.
     """
@@ -410,15 +433,15 @@ def with_time_to_stop(requested: ValidatedGoal, shortest: float) -> ValidatedGoa
     remaining = float(times[-1] - times[-2])
     later = np.append(times[:-1], times[-2] + shortest)
     fresh = Trajectory(later, requested.trajectory.positions, requested.trajectory.names)
-    note = f"the last segment of {remaining:.3f} s was given {shortest:g} s"
+    note = f"the last segment of {remaining:.3f} s was extended to {shortest:g} s"
     return requested.with_trajectory(fresh, note)
 
 
 def _violation(requested: ValidatedGoal, report: GoalFeedback, window: float) -> Outcome | None:
-    """What of the tolerances does not hold, or None.
+    """Return the violated tolerance, or None.
 
-    When the robot began to move is known to `window` s, mostly one sample: it is compared with
-    all that was asked for within it, and has to fit none of it.
+    The start of the motion is known to `window` s, mostly one sample: the position violates a
+    tolerance only if it does so for every start within it.
     """
     if report.time > requested.trajectory.duration + requested.goal_time + window:
         return Outcome(
@@ -453,7 +476,10 @@ def _violation(requested: ValidatedGoal, report: GoalFeedback, window: float) ->
 
 
 def _violation_of(watching: "asyncio.Future[Outcome]") -> Outcome | None:
-    """What was watched and does not hold; the loss of the link is told by the motion's end."""
+    """Return the violation found by the watcher.
+
+    The motion's end reports the loss of the link.
+    """
     if not watching.done() or isinstance(watching.exception(), RobotError):
         return None
     return watching.result()
@@ -466,13 +492,13 @@ async def _cancelled(*tasks: "asyncio.Future[Any]") -> None:
 
 
 async def _stopped(execution: AsyncExecution) -> Outcome | None:
-    """Stop it; an outcome where nobody confirmed that the robot stands."""
+    """Stop the motion; return an outcome if the stop was not confirmed."""
     try:
         await execution.cancel()
     except StopFailed as error:
         return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
     except RobotError:
-        # Why it ended is told by its result.
+        # Its result gives the reason.
         return None
     return None
 
@@ -490,8 +516,8 @@ def _aborted(code: Code, error: RobotError) -> Outcome:
 
 
 def reason(error: RobotError) -> str:
-    """What went wrong and what to do about it, as one line."""
+    """Return error and help in one line."""
     first, *others = error.diagnostics
     report = first.message + (f" (and {len(others)} more faults)" if others else "")
-    mend = _MENDS.get(first.code, first.help)
-    return f"{report}; {mend}" if mend else report
+    help_text = _ROS_HELPS.get(first.code, first.help)
+    return f"{report}; {help_text}" if help_text else report

@@ -1,8 +1,8 @@
-"""What a goal of control_msgs/FollowJointTrajectory asks for, judged before anything is sent.
+"""Validation of a control_msgs/FollowJointTrajectory goal before sending.
 
 Its meaning is joint_trajectory_controller's: of tolerances 0 is the default and -1 none, the last
-velocity is zero, times increase, names come in any order. What is refused carries a reason:
-a ROS 2 rejection has no room for one, so the goal is accepted and then aborted.
+velocity is zero, times increase, names are in any order. A refusal has a reason: a ROS 2 rejection
+has no field for one, so the goal is accepted and then aborted.
 """
 
 import math
@@ -15,7 +15,10 @@ import numpy as np
 from rapidgen.client.trajectory import Array, Trajectory
 
 NONE = -1.0
-"""A tolerance of this value is not looked at (`ERASE_VALUE` of joint_trajectory_controller)."""
+"""A tolerance that is ignored (`ERASE_VALUE`).
+
+The name is joint_trajectory_controller's.
+"""
 _STANDS = 1e-6
 """rad/s, m/s: a last velocity up to this is zero."""
 
@@ -32,7 +35,7 @@ class Code(IntEnum):
 
 
 class FinalStatus(Enum):
-    """How a goal ended, in the words of action_msgs/GoalStatus."""
+    """End of a goal, in the words of action_msgs/GoalStatus."""
 
     SUCCEEDED = "succeeded"
     CANCELED = "canceled"
@@ -49,7 +52,7 @@ class Outcome:
 
 
 class GoalRefused(Exception):
-    """A goal that nothing is sent of; nothing moved."""
+    """A refused goal: no byte is sent and the robot does not move."""
 
     def __init__(self, code: Code, text: str) -> None:
         super().__init__(text)
@@ -57,13 +60,13 @@ class GoalRefused(Exception):
 
     @property
     def outcome(self) -> Outcome:
-        """As an action's result."""
+        """Result of the action."""
         return Outcome(FinalStatus.ABORTED, self.code, str(self))
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """control_msgs/JointTolerance: rad or m, per s; 0 the default, -1 none."""
+    """control_msgs/JointTolerance: rad or m, per s; 0 default, -1 none."""
 
     name: str
     position: float = 0.0
@@ -73,7 +76,10 @@ class Tolerance:
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """trajectory_msgs/JointTrajectoryPoint: rad or m, per s; `time` s from the start."""
+    """trajectory_msgs/JointTrajectoryPoint: rad or m, per s.
+
+    `time` s from the start.
+    """
 
     time: float
     positions: Sequence[float]
@@ -84,7 +90,10 @@ class Point:
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """A FollowJointTrajectory goal; `stamp` s of ROS time at which it is to start, 0: at once."""
+    """A FollowJointTrajectory goal.
+
+    `stamp` is its start in s of ROS time, 0: at once.
+    """
 
     names: Sequence[str]
     points: Sequence[Point]
@@ -97,23 +106,26 @@ class Goal:
 
 @dataclass(frozen=True, slots=True)
 class Defaults:
-    """What a goal's 0 stands for; rad or m (per s), s. `math.inf`: not looked at.
+    """Defaults for a goal's 0; rad or m (per s), s; `math.inf`: ignored.
 
-    As joint_trajectory_controller's parameters `constraints` have it, where the path is not
-    watched and time not limited unless somebody says so. Where the robot ends is: 0.01.
+    They are those of joint_trajectory_controller's parameters `constraints`: by default the path is
+    not watched and time is not limited. The default for the end is 0.01.
     """
 
     path: float = math.inf
     goal: float = 0.01
     goal_time: float = math.inf
     late: float = 0.2
-    """A stamp that is past by up to this is a message that took its way."""
+    """Age of a stamp that counts as the delay of its message."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ValidatedGoal:
-    """A goal that may be sent: `trajectory` in the robot's order of joints, `velocities` (n, k)
-    rad/s or m/s where they were given; tolerances (k,), `inf` where nothing is looked at."""
+    """A goal that may be sent, in the robot's order of joints.
+
+    `velocities` (n, k) are rad/s or m/s if they were given; tolerances (k,) are `inf` if they are
+    ignored.
+    """
 
     trajectory: Trajectory
     velocities: Array | None
@@ -127,12 +139,15 @@ class ValidatedGoal:
     notes: tuple[str, ...] = field(default=())
 
     def desired(self, time: float) -> Array:
-        """Positions (k,) at `time` s from the start, linear between points, held at the ends."""
+        """Return positions (k,) at `time` s from the start.
+
+        They are linear between points, and constant beyond the ends.
+        """
         positions, times = self.trajectory.positions, self.trajectory.times
         return np.array([np.interp(time, times, column) for column in positions.T])
 
     def desired_velocity(self, time: float) -> Array:
-        """Velocities (k,) of `desired` at `time` s; zero before and behind it."""
+        """Return velocities (k,) of `desired` at `time` s; zero outside."""
         times, positions = self.trajectory.times, self.trajectory.positions
         at = int(np.searchsorted(times, time, side="right"))
         if not 0 < at < len(times):
@@ -142,18 +157,21 @@ class ValidatedGoal:
 
     @property
     def watches_path(self) -> bool:
-        """Whether the way, not only its end, has a tolerance."""
+        """True if the path, not only its end, has a tolerance."""
         return bool(np.isfinite(self.path).any() or np.isfinite(self.path_velocity).any())
 
     def with_trajectory(self, trajectory: Trajectory, *notes: str) -> "ValidatedGoal":
-        """The same by other points of the same way."""
+        """Return the goal with other points of the same path."""
         return replace(self, trajectory=trajectory, velocities=None, notes=(*self.notes, *notes))
 
 
 def validate_goal(
     goal: Goal, names: Sequence[str], defaults: Defaults, now: float
 ) -> ValidatedGoal:
-    """A goal for the joints `names`, at `now` s of ROS time. Raises GoalRefused."""
+    """Validate a goal for the joints `names`, at `now` s of ROS time.
+
+    Raises GoalRefused.
+    """
     _check_names(goal.names, names)
     if goal.has_multi_dof:
         raise GoalRefused(
@@ -203,7 +221,10 @@ def _check_names(given: Sequence[str], names: Sequence[str]) -> None:
 
 
 def _columns(goal: Goal, what: str, order: Sequence[int]) -> Array | None:
-    """A field of all points in the robot's order; None where no point has it."""
+    """Return a field of all points in the robot's order.
+
+    None if no point has it.
+    """
     rows: list[Sequence[float]] = [getattr(point, what) for point in goal.points]
     if what != "positions" and not any(len(row) for row in rows):
         return None
@@ -240,7 +261,7 @@ def _check_end(velocities: Array | None, names: Sequence[str]) -> None:
         raise GoalRefused(
             Code.INVALID_GOAL,
             f"the last point has a velocity ({names[moving[0]]} {velocities[-1][moving[0]]:g}): "
-            "the robot stands at the end of a trajectory",
+            "a trajectory ends at rest",
         )
 
 
@@ -258,10 +279,10 @@ def _start(stamp: float, now: float, late: float) -> float | None:
 def _ignored(goal: Goal) -> list[str]:
     report = []
     if any(len(point.effort) for point in goal.points):
-        report.append("effort was ignored: the controller takes positions and times")
+        report.append("effort was ignored: the controller accepts positions and times")
     requested = (*goal.path_tolerance, *goal.goal_tolerance)
     if any(tolerance.acceleration > 0 for tolerance in requested):
-        report.append("tolerances of acceleration were ignored: nobody measures it")
+        report.append("tolerances of acceleration were ignored: acceleration is not measured")
     return report
 
 
@@ -273,7 +294,7 @@ class _Tolerances:
     def read(
         self, requested: Sequence[Tolerance], where: str, default: float
     ) -> tuple[Array, Array]:
-        """Positions and velocities (k,) that may be off; `inf` for none."""
+        """Return tolerances of positions and velocities (k,); `inf` for none."""
         position = np.full(len(self.names), default)
         velocity = np.full(len(self.names), math.inf)
         for tolerance in requested:
@@ -289,7 +310,10 @@ class _Tolerances:
         return position, velocity
 
     def value(self, where: str, requested: float, default: float) -> float:
-        """One tolerance. Raises GoalRefused for what is neither a size, 0 nor -1."""
+        """Return one tolerance.
+
+        Raises GoalRefused for a value other than a size, 0 or -1.
+        """
         if requested == 0:
             return default
         if requested == NONE:

@@ -1,7 +1,8 @@
-"""The ROS 2 node: the only file that imports rclpy. Messages in, `RobotLink` asked, messages out.
+"""The ROS 2 node: the only module that imports rclpy.
 
-The links run on one asyncio loop in a thread; rclpy's callbacks wait for what they asked of it.
-QoS: everything that is told is reliable, volatile, depth 10, as joint_state_broadcaster has it.
+It maps messages to calls of `RobotLink` and back. The links run on one asyncio loop in a thread;
+rclpy's callbacks wait for their results. QoS: all topics are reliable, volatile, depth 10, as
+joint_state_broadcaster has it.
 """
 
 import asyncio
@@ -51,15 +52,15 @@ except ImportError:
 T = TypeVar("T")
 _QOS = QoSProfile(depth=10)
 _KEPT = 10
-"""s for which a goal's result can be asked for."""
+"""s for which a goal's result is available."""
 _LOOK = 0.2
 """s between two looks for a signal to end."""
 _FAREWELL = 2.0
-"""s within which the results of goals that were stopped at the end are told."""
+"""s within which results of goals stopped at the end are sent."""
 
 
 class RobotNode(LifecycleNode):  # type: ignore[misc]
-    """One robot, each of its groups with topics, services and an action of its own."""
+    """One robot; each group has its topics, services and action."""
 
     def __init__(self, **options: Message) -> None:
         super().__init__("rapidgen", **options)
@@ -81,7 +82,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             self.trigger_activate()
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Read the configuration; topics, services and actions are there from now on."""
+        """Read the configuration; create topics, services and actions."""
         try:
             parameters = read({name: self.get_parameter(name).value for name, _, _ in DECLARED})
             config = load_config(parameters.config, overrides=parameters.overrides)
@@ -131,7 +132,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         super().destroy_node()
 
     def _link_ended(self, running: "Future[None]") -> None:
-        """A link runs until it is cancelled; why another one ended must not be lost."""
+        """Report why a link ended, unless it was cancelled."""
         if not running.cancelled() and (fault := running.exception()) is not None:
             self.get_logger().error(f"the link ended by a fault of this node: {fault!r}")
 
@@ -142,12 +143,12 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self._running = []
 
     def end(self, executor: MultiThreadedExecutor) -> None:
-        """Stop what moves for a goal, and tell whoever sent it."""
+        """Stop motions of goals, and send the results to their clients."""
         self._let_go()
         until = time.monotonic() + _FAREWELL
         while self._is_busy and time.monotonic() < until:
             executor.spin_once(timeout_sec=0.05)
-        for _ in range(5):  # Results go out behind the callback that made them.
+        for _ in range(5):  # Results are sent after the callback that created them.
             executor.spin_once(timeout_sec=0.05)
 
     def _parameters_set(self, parameters: list[Message]) -> SetParametersResult:
@@ -171,7 +172,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         return any(door.is_busy for door in self._doors)
 
     def goal_ended(self) -> None:
-        """A motion's speed ends with it."""
+        """Reset the speed of an ended motion."""
         if not self._is_busy and self.get_parameter("speed").value != WHOLE:
             self.set_parameters([Parameter("speed", value=WHOLE)])
 
@@ -180,7 +181,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         return asyncio.run_coroutine_threadsafe(coroutine, self._loop)
 
     def asked(self, coroutine: Coroutine[object, None, object]) -> tuple[bool, str]:
-        """Whether the robot did it, and why not."""
+        """Return whether the robot did it, and why not."""
         try:
             self.ask(coroutine).result()
         except RobotError as error:
@@ -194,12 +195,12 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self._loop.call_soon_threadsafe(act)
 
     def now(self) -> float:
-        """s of ROS time, simulated where use_sim_time says so."""
+        """s of ROS time, simulated if use_sim_time is set."""
         return float(self.get_clock().now().nanoseconds) * 1e-9
 
 
 class GroupInterface:
-    """What one motion group shows to ROS; the `LinkListener` of its link."""
+    """ROS interface of one motion group; the `LinkListener` of its link."""
 
     def __init__(
         self,
@@ -259,7 +260,7 @@ class GroupInterface:
 
     @property
     def is_busy(self) -> bool:
-        """Whether a goal has no result yet."""
+        """True if a goal has no result yet."""
         with self._lock:
             return bool(self._goals)
 
@@ -277,10 +278,10 @@ class GroupInterface:
             kind, topic, _QOS, qos_overriding_options=QoSOverridingOptions.with_default_policies()
         )
 
-    # What the link tells
+    # Calls of the link
 
     def joint_states(self, states: JointStates) -> None:
-        """As `LinkListener`."""
+        """See `LinkListener`."""
         message = JointState()
         message.header.stamp = _time(states.stamp)
         message.name = [self._prefix + name for name in states.names]
@@ -291,7 +292,7 @@ class GroupInterface:
         self._joint_states.publish(message)
 
     def status(self, status: RobotStatus, health: RobotHealth) -> None:
-        """As `LinkListener`."""
+        """See `LinkListener`."""
         stamp = _time(round(self.link.now() * 1e9))
         diagnostics = DiagnosticArray()
         diagnostics.header.stamp = stamp
@@ -316,10 +317,10 @@ class GroupInterface:
         self._status.publish(message)
 
     def note(self, text: str) -> None:
-        """As `LinkListener`."""
+        """See `LinkListener`."""
         self._node.get_logger().info(f"{self._name}: {text}")
 
-    # What ROS asks for
+    # Requests of ROS
 
     def _serving(
         self, act: Callable[[], Coroutine[object, None, object]]
@@ -342,12 +343,15 @@ class GroupInterface:
         return CancelResponse.ACCEPT
 
     def _under_way(self, handle: Message) -> ActiveGoal:
-        """Of this goal, whose cancellation may come before it is executed."""
+        """Return the active goal of this handle.
+
+        A cancellation may precede its execution.
+        """
         with self._lock:
             return self._goals.setdefault(bytes(handle.goal_id.uuid), ActiveGoal())
 
     def _execute(self, handle: Message) -> Message:
-        """A goal, until the robot stands: in a thread of the executor."""
+        """Execute a goal until the robot is at rest, in an executor's thread."""
 
         def tell(feedback: GoalFeedback) -> None:
             if handle.is_active:
@@ -365,7 +369,7 @@ class GroupInterface:
                 self._node.get_logger().warning(told)
             return _ending(handle, outcome)
         finally:
-            # Behind its end: a cancellation that came before would enter it again.
+            # After its end: an earlier cancellation would enter it again.
             with self._lock:
                 del self._goals[bytes(handle.goal_id.uuid)]
             self._node.goal_ended()
@@ -413,7 +417,10 @@ class GroupInterface:
 
 
 def _ending(handle: Message, outcome: Outcome) -> Message:
-    """The result, and the goal in its last state. A cancelled goal that was done is done."""
+    """Return the result and set the goal's last state.
+
+    A cancelled goal that was done is done.
+    """
     if outcome.status is FinalStatus.SUCCEEDED:
         handle.succeed()
     elif outcome.status is FinalStatus.CANCELED and handle.is_cancel_requested:
@@ -466,7 +473,7 @@ def run(arguments: list[str]) -> int:
 
     `arguments` as ROS 2 has them (`--ros-args -p config:=...`).
     """
-    # With rclpy's own handlers nothing could be told any more behind a signal.
+    # rclpy's own handlers would prevent messages after a signal.
     rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     raise_on_signals()
     try:
@@ -474,14 +481,14 @@ def run(arguments: list[str]) -> int:
     except KeyboardInterrupt:
         rclpy.try_shutdown()
         return 0
-    # A goal holds a thread while it is carried out, a service while it is asked.
+    # A goal occupies a thread during its execution, a service during its call.
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)
     try:
         while True:
             executor.spin_once(timeout_sec=_LOOK)
     except (KeyboardInterrupt, ExternalShutdownException):
-        # `ros2 launch` sends a second one; the robot is stopped whatever comes.
+        # `ros2 launch` sends a second one; the robot is stopped in any case.
         for number in INTERRUPTIONS:
             signal.signal(number, signal.SIG_IGN)
         node.get_logger().info("ending: what moves for a goal is stopped")

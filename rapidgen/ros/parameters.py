@@ -1,4 +1,4 @@
-"""The node's parameters: their names, defaults and descriptions, and what they mean together."""
+"""The node's parameters: names, defaults, descriptions, common checks."""
 
 import math
 from collections.abc import Mapping
@@ -37,7 +37,7 @@ NAMES = frozenset(name for name, _, _ in DECLARED)
 
 @dataclass(frozen=True, slots=True)
 class Parameters:
-    """What the user said."""
+    """Parameters that the user set."""
 
     config: str
     overrides: tuple[str, ...]
@@ -62,7 +62,7 @@ def read(values: Mapping[str, Any]) -> Parameters:
     if values["speed"] != WHOLE:
         result.append(
             _fault(
-                f"speed is {values['speed']:g}, and nothing moves yet",
+                f"speed is {values['speed']:g}, so the robot would not move",
                 "100, and another one while a goal is executed; plans are slower by MoveIt's "
                 "max_velocity_scaling_factor",
             )
@@ -89,7 +89,10 @@ def read(values: Mapping[str, Any]) -> Parameters:
 
 
 def check_address(address: str, config: RobotConfig) -> None:
-    """Raises DiagnosticError for what is no address, or one group's ports where there are more."""
+    """Raise DiagnosticError for an invalid address.
+
+    Also for one group's ports if there are several groups.
+    """
     result = {parse_address(address, group.ports) for group in config.groups if address}
     if address and len(result) < len(config.groups):
         raise DiagnosticError(

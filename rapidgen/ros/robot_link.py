@@ -1,6 +1,7 @@
-"""The link to one motion group: up before the robot, saying why it waits, back when it is.
+"""Connection to one motion group, kept up and re-established.
 
-One `RobotLink` runs on one asyncio loop. What it sees goes to a `LinkListener`, which publishes it.
+It starts before the robot is available and says why it waits. One `RobotLink` runs on one asyncio
+loop. Its observations go to a `LinkListener`, which publishes them.
 """
 
 import asyncio
@@ -31,20 +32,20 @@ AGAIN = 1.0
 
 
 class LinkListener(Protocol):
-    """Takes what is to be published, on the link's loop."""
+    """Receiver of data to publish, on the link's loop."""
 
     def joint_states(self, states: JointStates) -> None:
         """A new sample of the joints; never the same one twice."""
 
     def status(self, status: RobotStatus, health: RobotHealth) -> None:
-        """Whenever the joints are told, and each second without a link."""
+        """Publish with each joint message, and each second without a link."""
 
     def note(self, text: str) -> None:
         """For the log: a change of the link, or what was done with a goal."""
 
 
 class RobotLink:
-    """One motion group of a robot as the door sees it."""
+    """Connection of one motion group to ROS."""
 
     def __init__(
         self,
@@ -55,8 +56,10 @@ class RobotLink:
         *,
         is_clock: bool = False,
     ) -> None:
-        """`make` gives a robot that is not connected; `now` is s of ROS time, which with
-        `is_clock` is only where the controller's own begins."""
+        """`make` returns an unconnected robot; `now` is s of ROS time.
+
+        With `is_clock` the controller's clock starts there and continues by itself.
+        """
         self._make = make
         self._policy = policy
         self._machine = now
@@ -70,7 +73,7 @@ class RobotLink:
 
     @property
     def is_up(self) -> bool:
-        """Whether the robot can be asked for something."""
+        """True if the robot accepts requests."""
         return self._follower is not None
 
     def now(self) -> float:
@@ -100,14 +103,14 @@ class RobotLink:
         self._public.note(f"connected to {robot.address}")
 
     def _lost(self, robot: AsyncRobot, why: str) -> None:
-        # Said once, however often it is tried.
+        # Logged once, however often it is tried.
         if why != self._why:
             self._why = why
             self._public.note(f"no link to the robot at {robot.address}: {why}")
         self._public.status(unknown_status(), no_link(why, str(robot.address)))
 
     async def _publish(self, robot: AsyncRobot) -> None:
-        """Each sample once, until the link is lost: then the last one is not told again."""
+        """Publish each sample once, until the link is lost."""
         measures = Feature.FEEDBACK in robot.driver.features
         while True:
             if measures:
@@ -136,7 +139,10 @@ class RobotLink:
         return await follower.follow(goal, tell, under)
 
     async def stop(self) -> State | None:
-        """Stop the robot, whoever moved it; goals that wait end, too. Raises RobotError."""
+        """Stop the robot, whichever client moves it; waiting goals end too.
+
+        Raises RobotError.
+        """
         robot = self._there()
         if self._follower is not None:
             self._follower.cancel_pending()
@@ -150,7 +156,10 @@ class RobotLink:
         self._paused_at = stood.joints
 
     async def resume(self) -> None:
-        """Go on behind a pause, where the robot still stands as it was left. Raises RobotError."""
+        """Resume after a pause if the robot has not moved since.
+
+        Raises RobotError.
+        """
         robot = self._there()
         if self._paused_at is None:
             raise RequestRefused.because("RG625", "nothing was paused here", "send a goal")
@@ -159,14 +168,14 @@ class RobotLink:
             raise NotReady.because(
                 "RG621",
                 f"the robot was moved by {moved:.4f} (rad, m) since it was paused",
-                "stop, and plan again from where it stands",
+                "stop, and plan again from the current position",
             )
         await robot.resume()
         self._paused_at = None
 
     @property
     def speed(self) -> float:
-        """% of the programmed speed that was last asked for. Raises NotReady."""
+        """% of the programmed speed that was last set. Raises NotReady."""
         return self._there().override * 100
 
     async def set_speed(self, percent: float) -> None:
@@ -182,7 +191,10 @@ class RobotLink:
         return await self._there().write_signal(name, value)
 
     async def call(self, routine: str, arguments: Sequence[Argument]) -> tuple[Left, ...]:
-        """Call a routine of the controller's program; what it gave back. Raises RobotError."""
+        """Call a routine of the controller's program; return its results.
+
+        Raises RobotError.
+        """
         robot = self._there()
         if self._follower is not None and self._follower.is_busy:
             raise NotReady.because(
@@ -200,8 +212,11 @@ class RobotLink:
 
 
 async def set_speeds(links: Sequence[RobotLink], percent: float) -> None:
-    """1 to 100 % for all groups that move; none is changed where one of them refuses, or has no
-    link. Raises RobotError, also where none moves, and ValueError."""
+    """Set 1 to 100 % for all groups that move, or for none.
+
+    None is changed if one of them refuses, or has no link. Raises RobotError, also if none moves,
+    and ValueError.
+    """
     before = [link.speed for link in links]
     changed: list[tuple[RobotLink, float]] = []
     idle: RequestRefused | None = None
@@ -216,7 +231,7 @@ async def set_speeds(links: Sequence[RobotLink], percent: float) -> None:
                 idle = refused
     except (RobotError, ValueError):
         for link, was in changed:
-            # A motion that has ended meanwhile, or a link that was lost, goes at no speed.
+            # A motion that has ended meanwhile, or a lost link, has no speed.
             with suppress(RobotError):
                 await link.set_speed(was)
         raise

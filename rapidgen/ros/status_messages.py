@@ -1,7 +1,7 @@
-"""What is published of a robot: joint_states, its status, and diagnostics in words.
+"""Published state of a robot: joint_states, status, diagnostics.
 
-industrial_msgs/RobotStatus and diagnostic_msgs/DiagnosticStatus as plain values; `node` puts them
-into messages.
+industrial_msgs/RobotStatus and diagnostic_msgs/DiagnosticStatus as plain values; `node` makes
+messages of them.
 """
 
 from dataclasses import dataclass, field
@@ -23,7 +23,10 @@ class Level(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class JointStates:
-    """sensor_msgs/JointState: `stamp` ns of ROS time, rad or m (per s), in the robot's order."""
+    """sensor_msgs/JointState.
+
+    `stamp` ns of ROS time, rad or m (per s), in the robot's order.
+    """
 
     stamp: int
     names: tuple[str, ...]
@@ -33,7 +36,10 @@ class JointStates:
 
 @dataclass(frozen=True, slots=True)
 class RobotStatus:
-    """industrial_msgs/RobotStatus: tri-states are 1, 0, -1 unknown; mode 1 manual, 2 automatic."""
+    """industrial_msgs/RobotStatus.
+
+    Tri-states are 1, 0, -1 unknown; mode 1 manual, 2 automatic.
+    """
 
     mode: int
     e_stopped: int
@@ -46,7 +52,10 @@ class RobotStatus:
 
 @dataclass(frozen=True, slots=True)
 class RobotHealth:
-    """A diagnostic_msgs/DiagnosticStatus without its name: why the robot would not move now."""
+    """A diagnostic_msgs/DiagnosticStatus without its name.
+
+    It says why the robot would not move now.
+    """
 
     level: Level
     message: str
@@ -71,12 +80,12 @@ def robot_status(status: Status) -> RobotStatus:
 
 
 def unknown_status() -> RobotStatus:
-    """While there is no link: nothing is known, nothing is possible."""
+    """Status without a link: everything is unknown, nothing possible."""
     return robot_status(_UNKNOWN)
 
 
 def health(state: State, driver: Driver, address: str) -> RobotHealth:
-    """What hinders the robot, the worst first."""
+    """Return the blockers of the robot, the worst first."""
     status = state.status
     values = {
         "address": address,
@@ -97,14 +106,14 @@ def health(state: State, driver: Driver, address: str) -> RobotHealth:
 
 
 def no_link(why: str, address: str) -> RobotHealth:
-    """The robot is not there: what was seen last says nothing of now."""
+    """Return the status of a missing link: the last state is outdated."""
     return RobotHealth(Level.STALE, f"no link to the robot: {why}", {"address": address})
 
 
 def _worst(status: Status, trajectory: TrajectoryState | None) -> tuple[Level, str]:
     lasting = fix_of(status.error, "") if status.in_error is TriState.TRUE else ""
     if status.error is not None and lasting:
-        # Neither releasing the emergency stop nor Start helps before that.
+        # Before that, neither releasing the emergency stop nor Start helps.
         return Level.ERROR, f"{status.error.text}: {lasting}"
     if status.e_stopped is TriState.TRUE:
         return Level.ERROR, "an emergency stop is active"

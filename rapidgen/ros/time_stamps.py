@@ -1,32 +1,38 @@
 """Moments of the controller's clock as ROS time.
 
-A message is stamped with when the robot was there, not with when it came: spacing is the
-controller's, whatever the network does to it.
+A message is stamped with the time of the position, not of its arrival: spacing is the controller's,
+whatever the network does to it.
 """
 
 _DRIFT = 1e-4
-"""How much faster than the controller's clock this one may be: what the offset may grow by."""
+"""Drift between the clocks: the rate at which the offset may grow."""
 
 
 class RosTimeEstimator:
-    """ROS time of a controller's moments: never backwards, never later than it was received.
+    """ROS time of a controller's moments.
 
-    The offset between the clocks is the least that was seen (a message that was on its way
-    shortest), and may grow by the drift of two quartzes.
+    It never goes backwards and never exceeds the time of reception. The offset between the clocks
+    is the smallest observed (the message with the shortest delay), and may grow by the drift of two
+    quartzes.
     """
 
     def __init__(self, *, is_clock: bool = False) -> None:
-        """With `is_clock` ROS time is the controller's own, at whatever speed it is simulated: it
-        begins at the moment of this machine and goes on from where it was behind a restart."""
+        """With `is_clock` ROS time is the controller's own.
+
+        It runs at the speed of the simulation, starts at the current time of this machine and
+        continues after a restart.
+        """
         self._is_clock = is_clock
         self._offset: float | None = None
         self._at = 0.0
         self._last = 0
 
     def stamp(self, time: float, received: float) -> int:
-        """ns of ROS time, for `time` s of the controller's clock that came at `received` s of
-        ROS time. A clock that went back (a restart, a lap, a simulation begun anew) is taken as
-        a new one."""
+        """Return ns of ROS time for `time` s of the controller's clock.
+
+        The message arrived at `received` s of ROS time. A clock that went back (a restart, a
+        wrap-around, a new simulation) counts as a new one.
+        """
         if self._is_clock:
             return self._ticked(time, received)
         offset = received - time
@@ -41,7 +47,7 @@ class RosTimeEstimator:
 
     @property
     def last(self) -> int:
-        """ns of ROS time that were told last; 0 before."""
+        """ns of ROS time last returned; 0 before."""
         return self._last
 
     def _ticked(self, time: float, received: float) -> int:

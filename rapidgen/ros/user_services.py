@@ -1,6 +1,6 @@
-"""Signals and routines as services, where the package `rapidgen_interfaces` was built.
+"""Signals and routines as services of `rapidgen_interfaces`.
 
-Its messages are imported here only; `node` creates what `services` gives.
+The package's messages are imported here only; `node` creates what `services` returns.
 """
 
 from collections.abc import Callable, Coroutine, Sequence
@@ -16,17 +16,23 @@ except ImportError:
     Value = CallRoutine = ReadSignal = WriteSignal = None
 
 Message: TypeAlias = Any
-"""What ROS generates or hands over: it has no types."""
+"""Untyped object that ROS generates or passes."""
 ARE_THERE = Value is not None
-"""Whether there are any."""
+"""True if there are any."""
 MISSING = "no services for signals and routines: rapidgen_interfaces is not in this workspace"
-"""What the log says without them."""
+"""Log text if they are missing."""
 Serve = Callable[[Message, Message], Coroutine[object, None, None]]
-"""Carries out a request on the link's loop, fills its response. Raises RobotError, ValueError."""
+"""Executes a request on the link's loop and fills its response.
+
+Raises RobotError, ValueError.
+"""
 
 
 def services(link: RobotLink) -> tuple[tuple[Message, str, Serve], ...]:
-    """Service type, name and what serves it; none where the package is not there."""
+    """Return service type, name and handler.
+
+    Empty if the package is not installed.
+    """
     if not ARE_THERE:
         return ()
 
@@ -48,7 +54,7 @@ def services(link: RobotLink) -> tuple[tuple[Message, str, Serve], ...]:
 
 
 def _argument(value: Message) -> Argument:
-    """Raises ValueError for a type that is none."""
+    """Parse an argument. Raises ValueError for an unknown type."""
     if value.type == Value.NUM:
         return float(value.number)
     if value.type == Value.BOOL:
@@ -64,21 +70,21 @@ def _argument(value: Message) -> Argument:
 
 
 def _values(results: Sequence[Left]) -> list[Message]:
-    told = []
+    values = []
     for result in results:
         if isinstance(result, bool):
-            told.append(Value(type=Value.BOOL, boolean=result))
+            values.append(Value(type=Value.BOOL, boolean=result))
         elif isinstance(result, str):
-            told.append(Value(type=Value.STRING, text=result))
+            values.append(Value(type=Value.STRING, text=result))
         elif isinstance(result, Target):
             (x, y, z), (w, a, b, c) = result.pose
             value = Value(type=Value.ROBTARGET)
             at, turned = value.pose.position, value.pose.orientation
             at.x, at.y, at.z = x, y, z
             turned.w, turned.x, turned.y, turned.z = w, a, b, c
-            told.append(value)
+            values.append(value)
         elif isinstance(result, tuple):
-            told.append(Value(type=Value.JOINTTARGET, joints=list(result)))
+            values.append(Value(type=Value.JOINTTARGET, joints=list(result)))
         else:
-            told.append(Value(type=Value.NUM, number=float(result)))
-    return told
+            values.append(Value(type=Value.NUM, number=float(result)))
+    return values

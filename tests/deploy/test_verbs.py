@@ -171,7 +171,7 @@ def test_what_became_of_controllers_is_json_where_that_was_asked_for(run, built,
 def test_ctrl_c_ends_before_files_are_switched_and_tells_what_stands(
     run, built, kit, tmp_path, monkeypatch, number
 ):
-    """The first controller is done, the second unchanged, the third not started."""
+    """The first controller is done, the second unchanged, the third waits."""
     homes = [tmp_path / f"c{n}" for n in range(3)]
     for home in homes:
         home.mkdir()

@@ -13,7 +13,7 @@ from rapidgen.ros.robot_link import RobotLink
 from rapidgen.testing.asyncio_clock import VirtualLoop
 
 
-class Heard:
+class Record:
     """A `LinkListener` that keeps what is published."""
 
     def __init__(self):
@@ -34,16 +34,16 @@ def _address(ports):
 
 
 class Cell:
-    """The motion groups of one controller, each with its link and what is heard of it."""
+    """The motion groups of one controller, each with its link and its records."""
 
     def __init__(self, controller, config, loop):
         self.controller, self.loop = controller, loop
         self.config, self.groups = config, config.groups
         self.robots = [None for _ in config.groups]
-        self.heard = [Heard() for _ in config.groups]
+        self.records = [Record() for _ in config.groups]
         self.links = [
             RobotLink(partial(self._make, number), Policy(), loop.time, received)
-            for number, received in enumerate(self.heard)
+            for number, received in enumerate(self.records)
         ]
 
     def _make(self, number):

@@ -1,4 +1,7 @@
-"""A follower and its robot on the virtual clock: goals by await, the controller beside them."""
+"""A goal executor and its robot on the virtual clock.
+
+Goals are awaited; the controller runs on the same clock.
+"""
 
 from contextlib import contextmanager
 
@@ -13,7 +16,7 @@ NAMES = tuple(f"joint_{n}" for n in range(1, 7))
 
 
 class Station:
-    """One robot with its follower, and what the follower told."""
+    """One robot with its executor, and the published data."""
 
     def __init__(self, controller, robot, loop, policy):
         self.controller, self.robot, self.loop = controller, robot, loop

@@ -1,10 +1,10 @@
-"""What the node uses of rclpy, as rclpy's own source declares it, kept in recorded.json.
+"""Parts of rclpy that the node uses, recorded in recorded.json.
 
-    python tests/ros/record.py DISTRIBUTION RCLPY QOS_HEADER
+Its own source declares them. python tests/ros/record.py DISTRIBUTION RCLPY QOS_HEADER
 
 RCLPY is the folder of the package rclpy (github.com/ros2/rclpy, branch of the distribution),
-QOS_HEADER is rmw's qos_profiles.h (github.com/ros2/rmw). The stand-in is held against it by
-test_standin.py, an installed rclpy by the trial `as_recorded`.
+QOS_HEADER is rmw's qos_profiles.h (github.com/ros2/rmw). test_standin.py compares the stand-in with
+it, the trial `as_recorded` an installed rclpy.
 """
 
 import ast
@@ -83,7 +83,7 @@ def _methods(path):
         if isinstance(node, ast.ClassDef):
             for method in node.body:
                 if isinstance(method, ast.FunctionDef):
-                    # Behind `@overload`s comes what is called.
+                    # The implementation follows its `@overload`s.
                     yield f"{node.name}.{method.name}", method
 
 

@@ -15,7 +15,7 @@ from ready import NAMES, station
 from rapidgen.ros.goal_execution import ActiveGoal, Policy
 from rapidgen.ros.goals import Code, Defaults, FinalStatus, Goal, Point, Tolerance
 
-PATIENCE = 200.0
+TIME_LIMIT = 200.0
 """Simulated s after which a goal that is not over is one that hangs: 12 s take 120 s at a tenth."""
 OFF_PATH = 0.05
 """rad: corners are cut by less."""
@@ -23,7 +23,7 @@ OFF_PATH = 0.05
 
 @dataclass
 class Found:
-    """What is wrong, and how goals ended."""
+    """Violations, and the results of goals."""
 
     wrong: list[str] = field(default_factory=list)
     ends: Counter = field(default_factory=Counter)
@@ -63,7 +63,7 @@ def _one(s, draw, result, where):
     under = ActiveGoal()
     outcome = s.run(_with_fault(s, draw, s.follow(requested, under), under))
     if outcome is None:
-        result.wrong.append(f"{where}: not over after {PATIENCE:g} s")
+        result.wrong.append(f"{where}: not over after {TIME_LIMIT:g} s")
         return
     result.ends[f"{outcome.status.value} {outcome.code.name}"] += 1
     moved = np.abs(recorder.recording().actual[:, :6] - before).max()
@@ -92,7 +92,7 @@ def _one(s, draw, result, where):
     elif outcome.status is FinalStatus.CANCELED and not s.stands:
         wrong("cancelled, and the robot moves")
     elif outcome.status is FinalStatus.CANCELED and not under.ending.is_set():
-        wrong("cancelled by nobody")
+        wrong("cancelled without a request")
     if outcome.code is Code.INVALID_GOAL and moved > 1e-6:
         wrong("refused, and the robot moved")
 
@@ -172,7 +172,7 @@ async def _with_fault(s, draw, following, under):
     done, _ = await asyncio.wait({task}, timeout=moment)
     if not done and act is not None:
         act()
-    done, _ = await asyncio.wait({task}, timeout=PATIENCE)
+    done, _ = await asyncio.wait({task}, timeout=TIME_LIMIT)
     if not done:
         task.cancel()
         await asyncio.gather(task, return_exceptions=True)

@@ -313,16 +313,16 @@ class _Logger:
 
     def __init__(self):
         self.lines, self._severities = [], {}
-        self.told = threading.Condition()
+        self.logged = threading.Condition()
 
     def _log(self, text, severity):
         caller = sys._getframe(2)
         place = caller.f_code, caller.f_lasti
         if self._severities.setdefault(place, severity) != severity:
             raise ValueError("Logger severity cannot be changed between calls.")
-        with self.told:
+        with self.logged:
             self.lines.append(text)
-            self.told.notify_all()
+            self.logged.notify_all()
 
     def info(self, text):
         self._log(text, "info")

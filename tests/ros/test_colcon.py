@@ -31,7 +31,7 @@ def test_the_node_depends_on_every_package_that_it_imports():
     text = (ROOT / "rapidgen/ros/node.py").read_text()
     imported = set(re.findall(r"^from (\w+?_\w+|rclpy)\.(?:msg|srv|action)", text, re.MULTILINE))
     manifest = ET.parse(ROOT / "ros/rapidgen_ros/package.xml")
-    assert imported <= {told.text for told in manifest.iter("exec_depend")}
+    assert imported <= {element.text for element in manifest.iter("exec_depend")}
 
 
 def test_every_interface_is_generated():

@@ -123,7 +123,7 @@ def test_refused_is_aborted_with_a_reason_and_nothing_moves(requested, code, tex
         assert s.outcome(THERE).status is FinalStatus.SUCCEEDED
 
 
-def test_a_velocity_at_the_end_is_refused_and_effort_is_said():
+def test_end_velocity_is_refused_and_effort_is_noted():
     last = Point(1.0, [0.1] * 6, velocities=[0.0, 0, 0, 0.2, 0, 0])
     moving = replace(THERE, points=[Point(0.0, [0.0] * 6, velocities=[0.0] * 6), last])
     pushed = replace(THERE, points=[replace(point, effort=[1.0] * 6) for point in THERE.points])
@@ -193,7 +193,7 @@ def test_cancel_before_the_stamp():
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
 
 
-def test_cancelled_before_it_was_begun():
+def test_goal_cancelled_before_start_is_not_sent():
     with station() as s:
         under = ActiveGoal()
         under.cancel()
@@ -217,17 +217,17 @@ async def _two(s, one, other):
     return await first, second
 
 
-def test_a_second_goal_replaces_where_the_user_said_so():
+def test_second_goal_with_replace_policy_replaces():
     with station(APPROACH) as s:
         first, second = s.run(_two(s, goal(0.0, 0.5, 1.0), goal(0.0, 0.3)))
         assert first.status is FinalStatus.ABORTED
         assert "replaced" in first.text
         assert second.status is FinalStatus.SUCCEEDED
-        assert "put in front" in second.text
+        assert "prepended" in second.text
         assert s.joints == pytest.approx([0.3] * 6, abs=1e-4)
 
 
-def test_dense_points_are_resampled_where_the_user_said_so():
+def test_dense_points_with_resample_policy_are_resampled():
     rows = [0.2 * np.sin(n * 0.05) for n in range(41)]
     dense = goal(*rows, seconds=0.03)
     with station() as s:
@@ -271,7 +271,10 @@ def test_what_the_controller_ends_is_aborted_and_the_next_goal_runs(fault, text)
 
 @pytest.mark.parametrize("after", [0.1, 0.5])
 def test_a_client_that_was_held_up_reads_before_it_calls_the_robot_silent(after):
-    """A busy machine: replies of both ports wait behind the same pause, in any order."""
+    """A busy machine: replies of both ports arrive after the same pause.
+
+    In any order.
+    """
 
     async def held_up(s):
         following = asyncio.ensure_future(s.follow(goal(0.0, 0.2)))
@@ -293,7 +296,10 @@ def test_a_controller_that_is_gone_aborts():
 @pytest.mark.parametrize("cancelled", [False, True])
 @pytest.mark.parametrize("after", [0.0, 0.03, 0.08])
 def test_a_link_that_is_lost_while_a_goal_is_sent_leaves_open_whether_it_moves(after, cancelled):
-    """-1 says that nothing has moved: nobody knows that any more, nor behind a lost STOP."""
+    """-1 says that the robot has not moved, which is unknown here.
+
+    It is unknown after a lost STOP too.
+    """
     requested, under = goal(*(0.01 * n for n in range(50)), seconds=0.2), ActiveGoal()
     with station() as s:
 
@@ -334,7 +340,7 @@ def test_a_first_point_with_a_time_is_gone_to_in_that_time(points):
         began = s.loop.time()
         outcome = s.outcome(requested)
         assert outcome.status is FinalStatus.SUCCEEDED
-        assert "from where the robot stood" in outcome.text
+        assert "from the robot's position" in outcome.text
         assert s.joints == pytest.approx(points[-1].positions, abs=1e-4)
         assert s.loop.time() - began == pytest.approx(points[-1].time, abs=0.5)
         assert max(np.abs(fed.error).max() for fed in s.fed) < 0.1
@@ -349,7 +355,7 @@ def test_a_first_point_with_a_time_that_is_too_short_is_refused():
 
 
 def test_path_tolerance_holds_where_the_first_feedback_comes_late():
-    """A client that is held up behind the acceptance has not seen the robot begin."""
+    """A client that is delayed after the acceptance has not seen the start."""
     path = [Tolerance(name, position=0.05) for name in NAMES]
     with station() as s:
         s.run(s.robot.next_feedback())
@@ -376,7 +382,7 @@ def test_path_tolerance_is_against_the_controllers_time():
     with station() as s:
         assert s.outcome(wide).status is FinalStatus.SUCCEEDED
     with station() as s:
-        # Nobody holds a robot to its path better than by stopping it from outside.
+        # A stop from outside is the largest deviation from the path.
         s.controller.run_for(0.1)
         tight = replace(goal(0.0, 0.5, 1.0), path_tolerance=[Tolerance("joint_1", position=1e-4)])
         slow = s.run(_after(s, 0.6, s.follow(tight), lambda: s.slow_down(0.1)))
@@ -446,7 +452,7 @@ POINTS = Trajectory([0.0, 1.0, 2.0, 3.0], [[0.0], [0.4], [1.2], [1.2]], ["a"])
         (1.05, 0.44, 0.4, 0.1, None),
         (1.05, 0.44, 0.8, 0.1, None),
         (1.05, 0.44, 0.6, 0.1, "velocity of a was 0.2000"),
-        # Behind its end for as long as is allowed, and the window more.
+        # After its end for as long as is allowed, plus the window.
         (3.6, 1.2, 0.0, 0.2, None),
         (3.8, 1.2, 0.0, 0.2, "not at the goal 0.80 s after its time, and 0.5 s were allowed"),
     ],

@@ -1,5 +1,7 @@
-"""What a goal asks for, judged by itself: names in any order, tolerances, stamps, what is left
-out. The meaning of 0 and -1 is joint_trajectory_controller's."""
+"""Validation of a goal: names in any order, tolerances, stamps, defaults.
+
+The meaning of 0 and -1 is joint_trajectory_controller's.
+"""
 
 import math
 from dataclasses import replace

@@ -13,19 +13,19 @@ from rapidgen.ros.goals import Code, FinalStatus
 
 
 def test_a_link_comes_back_and_executes_the_first_goal():
-    """A ROS-Industrial node loses the first goal behind a restart."""
+    """A ROS-Industrial node loses the first goal after a restart."""
 
     async def tried(c):
         (first,) = await c.moving(0)
         await asyncio.sleep(0.5)
-        told = len(c.heard[0].states)
+        states_before = len(c.records[0].states)
         c.controller.power_loss()
         finished = await first
         await c.linked(False)
-        lost, refused = len(c.heard[0].states), await c.links[0].follow(*_goal(c))
+        lost, refused = len(c.records[0].states), await c.links[0].follow(*_goal(c))
         await asyncio.sleep(0.5)
-        assert len(c.heard[0].states) == lost >= told > 5
-        assert c.heard[0].health[-1].message.startswith("no link to the robot: ")
+        assert len(c.records[0].states) == lost >= states_before > 5
+        assert c.records[0].health[-1].message.startswith("no link to the robot: ")
         await c.linked(True)
         c.controller.set_motors(True)
         c.controller.start_program()
@@ -41,9 +41,9 @@ def test_a_link_comes_back_and_executes_the_first_goal():
         assert (refused.status, refused.code) == (FinalStatus.ABORTED, Code.INVALID_GOAL)
         assert refused.text.startswith("no link to the robot: ")
         assert done.status is FinalStatus.SUCCEEDED, done.text
-        stamps = [states.stamp for states in c.heard[0].states]
+        stamps = [states.stamp for states in c.records[0].states]
         assert all(before < after for before, after in pairwise(stamps))
-        assert sum("connected to" in note for note in c.heard[0].notes) == 2
+        assert sum("connected to" in note for note in c.records[0].notes) == 2
 
 
 def _goal(c):

@@ -1,4 +1,7 @@
-"""Names of a configuration stay names in every file that is made of them, whoever reads it."""
+"""Names of a configuration stay names in every generated file.
+
+For every reader of the file.
+"""
 
 import ast
 import re
@@ -34,7 +37,7 @@ folders = st.text(min_size=1, max_size=12) | st.sampled_from(HOSTILE)
 
 
 def yamls(text):
-    """What readers of YAML 1.1 and of 1.2 make of it."""
+    """Return the values that readers of YAML 1.1 and of 1.2 get."""
     for version in ((1, 1), (1, 2)):
         yaml = YAML(typ="safe", pure=True)
         yaml.version = version
@@ -117,7 +120,7 @@ def test_packages(joints, folder, name):
 
 
 def urdf(joints, links):
-    """A chain of six axes and a gripper behind it."""
+    """A chain of six axes and a gripper after it."""
     root = ET.Element("robot", name="abb")
     for link in links:
         ET.SubElement(root, "link", name=link)

@@ -86,13 +86,13 @@ def test_a_goal_from_end_to_end(up):
     assert "done in" in text
     assert handle.feedback[-1].joint_names == NAMES
     assert len(handle.feedback[-1].error.positions) == 6
-    states = node.topics["joint_states"].wait(lambda told: told.position[0] > 0.1999)
+    states = node.topics["joint_states"].wait(lambda logged: logged.position[0] > 0.1999)
     assert states.name == NAMES
     assert len(states.velocity) == 6
     assert states.header.stamp.sec > 0
 
 
-def test_what_is_told_is_reliable_volatile_and_ten_deep(up):
+def test_publishers_are_reliable_volatile_and_ten_deep(up):
     node = up()
     assert set(node.topics) == {"joint_states", "/diagnostics", "robot_status"}
     for topic in node.topics.values():
@@ -114,7 +114,7 @@ def test_refused_is_aborted_with_its_reason(up):
     assert "no joint here" in ended(action(node).send(toleranced))[2]
 
 
-def test_a_good_goal_behind_a_refused_one_is_told_as_good(up):
+def test_good_goal_after_refused_one_succeeds(up):
     """rclpy ends a goal ABORTED and without a text where the callback raises, as its logger did."""
     node = up()
     assert ended(action(node).send(goal(9.0, 9.1)))[0] == "aborted"
@@ -207,7 +207,7 @@ def test_ends_with_a_goal_under_way_and_the_robot_stands(up, sim):
     assert not node.topics
 
 
-def test_what_ends_a_link_is_said(up):
+def test_end_of_link_is_logged(up):
     node = up()
 
     def broken(sent):
@@ -215,8 +215,8 @@ def test_what_ends_a_link_is_said(up):
 
     node.topics["joint_states"].publish = broken
     logger = node.get_logger()
-    with logger.told:
-        assert logger.told.wait_for(lambda: "middleware is gone" in str(logger.lines), 60)
+    with logger.logged:
+        assert logger.logged.wait_for(lambda: "middleware is gone" in str(logger.lines), 60)
 
 
 @pytest.mark.parametrize(
@@ -227,10 +227,10 @@ def test_what_ends_a_link_is_said(up):
         ({"config": "irb14000", "address": "127.0.0.1:11000"}, "irb14000 has 2 of them"),
         ({"config": "irb120", "overrides": ["ports.moton=1"]}, "unknown key 'moton'"),
         # An override is of a motion: the first goal would have gone at full speed.
-        ({"config": "irb120", "speed": 20.0}, "nothing moves yet"),
+        ({"config": "irb120", "speed": 20.0}, "would not move"),
     ],
 )
-def test_a_configuration_that_is_none_is_said(driver_type, parameters, report):
+def test_invalid_configuration_is_logged(driver_type, parameters, report):
     node = driver_type(parameter_overrides=parameters)
     assert node.state == "unconfigured"
     assert any(report in line for line in node.get_logger().lines)

@@ -97,9 +97,9 @@ def test_a_routine_gets_values_of_every_type_and_tells_its_results(node, cell):
         Value(type=Value.JOINTTARGET, joints=[0.2, 0.0, 0.0, 0.0, 0.0, 0.0]),
         Value(type=Value.BOOL, boolean=False),
     ]
-    told = node.services["call_routine"](name="weld", arguments=arguments)
-    assert (told.success, told.message) == (True, "done")
-    assert [(value.type, value.number, value.boolean) for value in told.results] == [
+    reply = node.services["call_routine"](name="weld", arguments=arguments)
+    assert (reply.success, reply.message) == (True, "done")
+    assert [(value.type, value.number, value.boolean) for value in reply.results] == [
         (Value.NUM, 7.0, False),
         (Value.BOOL, 0.0, True),
     ]
@@ -112,11 +112,11 @@ def test_a_routine_gets_values_of_every_type_and_tells_its_results(node, cell):
     assert [abs(part) for part in turned] == pytest.approx([0, 0, 1, 0])
 
     arguments[0] = Value(type=Value.NUM, number=-1.0)
-    told = node.services["call_routine"](name="weld", arguments=arguments)
-    assert not told.success
-    assert "ERR_ARGVALERR" in told.message
-    told = node.services["call_routine"](name="weld", arguments=[Value(type=9)])
-    assert (told.success, told.message) == (False, "9 is no type of rapidgen_interfaces/Value")
+    reply = node.services["call_routine"](name="weld", arguments=arguments)
+    assert not reply.success
+    assert "ERR_ARGVALERR" in reply.message
+    reply = node.services["call_routine"](name="weld", arguments=[Value(type=9)])
+    assert (reply.success, reply.message) == (False, "9 is no type of rapidgen_interfaces/Value")
 
 
 def test_without_the_package_the_node_runs_and_says_so(sourced, cell, monkeypatch):

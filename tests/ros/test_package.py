@@ -190,8 +190,8 @@ def test_two_robots_of_a_cell_are_where_they_were_put(cell):
     for member, prefix in zip(cell, ("left_", "right_"), strict=True):
         (group,) = member.config.groups
         joints, wire = JointMap.of(group), [0.1] * len(group.joints)
-        told = zip(joints.names, joints.to_urdf(wire), strict=True)
-        robot.update_cfg({prefix + name: value for name, value in told})
+        values = zip(joints.names, joints.to_urdf(wire), strict=True)
+        robot.update_cfg({prefix + name: value for name, value in values})
         rows[prefix] = Kinematics.of(group).forward(wire)[0]
     left, right = (robot.get_transform(f"{p}tool0", "world")[:3, 3] for p in rows)
     assert left == pytest.approx(rows["left_"], abs=1e-6)
@@ -247,14 +247,14 @@ def test_ros1_says_names_coupling_and_ports():
     config = load_config("irb2400")
     files = ros1_package(config, "irb2400")
     launch = ET.fromstring(files["launch/robot.launch"])
-    told = {e.attrib.get("name"): e.attrib.get("value") for e in launch.iter("param")}
-    assert told["J23_coupled"] == "true"
+    values = {e.attrib.get("name"): e.attrib.get("value") for e in launch.iter("param")}
+    assert values["J23_coupled"] == "true"
     names = next(launch.iter("rosparam")).text
     assert names == "[joint_1, joint_2, joint_3, joint_4, joint_5, joint_6]"
     ast.parse(files["scripts/watcher.py"])
 
 
-def test_written_whole_again_and_not_over_somebody_elses(tmp_path):
+def test_write_replaces_own_package_but_no_other(tmp_path):
     files = package("irb120")
     write(files, tmp_path / "a")
     write(files, tmp_path / "a")

@@ -1,4 +1,4 @@
-"""A short form of `make ros-goals`: nothing hangs, and SUCCEEDED is never said of another path."""
+"""A short form of `make ros-goals`: no hang, no wrong SUCCEEDED."""
 
 import pytest
 from scenarios import play

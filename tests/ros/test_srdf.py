@@ -1,4 +1,4 @@
-"""The SRDF beside a URDF: what MoveIt would not find out by itself."""
+"""The SRDF of a URDF: data that MoveIt would not find by itself."""
 
 import xml.etree.ElementTree as ET
 
@@ -76,7 +76,7 @@ def test_the_group_of_all_arms_has_each_of_them():
         assert [part.tag for part in group] == ["chain"]
 
 
-def test_a_group_with_a_positioner_is_its_arm_and_the_joints_beside_it():
+def test_srdf_of_positioner_has_arm_and_joint_groups():
     _, urdf, srdf = drawn("irb120_track")
     arm, complete = srdf.findall("group")
     (chain,) = arm

@@ -44,7 +44,7 @@ def test_a_clock_that_begins_again():
 
 
 def test_a_simulators_clock_goes_at_its_own_speed():
-    """Four times as fast as this machine, and on behind a restart."""
+    """Four times as fast as this machine, and continued after a restart."""
     stamps = RosTimeEstimator(is_clock=True)
     report = [stamps.stamp(n * 0.02, 1000 + n * 0.005) for n in range(200)]
     assert np.diff(report) * 1e-9 == pytest.approx(0.02)

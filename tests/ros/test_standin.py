@@ -38,6 +38,6 @@ def test_a_call_of_the_stand_in_is_one_of_rclpy(call, distribution):
 
 
 @pytest.mark.parametrize("distribution", sorted(KNOWN))
-def test_what_is_told_is_reliable_and_volatile_by_default(distribution):
+def test_publishers_default_to_reliable_and_volatile(distribution):
     report = {key: getattr(standin.QoSProfile, key) for key in KNOWN[distribution]["qos"]}
     assert report == KNOWN[distribution]["qos"]

@@ -1,4 +1,4 @@
-"""What is published of a state: industrial_msgs' numbers, and what hinders the robot in words."""
+"""Published state: industrial_msgs' numbers, and blockers in words."""
 
 import pytest
 from ready import goal, station
@@ -10,7 +10,7 @@ from rapidgen.ros.status_messages import Level, health, no_link, robot_status, u
 from rapidgen.wire.simple_message.spec import Mode, Reason, TrajectoryState, TriState
 
 
-def told(s):
+def published(s):
     state = s.run(s.robot.next_state())
     state = s.run(s.robot.next_state())
     return robot_status(state.status), health(state, s.robot.driver, "controller")
@@ -29,7 +29,7 @@ def test_states_of_the_controller(fault, level, text, numbers):
     with station() as s:
         fault(s.controller)
         s.controller.run_for(1.0)
-        status, result = told(s)
+        status, result = published(s)
         assert result.level is level
         assert text in result.message
         assert {name: getattr(status, name) for name in numbers} == numbers
@@ -43,8 +43,8 @@ def state(trajectory=None, **status):
         "motion_possible": TriState.TRUE,
         "mode": Mode.AUTO,
     }
-    told = Status(**{**known, **status})
-    return State(("joint_1",), (0.0,), (0.0,), told, 0.0, 25.0, 1, lambda: 0.0, trajectory)
+    published = Status(**{**known, **status})
+    return State(("joint_1",), (0.0,), (0.0,), published, 0.0, 25.0, 1, lambda: 0.0, trajectory)
 
 
 ENDED = {
@@ -96,11 +96,11 @@ def test_a_paused_robot_is_not_ready():
         s.controller.run_for(1.0)
         s.run(s.robot.pause())
         s.controller.run_for(1.0)
-        _, result = told(s)
+        _, result = published(s)
         assert (result.level, result.message) == (Level.WARN, "paused")
         s.run(s.robot.resume())
         s.controller.run_for(8.0)
-        assert told(s)[1].message == "ready"
+        assert published(s)[1].message == "ready"
 
 
 def test_a_refusal_stays_visible():
@@ -114,7 +114,7 @@ def test_a_refusal_stays_visible():
 
         s.robot._core.check = unchecked
         assert s.outcome(goal(0.0, 0.1)).status is FinalStatus.ABORTED
-        status, result = told(s)
+        status, result = published(s)
         assert status.in_error == 1
         assert status.error_code == 104
         assert "last refusal" in result.values

@@ -1,4 +1,4 @@
-"""The watcher of a ROS 1 package, beside a stand-in of rospy."""
+"""The watcher of a ROS 1 package, with a stand-in of rospy."""
 
 import sys
 from types import ModuleType, SimpleNamespace
@@ -12,10 +12,10 @@ PENDING, ACTIVE, SUCCEEDED = 0, 1, 3
 
 
 class Ros:
-    """What the watcher subscribed to and published, at a time that is told."""
+    """Subscriptions and publications of the watcher, at a given time."""
 
     def __init__(self, monkeypatch):
-        self.now, self.heard, self.cancelled = 0.0, {}, []
+        self.now, self.received, self.cancelled = 0.0, {}, []
         rospy = ModuleType("rospy")
         rospy.init_node = rospy.logerr = lambda *_: None
         rospy.spin = lambda: None
@@ -23,7 +23,7 @@ class Ros:
         rospy.Publisher = lambda topic, kind, queue_size: SimpleNamespace(
             publish=lambda goal: self.cancelled.append(goal.id)
         )
-        rospy.Subscriber = lambda topic, kind, call: self.heard.__setitem__(topic, call)
+        rospy.Subscriber = lambda topic, kind, call: self.received.__setitem__(topic, call)
         actions, industrial = ModuleType("actionlib_msgs.msg"), ModuleType("industrial_msgs.msg")
         actions.GoalID = lambda id="": SimpleNamespace(id=id)
         actions.GoalStatus = SimpleNamespace(PENDING=PENDING, ACTIVE=ACTIVE)
@@ -36,13 +36,13 @@ class Ros:
             SimpleNamespace(goal_id=SimpleNamespace(id=name), status=status)
             for name, status in states.items()
         ]
-        if "joint_trajectory_action/status" in self.heard:
-            self.heard["joint_trajectory_action/status"](SimpleNamespace(status_list=report))
+        if "joint_trajectory_action/status" in self.received:
+            self.received["joint_trajectory_action/status"](SimpleNamespace(status_list=report))
 
     def status(self, in_error, seconds=0.1):
         self.now += seconds
         report = SimpleNamespace(in_error=SimpleNamespace(val=in_error), error_code=104)
-        self.heard["robot_status"](report)
+        self.received["robot_status"](report)
 
 
 @pytest.fixture
@@ -72,7 +72,7 @@ def test_a_second_refused_goal_is_cancelled_though_the_error_never_went(ros):
     assert ros.cancelled == ["a", "b"]
 
 
-def test_a_good_goal_behind_a_refused_one_is_not_cancelled(ros):
+def test_good_goal_after_refused_one_is_not_cancelled(ros):
     ros.goals(a=ACTIVE)
     ros.status(1)
     ros.goals(a=SUCCEEDED, b=ACTIVE)
@@ -82,7 +82,7 @@ def test_a_good_goal_behind_a_refused_one_is_not_cancelled(ros):
     assert ros.cancelled == ["a"]
 
 
-def test_an_error_that_was_there_before_the_goal_was_heard_of(ros):
+def test_error_before_goal_cancels_after_a_delay(ros):
     ros.status(1)
     ros.goals(a=ACTIVE)
     ros.status(1)

@@ -1,6 +1,6 @@
-"""Files that ROS 2 and ROS 1 want of a robot, from its configuration alone.
+"""Files for ROS 2 and ROS 1 from a robot's configuration alone.
 
-`urdf` draws the chain, `srdf` what planning needs, `files` puts a package together.
+`urdf` describes the chain, `srdf` has data for planning, `files` composes a package.
 """
 
 from rapidgen.ros.package.files import CellMember, ros1_package, ros2_cell, ros2_package, write

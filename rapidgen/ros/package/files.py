@@ -1,4 +1,4 @@
-"""The files of a generated ROS package, in memory; `write` brings them to a folder.
+"""Files of a generated ROS package, in memory; `write` writes them.
 
 Templates are in `templates/ros2` and `templates/ros1`; all of them see the same names.
 """
@@ -18,7 +18,10 @@ from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.ros.package import srdf, urdf
 
 _START_SHARE = 0.8
-"""allowed_start_tolerance as a share of the driver's: MoveIt is to complain before it does."""
+"""Ratio of allowed_start_tolerance to the driver's.
+
+MoveIt reports a violation before the driver does.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,21 +34,27 @@ class CellMember:
     at: tuple[float, ...] = (0.0,) * 6
     """Its base in the world: x, y, z in m; roll, pitch, yaw in rad."""
     overrides: tuple[str, ...] = ()
-    """KEY=VALUE that `config` was loaded with: node and simulator load `source` with them, too."""
+    """KEY=VALUE overrides of `config`.
+
+    Node and simulator load `source` with them too.
+    """
 
 
 def ros2_package(config: RobotConfig, source: str, overrides: Sequence[str] = ()) -> dict[str, str]:
-    """Files by path of a ROS 2 package that starts the node, rviz and MoveIt for this robot."""
+    """Return the files of a ROS 2 package by path.
+
+    It starts the node, rviz and MoveIt for this robot.
+    """
     member = CellMember(config, source, overrides=tuple(overrides))
     return _ros2([member], config.name, [""])
 
 
 def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
-    """The same for several robots, each with a controller and a node of its own, in one MoveIt.
+    """Return the same for several robots in one MoveIt.
 
-    Names of joints, links and planning groups begin with the robot's; of `name`, which may be any
-    folder's, letters, digits and few signs are used. Raises DiagnosticError where two robots have
-    the same one.
+    Each has a controller and a node. Names of joints, links and planning groups begin with the
+    robot's; `name`, which may be that of any folder, is reduced to letters, digits and few signs.
+    Raises DiagnosticError if two robots have the same name.
     """
     names = [_plain(member.config.name) for member in members]
     twice = sorted({one for one in names if names.count(one) > 1})
@@ -55,7 +64,7 @@ def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
                 "RG693",
                 None,
                 f"several robots are called {', '.join(twice)}",
-                "give each configuration a `name` of its own",
+                "give each configuration a different `name`",
             )
         )
     return _ros2(members, re.sub(r"[^\w .-]", "_", name), names)
@@ -102,7 +111,10 @@ def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> d
 
 
 def ros1_package(config: RobotConfig, source: str) -> dict[str, str]:
-    """Files by path for the unmodified ROS-Industrial nodes: launch, parameters, a watcher."""
+    """Return the files for unmodified ROS-Industrial nodes by path.
+
+    Launch file, parameters, a watcher.
+    """
     name = package_name(config.name)
     drawn = urdf.draw(config, config.name)
     context = {
@@ -117,7 +129,10 @@ def ros1_package(config: RobotConfig, source: str) -> dict[str, str]:
 
 
 def package_name(called: str) -> str:
-    """A name that ament and catkin take: small letters, digits, single underscores."""
+    """Return a name for ament and catkin.
+
+    Lower-case letters, digits, single underscores.
+    """
     return f"{_plain(called)}_rapidgen"
 
 
@@ -127,22 +142,22 @@ def _plain(called: str) -> str:
 
 
 def write(files: dict[str, str], folder: Path) -> None:
-    """Bring a package to a folder, which is new, empty or an older one of this package.
+    """Write a package to a new or empty folder, or over an older version.
 
-    Raises DiagnosticError where files of somebody else lie there, OSError.
+    Raises DiagnosticError if foreign files are there, OSError.
     """
-    strangers = sorted(
+    foreign = sorted(
         str(path.relative_to(folder))
         for path in folder.rglob("*")
         if path.is_file() and str(path.relative_to(folder)) not in files
     )
-    if strangers:
+    if foreign:
         raise DiagnosticError(
             error(
                 "RG692",
                 None,
-                f"{folder} has files that are not of this package: {', '.join(strangers[:3])}",
-                "give a folder of its own",
+                f"{folder} has files that are not of this package: {', '.join(foreign[:3])}",
+                "give another folder",
             ),
             exit_code=2,
         )

@@ -1,7 +1,8 @@
-"""Which bars of a drawing overlap in one posture, within a chain of links or between fixed ones.
+"""Overlapping bars of a drawing in one posture.
 
-Bars are thicker than a wrist is long. What they touch there says nothing of the robot, and MoveIt
-would start nowhere: its Setup Assistant takes such pairs out as "Default".
+Within a chain of links or between fixed ones. Bars are thicker than a wrist is long. Their contacts
+there say nothing about the robot, and MoveIt could not plan from any start: its Setup Assistant
+excludes such pairs as "Default".
 """
 
 from collections.abc import Iterator, Mapping
@@ -18,9 +19,11 @@ _SHARES = np.linspace(0.0, 1.0, 41)[:, None]
 
 
 def overlapping(root: ET.Element, posture: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-    """Pairs of links whose bars touch at `posture` (rad or m), of those where one is behind the
-    other or none moves against the other."""
-    joints = {_told(joint, "child", "link"): joint for joint in root.iter("joint")}
+    """Return pairs of links whose bars touch at `posture` (rad or m).
+
+    Only pairs in one chain, or without relative motion.
+    """
+    joints = {_attribute(joint, "child", "link"): joint for joint in root.iter("joint")}
     bars = {
         link.attrib["name"]: (_line(bar, _pose(link.attrib["name"], joints, posture)), _radius(bar))
         for link in root.iter("link")
@@ -38,14 +41,14 @@ def overlapping(root: ET.Element, posture: Mapping[str, float]) -> Iterator[tupl
 
 def _before(link: str, joints: Mapping[str, ET.Element]) -> Iterator[str]:
     while link in joints:
-        link = _told(joints[link], "parent", "link")
+        link = _attribute(joints[link], "parent", "link")
         yield link
 
 
 def _carrier(link: str, joints: Mapping[str, ET.Element]) -> str:
-    """The link behind the last joint that moves."""
+    """Return the link after the last joint that moves."""
     while link in joints and joints[link].attrib["type"] == "fixed":
-        link = _told(joints[link], "parent", "link")
+        link = _attribute(joints[link], "parent", "link")
     return link
 
 
@@ -53,14 +56,17 @@ def _pose(link: str, joints: Mapping[str, ET.Element], posture: Mapping[str, flo
     if link not in joints:
         return IDENTITY
     joint = joints[link]
-    parent = _pose(_told(joint, "parent", "link"), joints, posture)
+    parent = _pose(_attribute(joint, "parent", "link"), joints, posture)
     at = compose(parent, _origin(joint))
     if joint.find("axis") is None:
         return at
     name, factor = joint.attrib["name"], 1.0
     if joint.find("mimic") is not None:
-        name, factor = _told(joint, "mimic", "joint"), float(_told(joint, "mimic", "multiplier"))
-    axis, value = _vector(_told(joint, "axis", "xyz")), factor * posture.get(name, 0.0)
+        name, factor = (
+            _attribute(joint, "mimic", "joint"),
+            float(_attribute(joint, "mimic", "multiplier")),
+        )
+    axis, value = _vector(_attribute(joint, "axis", "xyz")), factor * posture.get(name, 0.0)
     if joint.attrib["type"] == "prismatic":
         return compose(at, (scale(axis, value), UNIT))
     return compose(at, (ORIGIN, about(axis, value)))
@@ -68,7 +74,7 @@ def _pose(link: str, joints: Mapping[str, ET.Element], posture: Mapping[str, flo
 
 def _line(bar: ET.Element, link: Pose) -> Array:
     """Points (n, 3) on its axis, m."""
-    half = float(_told(bar, "geometry/cylinder", "length")) / 2
+    half = float(_attribute(bar, "geometry/cylinder", "length")) / 2
     at = compose(link, _origin(bar))
     first, last = (np.array(transform(at, (0.0, 0.0, end))) for end in (-half, half))
     line: Array = first + _SHARES * (last - first)
@@ -76,11 +82,11 @@ def _line(bar: ET.Element, link: Pose) -> Array:
 
 
 def _radius(bar: ET.Element) -> float:
-    return float(_told(bar, "geometry/cylinder", "radius"))
+    return float(_attribute(bar, "geometry/cylinder", "radius"))
 
 
 def _origin(element: ET.Element) -> Pose:
-    xyz, rpy = (_vector(_told(element, "origin", key)) for key in ("xyz", "rpy"))
+    xyz, rpy = (_vector(_attribute(element, "origin", key)) for key in ("xyz", "rpy"))
     return xyz, from_rpy(*rpy)
 
 
@@ -89,7 +95,7 @@ def _vector(text: str) -> Vector:
     return x, y, z
 
 
-def _told(element: ET.Element, path: str, key: str) -> str:
+def _attribute(element: ET.Element, path: str, key: str) -> str:
     result = element.find(path)
     assert result is not None
     return result.attrib[key]

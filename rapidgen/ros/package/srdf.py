@@ -1,8 +1,8 @@
-"""A SRDF: planning groups, a home posture, and the pairs of links that may touch.
+"""SRDF: planning groups, a home posture, pairs of links that may touch.
 
-Taken from the collision check are pairs that a joint connects, and bars of one chain that touch
-at home because they are drawn too thick. What else can never touch is not known without the
-robot's real shape, and a check too many harms nobody.
+Excluded from the collision check are pairs that a joint connects, and bars of one chain that touch
+at home because they are drawn too thick. Other pairs that never touch are unknown without the
+robot's real shape, and an unnecessary check does no harm.
 """
 
 from collections.abc import Sequence
@@ -15,11 +15,14 @@ from rapidgen.ros.package.shapes import overlapping
 from rapidgen.ros.package.urdf import PlacedRobot, UrdfDrawing, urdf_range
 
 TOGETHER = "robots"
-"""The planning group of all others, where there are several: a plan for all arms at once."""
+"""Planning group of all others: a plan for all arms at once."""
 
 
 def draw(robots: Sequence[PlacedRobot], drawn: UrdfDrawing, name: str) -> str:
-    """The text for the URDF that `drawn` is; planning groups are named as motion groups."""
+    """Return the text for the URDF `drawn`.
+
+    Planning groups are named as motion groups.
+    """
     root = ET.Element("robot", name=name)
     for robot in robots:
         for group in robot.config.groups:
@@ -47,8 +50,11 @@ def draw(robots: Sequence[PlacedRobot], drawn: UrdfDrawing, name: str) -> str:
 
 
 def chain_group(name: str, joints: Sequence[str], drawn: UrdfDrawing) -> str:
-    """The planning group of the arm's chain, whose kinematics can be solved: the motion group's
-    own, or one beside it where the motion group has more joints (those of positioners)."""
+    """Return the planning group of the arm's chain, which has a solver.
+
+    It is the motion group's, or a separate one if the motion group has more joints (those of
+    positioners).
+    """
     return name if set(joints) <= set(drawn.arms[name].joints) else f"{name}_arm"
 
 
@@ -56,8 +62,8 @@ def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: UrdfDrawing
     name = prefix + group.name
     joints = [prefix + joint.name for joint in group.joints]
     arm, solved = drawn.arms[name], chain_group(name, joints, drawn)
-    # MoveIt solves a group by the solver of one in it, fixed joints included: a list of joints
-    # that move would have none.
+    # MoveIt solves a group by the solver of one in it, fixed joints included: a list of joints that
+    # move would have none.
     chain = ET.Element("chain", base_link=arm.links[0], tip_link=arm.tip)
     ET.SubElement(root, "group", name=solved).append(chain)
     if solved != name:
@@ -72,9 +78,9 @@ def _group(root: ET.Element, group: GroupConfig, prefix: str, drawn: UrdfDrawing
 
 
 def home_posture(group: GroupConfig) -> list[tuple[str, float]]:
-    """Where the model usually begins, as near as a joint's range in the URDF allows; rad or m.
+    """Return the model's usual start within the URDF's ranges; rad or m.
 
-    With all joints at 0 wrists are singular, and the hands of two arms may touch.
+    With all joints at 0 wrists are singular, and the grippers of two arms may touch.
     """
     result = []
     values = JointMap.of(group).to_urdf(usual_start(group))

@@ -1,7 +1,7 @@
-"""A URDF of a configuration's own chain: joints have the names that goals and joint_states have.
+"""URDF of a configuration's chain, with the joint names of goals.
 
-Links are cylinders along the chain where the robot has no meshes here: enough to see it move, and
-larger than nothing for planning, but not the robot's shape.
+joint_states has the same names. Links are cylinders along the chain if the robot has no meshes
+here: enough to see it move, and not empty for planning, but not the robot's shape.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,14 +14,14 @@ from rapidgen.config.model import ChainLink, Joint, RobotConfig
 
 ROOT = "world"
 _EFFORT = "1000"
-"""N m, N: URDF wants one, and the controller does not tell it."""
+"""N m, N: URDF requires a value, and the controller does not report it."""
 _THICKNESS = 0.12
 """Radius of a drawn link, as a share of its length."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlacedRobot:
-    """A robot of a drawing: what its names begin with, and where its base is in the world."""
+    """A robot of a drawing: prefix of its names, and its base in the world."""
 
     config: RobotConfig
     prefix: str = ""
@@ -31,7 +31,10 @@ class PlacedRobot:
 
 @dataclass(frozen=True, slots=True)
 class LinkChain:
-    """A chain of links from the root: of an arm (with its tool0) or of a positioner."""
+    """A chain of links from the root.
+
+    It is that of an arm (with its tool0) or of a positioner.
+    """
 
     links: tuple[str, ...]
     joints: tuple[str, ...]
@@ -54,7 +57,7 @@ class UrdfDrawing:
 
     @property
     def text(self) -> str:
-        """As a file."""
+        """Text of the file."""
         ET.indent(self.root)
         return ET.tostring(self.root, encoding="unicode", xml_declaration=True) + "\n"
 
@@ -95,7 +98,10 @@ def draw_cell(robots: Sequence[PlacedRobot], name: str) -> UrdfDrawing:
 
 
 def urdf_range(joint: Joint) -> tuple[float, float]:
-    """Limits of a joint in URDF's sense, rad or m; of a coupled one where axis 2 stands at 0."""
+    """Return limits of a joint in URDF's sense, rad or m.
+
+    For a coupled one axis 2 is at 0.
+    """
     ends = sorted((value - joint.offset) * joint.sign for value in (joint.lower, joint.upper))
     return ends[0], ends[1]
 
@@ -105,7 +111,7 @@ class _Drawer:
     root: ET.Element
     joints: dict[str, Joint]
     prefix: str
-    """Of joints."""
+    """Number of joints."""
     at: Sequence[float]
 
     def branch(self, base: str, chain: Sequence[ChainLink], tip: str) -> LinkChain:
@@ -124,7 +130,7 @@ class _Drawer:
         return LinkChain(tuple(links), tuple(joints))
 
     def _step(self, parent: str, step: ChainLink, child: str) -> list[str]:
-        """Links behind `parent`; it is drawn as a bar to where the next one begins."""
+        """Add links after `parent`, drawn as a bar to the next joint."""
         self._bar(parent, step.xyz)
         if step.joint:
             name, joint = self.prefix + step.joint, self.joints[step.joint]
@@ -160,7 +166,7 @@ class _Drawer:
         self._joint(self._free("joint", f"{child}_joint"), "fixed", parent, child, xyz, rpy)
 
     def _free(self, tag: str, wished: str) -> str:
-        """A name that no other link or joint has: the robot's own joints are called anything."""
+        """Return an unused name: the robot's own joints may have any name."""
         in_use = {element.get("name") for element in self.root.iter(tag)}
         if tag == "joint":
             in_use |= {self.prefix + joint for joint in self.joints}
