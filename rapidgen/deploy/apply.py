@@ -431,7 +431,7 @@ def _conflict(change: FileChange) -> Diagnostic:
             if change.after is None
             else "--overwrite puts back what the copy holds now: look at the file afterwards",
         )
-    if change.conflict == "stranger":
+    if change.conflict == "foreign":
         return error(
             "RG521",
             None,

@@ -206,7 +206,7 @@ def _contents(
             "`rapidgen plan` shows the difference",
         )
     for change in plan.conflicts:
-        what = {"edited": "changed locally", "stranger": "a stranger's file"}.get(
+        what = {"edited": "changed locally", "foreign": "a foreign file"}.get(
             change.conflict, change.doubt
         )
         yield Check("files", "fail", f"{change.shown}: {what}", "`rapidgen plan` has details")

@@ -25,7 +25,7 @@ DAMAGED = (
 
 Verb = Literal["deploy", "rollback", "uninstall"]
 Action = Literal["add", "change", "same", "remove", "restore"]
-Conflict = Literal["", "edited", "stranger", "kept"]
+Conflict = Literal["", "edited", "foreign", "kept"]
 """`kept`: the copy from before the first deployment is damaged or missing."""
 
 

@@ -307,7 +307,7 @@ def _file_changes(
         if current == file.data:
             action = "same"
         elif current is not None and own_files is None:
-            conflict = "stranger"
+            conflict = "foreign"
         elif current is not None and not base.owns(file.path, current):
             conflict = "edited"
             note = _edited_lines(base.records.get(file.path), current, file.data)

@@ -361,12 +361,12 @@ class GroupInterface:
         goal = self._goal(handle.request)
         try:
             outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
-            told = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
+            outcome_text = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
             # Two calls: rclpy refuses another severity from the place of an earlier one.
             if outcome.status is FinalStatus.SUCCEEDED:
-                self._node.get_logger().info(told)
+                self._node.get_logger().info(outcome_text)
             else:
-                self._node.get_logger().warning(told)
+                self._node.get_logger().warning(outcome_text)
             return _ending(handle, outcome)
         finally:
             # After its end: an earlier cancellation would enter it again.

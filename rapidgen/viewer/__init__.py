@@ -1,4 +1,4 @@
-"""What people look at, of a robot, a simulation or a recording."""
+"""Web UI of a robot, a simulation or a recording."""
 
 from typing import TYPE_CHECKING
 

@@ -1,9 +1,10 @@
-"""Where the chain of a configuration is in a description whose root may be another one.
+"""Alignment of a configuration's chain with a description.
 
-A configuration may take its chain from a known model and its looks from a description: of a YuMi,
-say, whose arms hang on one body. Both move alike, so for postures q with `D(q)` the description's
-last link and `K(q)` the chain's end there are a root X and a flange F with D(q) F = X K(q). Of two
-postures it follows that A X = X B, which is solved as in hand-eye calibration [Park & Martin 1994].
+A configuration may take its chain from a known model and its appearance from a description whose
+root is another one: of a YuMi, for example, whose arms share one body. Both move alike, so for
+postures q with `D(q)` the description's last link and `K(q)` the chain's end there are a root X and
+a flange F with D(q) F = X K(q). Two postures give A X = X B, which is solved as in hand-eye
+calibration [Park & Martin 1994].
 """
 
 import random
@@ -18,7 +19,7 @@ from rapidgen.axes.kinematics import Posture
 
 _POSTURES = 12
 _TURN = 0.4
-"""rad or m: how far joints are moved to see."""
+"""rad or m: movement of the joints for the measurement."""
 _SAME = 1e-3
 """m and rad: by so much the two may differ."""
 _NEAR = 1e-6
@@ -29,7 +30,7 @@ Matrix = NDArray[np.float64]
 def aligned(
     description: Callable[[Posture], Pose], chain: Callable[[Posture], Pose], count: int
 ) -> tuple[Pose, Pose] | None:
-    """X and F for `count` joints; None: the two do not move alike."""
+    """Return X and F for `count` joints; None if the motions differ."""
     chance = random.Random(1)
     postures = [(0.0,) * count] + [
         tuple(chance.uniform(-_TURN, _TURN) for _ in range(count)) for _ in range(_POSTURES)

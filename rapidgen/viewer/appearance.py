@@ -1,7 +1,7 @@
-"""How robots and what stands around them look: drawings, and the files that these name.
+"""Appearance of robots and cell objects: drawings and their mesh files.
 
-A robot is drawn from the meshes of its description where its configuration names one, else from its
-chain. Whatever is not to be had is said, and a solid stands in for it.
+A robot is drawn from the meshes of its description if its configuration names one, else from its
+chain. Missing files are reported, and a solid replaces them.
 """
 
 import hashlib
@@ -31,18 +31,21 @@ MOST = 200_000_000
 
 @dataclass(frozen=True)
 class Appearance:
-    """What robots look like. Robots without a drawing of their own are drawn from their chain."""
+    """Appearance of robots.
+
+    Robots without a drawing are drawn from their chain.
+    """
 
     drawings: Mapping[str, Drawing] = field(default_factory=dict)
     files: Mapping[str, bytes] = field(default_factory=dict, repr=False)
-    """Meshes by the names under which the page asks for them."""
+    """Meshes by the names in the page's requests."""
     faults: tuple[str, ...] = ()
-    """What does not look as described."""
+    """Deviations from the description."""
 
     things: tuple[SeenThing, ...] = ()
-    """What stands around."""
+    """Objects of the cell."""
     bases: Mapping[str, Pose] = field(default_factory=dict)
-    """Where robots stand, by task in lower case, as far as that is told."""
+    """Poses of robots by task in lower case, as far as known."""
 
     def of(self, group: GroupConfig) -> Drawing:
         """The drawing of a robot."""
@@ -63,13 +66,13 @@ class Meshes:
         self._names: dict[Path, str] = {}
 
     def name(self, visual: Visual) -> str:
-        """The name of a visual's mesh for the page; empty: there is none."""
+        """Return the page's name of a visual's mesh; empty if it has none."""
         if visual.mesh is None:
             self._say(visual.fault)
             return ""
         return self.name_of(visual.mesh)
 
-    def beside(self, name: str, folder: Path) -> str:
+    def name_in(self, name: str, folder: Path) -> str:
         """The same of a mesh in a folder."""
         try:
             return self.name_of(mesh_beside(name, folder))
@@ -84,11 +87,11 @@ class Meshes:
         return self._names[mesh]
 
     def _read(self, path: Path) -> str:
-        room = min(LARGEST, MOST - sum(map(len, self.files.values())))
+        remaining = min(LARGEST, MOST - sum(map(len, self.files.values())))
         try:
-            data = read_foreign(path, room)
+            data = read_foreign(path, remaining)
         except TooLarge:
-            self._say(f"{path.name} is larger than {room / 1e6:.0f} MB")
+            self._say(f"{path.name} is larger than {remaining / 1e6:.0f} MB")
             return ""
         except OSError as fault:
             self._say(f"{path}: {fault.strerror}")
@@ -111,9 +114,10 @@ def appearance(
     overrides: Overrides = (),
     cell: CellDescription | None = None,
 ) -> Appearance:
-    """What robots look like whose configurations are `described`, by group, and what `cell` has.
+    """Return the appearance of `described` configurations by group.
 
-    Raises DiagnosticError for a configuration that `load_config` would not take.
+    `cell` has further objects. Raises DiagnosticError for a configuration that `load_config` would
+    not accept.
     """
     result = {path: trees(path, overrides) for path in dict.fromkeys(described.values())}
     own = {
@@ -143,15 +147,17 @@ def appearance(
 
 def _things(cell: CellDescription, meshes: Meshes) -> Iterator[SeenThing]:
     for thing in cell.things:
-        mesh = meshes.beside(thing.mesh, cell.folder)
+        mesh = meshes.name_in(thing.mesh, cell.folder)
         pose = pose_of((thing.frame.position, thing.frame.orientation))
         if mesh:
             yield SeenThing(name=thing.name, mesh=mesh, scale=thing.scale, pose=pose)
 
 
 def _fitting(group: GroupConfig, result: Mapping[str, Tree]) -> Tree | None:
-    """The description with a group's joints that draws something; groups of other programs may have
-    other names."""
+    """Return the description with a group's joints that draws something.
+
+    Groups of other programs may have other names.
+    """
     first = [result[group.name]] if group.name in result else []
     names = {joint.name for joint in group.joints}
     for tree in (*first, *result.values()):

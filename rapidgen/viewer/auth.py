@@ -1,8 +1,8 @@
-"""Who may look: a token in the link's fragment, which buys a cookie, and only from our own page.
+"""Authentication: a token in the link's fragment, exchanged for a cookie.
 
-A fragment is never sent to a server, so the token stays out of logs and Referer headers. Pages of
-others in the same browser have no cookie (SameSite=Strict), and what they send names them as
-Origin; a name that somebody lets point to this machine (DNS rebinding) is no address as Host.
+A fragment is never sent to a server, so the token stays out of logs and Referer headers. Foreign
+pages in the same browser have no cookie (SameSite=Strict), and their requests name them as Origin;
+a domain name that an attacker points to this machine (DNS rebinding) is not a valid Host.
 """
 
 import hmac
@@ -30,17 +30,20 @@ HEADERS = {
 
 @dataclass(frozen=True)
 class TokenAuth:
-    """The token of one server, and what it changes a good one into. DiagnosticError RG922."""
+    """The token of one server, and its exchange. DiagnosticError RG922."""
 
     token: str = field(default_factory=lambda: _given() or secrets.token_urlsafe(24), repr=False)
 
     @property
     def _session(self) -> str:
-        """What the cookie holds: a server that comes back with the same token knows it again."""
+        """Return the cookie's value.
+
+        It depends only on the token: a restarted server with the same token accepts it.
+        """
         return hmac.new(self.token.encode(), b"rapidgen view", "sha256").hexdigest()
 
     def addressed(self, request: web.Request, port: int) -> bool:
-        """Whether the Host is this machine by a number of it, or by `localhost`."""
+        """True if the Host is an IP address of this machine, or `localhost`."""
         name, _, given = request.headers.get("Host", "").rpartition(":")
         if not given.isdigit() or int(given) != port:
             return False
@@ -53,11 +56,11 @@ class TokenAuth:
         return True
 
     def own(self, request: web.Request) -> bool:
-        """Whether our own page asks: its Origin is where it asks."""
+        """True for a request of our own page: its Origin equals its Host."""
         return request.headers.get("Origin") == f"http://{request.headers.get('Host')}"
 
     def enter(self, given: str, response: web.Response, port: int) -> bool:
-        """Give the cookie for the token; False: it is another one."""
+        """Return the cookie for the token; False: a wrong token."""
         if not hmac.compare_digest(given.encode(), self.token.encode()):
             return False
         response.set_cookie(
@@ -66,7 +69,7 @@ class TokenAuth:
         return True
 
     def admitted(self, request: web.Request, port: int) -> bool:
-        """Whether a request has the cookie."""
+        """True if a request has the cookie."""
         given = request.cookies.get(_cookie(port), "")
         return hmac.compare_digest(given.encode(), self._session.encode())
 

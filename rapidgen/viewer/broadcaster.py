@@ -1,4 +1,4 @@
-"""One look at what is watched, for all who view it: encoded once, given to everybody."""
+"""Broadcast of one subject to all viewers, encoded once."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
@@ -11,7 +11,10 @@ from rapidgen.viewer.provider import Handler, RequestRejected, StateProvider, Su
 
 @dataclass(frozen=True, slots=True)
 class MessageBatch:
-    """Messages in order, encoded as one array. `passing`: the next one makes it worthless."""
+    """Messages in order, encoded as one array.
+
+    `passing`: the next one makes it worthless.
+    """
 
     data: bytes
     passing: bool = False
@@ -19,16 +22,16 @@ class MessageBatch:
 
 @dataclass(eq=False)
 class Broadcaster:
-    """What is told of one thing that is watched. All of it belongs to that one's thread."""
+    """Broadcaster of one subject. All of it belongs to that one's thread."""
 
     watched: Subject
     tell: Callable[[MessageBatch], None]
-    """Takes what all who view are told."""
+    """Receives messages for all viewers."""
     _aspects: tuple[StateProvider, ...] = ()
     _handlers: dict[type, Handler] = field(default_factory=dict)
 
     def renew(self) -> None:
-        """Something else is watched from now on: everybody is told all of it."""
+        """Replace the subject: every viewer receives all of it."""
         self._aspects = self.watched.aspects()
         self._handlers = {}
         for aspect in self._aspects:
@@ -36,16 +39,16 @@ class Broadcaster:
         self.tell(self._whole())
 
     def join(self) -> MessageBatch:
-        """All that a viewer who comes now has to know."""
-        # What it is told whole shall not come as news again.
+        """Return all messages for a new viewer."""
+        # The complete state must not be sent again as a change.
         self.look()
         return self._whole()
 
     def look(self) -> None:
-        """Tell everybody what is new."""
+        """Send the changes to every viewer."""
         new = [message for aspect in self._aspects for message in aspect.changes()]
         if new:
-            self.tell(_parcel(new))
+            self.tell(_batch(new))
 
     def ask(self, data: str | bytes) -> MessageBatch:
         """Carry a request out; the answer."""
@@ -54,7 +57,7 @@ class Broadcaster:
         except ValidationError as error:
             fault = error.errors(include_url=False, include_input=False)[0]
             where = ".".join(str(part) for part in fault["loc"])
-            return _parcel([PageReply(id=0, error=f"not understood: {where} {fault['msg']}")])
+            return _batch([PageReply(id=0, error=f"not understood: {where} {fault['msg']}")])
         handler = self._handlers.get(type(requested.request))
         text = refused = ""
         if handler is None:
@@ -64,13 +67,13 @@ class Broadcaster:
                 text = handler(requested.request)
             except RequestRejected as why:
                 refused = str(why)
-        return _parcel([PageReply(id=requested.id, error=refused, text=text)])
+        return _batch([PageReply(id=requested.id, error=refused, text=text)])
 
     def _whole(self) -> MessageBatch:
-        return _parcel([message for aspect in self._aspects for message in aspect.whole()])
+        return _batch([message for aspect in self._aspects for message in aspect.whole()])
 
 
-def _parcel(messages: Iterable[BaseModel]) -> MessageBatch:
+def _batch(messages: Iterable[BaseModel]) -> MessageBatch:
     text = [*messages]
     data = b",".join(message.model_dump_json().encode() for message in text)
     return MessageBatch(b"[" + data + b"]", all(isinstance(message, Positions) for message in text))

@@ -1,4 +1,4 @@
-"""What a plot shows, as data: charts of curves over one time, in degrees and mm."""
+"""Data of a plot: charts of curves over one time, in degrees and mm."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -11,20 +11,26 @@ from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.motion.recorder import Recording
 
 Plottable = Trajectory | JointRecording | Recording
-MOVES = "moves reached (program) and under way (robot)"
+MOVES = "moves reached (program) and active (robot)"
 _MOST = 600
-"""Points of a joint's curve; more are thinned to the least and greatest of each piece."""
+"""Points of a joint's curve.
+
+More are reduced to the minimum and maximum of each piece.
+"""
 _SEARCHED = 0.5
-"""s around the moment at which the controller took a motion in which its beginning is searched."""
+"""s around the acceptance of a motion within which its start is searched."""
 _NEAR = 0.5
-"""A limit is drawn when it is nearer to the curves than this share of their own height."""
+"""A limit is drawn within this share of the curves' height from them."""
 _FLAT = 1.0
-"""deg, mm: what a joint that stands does is noise below that."""
+"""deg, mm: variations of a joint at rest below this are noise."""
 
 
 @dataclass(frozen=True, slots=True)
 class JointCurves:
-    """Joints over time, of one origin: `times` (n,) s, `positions` (n, k) rad or m."""
+    """Joints over time, of one origin.
+
+    `times` (n,) s, `positions` (n, k) rad or m.
+    """
 
     label: str
     names: tuple[str, ...]
@@ -32,7 +38,7 @@ class JointCurves:
     positions: Array
 
     def column(self, name: str) -> Array | None:
-        """The values of a joint, None where there is none."""
+        """Return the values of a joint; None if there are none."""
         if name not in self.names or not len(self.times):
             return None
         values: Array = self.positions[:, self.names.index(name)]
@@ -66,11 +72,11 @@ class Chart:
 
 
 def layers_of(displayed: Sequence[Plottable], labels: Sequence[str]) -> list[JointCurves]:
-    """What is shown as layers over one time.
+    """Return layers over one time.
 
-    A trajectory beside a recording of a robot begins when the controller took it. Where the
+    A trajectory shown with a recording of a robot begins when the controller accepted it. If the
     recording has the controller's own time, which no clock of this machine knows exactly, it begins
-    where what was executed fits it best.
+    where the executed motion fits it best.
     """
     in_use: list[float] = []
     executed: JointCurves | None = None
@@ -94,7 +100,9 @@ def layers_of(displayed: Sequence[Plottable], labels: Sequence[str]) -> list[Joi
             moved = replace(moved, times=moved.times + _late(moved, executed))
         result[index] = moved
     named = [*labels, *(layer.label for layer in result[len(labels) :])]
-    return _told_apart([replace(f, label=label) for f, label in zip(result, named, strict=False)])
+    return _distinct_labels(
+        [replace(f, label=label) for f, label in zip(result, named, strict=False)]
+    )
 
 
 def _joint_curves(trajectory: Trajectory, label: str) -> JointCurves:
@@ -104,7 +112,7 @@ def _joint_curves(trajectory: Trajectory, label: str) -> JointCurves:
 
 
 def _of_simulation(recording: Recording) -> Iterator[JointCurves]:
-    """Joints, the tool, and how far program and robot were in the moves."""
+    """Return joints, the tool, and the active moves of program and robot."""
     times = recording.time - recording.time[:1]
     order = _order(recording)
     for label, joints, moves in (
@@ -120,8 +128,11 @@ def _of_simulation(recording: Recording) -> Iterator[JointCurves]:
 
 
 def _order(recording: Recording) -> dict[str, int]:
-    """Moves by the order in which they were reached. One that the program reached and left between
-    two samples comes behind the one that the robot had executed before it."""
+    """Order moves by the time at which they were reached.
+
+    One that the program reached and left between two samples follows the one that the robot had
+    executed before it.
+    """
     reached = list(dict.fromkeys(recording.program_pointer))
     known = set(reached)
     before = ""
@@ -133,7 +144,7 @@ def _order(recording: Recording) -> dict[str, int]:
     return {move: number for number, move in enumerate(reached)}
 
 
-def _told_apart(layers: list[JointCurves]) -> list[JointCurves]:
+def _distinct_labels(layers: list[JointCurves]) -> list[JointCurves]:
     seen: dict[str, int] = {}
     text = []
     for layer in layers:
@@ -161,8 +172,10 @@ def _late(commanded: JointCurves, executed: JointCurves) -> float:
 def charts_of(
     layers: Sequence[JointCurves], group: Group | None, linear: Sequence[str]
 ) -> list[Chart]:
-    """A chart for each joint, with limits where a group tells them; then the difference of the
-    second layer from the first, where they have joints in common."""
+    """Return a chart for each joint, then differences of common joints.
+
+    Limits are drawn if a group has them. A difference is the second layer minus the first.
+    """
     metres = {"x", "y", "z", *linear}
     if group is not None:
         metres |= {joint.name for joint in group.joints if joint.kind == "prismatic"}
@@ -183,7 +196,7 @@ def charts_of(
 
 
 def joint_limits(group: Group) -> dict[str, tuple[float, float]]:
-    """Limits of joints (rad, m) whose axis depends on no other, by name."""
+    """Return limits of joints (rad, m) with an independent axis, by name."""
     joints = group.joints
     low = group.map.to_urdf([joint.lower for joint in joints])
     high = group.map.to_urdf([joint.upper for joint in joints])
@@ -204,7 +217,7 @@ def _unit(name: str, metres: set[str]) -> tuple[str, float]:
 
 
 def _near_limits(curves: Sequence[Curve], limits: Sequence[float]) -> Iterator[Curve]:
-    """Limits far from the curves would make these flat: they are left out."""
+    """Return limits near the curves; others would make the curves flat."""
     values = np.concatenate([curve.values for curve in curves]) if curves else np.zeros(0)
     if not len(values):
         return
@@ -236,7 +249,10 @@ def _differences(layers: Sequence[JointCurves], metres: set[str]) -> Iterator[Ch
 
 
 def _finite(times: Array, values: Array) -> tuple[Array, Array]:
-    """What can be drawn, at most about _MOST points that draw the same curve: extremes survive."""
+    """Return about _MOST finite points that draw the same curve.
+
+    Extremes are kept.
+    """
     sound = np.isfinite(times) & np.isfinite(values)
     times, values = times[sound], values[sound]
     if len(times) <= _MOST:

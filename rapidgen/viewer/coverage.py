@@ -22,7 +22,7 @@ pre i{display:inline-block;width:8em;text-align:right;margin-right:1em;color:#77
 
 @dataclass(frozen=True, slots=True)
 class CoveredFile:
-    """A module: its text, and how often each line that begins a statement was reached."""
+    """A module: its text, and the executions of each statement line."""
 
     path: str
     text: str

@@ -12,7 +12,10 @@ _LIMIT = "0.6"
 
 
 def picture(title: str, charts: Sequence[Chart], kind: str) -> bytes:
-    """PNG or SVG (`kind` png, svg), two charts a row; no global state of pyplot is touched."""
+    """PNG or SVG (`kind` png, svg), two charts a row.
+
+    The global state of pyplot is not changed.
+    """
     columns = 1 if len(charts) <= 1 else 2
     rows = max(1, -(-len(charts) // columns))
     figure = Figure(figsize=(5.6 * columns, 2.2 * rows + 0.8), layout="constrained")
@@ -42,5 +45,8 @@ def picture(title: str, charts: Sequence[Chart], kind: str) -> bytes:
 
 
 def _plain(text: str) -> str:
-    """matplotlib takes dollars for mathematics, and hides labels that begin with a line below."""
+    """Escape text: matplotlib takes dollars for mathematics.
+
+    It also hides labels that begin with an underscore.
+    """
     return text.replace("$", r"\$").lstrip("_") or " "

@@ -1,9 +1,9 @@
-"""What all messages of the page have in common."""
+"""Base classes of the page's messages."""
 
 from pydantic import BaseModel, ConfigDict
 
 
 class MessageModel(BaseModel):
-    """What is inside of messages."""
+    """Base of the parts of messages."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")

@@ -1,8 +1,8 @@
-"""What server and page say to each other: one schema, of which the page's TypeScript is made.
+"""Messages between server and page: the schema of the page's TypeScript.
 
 `python -m tests.viewer.page_types` writes page/src/messages.ts from this. Angles are rad, lengths
-m, times s; positions and quaternions (q1..q4, q1 the scalar) are lists. A message that is added
-belongs to the union of its direction at the end of this file.
+m, times s; positions and quaternions (q1..q4, q1 the scalar) are lists. A new message belongs to
+the union of its direction at the end of this file.
 """
 
 from collections.abc import Mapping
@@ -29,7 +29,10 @@ class Pose(MessageModel):
 
 
 class Axis(MessageModel):
-    """A joint and the controller axis that it drives; limits and speed are the axis' (rad, m)."""
+    """A joint and its controller axis.
+
+    Limits and speed are the axis' (rad, m).
+    """
 
     name: str
     axis: str
@@ -40,8 +43,10 @@ class Axis(MessageModel):
 
 
 class SeenRobot(MessageModel):
-    """A robot. `urdf` is its description; its meshes are names on this server, empty for one that
-    is not to be had."""
+    """A robot. `urdf` is its description.
+
+    Meshes are names on this server, empty for missing ones.
+    """
 
     name: str
     task: str
@@ -55,7 +60,7 @@ class SeenRobot(MessageModel):
     """In wire order, that of `RobotPlace.axes`."""
     has_geometry: bool
     base: Pose = Pose(position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
-    """Where its root is drawn: apart from robots that would stand in it."""
+    """Pose of the drawn root: apart from robots that would overlap."""
 
 
 class SeenThing(MessageModel):
@@ -68,24 +73,27 @@ class SeenThing(MessageModel):
 
 
 class Scene(MessageModel):
-    """The first message of a connection, and of a controller that has restarted."""
+    """The first message of a connection, and after a restart."""
 
     type: Literal["scene"] = "scene"
     title: str
     kind: Literal["simulation", "robot", "recording"]
     may_command: bool
-    """False: nothing that is sent moves or changes anything."""
+    """False: no request moves or changes anything."""
     groups: tuple[SeenRobot, ...]
     things: tuple[SeenThing, ...] = ()
     faults: tuple[str, ...] = ()
-    """What does not look as its description says."""
+    """Deviations from the description."""
 
 
 # -- to the page: what changes --------------------------------------------------------------------
 
 
 class RobotPlace(MessageModel):
-    """Where a robot is. `joints` and `commanded` are URDF values, `axes` the controller's."""
+    """Position of a robot.
+
+    `joints` and `commanded` are URDF values, `axes` the controller's.
+    """
 
     joints: tuple[float, ...]
     commanded: tuple[float, ...]
@@ -100,7 +108,7 @@ class RobotPlace(MessageModel):
 
 
 class Positions(MessageModel):
-    """Positions. Sent while something moves, and once when it stands."""
+    """Positions, sent during a motion and once at rest."""
 
     type: Literal["positions"] = "positions"
     time: float
@@ -108,25 +116,25 @@ class Positions(MessageModel):
 
 
 class SeenTarget(MessageModel):
-    """Where a move of a program goes: the TCP, in the world."""
+    """Target of a move of a program: the TCP, in the world."""
 
     group: str
     name: str
-    """Of the datum; empty for what is written out."""
+    """Name of the datum; empty for an inline value."""
     module: str
     line: int
     pose: Pose
 
 
 class Targets(MessageModel):
-    """What the moves of the loaded programs go to."""
+    """Targets of the moves of the loaded programs."""
 
     type: Literal["targets"] = "targets"
     targets: tuple[SeenTarget, ...]
 
 
 class PanelState(MessageModel):
-    """What the pendant's status bar says."""
+    """State of the pendant's status bar."""
 
     type: Literal["panel"] = "panel"
     time: float
@@ -143,7 +151,7 @@ class PanelState(MessageModel):
     override: float | None
     """Speed of programs, 0..1."""
     pace: float | None
-    """Simulated seconds in a second; 0: time stands."""
+    """Simulated seconds in a second; 0: time is stopped."""
 
 
 class LogEntry(MessageModel):
@@ -164,7 +172,7 @@ class Log(MessageModel):
     type: Literal["log"] = "log"
     entries: tuple[LogEntry, ...]
     fresh: bool = False
-    """Those that were told before are not of this moment."""
+    """True if the entries are older than the connection."""
 
 
 class Screen(MessageModel):
@@ -192,7 +200,7 @@ class Dialogs(MessageModel):
 
 
 class ShownSignal(MessageModel):
-    """A signal; `largest` is None where nothing bounds it."""
+    """A signal; `largest` is None if it has no maximum."""
 
     name: str
     kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
@@ -228,7 +236,7 @@ class PageReply(MessageModel):
 
 
 class PendantAction(MessageModel):
-    """A button of the pendant, or something that goes wrong."""
+    """A button of the pendant, or an injected fault."""
 
     do: Literal["act"] = "act"
     action: Literal[
@@ -258,14 +266,17 @@ class SetOverride(MessageModel):
 
 
 class SetPace(MessageModel):
-    """Simulated seconds in a second. That it stands is the debugger's business (Proceed)."""
+    """Simulated seconds in a second.
+
+    The debugger stops the time (Proceed).
+    """
 
     do: Literal["pace"] = "pace"
     value: Annotated[float, Field(ge=0.1, le=100)]
 
 
 class SetSignal(MessageModel):
-    """Give a signal a value."""
+    """Set a signal."""
 
     do: Literal["signal"] = "signal"
     name: str
@@ -273,7 +284,7 @@ class SetSignal(MessageModel):
 
 
 class AnswerQuestion(MessageModel):
-    """What the operator chose or typed."""
+    """The operator's choice or input."""
 
     do: Literal["answer"] = "answer"
     number: int
@@ -281,9 +292,9 @@ class AnswerQuestion(MessageModel):
 
 
 class Jog(MessageModel):
-    """Put a standing robot elsewhere: controller axes in wire order; None: where it is.
+    """Move a robot at rest by its axes in wire order; None: unchanged.
 
-    `relative`: by so much from where it is when the request is carried out.
+    `relative`: by so much from its position when the request is executed.
     """
 
     do: Literal["jog"] = "jog"
@@ -293,9 +304,9 @@ class Jog(MessageModel):
 
 
 class JogTo(MessageModel):
-    """Put a standing robot where its TCP is at a place (of its world), on the same branch.
+    """Move a robot at rest to a TCP pose in its world, on the same branch.
 
-    None: as it is.
+    None: unchanged.
     """
 
     do: Literal["jog-to"] = "jog-to"
@@ -305,7 +316,7 @@ class JogTo(MessageModel):
 
 
 class Copy(MessageModel):
-    """Where a robot is, as text for a program; it is the reply's."""
+    """Position of a robot as text for a program, in the reply."""
 
     do: Literal["copy"] = "copy"
     group: str
@@ -369,7 +380,7 @@ Request: TypeAlias = (
     | t.RemoveTrajectory
 )
 Answer: TypeAlias = p.SourceOrigin
-"""What is in the text of a reply, as JSON."""
+"""JSON type of a reply's text."""
 
 
 class PageRequest(MessageModel):

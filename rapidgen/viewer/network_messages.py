@@ -1,4 +1,7 @@
-"""What server and page say about the network: who is connected, what is said, what goes wrong."""
+"""Messages between server and page about the network.
+
+Connections, their data, and injected faults.
+"""
 
 from typing import Literal
 
@@ -8,7 +11,7 @@ Ailment = Literal["well", "delay", "split", "slow", "silent", "half-open"]
 
 
 class ShownSocket(MessageModel):
-    """A socket of a task. Addresses are empty where there is none."""
+    """A socket of a task. Addresses are empty if there are none."""
 
     number: int
     task: str
@@ -26,7 +29,10 @@ class Connections(MessageModel):
 
 
 class SocketLogLine(MessageModel):
-    """A frame of simple_message, or bytes that are none; `way` is seen from the program."""
+    """A frame of simple_message, or other bytes.
+
+    `way` is seen from the program.
+    """
 
     time: float
     way: Literal["open", "in", "out", "close"]
@@ -34,22 +40,22 @@ class SocketLogLine(MessageModel):
     local: str
     peer: str
     name: str
-    """Of the message; empty: no frame."""
+    """Name of the message; empty: no frame."""
     text: str
     fault: bool = False
     """The bytes are no good frame."""
 
 
 class Conversation(MessageModel):
-    """What sockets said, oldest first; only while somebody listens."""
+    """Data of sockets, oldest first; only while a viewer listens."""
 
     type: Literal["conversation"] = "conversation"
     listening: bool
     lines: tuple[SocketLogLine, ...]
     missed: int = 0
-    """Lines before these that were too many to be told."""
+    """Number of earlier lines that were dropped."""
     fresh: bool = False
-    """Those that were told before are not of this moment."""
+    """True if the lines are older than the request."""
 
 
 # -- from the page --------------------------------------------------------------------------------
@@ -71,7 +77,7 @@ class InjectFault(MessageModel):
 
 
 class Listen(MessageModel):
-    """Tell what sockets say from now on, or no more."""
+    """Start or stop sending the data of sockets."""
 
     do: Literal["listen"] = "listen"
     on: bool

@@ -1,7 +1,7 @@
-"""One page that looks: frames go to its socket as they are, made once for all who look.
+"""Connection of one viewer: frames, made once for all, go to its socket.
 
-Ten pages shall cost a simulation hardly more than one, so what most often happens, that a page has
-read everything, is one system call. All else is the transport's.
+Ten pages should cost a simulation hardly more than one, so the usual case, a page that has read
+everything, is one system call. The transport does the rest.
 """
 
 import asyncio
@@ -11,7 +11,10 @@ from socket import socket as Socket
 from typing import Final
 
 UNREAD: Final = 8_388_608
-"""Bytes that may wait for a page that does not read; what is passing is dropped at once."""
+"""Bytes that may wait for a page that does not read.
+
+Passing messages are dropped at once.
+"""
 
 
 @dataclass(eq=False, slots=True)
@@ -20,15 +23,18 @@ class PageConnection:
 
     transport: asyncio.Transport
     knows: bool = False
-    """It has been told all; news make sense to it."""
+    """True once it has the complete state, so that changes apply."""
     _socket: Socket = field(init=False, repr=False)
-    """A handle of its own: the transport's may be another connection's once that is closed."""
+    """A separate handle.
+
+    After the transport has closed its own, that number may belong to another connection.
+    """
 
     def __post_init__(self) -> None:
         self._socket = self.transport.get_extra_info("socket").dup()
 
     def send(self, frame: bytes, *, passing: bool = False) -> None:
-        """One more; a page that does not keep up misses what is passing, and is cut off then."""
+        """Send a message; a slow page misses passing ones, then is disconnected."""
         waiting = self.transport.get_write_buffer_size()
         if not waiting:
             self._write(frame)
@@ -43,13 +49,13 @@ class PageConnection:
         except BlockingIOError:
             sent = 0
         except OSError:
-            # It has gone: the transport will notice by itself, and ends the connection.
+            # The page has disconnected: the transport notices it and ends the connection.
             return
         if sent < len(frame):
             self.transport.write(frame[sent:])
 
     def close(self) -> None:
-        """Give the handle back: the connection is closed when both are."""
+        """Close the handle: the connection is closed when both are."""
         self._socket.close()
 
 

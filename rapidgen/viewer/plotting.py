@@ -1,7 +1,7 @@
-"""Trajectories and recordings over time: in a notebook, as one HTML file, as PNG or SVG.
+"""Plots of trajectories and recordings: notebook, HTML, PNG or SVG.
 
-HTML is uPlot's (bundled into `assets/plot.js` with the page): zoom, one cursor for all charts,
-curves switched off by their names. Pictures are matplotlib's, an extra: `rapidgen[plot]`.
+HTML uses uPlot (bundled into `assets/plot.js` with the page): zoom, one cursor for all charts,
+curves switched off by their names. Pictures use matplotlib, an extra: `rapidgen[plot]`.
 """
 
 import json
@@ -50,7 +50,7 @@ class Plot:
         return path
 
     def html(self) -> str:
-        """One page that needs nothing else. DiagnosticError RG920."""
+        """Return a self-contained page. DiagnosticError RG920."""
         # A name may hold "</script>".
         data = json.dumps(_data(self.charts)).replace("<", "\\u003c")
         return (
@@ -76,11 +76,11 @@ def plot(
     linear: Sequence[str] = (),
     title: str = "",
 ) -> Plot:
-    """Draw trajectories, recordings of a robot, or of a simulation, over one time.
+    """Plot trajectories and recordings over one time.
 
-    One chart a joint in degrees or mm, all that is shown in each, with the limits of `group` (a
-    recording of a robot brings its own); then what the second is from the first. `labels` are
-    names of what is shown, `linear` joints in m where no group tells.
+    One chart a joint in degrees or mm, with all items and the limits of `group` (a recording of a
+    robot has its own); then the second minus the first. `labels` are names of the items, `linear`
+    joints in m that no group declares.
     """
     for thing in displayed:
         if not isinstance(thing, Plottable):
@@ -98,8 +98,11 @@ def plot(
 
 
 def files_of(path: Path) -> list[Path]:
-    """The files that a plot is written to: as the suffix says; without one .html and .png, as far
-    as these can be made here. Refuses what `Plot.save` will refuse."""
+    """Return the files of a plot by suffix.
+
+    Without a suffix they are .html and .png, as far as available. Refuses what `Plot.save` will
+    refuse.
+    """
     if path.suffix:
         _require(path.suffix)
         return [path]
@@ -138,7 +141,7 @@ def _asset(name: str) -> str:
         raise refusal(
             "RG920",
             None,
-            "the page has not been built, whose curves an HTML file takes over",
+            "the page, which an HTML file includes, has not been built",
             "in a checkout, `make page` builds it; a wheel has it",
             exit_code=1,
         )
@@ -146,7 +149,7 @@ def _asset(name: str) -> str:
 
 
 def _data(charts: Sequence[Chart]) -> dict[str, object]:
-    """What `plot.js` reads: all curves on the one time of all their points."""
+    """Return the data of `plot.js`: curves on the union of all times."""
     curves = [curve for chart in charts for curve in chart.curves]
     times = np.unique(np.concatenate([np.zeros(0), *(np.round(c.times, 4) for c in curves)]))
 

@@ -1,4 +1,7 @@
-"""Where a robot is, as text for a program: RAPID in deg and mm, Python in rad and m."""
+"""Position of a robot as text for a program.
+
+RAPID in deg and mm, Python in rad and m.
+"""
 
 from collections.abc import Iterable
 
@@ -17,7 +20,10 @@ def copied(
     posture: Posture,
     carried: ToolAndWorkObject,
 ) -> str:
-    """A posture in the form that was asked for. Declined: the model has no geometry."""
+    """Return a posture in the requested form.
+
+    RequestRejected: the model has no geometry.
+    """
     if form.form == "jointtarget":
         return jointtarget(map, posture)
     if form.form == "python":
@@ -37,7 +43,10 @@ def jointtarget(map: JointMap, posture: Posture) -> str:
 def robtarget(
     kinematics: Kinematics, posture: Posture, tcp: frames.Pose, object: frames.Pose
 ) -> str:
-    """A robtarget: the TCP (world) in the object, with the configuration of the posture."""
+    """Return a robtarget: the TCP (world) in the object.
+
+    It has the configuration of the posture.
+    """
     seen = frames.within(object, tcp)
     place = _row((value * 1000 for value in seen[0]), 3)
     turned = _row(orientation(seen), 7)
@@ -47,7 +56,7 @@ def robtarget(
 
 
 def python(map: JointMap, posture: Posture) -> str:
-    """Joint values by name, as the client takes them."""
+    """Return joint values by name, as the client accepts them."""
     values = zip(map.names, map.to_urdf(posture), strict=True)
     return "{" + ", ".join(f'"{name}": {value:.6f}' for name, value in values) + "}"
 

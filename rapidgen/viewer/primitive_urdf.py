@@ -1,8 +1,8 @@
-"""A robot's URDF out of its chain: solids, for whoever has no meshes.
+"""A robot's URDF of solids, from its chain, without meshes.
 
-The chain is what every configuration has, shipped or read from a URDF, so this always works, and
-the page draws what `axes` computes with. Passive joints (a palletiser's wrist) are joints here,
-too: URDF's mimic follows one joint only, ours may follow a sum.
+Every configuration has a chain, shipped or read from a URDF, so this always works, and the page
+draws what `axes` computes with. Passive joints (a palletiser's wrist) are joints here too: URDF's
+mimic follows one joint only, ours may follow a sum.
 """
 
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ BASE = "base"
 _STOUT, _SLENDER = 0.058, 0.022
 """Radius of the first and the last limb, as a share of the arm's length."""
 _LONGEST = 60.0
-"""m: a rail that is longer is none."""
+"""m: a rail that is longer is not drawn."""
 _SHORTEST = 0.05
 """m: the length of an arm without lengths."""
 _UP = (0.0, 0.0, 1.0)
@@ -36,9 +36,9 @@ class Drawing:
     """The group's joints in wire order, then the passive ones."""
     flange: str
     passive: tuple[tuple[tuple[int, float], ...], ...]
-    """Of each passive joint: places and factors of the joints that it follows the sum of."""
+    """For each passive joint: indices and factors of the sum it follows."""
     base: Pose | None = None
-    """Where its base stands among what else is drawn; None: nothing tells."""
+    """Pose of its base among other drawings; None if unknown."""
 
     def values(self, urdf: Sequence[float]) -> tuple[float, ...]:
         """Values of `movable` (rad, m) for those of the group's joints."""
@@ -60,7 +60,7 @@ def described(group: GroupConfig) -> Drawing:
     flange = _branch(robot, base, group, group.chain, radii, "link_", passive)
     primitives.plate(flange, radii[-1] * 1.1)
     for i, positioner in enumerate(group.positioners):
-        # What carries it is no larger than the arm's own foot, its plate is.
+        # Its support is no larger than the arm's own foot, its plate is.
         wide = [radii[0] * 1.2] * len(positioner.chain)
         end = _branch(robot, base, group, positioner.chain, wide, f"unit_{i + 1}_", passive)
         primitives.plate(end, radii[0] * 3.0)
@@ -79,7 +79,10 @@ def _branch(
     prefix: str,
     passive: dict[str, tuple[tuple[int, float], ...]],
 ) -> Element:
-    """Draw a chain from its base on; its last link. Passive joints are added to `passive`."""
+    """Draw a chain from its base; return its last link.
+
+    Passive joints are added to `passive`.
+    """
     names = JointMap.of(group).names
     axis = _UP
     stands = True
@@ -91,7 +94,7 @@ def _branch(
         if slide is not None and stands:
             _rail(link, step, slide, radii[i])
         elif stands:
-            # What stands has its foot below its first axis, wherever that is.
+            # A stationary robot has its foot below its first axis.
             primitives.foot(link, radii[i], step.xyz)
             stands = False
         else:
@@ -109,7 +112,7 @@ def _branch(
         SubElement(joint, "child", link=f"{prefix}{i + 1}")
         if kind != "fixed":
             SubElement(joint, "axis", xyz=text(step.axis))
-            # What bounds it is said by its controller axis.
+            # Its controller axis has the limits.
             SubElement(joint, "limit", ENDLESS)
         if kind == "continuous":
             axis = step.axis
@@ -125,7 +128,7 @@ def _slides(group: GroupConfig, step: ChainLink) -> bool:
 
 
 def _radii(chain: Sequence[ChainLink]) -> list[float]:
-    """Of the limb to each step, stout at the base and slender at the flange."""
+    """Radii of the links, thick at the base and thin at the flange."""
     lengths = [hypot(*step.xyz) for step in chain]
     complete = max(_SHORTEST, sum(lengths))
     result, done = [], 0.0
@@ -137,7 +140,10 @@ def _radii(chain: Sequence[ChainLink]) -> list[float]:
 
 
 def _quill(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:
-    """The rod that a sliding axis of an arm moves, as long as its way; its end comes out of it."""
+    """Rod of a sliding axis of an arm, as long as its range.
+
+    Its end protrudes.
+    """
     first, last = _ends(joint)
     length = abs(last - first)
     if length < _LONGEST:
@@ -146,7 +152,7 @@ def _quill(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:
 
 
 def _rail(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:
-    """What a carriage slides on, from limit to limit."""
+    """Rail of a carriage, from limit to limit."""
     first, last = _ends(joint)
     length = abs(last - first)
     if not any(step.rpy) and length < _LONGEST:
@@ -157,5 +163,5 @@ def _rail(link: Element, step: ChainLink, joint: Joint, radius: float) -> None:
 
 
 def _ends(joint: Joint) -> tuple[float, float]:
-    """Where its limits are in the sense of the URDF, m."""
+    """Limits in the sense of the URDF, m."""
     return joint.sign * (joint.lower - joint.offset), joint.sign * (joint.upper - joint.offset)

@@ -1,8 +1,7 @@
-"""Solids that a robot without meshes is drawn of: columns, beams, joints, a foot and a plate.
+"""Solids of a robot without meshes: columns, beams, joints, foot, plate.
 
-An arm's lengths are known, its castings are not. A link runs from its joint along that joint's axis
-as a column, and across it as a beam, which is how arms are built; thicknesses are shares of the
-arm's length.
+An arm's lengths are known, its castings are not. A link is a column along the axis of its joint and
+a beam across it, as arms are built; thicknesses are shares of the arm's length.
 """
 
 from collections.abc import Sequence
@@ -16,7 +15,7 @@ _ALONG_Z: Vector = (0.0, 0.0, 1.0)
 
 
 def foot(link: Element, radius: float, top: Vector) -> None:
-    """What stands on the floor under a first axis at `top`: a plate, steps, a column."""
+    """Foot on the floor under a first axis at `top`: plate, steps, column."""
     x, y, height = top
     size = radius * 3.4
     box(link, "housing", (size, size, radius * 0.35), (x, y, radius * 0.175), frames.UNIT)
@@ -33,7 +32,10 @@ def joint(link: Element, radius: float, axis: Vector, middle: Vector = frames.OR
 
 
 def limb(link: Element, axis: Vector, to: Vector, radius: float, thin: float) -> None:
-    """From a joint about `axis` to where the next one is; `thin` is the radius there."""
+    """Limb from a joint about `axis` to the next one.
+
+    `thin` is the radius there.
+    """
     share = sum(a * v for a, v in zip(axis, to, strict=True))
     along = frames.scale(axis, share)
     across = frames.add(to, frames.scale(along, -1.0))
@@ -69,7 +71,7 @@ def cylinder(
     middle: Vector = frames.ORIGIN,
     along: Vector = _ALONG_Z,
 ) -> None:
-    """A cylinder around a line; URDF's own stand along z."""
+    """A cylinder around a line; URDF's own are along z."""
     shape = _visual(link, "cylinder", material, middle, standing(along, (0.0, 1.0, 0.0)))
     shape.set("radius", f"{radius:.6g}")
     shape.set("length", f"{length:.6g}")
@@ -87,7 +89,7 @@ def _visual(
 
 
 def standing(along: Vector, side: Vector) -> frames.Quaternion:
-    """Turned so that z is along a line, and y as near to `side` as that leaves it."""
+    """Rotate z to a line, and y as near to `side` as possible."""
     size = hypot(*along) or 1.0
     z = frames.scale(along, 1 / size)
     for hint in (side, (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)):

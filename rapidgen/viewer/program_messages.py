@@ -1,4 +1,7 @@
-"""What server and page say about programs: sources, pointers, breakpoints, values."""
+"""Messages between server and page about programs.
+
+Sources, pointers, breakpoints, values.
+"""
 
 from typing import Annotated, Literal
 
@@ -20,22 +23,25 @@ class LoadedModules(MessageModel):
 
 
 class LoadedPrograms(MessageModel):
-    """What is loaded; texts are asked for (ReadSource)."""
+    """Loaded programs; their texts are requested by ReadSource."""
 
     type: Literal["loaded"] = "loaded"
     tasks: tuple[LoadedModules, ...]
 
 
 class SourceOrigin(MessageModel):
-    """The answer to ReadOrigin: each line that a template made, the template and its line."""
+    """Answer to ReadOrigin: template and line of each generated line."""
 
     lines: tuple[tuple[int, str, int], ...]
     templates: dict[str, str]
-    """Their texts by name; none: they are not of this version."""
+    """Texts of templates by name; none if they are of another version."""
 
 
 class SeenPlace(MessageModel):
-    """Where in a program. `made` is the template's line of a generated one."""
+    """Position in a program.
+
+    `made` is the template's line of a generated one.
+    """
 
     module: str
     routine: str
@@ -45,7 +51,7 @@ class SeenPlace(MessageModel):
 
 
 class TaskPosition(MessageModel):
-    """A task: what it executes, outermost routine first, and what its robot executes."""
+    """A task: its call stack, outermost first, and its robot's move."""
 
     name: str
     state: str
@@ -62,7 +68,10 @@ class Pointers(MessageModel):
 
 
 class SeenBreakpoint(MessageModel):
-    """A breakpoint, and in which line it lies (0: nowhere, `doubt` says why)."""
+    """A breakpoint and its line.
+
+    0: no line, `doubt` says why.
+    """
 
     number: int
     task: str
@@ -76,7 +85,7 @@ class SeenBreakpoint(MessageModel):
 
 
 class SeenHalt(MessageModel):
-    """Why everything is paused."""
+    """Reason why all tasks are paused."""
 
     reason: Literal["breakpoint", "step", "cursor", "error", "pause", "time"]
     task: str
@@ -97,7 +106,7 @@ class Debugging(MessageModel):
 
 
 class SeenValue(MessageModel):
-    """A value in RAPID's own words."""
+    """A value in RAPID's spelling."""
 
     name: str
     kind: str
@@ -106,18 +115,18 @@ class SeenValue(MessageModel):
 
 
 class FrameValues(MessageModel):
-    """What the routine that is looked at holds, and the watch list."""
+    """Values of the selected routine, and the watch list."""
 
     type: Literal["held"] = "held"
     task: str
     level: int
-    """Place in the call stack, 0 the outermost; -1: nothing is executed."""
+    """Index in the call stack, 0 the outermost; -1: no routine."""
     variables: tuple[SeenValue, ...]
     watch: tuple[SeenValue, ...]
 
 
 class Covered(MessageModel):
-    """How often the lines of a text were reached; only where a statement begins."""
+    """Number of executions of the lines of a text that begin a statement."""
 
     type: Literal["covered"] = "covered"
     source: int
@@ -142,7 +151,7 @@ class ReadOrigin(MessageModel):
 
 
 class SetBreakpoint(MessageModel):
-    """A new one, or another wish for one that is there; the reply's text is its number."""
+    """Set a new breakpoint, or change one; the reply's text is its number."""
 
     do: Literal["break"] = "break"
     number: int = 0
@@ -194,7 +203,7 @@ class StopOnErrors(MessageModel):
 
 
 class SelectFrame(MessageModel):
-    """Show the values of a routine of a call stack from now on; -1: the innermost."""
+    """Show values of a routine of a call stack; -1: the innermost."""
 
     do: Literal["look"] = "look"
     task: Name
@@ -234,7 +243,7 @@ class CountLines(MessageModel):
 
 
 class Playback(MessageModel):
-    """Where a recording is looked at; times in s. `rate` 0: it stands."""
+    """State of the playback; times in s. `rate` 0: paused."""
 
     type: Literal["playback"] = "playback"
     begin: float
@@ -242,7 +251,7 @@ class Playback(MessageModel):
     time: float
     rate: float
     fault: str
-    """What of it cannot be shown, or is lost."""
+    """Missing or unreadable parts."""
 
 
 class Seek(MessageModel):

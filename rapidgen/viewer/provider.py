@@ -1,6 +1,6 @@
-"""The seam of the page: what one aspect of it tells, and what may be asked of it.
+"""Interface of the page's state providers and request handlers.
 
-An aspect belongs to the thread of what is watched. Everything of it is called there.
+A provider belongs to the thread of its subject. Everything of it is called there.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -9,24 +9,27 @@ from typing import Protocol, TypeAlias
 from rapidgen.viewer.messages import Request, ToPage
 
 Handler: TypeAlias = Callable[[Request], str]
-"""Carries a request out; its text, empty in general, goes back. Declined: it is not."""
+"""Executes a request and returns a text, usually empty.
+
+RequestRejected: it is not executed.
+"""
 
 
 class RequestRejected(Exception):
-    """What was asked for is not done; the text says why."""
+    """A request that is not executed; the text says why."""
 
 
 class StateProvider(Protocol):
     """One aspect of the page."""
 
     def whole(self) -> Iterable[ToPage]:
-        """Everything that a viewer who comes now has to know."""
+        """Return the complete state for a new viewer."""
 
     def changes(self) -> Iterable[ToPage]:
-        """What is new since the last call; called some thirty times a second."""
+        """Return the changes since the last call, about thirty times a second."""
 
     def handlers(self) -> Mapping[type, Handler]:
-        """What carries out requests, by their class."""
+        """Return the handlers of requests, by their class."""
 
 
 class Subject(Protocol):

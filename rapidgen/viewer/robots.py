@@ -13,12 +13,12 @@ from rapidgen.viewer.primitive_urdf import Drawing
 
 _SAME = 0.05
 """m between two feet that are one place."""
-_ROOM = 1.4
-"""Of an arm's length, between two robots."""
+_SPACING = 1.4
+"""Distance between two robots, as a share of an arm's length."""
 
 
 def group_of(config: GroupConfig, description: Drawing) -> SeenRobot:
-    """What the page draws of a robot, and how its axes are called and bounded."""
+    """Return the page's description of a robot, its axes and limits."""
     return SeenRobot(
         name=config.name,
         task=config.task,
@@ -45,7 +45,7 @@ def group_of(config: GroupConfig, description: Drawing) -> SeenRobot:
 def side_by_side(
     configs: Sequence[GroupConfig], drawings: Sequence[Drawing]
 ) -> Iterator[SeenRobot]:
-    """The robots, those apart that would stand in one another where nothing tells their place."""
+    """Return robots of unknown pose side by side if they would overlap."""
     standing: list[frames.Vector] = []
     y = 0.0
     for config, drawing in zip(configs, drawings, strict=True):
@@ -54,7 +54,7 @@ def side_by_side(
         if drawing.base is None and any(
             hypot(foot[0] - x, foot[1] - y) < _SAME for x, y, _ in standing
         ):
-            y += _ROOM * sum(hypot(*step.xyz) for step in config.chain)
+            y += _SPACING * sum(hypot(*step.xyz) for step in config.chain)
             robot = robot.model_copy(
                 update={"base": Pose(position=(0.0, -y, 0.0), orientation=frames.UNIT)}
             )
@@ -63,7 +63,7 @@ def side_by_side(
 
 
 def _foot(config: GroupConfig) -> frames.Vector:
-    """Where the first axis is."""
+    """Position of the first axis."""
     steps = steps_of(config, config.chain)
     first = next((i for i, step in enumerate(steps) if step.joint >= 0), -1)
     return along(steps[: first + 1], (0.0,) * len(config.joints))[0]
@@ -76,7 +76,10 @@ def pose_of(frame: frames.Pose) -> Pose:
 
 @dataclass(frozen=True, slots=True)
 class ToolAndWorkObject:
-    """Tool and work object: in the flange what the robot holds, in the world what stands."""
+    """Tool and work object.
+
+    A held one is in the flange, a stationary one in the world.
+    """
 
     tool: frames.Pose
     held: bool
@@ -90,7 +93,10 @@ class ToolAndWorkObject:
         return cls(_frame(config.tool.frame), config.tool.held, complete)
 
     def tcp(self, kinematics: Kinematics | None, posture: Posture) -> frames.Pose | None:
-        """The TCP in the world (a stationary one stands); None: there is no geometry."""
+        """Return the TCP in the world; None if there is no geometry.
+
+        A stationary tool has a fixed one.
+        """
         if not self.held:
             return self.tool
         return frames.compose(kinematics.forward(posture), self.tool) if kinematics else None

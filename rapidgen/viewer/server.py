@@ -1,6 +1,7 @@
-"""The page on a port: aiohttp moves bytes in a thread of its own; what they mean is the hub's.
+"""Web server of the page: aiohttp in a thread.
 
-Files are those that were there when it began, by name: no path of a request reaches the disk.
+It moves bytes; the broadcaster makes the messages. Files are those that existed at the start, by
+name: no path of a request reaches the disk.
 """
 
 import asyncio
@@ -34,7 +35,10 @@ LOOKS: Final = 1 / 30
 """s between two looks at what is watched."""
 _LARGEST: Final = 1_048_576
 UNANSWERED: Final = 8
-"""Requests of one viewer that may wait for their answers; further ones stay in its connection."""
+"""Requests of one viewer that may wait for their answers.
+
+Further ones stay in its connection.
+"""
 Answer = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -43,10 +47,10 @@ class Page:
     """A running server of the page."""
 
     url: str
-    """With the token: whoever has it, may look."""
+    """Address with the token: it permits viewing."""
     _stop: Callable[[], None] = field(repr=False)
     renew: Callable[[], None] = field(repr=False)
-    """Something else is watched; to be called on its thread."""
+    """Replace the subject; to be called on its thread."""
 
     def close(self) -> None:
         """Close the port and every connection; a second call does nothing."""
@@ -59,9 +63,10 @@ def serve_page(
     port: int = 0,
     files: Mapping[str, bytes] = MappingProxyType({}),
 ) -> Page:
-    """Serve the page of what is watched; `files` are what it draws with, for who is admitted.
+    """Serve the page of a subject.
 
-    DiagnosticError RG920 (not built), RG921 (port), RG922 (token).
+    `files` are the meshes, for admitted viewers. DiagnosticError RG920 (not built), RG921 (port),
+    RG922 (token).
     """
     server = _Server(watched, _assets(), files)
     server.start(host, port)
@@ -131,7 +136,7 @@ class _Server:
 
     @property
     def port(self) -> int:
-        """Where it listens."""
+        """The port number."""
         return self._thread.port
 
     def stop(self) -> None:
@@ -143,7 +148,7 @@ class _Server:
             await socket.close()
 
     def _look(self) -> None:
-        """Ask for a look, unless nobody views or the last one has not been had."""
+        """Request an update if there is a viewer and none is pending."""
         self._thread.loop.call_later(LOOKS, self._look)
         if not self._viewers or not self._looked:
             return
@@ -227,15 +232,15 @@ class _Server:
         finally:
             del self._viewers[viewer]
             viewer.close()
-            _LOG.info("a page has gone: %d now", len(self._viewers))
+            _LOG.info("a page has disconnected: %d now", len(self._viewers))
         return socket
 
     def _begin(self, viewer: PageConnection, complete: MessageBatch) -> None:
         viewer.send(text_frame(complete.data))
         viewer.knows = True
 
-    def _tell(self, parcel: MessageBatch) -> None:
-        self._thread.soon(partial(self._broadcast, text_frame(parcel.data), parcel.passing))
+    def _tell(self, batch: MessageBatch) -> None:
+        self._thread.soon(partial(self._broadcast, text_frame(batch.data), batch.passing))
 
     def _broadcast(self, frame: bytes, passing: bool) -> None:
         for viewer in self._viewers:

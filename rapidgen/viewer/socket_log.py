@@ -1,7 +1,7 @@
-"""What is said on the sockets of a program, in words: frames of simple_message decoded by `wire`.
+"""Data of a program's sockets in words, decoded by `wire`.
 
-Who listens may come in the middle of a frame, and a program may speak another protocol: bytes that
-are no frame are shown as they are, and the next ones are tried anew.
+A listener may join in the middle of a frame, and a program may use another protocol: bytes that are
+not a frame are shown as they are, and decoding starts again at the next ones.
 """
 
 from collections.abc import Iterator
@@ -35,7 +35,7 @@ class SocketPiece:
 
 @dataclass
 class Interpreter:
-    """Turns what was heard into lines; one frame may come in several pieces."""
+    """Converts received data to lines; a frame may arrive in pieces."""
 
     _splitters: dict[tuple[str, str, str, SocketChange], FrameSplitter] = field(
         default_factory=dict
@@ -66,10 +66,10 @@ def _framed(received: SocketPiece, frame: Frame) -> SocketLogLine:
     except ContentError as why:
         return _line(received, name, f"{why}: {frame.data[:40].hex(' ')}", fault=True)
     reply = "reply " if frame.comm == Comm.REPLY else ""
-    return _line(received, f"{reply}{name}", _said(content))
+    return _line(received, f"{reply}{name}", _fields_text(content))
 
 
-def _said(content: Content) -> str:
+def _fields_text(content: Content) -> str:
     fields = content._asdict() if hasattr(content, "_asdict") else {}
     parts = [f"{name} {_value(value)}" for name, value in fields.items()]
     return ", ".join(parts) or type(content).__name__.lower()

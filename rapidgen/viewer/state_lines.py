@@ -1,4 +1,4 @@
-"""What a robot says about itself, live: a line, a JSON object, or a table for each state."""
+"""Live state of a robot as a line, a JSON object or a table."""
 
 import json
 import math
@@ -17,8 +17,8 @@ from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 _WINDOW = 500
 _ACTIVITIES = {TrajectoryState.STARVED: "starved", TrajectoryState.PAUSED: "paused"}
 _TRUTH = {TriState.TRUE: True, TriState.FALSE: False, TriState.UNKNOWN: None}
-_BESIDE_BARS = 53
-"""Columns that the table has besides its bars, for names of twelve letters."""
+_OTHER_COLUMNS = 53
+"""Columns of the table without its bars, for names of twelve letters."""
 _WORDS: dict[TrajectoryState | None, str] = {
     TrajectoryState.STARVED: "the stream ran out of points",
     TrajectoryState.PAUSED: "paused",
@@ -27,14 +27,14 @@ _WORDS: dict[TrajectoryState | None, str] = {
 
 
 class StateStatistics:
-    """Takes states one by one, and remembers rate, jitter and what happened last."""
+    """Statistics of states: rate, jitter and the last change."""
 
     def __init__(self) -> None:
         self._intervals: deque[float] = deque(maxlen=_WINDOW)
         self._last: State | None = None
         self.event = ""
-        """What changed last, empty before anything did."""
-        self._told: Event | None = None
+        """Last change, empty before the first."""
+        self._last_sent: Event | None = None
 
     def take(self, state: State, text: Event | None = None) -> None:
         """The next state, and the newest entry of the controller's log."""
@@ -47,12 +47,15 @@ class StateStatistics:
             if changed:
                 self.event = "; ".join(changed)
         self._last = state
-        if text is not None and text != self._told:
-            self._told = text
+        if text is not None and text != self._last_sent:
+            self._last_sent = text
             self.event = str(text)
 
     def jitter(self) -> tuple[float, float]:
-        """Median and 99th percentile of how far intervals are from their median, s."""
+        """Median and 99th percentile of deviations of intervals, s.
+
+        The deviation is that from their median.
+        """
         if len(self._intervals) < 2:
             return 0.0, 0.0
         intervals = np.array(self._intervals)
@@ -61,7 +64,7 @@ class StateStatistics:
 
 
 def activity(state: State) -> str:
-    """What the robot is at, in a word, and whether it would not take a motion."""
+    """Return the activity in a word, and whether a motion would be refused."""
     if state.trajectory is not None and state.trajectory in _ACTIVITIES:
         return _ACTIVITIES[state.trajectory]
     if state.is_moving:
@@ -71,7 +74,7 @@ def activity(state: State) -> str:
 
 
 def changes(before: Status, after: Status) -> list[str]:
-    """What a change of status means, in words."""
+    """Describe the changes between two statuses."""
     result = []
     for name, true, false in (
         ("drives", "motors on", "motors off"),
@@ -105,7 +108,10 @@ def error_text(status: Status) -> str:
 
 
 def as_line(state: State, watcher: StateStatistics, group: Group) -> str:
-    """Time of day, joints in degrees or mm, rate, mode, what it is at, what happened."""
+    """Return one line.
+
+    Time of day, joints in degrees or mm, rate, mode, activity, last change.
+    """
     units = [_unit(joint.kind) for joint in group.joints]
     values = (v * factor for v, (_, factor) in zip(state.joints, units, strict=True))
     words = [
@@ -122,8 +128,10 @@ def as_line(state: State, watcher: StateStatistics, group: Group) -> str:
 
 
 def as_json(state: State, watcher: StateStatistics) -> str:
-    """One object: when it was received (ISO 8601, UTC), rad or m and their rates by joint, rate in
-    1/s, jitter in s; what the controller does not know is null."""
+    """Return one object; unknown values are null.
+
+    Time of reception (ISO 8601, UTC), rad or m and their rates by joint, rate in 1/s, jitter in s.
+    """
     status = state.status
     p50, p99 = watcher.jitter()
     return json.dumps(
@@ -152,12 +160,15 @@ def _received(state: State) -> datetime:
 
 
 def _unit(kind: str) -> tuple[str, float]:
-    """What joints of a kind are shown in, and how many of it are one rad or m."""
+    """Unit of joints of a kind, and its factor from rad or m."""
     return ("deg", 180 / math.pi) if kind == "revolute" else ("mm", 1000.0)
 
 
 def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str, str]]:
-    """Joint, value and speed in degrees or mm, and where between its limits (`bar` letters)."""
+    """Rows of joint, value, speed and position within the limits.
+
+    Degrees or mm, a bar of `bar` letters.
+    """
     result = []
     for joint, value, speed, wire in zip(
         group.joints,
@@ -175,8 +186,10 @@ def rows(state: State, group: Group, bar: int = 31) -> list[tuple[str, str, str,
 def as_table(
     state: State, watcher: StateStatistics, group: Group, place: str, width: int = 100
 ) -> Table:
-    """The rows under where the robot is (`place`), above what happened last; `width` columns
-    wide."""
+    """Return the rows with a heading (`place`) and the last change.
+
+    The table is `width` columns wide.
+    """
     status = state.status
     p50, p99 = watcher.jitter()
     table = Table(
@@ -189,7 +202,7 @@ def as_table(
         f"{p99 * 1000:.1f} ms, age {state.age * 1000:.0f} ms\n"
         f"{error_text(status) or watcher.event or 'nothing happened yet'}",
     )
-    for row in rows(state, group, min(31, max(7, width - _BESIDE_BARS))):
+    for row in rows(state, group, min(31, max(7, width - _OTHER_COLUMNS))):
         table.add_row(*row)
     return table
 

@@ -1,4 +1,4 @@
-"""What server and page say about a trajectory that was dropped on the page."""
+"""Messages between server and page about a dropped trajectory."""
 
 from typing import Annotated, Literal
 
@@ -8,7 +8,10 @@ from rapidgen.viewer.message_base import MessageModel
 
 
 class TrajectoryFinding(MessageModel):
-    """What is wrong or doubtful; `point` counts from 0, None: it is of no point."""
+    """An error or warning.
+
+    `point` counts from 0, None: no single point.
+    """
 
     code: str
     severity: str
@@ -19,7 +22,7 @@ class TrajectoryFinding(MessageModel):
 
 
 class UploadedTrajectory(MessageModel):
-    """A trajectory as it was checked; the file's name is empty when there is none."""
+    """A checked trajectory; the file's name is empty without a file."""
 
     type: Literal["trajectory"] = "trajectory"
     group: str = ""
@@ -27,7 +30,10 @@ class UploadedTrajectory(MessageModel):
     seconds: float = 0.0
     points: int = 0
     way: tuple[tuple[float, float, float], ...] = ()
-    """The TCP, m in the world, at every point and in between; empty without geometry."""
+    """The TCP, m in the world, at every point and between.
+
+    Empty without geometry.
+    """
     pace: tuple[float, ...] = ()
     """TCP speed from the place before to each of `way`, m/s."""
     steps: int = 1
@@ -35,11 +41,11 @@ class UploadedTrajectory(MessageModel):
     findings: tuple[TrajectoryFinding, ...] = ()
     state: Literal["refused", "checked", "running", "done", "failed"] = "checked"
     told: str = ""
-    """Why it failed."""
+    """Reason of a failure."""
 
 
 class UploadTrajectory(MessageModel):
-    """Check a file's text for a robot; nothing moves."""
+    """Check a file's text for a robot; the robot does not move."""
 
     do: Literal["drop"] = "drop"
     group: str

@@ -1,8 +1,8 @@
-"""A robot's drawing out of the user's own description: its links with their visuals.
+"""Drawing of a robot from the user's description: links with visuals.
 
 The description itself never reaches the page. Links have numbers instead of names, meshes names
-that the server gives them; a mesh that is not to be had has no name, and the page draws a solid
-from joint to joint instead.
+that the server gives them; a missing mesh has no name, and the page draws a solid from joint to
+joint instead.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -26,8 +26,10 @@ NameOf = Callable[[Visual], str]
 
 
 def shares(groups: Sequence[GroupConfig], result: Mapping[str, Tree]) -> dict[str, frozenset[str]]:
-    """Which links of its description each group draws: those behind its own joints; what carries no
-    robot is the first group's."""
+    """Return the links of its description that each group draws.
+
+    They are those after its own joints; links without a robot belong to the first group.
+    """
     made: dict[str, frozenset[str]] = {}
     for tree in dict.fromkeys(result.values()):
         own = [group for group in groups if result.get(group.name) is tree]
@@ -49,7 +51,10 @@ def shares(groups: Sequence[GroupConfig], result: Mapping[str, Tree]) -> dict[st
 
 
 def drawn(group: GroupConfig, tree: Tree, links: frozenset[str], name_of: NameOf) -> Drawing | None:
-    """The drawing of a group whose joints the description has; None: it moves otherwise."""
+    """Return the drawing of a group with the description's joints.
+
+    None: it moves otherwise.
+    """
     numbers = {link: f"part_{i}" for i, link in enumerate(tree.graph.robot.links)}
     names = JointMap.of(group).names
     stands = _stands(group, tree)
@@ -75,7 +80,7 @@ def drawn(group: GroupConfig, tree: Tree, links: frozenset[str], name_of: NameOf
         if joint.name in names:
             _joint(robot, joint.name, kind, ends, place, joint)
         elif joint.mimic in names and joint.kind != "fixed":
-            # No name of a joint begins with a blank: the page's parser trims none.
+            # No joint name begins with a blank, because the page's parser does not trim it.
             passive[name := f" passive_{i}"] = ((names.index(joint.mimic), joint.multiplier),)
             _joint(robot, name, kind, ends, place, joint)
         else:
@@ -87,7 +92,7 @@ def drawn(group: GroupConfig, tree: Tree, links: frozenset[str], name_of: NameOf
 
 
 def _stands(group: GroupConfig, tree: Tree) -> dict[str, float]:
-    """Joints of the arm that drive nothing, and where they stand."""
+    """Return fixed joints of the arm and their poses."""
     axes = {joint.name: joint.axis for joint in group.joints}
     last = next((j.name for j in reversed(group.joints) if j.axis.startswith("rax")), "")
     end = tree.graph.robot.joint(last)
@@ -98,7 +103,7 @@ def _stands(group: GroupConfig, tree: Tree) -> dict[str, float]:
 
 
 def _last(group: GroupConfig, tree: Tree) -> tuple[str, tuple[UrdfJoint, ...]]:
-    """The description's link that carries the flange (empty: its root), and the joints to it."""
+    """Return the link with the flange (empty: the root) and its joints."""
     name = next((step.joint for step in reversed(group.chain) if step.joint), "")
     joint = tree.graph.robot.joint(name)
     return (joint.child, tree.graph.path_to(joint.child)) if joint is not None else ("", ())
@@ -110,7 +115,10 @@ def _along(
     stands: Mapping[str, float],
     values: Sequence[float],
 ) -> frames.Pose:
-    """Where the link at the end of a path is for joint values in the sense of the URDF."""
+    """Return the pose of the link at the end of a path.
+
+    The joint values are in the sense of the URDF.
+    """
     by_name = dict(zip(JointMap.of(group).names, values, strict=True))
     made = frames.IDENTITY
     for joint in path:

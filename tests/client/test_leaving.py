@@ -141,7 +141,7 @@ def test_the_log_tells_what_was_done(connected, caplog):
     messages = [record.getMessage().partition(": ")[2] for record in caplog.records]
     assert all(where.split(",")[0] in record.getMessage() for record in caplog.records)
     assert messages[0].startswith("connected: rapidgen 0.1.0, build 0123456789ab, AUTO, motors on")
-    assert "2 points by download were taken" in messages
+    assert "2 points by download were accepted" in messages
     assert any(text.startswith("done in") for text in messages)
     assert "STOP over the control port" in messages
     assert messages[-1] == "closed"

@@ -15,7 +15,7 @@ def test_it_is_a_mapping_that_is_read_and_written_at_the_robot():
     data["cell:count"] = 4.0
     assert dict(data) == held == {"cell:count": 4.0, "cell:recipe": "none"}
     assert "cell:recipe" in data
-    assert "cell:nobody" not in data
+    assert "cell:absent" not in data
     assert len(data) == 2
 
 
@@ -31,7 +31,7 @@ DATA = {
         "cell:ready": {"type": "bool", "access": "write"},
         "cell:recipe": {"type": "string", "access": "write"},
         "cell:limit": {"type": "num"},
-        "cell:nobody": {"type": "num", "access": "write"},
+        "cell:absent": {"type": "num", "access": "write"},
         "cell:other": {"type": "bool"},
         "cell:passing": {"type": "num"},
     }
@@ -81,7 +81,7 @@ def test_data_are_written_while_the_robot_moves_and_it_moves_on():
 
 @pytest.mark.parametrize(
     ("name", "reason"),
-    [("cell:nobody", "datum"), ("cell:other", "type"), ("cell:passing", "datum")],
+    [("cell:absent", "datum"), ("cell:other", "type"), ("cell:passing", "datum")],
 )
 def test_data_that_the_program_does_not_have_so_are_refused_the_others_work(name, reason):
     with with_data() as (robot, _):

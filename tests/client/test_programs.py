@@ -404,7 +404,7 @@ def test_invalid_tool_values_are_reported(own, report):
     "program",
     [
         Program().set("part"),
-        Program().set("nobody"),
+        Program().set("absent"),
         Program().set("valve", 2),
         Program().wait_for("flow", timeout=1),
         Program().wait(-1),

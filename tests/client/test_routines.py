@@ -54,7 +54,7 @@ ROUTINES = {
         "parameters": [{"name": "side", "type": "num"}],
         "returns": "num",
     },
-    "routines.told": {"call": "told", "returns": "string"},
+    "routines.report": {"call": "report", "returns": "string"},
     "routines.divides": {"call": "cell:divides"},
     "routines.slowly": {
         "call": "cell:slowly",
@@ -63,7 +63,7 @@ ROUTINES = {
             {"name": "count", "type": "num", "mode": "inout"},
         ],
     },
-    "routines.nobody": {"call": "cell:nobody"},
+    "routines.missing": {"call": "cell:missing"},
     "routines.other": {"call": "cell:weld"},
 }
 CELL_MODULE = b"""MODULE cell
@@ -112,7 +112,7 @@ CELL_MODULE = b"""MODULE cell
     FUNC num area(num side)
         RETURN side * side;
     ENDFUNC
-    FUNC string told()
+    FUNC string report()
         RETURN "well";
     ENDFUNC
     PROC go_home()
@@ -170,7 +170,7 @@ def test_what_a_routine_raises_comes_back():
         with pytest.raises(MotionFailed) as failed:
             robot.run(program).result()
         assert (failed.value.reason, failed.value.reached) == (Reason.ROUTINE, 0)
-        for name, *given in (("nobody",), ("other",)):
+        for name, *given in (("missing",), ("other",)):
             with pytest.raises(MotionFailed) as failed:
                 robot.call(name, *given)
             assert failed.value.reason is Reason.NO_ROUTINE
@@ -192,7 +192,7 @@ def test_texts_and_values_of_functions_come_back():
         for text in ("x" * 78, "caf\u00e9", "7"):
             assert robot.call("named", text) == (f"<{text}>",)
         assert robot.call("area", 3.0) == (9.0,)
-        assert robot.call("told") == ("well",)
+        assert robot.call("report") == ("well",)
         assert not complaints(controller)
 
 

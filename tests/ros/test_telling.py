@@ -123,4 +123,4 @@ def test_a_refusal_stays_visible():
 def test_without_a_link_nothing_is_known():
     status = unknown_status()
     assert {status.e_stopped, status.drives_powered, status.in_motion, status.mode} == {-1}
-    assert no_link("nobody answers", "10.0.0.1").level is Level.STALE
+    assert no_link("no answer", "10.0.0.1").level is Level.STALE

@@ -112,12 +112,12 @@ DIALOG = """
   PROC main()
     TPReadNum n, "how many";
   ERROR
-    TPWrite "nobody";
+    TPWrite "absent";
   ENDPROC
 """
 
 
-@pytest.mark.parametrize(("trusted", "displayed"), [(False, "nobody"), (True, None)])
+@pytest.mark.parametrize(("trusted", "displayed"), [(False, "absent"), (True, None)])
 def test_a_dialog_waits_only_for_who_may_answer(trusted: bool, displayed: str | None) -> None:
     controller, _ = boot(DIALOG)
     with controller:
@@ -133,7 +133,7 @@ def test_a_dialog_waits_only_for_who_may_answer(trusted: bool, displayed: str | 
 
 def test_step(client: Client) -> None:
     assert not client.ask("step", task="T1")["ok"]  # it runs
-    assert not client.ask("step", task="nobody")["ok"]
+    assert not client.ask("step", task="absent")["ok"]
     client.ask("stop")
     assert client.ask("step", task="T1")["ok"]
     client.ask("start")

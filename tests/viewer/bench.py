@@ -12,7 +12,7 @@ from pathlib import Path
 from PIL import Image
 
 DOCS = Path(__file__).parents[2] / "docs" / "use"
-PATIENCE = 60.0
+TIME_LIMIT = 60.0
 
 
 @contextmanager
@@ -38,7 +38,7 @@ def served(*arguments, environment=None):
         yield json.loads(line.removeprefix("ready ")), process
     finally:
         process.terminate()
-        process.wait(PATIENCE)
+        process.wait(TIME_LIMIT)
         process.stdout.close()
 
 
@@ -47,7 +47,7 @@ def until(page, expression, wanted=lambda value: value):
 
     Asked for again and again: what waits within a page needs `eval`, which its CSP forbids.
     """
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + TIME_LIMIT
     while not wanted(value := page.evaluate(expression)):
         assert time.monotonic() < end, (expression, value)
         page.wait_for_timeout(20)

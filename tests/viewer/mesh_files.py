@@ -19,13 +19,13 @@ def stl():
 
 
 def obj():
-    """Wavefront OBJ; names a material file, which nobody reads."""
+    """Wavefront OBJ; names a material file, which is not read."""
     lines = ["mtllib ../../secret.mtl", *(f"v {x} {y} {z}" for x, y, z in CORNERS)]
     return "\n".join([*lines, *("f " + " ".join(str(i + 1) for i in f) for f in FACES)]).encode()
 
 
 def dae():
-    """COLLADA, red; names a picture, which nobody reads."""
+    """COLLADA, red; names a picture, which is not read."""
     numbers = " ".join(str(value) for corner in CORNERS for value in corner)
     indices = " ".join(str(i) for face in FACES for i in face)
     return f"""<?xml version="1.0"?>

@@ -1,5 +1,7 @@
-"""The page by keyboard alone, and read by everybody: contrast of all texts, light and dark
-[WCAG 2.2: 1.4.3, 2.1.1]."""
+"""Accessibility of the page: keyboard, and contrast of all texts.
+
+Light and dark theme [WCAG 2.2: 1.4.3, 2.1.1].
+"""
 
 import pytest
 
@@ -8,7 +10,7 @@ from tests.viewer.bench import STATE, until
 pytestmark = pytest.mark.browser
 TABS = ("Pendant", "Program", "Axes", "Signals", "Log", "Path", "Network")
 
-# Of each text that is seen: how it stands out from what is behind it, and what it needs.
+# Of each visible text: its contrast with its background, and the required one.
 CONTRASTS = """() => {
   const parts = (text) => (text.match(/[\\d.]+/g) ?? []).map(Number);
   const linear = (v) => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
@@ -122,7 +124,7 @@ def test_nothing_is_cut_off_at_1280_by_720(irb120, open_page):
 
 
 def test_a_narrow_window_is_used_over_its_whole_width(irb120, open_page):
-    """The wider panels of some tabs are for where there is room beside the robots."""
+    """The wider panels of some tabs need a window with space for the robots."""
     page = open_page(irb120["view"])
     page.set_viewport_size({"width": 400, "height": 850})
     until(page, STATE)

@@ -61,7 +61,7 @@ def archive(path, files):
 
 
 def lacking(*paths):
-    """What `.ci/has_page` says; None: nothing lacks."""
+    """Return the message of `.ci/has_page`; None: nothing is missing."""
     command = [sys.executable, ROOT / ".ci" / "has_page", *paths]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == (1 if done.stderr else 0)

@@ -42,7 +42,7 @@ def test_two_pages_see_one_emergency_stop(irb120, open_page):
     until(one, one_bar, lambda t: "Motors on" in t and "Running" in t)
 
 
-def test_a_refusal_is_told_and_an_axis_is_jogged(irb120, open_page):
+def test_refusal_is_shown_and_axis_is_jogged(irb120, open_page):
     page = open_page(irb120["view"])
     until(page, STATE)
     page.get_by_role("tab", name="Axes").click()
@@ -76,12 +76,12 @@ def test_refused_jog_is_not_executed_by_a_later_key(irb120, open_page):
     values = slider.input_value(), figure.input_value(), place.input_value()
     for count in range(1, 6):
         slider.press("ArrowRight")
-        until(page, refusals, lambda told, count=count: told == count)
+        until(page, refusals, lambda shown, count=count: shown == count)
     for control, text in ((slider, "0.7"), (figure, "40"), (place, "300")):
         count = page.evaluate(refusals)
         control.fill(text)
         control.press("Enter")
-        until(page, refusals, lambda told, count=count: told > count)
+        until(page, refusals, lambda shown, count=count: shown > count)
         until(
             page,
             "[...document.querySelectorAll('.axis input, .place input')].map((e) => e.value)",
@@ -177,7 +177,7 @@ def test_a_simulator_that_comes_back_is_found_again(open_page, monkeypatch):
         open_page.faults.clear()
 
 
-def test_a_browser_without_webgl_is_told(irb120, open_page):
+def test_browser_without_webgl_is_reported(irb120, open_page):
     unmonitored = "HTMLCanvasElement.prototype.getContext = () => null"
     page = open_page(irb120["view"], before=unmonitored)
     until(page, STATE)

@@ -1,5 +1,4 @@
-"""What sockets say, in words: frames in any pieces, bytes that are none, and connections that fare
-ill."""
+"""Socket data in words: split frames, other bytes, faulty connections."""
 
 import pytest
 
@@ -12,30 +11,32 @@ from rapidgen.wire.simple_message import encode, messages
 from tests.viewer.bench import STATE, until
 
 POINT = encode(messages.JointPosition(7, (0.25,) * 10))
-# A page whose `listen` is kept back (`held`), and that is told things (`told`).
+# A page whose `listen` is delayed (`held`), and that receives messages by `push`.
 HELD = """
 window.held = [];
 const Real = WebSocket;
 window.WebSocket = class extends Real {
   constructor(...given) {
     super(...given);
-    window.told = (message) => this.onmessage({ data: JSON.stringify([message]) });
+    window.push = (message) => this.onmessage({ data: JSON.stringify([message]) });
   }
   send(text) {
     if (text.includes('"listen"')) held.push(JSON.parse(text)); else super.send(text);
   }
 };
 """
-LISTED = "document.querySelector('.said').textContent"
+LISTED = "document.querySelector('.data').textContent"
 
 
-def heard(data, way="in"):
+def piece_of(data, way="in"):
     return SocketPiece(1.0, way, "T_ROB1", "127.0.0.1:11000", "127.0.0.1:5", data)
 
 
 def names(*pieces):
     interpreter = Interpreter()
-    return [(line.name, line.fault) for piece in pieces for line in interpreter.lines(heard(piece))]
+    return [
+        (line.name, line.fault) for piece in pieces for line in interpreter.lines(piece_of(piece))
+    ]
 
 
 @pytest.mark.parametrize("cut", [0, 1, 4, 15, 16, 40])
@@ -44,8 +45,8 @@ def test_a_frame_is_read_in_whatever_pieces_it_comes(cut):
     assert names(POINT + POINT[:cut], POINT[cut:]) == [("JOINT_POSITION", False)] * 2
 
 
-def test_a_message_is_told_by_its_fields():
-    (line,) = Interpreter().lines(heard(POINT, "out"))
+def test_socket_log_shows_message_fields():
+    (line,) = Interpreter().lines(piece_of(POINT, "out"))
     assert line.way == "out"
     assert line.text.startswith("sequence 7, joints [0.25 0.25")
 
@@ -53,13 +54,13 @@ def test_a_message_is_told_by_its_fields():
 def test_bytes_that_are_no_frame_are_shown_and_the_next_ones_tried_anew():
     text = "<script>alert(1)</script>"
     interpreter = Interpreter()
-    (raw,) = interpreter.lines(heard(text.encode()))
+    (raw,) = interpreter.lines(piece_of(text.encode()))
     assert (raw.name, raw.text) == ("", text)
-    (good,) = interpreter.lines(heard(POINT))
+    (good,) = interpreter.lines(piece_of(POINT))
     assert good.name == "JOINT_POSITION"
-    (binary,) = interpreter.lines(heard(b"\xff\xff\xff\xff\x00"))
+    (binary,) = interpreter.lines(piece_of(b"\xff\xff\xff\xff\x00"))
     assert binary.text == "ff ff ff ff 00"
-    assert len(next(iter(interpreter.lines(heard(b"a" * 99_999)))).text) <= 401
+    assert len(next(iter(interpreter.lines(piece_of(b"a" * 99_999)))).text) <= 401
 
 
 def test_a_frame_that_does_not_fit_its_type_is_a_fault():
@@ -101,7 +102,7 @@ def test_a_running_connection_is_made_ill_and_well_again():
 
 
 @pytest.mark.browser
-def test_what_is_said_is_listed_and_a_connection_is_made_silent(irb120, open_page):
+def test_socket_data_is_listed_and_connection_silenced(irb120, open_page):
     page = open_page(irb120["view"])
     until(page, STATE)
     page.get_by_role("tab", name="Network").click()
@@ -130,28 +131,31 @@ def test_what_is_said_is_listed_and_a_connection_is_made_silent(irb120, open_pag
 
 @pytest.mark.browser
 def test_a_box_shows_what_was_asked_until_that_is_answered(irb120, open_page):
-    """What was told before the request arrived does not turn it back; a refusal does."""
+    """A message sent before the request arrived does not reset the box.
+
+    A refusal does.
+    """
     page = open_page(irb120["view"], before=HELD)
     until(page, STATE)
     page.get_by_role("tab", name="Network").click()
     box = page.get_by_label("Listen")
 
-    def told(**message):
-        page.evaluate("message => told(message)", message)
+    def push(**message):
+        page.evaluate("message => push(message)", message)
 
     def answered(error):
         (requested,) = page.evaluate("held.splice(0)")
-        told(type="reply", id=requested["id"], error=error, text="")
+        push(type="reply", id=requested["id"], error=error, text="")
         return requested["request"]["on"]
 
     box.check()
-    told(type="conversation", listening=False, lines=[])
+    push(type="conversation", listening=False, lines=[])
     assert box.is_checked()
-    assert answered("nobody may listen") is True
+    assert answered("listening is off") is True
     assert not box.is_checked()
     box.check()
     assert answered("") is True
-    told(type="conversation", listening=True, lines=[])
+    push(type="conversation", listening=True, lines=[])
     assert box.is_checked()
-    told(type="conversation", listening=False, lines=[])  # by another page
+    push(type="conversation", listening=False, lines=[])  # by another page
     assert not box.is_checked()

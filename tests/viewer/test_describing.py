@@ -1,4 +1,4 @@
-"""What is drawn of a robot that has a description: its own links, where `axes` says they are."""
+"""Drawing of a robot with a description: links at the poses of `axes`."""
 
 import random
 from xml.etree import ElementTree
@@ -99,7 +99,7 @@ def test_each_arm_draws_its_own_links_in_one_place(tmp_path):
     assert bases[0][1] > 0 > bases[1][1]
 
 
-def test_what_is_not_to_be_had_is_said(tmp_path, monkeypatch):
+def test_missing_description_is_reported(tmp_path, monkeypatch):
     monkeypatch.setattr("rapidgen.viewer.appearance.LARGEST", 100)
     urdf = (URDF / "irb120.urdf").read_text()
     meshes = "".join(
@@ -132,13 +132,13 @@ def test_meshes_together_have_a_limit_too_and_xml_of_others_declares_nothing(tmp
     ):
         (tmp_path / name).write_bytes(data)
     monkeypatch.setattr("rapidgen.viewer.appearance.LARGEST", 70)
-    named = [meshes.beside(f"{name}.stl", tmp_path) for name in ("one", "two", "three", "one")]
+    named = [meshes.name_in(f"{name}.stl", tmp_path) for name in ("one", "two", "three", "one")]
     assert [bool(name) for name in named] == [True, False, True, True]
     assert named[0] == named[3]
     assert [len(data) for data in meshes.files.values()] == [60, 40]
     monkeypatch.setattr("rapidgen.viewer.appearance.MOST", 200)
-    assert meshes.beside("four.dae", tmp_path) == ""
-    assert meshes.beside("../gone.stl", tmp_path) == meshes.beside("../gone.stl", tmp_path) == ""
+    assert meshes.name_in("four.dae", tmp_path) == ""
+    assert meshes.name_in("../gone.stl", tmp_path) == meshes.name_in("../gone.stl", tmp_path) == ""
     message = [
         "two.stl is larger",
         "four.dae: it has a document type",

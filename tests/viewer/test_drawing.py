@@ -1,4 +1,4 @@
-"""What is drawn of a robot without meshes."""
+"""Drawing of a robot without meshes."""
 
 from xml.etree import ElementTree
 
@@ -41,7 +41,7 @@ def test_a_track_is_as_long_as_its_axis_goes():
     assert max(lengths) >= track.upper - track.lower
 
 
-def test_a_positioner_stands_beside_and_turns_with_its_axis():
+def test_positioner_is_separate_and_turns_with_its_axis():
     group = load_config("irb120_track").groups[0]
     tree = ElementTree.fromstring(described(group).urdf)
     (positioner,) = group.positioners

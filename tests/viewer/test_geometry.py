@@ -1,4 +1,7 @@
-"""What the page draws is where `axes` says: links of every shipped model, and the TCP's pixel."""
+"""The page draws links and TCP where `axes` computes them.
+
+Links of every shipped model, and the TCP's pixel.
+"""
 
 import io
 import random

@@ -1,4 +1,4 @@
-"""Meshes and descriptions that lead elsewhere or never end: none is drawn, and that is said."""
+"""Malicious meshes and descriptions are not drawn, and are reported."""
 
 import os
 import time
@@ -25,7 +25,7 @@ NAMES = {
     "file": "file://{outside}/secret.stl",
     "file in percent": "file://{outside}/%73ecret.stl",
     "file of a host": "file://host{outside}/secret.stl",
-    "unknown package": "package://nobody/secret.stl",
+    "unknown package": "package://absent/secret.stl",
     "package upwards": "package://../outside/secret.stl",
     "web": "http://127.0.0.1:9/secret.stl",
     "no mesh": "/etc/passwd",
@@ -100,7 +100,7 @@ def place(tmp_path):
 
 
 def check(config):
-    """Nothing but the robot's own is read for a description, and that is said."""
+    """Check that a description reads only the robot's own files."""
     began = time.thread_time()
     groups = load_config(config).groups
     look = appearance(groups, {group.name: config for group in groups})

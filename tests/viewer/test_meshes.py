@@ -33,7 +33,7 @@ def test_meshes_of_each_format_are_drawn(tmp_path, open_page):
             corners, lowest, highest = seen[link][0]
             assert corners == 12
             np.testing.assert_allclose([lowest, highest], [[0, 0, 0], [0.2, 0.2, 0.3]], atol=1e-6)
-        assert page.locator(".amiss").is_hidden()
+        assert page.locator(".faults").is_hidden()
         colours = page.evaluate("[...rapidgen.stage.robots.get('rob1').colours('part_3')]")
         assert "ff0000" in colours
         name = page.evaluate(
@@ -45,7 +45,7 @@ def test_meshes_of_each_format_are_drawn(tmp_path, open_page):
         page.close()
 
 
-def test_meshes_that_cannot_be_had_are_said_and_solids_stand_in(tmp_path, open_page):
+def test_missing_meshes_are_reported_and_replaced(tmp_path, open_page):
     config = mesh_files.description(
         tmp_path,
         {
@@ -58,14 +58,14 @@ def test_meshes_that_cannot_be_had_are_said_and_solids_stand_in(tmp_path, open_p
     )
     with simulator(config) as (ready, _):
         page = open_page(ready["view"])
-        page.locator(".amiss").wait_for()
+        page.locator(".faults").wait_for()
         message = until(
             page,
-            "document.querySelector('.amiss').textContent",
+            "document.querySelector('.faults').textContent",
             lambda text: text.startswith("Not drawn as described: 5"),
         )
         assert "<img src=x onerror=alert(1)>&.obj" in message
-        assert page.locator(".amiss img").count() == 0
+        assert page.locator(".faults img").count() == 0
         parts = until(page, SHAPES, lambda parts: parts["part_2"][0][0] > 12)
         # A solid from the elbow's joint to the next one.
         assert parts["part_2"][0][2][2] == pytest.approx(0.27, abs=0.01)
@@ -85,7 +85,7 @@ def test_what_stands_in_the_cell_is_drawn_and_robots_stand_where_it_says(tmp_pat
     )
     with simulator(str(tmp_path / "p.mod"), "--cell", str(cell)) as (ready, _):
         page = open_page(ready["view"])
-        until(page, "document.querySelector('.amiss')?.textContent", lambda t: t and ": 2" in t)
+        until(page, "document.querySelector('.faults')?.textContent", lambda t: t and ": 2" in t)
         displayed = until(page, "rapidgen.stage.around()", len)
         assert list(displayed) == ["table"]
         np.testing.assert_allclose(displayed["table"], [[0.6, 0, 0.1], [1.0, 0.4, 0.7]], atol=1e-6)

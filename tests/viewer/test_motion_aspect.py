@@ -34,19 +34,19 @@ def test_a_robot_that_is_jogged_keeps_its_tool(tmp_path):
     module = tmp_path / "held.mod"
     module.write_text(WITH_A_TOOL)
     target = load_target([str(module)], BootOptions(robot="irb120"))
-    with ControllerRunner.boot(target, clock="virtual") as cabinet:
-        cabinet.controller.run_for(20)
-        cabinet.controller.stop_program()
-        cabinet.controller.run_for(1)
-        aspect = MotionProvider(cabinet)
+    with ControllerRunner.boot(target, clock="virtual") as controller_runner:
+        controller_runner.controller.run_for(20)
+        controller_runner.controller.stop_program()
+        controller_runner.controller.run_for(1)
+        aspect = MotionProvider(controller_runner)
         handlers = aspect.handlers()
-        (name,) = cabinet.controller.motion.groups
+        (name,) = controller_runner.controller.motion.groups
 
         def displayed():
             _, positions = aspect.whole()
             return positions.groups[0]
 
-        axes = list(cabinet.controller.motion.groups[name].positions())
+        axes = list(controller_runner.controller.motion.groups[name].positions())
         axes[0] += 0.1
         handlers[Jog](Jog(group=name, axes=tuple(axes)))
         assert displayed().tool.position == pytest.approx((0, 0, 0.12))
@@ -73,15 +73,15 @@ def test_a_robot_that_stands_at_its_limit_is_jogged(tmp_path):
     cell.write_text("model: irb120\njoints: {joint_5: {upper: 100.3}}\n")
     module.write_text(AT_THE_LIMIT)
     target = load_target([str(module)], BootOptions(robot=str(cell)))
-    with ControllerRunner.boot(target, clock="virtual") as cabinet:
-        controller = cabinet.controller
+    with ControllerRunner.boot(target, clock="virtual") as controller_runner:
+        controller = controller_runner.controller
         controller.run_for(20)
         controller.stop_program()
         controller.run_for(1)
         (group,) = controller.motion.groups.values()
         here = list(group.positions())
         assert here[4] > math.radians(100.3)
-        aspect = MotionProvider(cabinet)
+        aspect = MotionProvider(controller_runner)
         jog = aspect.handlers()[Jog]
         here[0] = 0.2
         jog(Jog(group=group.name, axes=tuple(here)))

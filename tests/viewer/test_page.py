@@ -88,25 +88,25 @@ def test_from_a_line_to_its_template_and_back(irb120, open_page):
     page.keyboard.press("Control+Home")
     for _ in range(line - 1):
         page.keyboard.press("ArrowDown")
-    told = page.locator(".origin")
-    told.get_by_text(f"Line {line} is made by").wait_for()
+    origin = page.locator(".origin")
+    origin.get_by_text(f"Line {line} is made by").wait_for()
     template = (data_folder("templates") / "ROS_motion.mod.j2").read_text()
     number = template.splitlines().index("    PROC main()") + 1
     assert number != line
-    told.get_by_role("button", name=f"ROS_motion.mod.j2, line {number}", exact=True).click()
+    origin.get_by_role("button", name=f"ROS_motion.mod.j2, line {number}", exact=True).click()
     until(page, f"{SEEN}.text", lambda text: text == template)
     assert modules.input_value() == "ROS_motion.mod.j2"
     page.locator(".cm-lineNumbers .cm-gutterElement", has_text=str(number)).first.click()
     page.get_by_text("not in templates").wait_for()
     assert page.evaluate(f"{SEEN}.breakpoints") == []
-    back = told.get_by_role("button", name=f"ROS_motion, line {line}", exact=True)
+    back = origin.get_by_role("button", name=f"ROS_motion, line {line}", exact=True)
     back.click()
     until(page, f"{SEEN}.text", lambda now: now == text)
-    told.get_by_text(f"Line {line} is made by").wait_for()
+    origin.get_by_text(f"Line {line} is made by").wait_for()
     # What several modules have in common names all of them.
     modules.select_option("_head.j2")
-    told.get_by_role("button", name="ROS_motion, line 2", exact=True).wait_for()
-    assert told.get_by_role("button").count() > 1
+    origin.get_by_role("button", name="ROS_motion, line 2", exact=True).wait_for()
+    assert origin.get_by_role("button").count() > 1
     page.get_by_label("Follow").check()
     page.locator(".cm-at-program").wait_for()
     page.close()

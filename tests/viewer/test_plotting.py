@@ -1,4 +1,4 @@
-"""What a plot shows, and the files that it becomes."""
+"""Content of a plot, and its files."""
 
 import json
 import math
@@ -37,7 +37,7 @@ def wave(group):
 
 
 def recorded(group, *, feedback, jitter=0.0, begins=1.0, off=0.0):
-    """What a robot tells ten times a second that begins a wave after `begins` s; `off` away."""
+    """A recording at 10 Hz with a wave from `begins` s; `off` is an offset."""
     recording, random = JointRecording(group), np.random.default_rng(3)
     positions = wave(group)
     for n in range(60):
@@ -115,7 +115,7 @@ def test_a_recording_of_a_simulation_shows_tool_and_moves(tmp_path):
     assert "moves" in headings[1]
 
 
-def test_a_move_that_the_program_left_between_two_samples_comes_behind_the_one_before():
+def test_move_order_with_short_program_move_is_kept():
     from rapidgen.motion.recorder import Recording
 
     joints = np.zeros((6, 1))
@@ -183,6 +183,6 @@ def test_what_cannot_be_written_is_refused(tmp_path, monkeypatch, name, code):
     assert not list(tmp_path.iterdir())
 
 
-def test_what_is_no_trajectory_is_told():
+def test_plot_of_other_type_is_rejected():
     with pytest.raises(TypeError, match="not str"):
         plot("path.csv")

@@ -1,4 +1,4 @@
-"""Programs as they are told to the page, without a page: requests good and bad, restarts."""
+"""State and requests of programs without a page, also after restarts."""
 
 import json
 
@@ -12,26 +12,26 @@ from tests.viewer.test_program_page import PROGRAM
 
 
 class Viewer:
-    """One page: what it was told last, by type."""
+    """One page: its last message of each type."""
 
-    def __init__(self, cabinet):
-        self.runner = cabinet
-        self.hub = Broadcaster(Simulation(cabinet), self.take)
-        self.told = {}
+    def __init__(self, controller_runner):
+        self.runner = controller_runner
+        self.hub = Broadcaster(Simulation(controller_runner), self.take)
+        self.last = {}
         self.number = 0
         self.hub.renew()
         self.take(self.hub.join())
 
-    def take(self, parcel):
-        for message in json.loads(parcel.data):
-            self.told[message["type"]] = message
+    def take(self, batch):
+        for message in json.loads(batch.data):
+            self.last[message["type"]] = message
 
     def ask(self, do, **request):
         """The text of the reply, or its error."""
         self.number += 1
         requested = {"id": self.number, "request": {"do": do, **request}}
         self.take(self.hub.ask(json.dumps(requested)))
-        reply = self.told["reply"]
+        reply = self.last["reply"]
         return reply["error"] or reply["text"]
 
     def pass_time(self, seconds):
@@ -43,54 +43,54 @@ class Viewer:
 def viewer(tmp_path):
     (tmp_path / "work.mod").write_text(PROGRAM)
     target = load_target([tmp_path / "work.mod"], BootOptions())
-    with ControllerRunner.boot(target, clock="virtual") as cabinet:
-        yield Viewer(cabinet)
+    with ControllerRunner.boot(target, clock="virtual") as controller_runner:
+        yield Viewer(controller_runner)
 
 
 def test_sources_pointers_and_a_breakpoint(viewer):
     viewer.pass_time(0.1)
-    (task,) = viewer.told["loaded"]["tasks"]
+    (task,) = viewer.last["loaded"]["tasks"]
     assert list(task["modules"]) == ["work"]
     assert viewer.ask("source", number=task["modules"]["work"]) == PROGRAM
-    assert viewer.told["pointers"]["tasks"][0]["motion"]["line"] in (10, 16)
+    assert viewer.last["pointers"]["tasks"][0]["motion"]["line"] in (10, 16)
     assert viewer.ask("break", module="work", line=16, condition="n = 2") == "1"
     viewer.pass_time(60)
-    halt = viewer.told["debugging"]["halt"]
+    halt = viewer.last["debugging"]["halt"]
     assert (halt["reason"], halt["place"]["line"]) == ("breakpoint", 16)
-    assert viewer.told["held"]["variables"][0]["text"] == "2"
+    assert viewer.last["held"]["variables"][0]["text"] == "2"
     assert viewer.ask("drive", how="over", task="T_ROB1") == ""
     viewer.pass_time(60)
-    assert viewer.told["debugging"]["halt"]["place"]["line"] == 17
+    assert viewer.last["debugging"]["halt"]["place"]["line"] == 17
     assert viewer.ask("evaluate", expression="n + 0.5") == "2.5  (num)"
     assert viewer.ask("assign", target="n", value="7") == "7"
     assert viewer.ask("run-to", task="T_ROB1", module="work", line=12) == ""
     viewer.pass_time(60)
-    assert viewer.told["debugging"]["halt"]["reason"] == "cursor"
-    assert viewer.ask("watch", expressions=["total", "nobody"]) == ""
+    assert viewer.last["debugging"]["halt"]["reason"] == "cursor"
+    assert viewer.ask("watch", expressions=["total", "absent"]) == ""
     viewer.hub.look()
-    assert [v["text"] for v in viewer.told["held"]["watch"]] == ["8", "(nobody is not known here)"]
+    assert [v["text"] for v in viewer.last["held"]["watch"]] == ["8", "(absent is not known here)"]
 
 
 def test_a_breakpoint_of_which_something_else_is_wanted_stays_the_same_one(viewer):
     """It was taken away and set anew, so that a wish that is refused lost it."""
     assert viewer.ask("break", module="work", line=17, log="here") == "1"
     viewer.pass_time(10)
-    (point,) = viewer.told["debugging"]["breakpoints"]
+    (point,) = viewer.last["debugging"]["breakpoints"]
     assert (point["number"], point["log"], point["count"] > 0) == (1, "here", True)
     assert "no number of passes" in viewer.ask("break", number=1, module="work", line=17, hits="?")
     viewer.hub.look()
-    assert viewer.told["debugging"]["breakpoints"] == [point]
+    assert viewer.last["debugging"]["breakpoints"] == [point]
     requested = viewer.ask(
         "break", number=1, module="work", line=17, condition="n > 1000", log="far"
     )
     assert requested == "1"
     viewer.pass_time(10)
-    (now,) = viewer.told["debugging"]["breakpoints"]
+    (now,) = viewer.last["debugging"]["breakpoints"]
     assert now == {**point, "condition": "n > 1000", "log": "far", "count": 0}
     # Where its statement has gone, too: a module was loaded anew without it.
     assert viewer.ask("break", number=1, module="work", line=900, log="far") == "1"
     viewer.hub.look()
-    (now,) = viewer.told["debugging"]["breakpoints"]
+    (now,) = viewer.last["debugging"]["breakpoints"]
     assert (now["number"], now["doubt"]) == (1, "no statement begins there")
 
 
@@ -98,17 +98,17 @@ def test_a_breakpoint_of_which_something_else_is_wanted_stays_the_same_one(viewe
     ("do", "request_", "error"),
     [
         ("break", {"module": "work", "line": 900}, "no statement begins there"),
-        ("break", {"module": "nobody", "line": 1}, "no statement begins there"),
+        ("break", {"module": "absent", "line": 1}, "no statement begins there"),
         ("break", {"module": "work", "line": 10, "hits": "often"}, "no number of passes"),
-        ("break", {"module": "work", "line": 10, "number": 7}, "has been taken away"),
+        ("break", {"module": "work", "line": 10, "number": 7}, "has been deleted"),
         ("break", {"module": "work", "line": 0}, "not understood"),
         ("break", {"module": "x" * 300, "line": 1}, "not understood"),
         ("drive", {"how": "resume"}, "nothing is paused"),
         ("drive", {"how": "in", "task": "T_ROB1"}, "nothing is paused"),
-        ("drive", {"how": "in", "task": "nobody"}, "there is no task nobody"),
+        ("drive", {"how": "in", "task": "absent"}, "there is no task absent"),
         ("drive", {"how": "backwards"}, "not understood"),
         ("run-to", {"task": "T_ROB1", "module": "work", "line": 900}, "no statement begins"),
-        ("look", {"task": "nobody"}, "there is no task nobody"),
+        ("look", {"task": "absent"}, "there is no task absent"),
         ("look", {"task": "T_ROB1", "level": -7}, "not understood"),
         ("source", {"number": 99}, "not loaded"),
         ("origin", {"number": 0}, "no template made it"),
@@ -130,11 +130,11 @@ def test_a_breakpoint_of_which_something_else_is_wanted_stays_the_same_one(viewe
 def test_what_cannot_be_done_is_refused_with_a_reason(viewer, do, request_, error):
     viewer.pass_time(0.1)
     viewer.ask(do, **request_)
-    reply = viewer.told["reply"]
+    reply = viewer.last["reply"]
     assert reply["error"]
     assert error in reply["error"]
     viewer.pass_time(1.0)
-    assert viewer.told["debugging"]["halt"] is None
+    assert viewer.last["debugging"]["halt"] is None
 
 
 def test_time_goes_at_the_pace_that_is_asked_for_and_is_stepped(viewer):
@@ -142,20 +142,20 @@ def test_time_goes_at_the_pace_that_is_asked_for_and_is_stepped(viewer):
         assert viewer.ask("pace", value=pace) == ""
         assert viewer.runner.controller.scheduler.speed == pace
         viewer.hub.look()
-        assert viewer.told["panel"]["pace"] == pace
+        assert viewer.last["panel"]["pace"] == pace
     assert viewer.ask("drive", how="pause") == ""
     for seconds in (0.004, 0.024, 0.1, 1):
         before = viewer.runner.controller.now
         assert viewer.ask("run-for", seconds=seconds) == ""
         viewer.pass_time(5)
-        assert viewer.told["debugging"]["halt"]["reason"] == "time"
+        assert viewer.last["debugging"]["halt"]["reason"] == "time"
         assert viewer.runner.controller.now == pytest.approx(before + seconds, abs=1e-9)
     assert viewer.ask("drive", how="resume") == ""
     viewer.pass_time(1)
-    assert viewer.told["debugging"]["halt"] is None
+    assert viewer.last["debugging"]["halt"] is None
 
 
-def test_every_second_viewer_is_told_all(viewer):
+def test_second_viewer_receives_complete_state(viewer):
     viewer.pass_time(0.1)
     viewer.ask("break", module="work", line=17)
     viewer.pass_time(60)
@@ -172,14 +172,14 @@ def test_breakpoints_stay_over_a_restart(viewer):
     viewer.runner.controller.set_motors(True)
     viewer.runner.controller.start_program()
     viewer.pass_time(60)
-    assert viewer.told["debugging"]["halt"]["place"]["line"] == 17
+    assert viewer.last["debugging"]["halt"]["place"]["line"] == 17
 
 
 def test_lines_are_counted_and_no_longer(viewer):
     viewer.ask("cover", on=True)
     viewer.pass_time(10)
     viewer.pass_time(2)
-    lines = {int(line): hits for line, hits in viewer.told["covered"]["lines"].items()}
+    lines = {int(line): hits for line, hits in viewer.last["covered"]["lines"].items()}
     assert lines[9] >= 2
     assert 7 not in lines
     viewer.ask("cover", on=False)

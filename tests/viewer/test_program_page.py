@@ -141,7 +141,7 @@ def test_steps_stack_and_setting_a_value(page):
     page.get_by_placeholder("Expression").press("Enter")
     page.get_by_label("Value of total", exact=True).wait_for()
     assert float(values(page, "total")) >= 41.5
-    page.get_by_label("Value of total", exact=True).fill("nobody")
+    page.get_by_label("Value of total", exact=True).fill("absent")
     page.get_by_label("Value of total", exact=True).press("Tab")
     page.get_by_text("not known here").wait_for()
 
@@ -161,7 +161,7 @@ def test_a_condition_a_hover_and_a_log_point(page):
     )
     page.locator(".cm-content").get_by_text("total := total + n").hover(position={"x": 45, "y": 8})
     page.locator(".cm-value").wait_for()
-    tell = page.get_by_placeholder("Tell, do not pause")
+    tell = page.get_by_placeholder("Log, do not pause")
     tell.fill("i is {i}")
     tell.press("Enter")
     page.get_by_role("button", name="Go on").click()
@@ -176,7 +176,7 @@ def test_what_is_typed_at_a_breakpoint_stays_while_its_passes_are_counted(page):
     set_breakpoint(page, 11)
     halted(page, 11)
     condition, passes = page.get_by_placeholder("Condition"), page.get_by_placeholder("Pass")
-    page.get_by_placeholder("Tell, do not pause").fill("{i}")
+    page.get_by_placeholder("Log, do not pause").fill("{i}")
     page.get_by_role("button", name="Go on").click()
     condition.press_sequentially("i < ")
     reached = "document.querySelector('.points small').textContent"
@@ -208,7 +208,7 @@ def test_older_news_do_not_take_back_what_is_asked_of_a_breakpoint(page):
     set_breakpoint(page, 11)
     halted(page, 11)
     condition = page.get_by_placeholder("Condition")
-    page.get_by_placeholder("Tell, do not pause").fill("{i}")
+    page.get_by_placeholder("Log, do not pause").fill("{i}")
     page.get_by_role("button", name="Go on").click()
     reached = "document.querySelector('.points small').textContent"
     until(page, f"{SEEN}.halted", lambda at: at is None)
@@ -238,7 +238,7 @@ def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
     page.get_by_label("Length of a time step").select_option(label="1 s")
     pendant.get_by_role("button", name="Time step").click()
     after = until(page, halted_at, lambda time: time and time > before)
-    # A statement that has begun is executed whole.
+    # A started statement is executed to its end.
     assert 1 - 1e-6 < after - before < 1.05
     page.get_by_role("tab", name="Program").click()
     until(page, HALTED, lambda text: text and "time step" in text)
@@ -248,7 +248,7 @@ def test_the_pendant_and_the_debugger_pause_the_same_and_time_is_stepped(page):
     page.evaluate("() => { rapidgen.link.on('panel', now => { window.pace = now.pace }) }")
     for pace in ("0.1", "100", "1"):
         page.get_by_label("Pace of time").select_option(pace)
-        until(page, "window.pace", lambda told, wanted=float(pace): told == wanted)
+        until(page, "window.pace", lambda pace_shown, wanted=float(pace): pace_shown == wanted)
 
 
 ASKING = """MODULE first

@@ -21,7 +21,7 @@ from tests.viewer import mesh_files
 
 @pytest.fixture(scope="module")
 def seen(tmp_path_factory):
-    """A configuration with three meshes, and what it looks like with a thing beside it."""
+    """A configuration with three meshes, and its appearance with an object."""
     config = mesh_files.description(
         tmp_path_factory.mktemp("arm"),
         {
@@ -60,7 +60,7 @@ def test_a_recording_looks_as_what_it_records(seen, tmp_path):
         assert file.sources(0.1)
 
 
-def test_meshes_beyond_the_limit_stay_out_and_that_is_said(seen):
+def test_meshes_beyond_limit_are_omitted_and_reported(seen):
     _, groups, look = seen
     sizes = [*map(len, look.files.values())]
     saved = looks.carried(look, most=sizes[0] + sizes[2])
@@ -102,7 +102,7 @@ def test_a_mesh_that_is_not_what_it_says_is_not_given_out(seen, name, data):
 
 
 def forged(look, **changes):
-    """What was written, with other things in the drawing."""
+    """The written file with other entries in the drawing."""
     text = json.loads(looks.written(look))
     text["drawings"]["rob1"] |= changes
     return json.dumps(text).encode()

@@ -130,7 +130,7 @@ def test_csv(recorded, tmp_path):
     with RecordingFile(path) as file:
         file.write_csv(tmp_path / "out.csv")
         with pytest.raises(KeyError):
-            file.write_csv(tmp_path / "other.csv", "nobody")
+            file.write_csv(tmp_path / "other.csv", "absent")
     rows = (tmp_path / "out.csv").read_text().splitlines()
     assert rows[0].startswith("time,joint_1")
     assert rows[0].count(",") == 12
@@ -239,7 +239,7 @@ def test_hostile_files_are_refused(recorded, tmp_path):
     for text in (b"", b"\x89MCAP0\r\n", b"PK\x03\x04" * 100, data[:100], data[-200:]):
         other.write_bytes(text)
         assert tried(other) == "RG930"
-    assert tried(tmp_path / "nobody.mcap") == "RG930"
+    assert tried(tmp_path / "absent.mcap") == "RG930"
 
 
 def test_a_bomb_is_not_unpacked(tmp_path):
@@ -259,7 +259,7 @@ def test_a_bomb_is_not_unpacked(tmp_path):
 
 
 class Full(io.BytesIO):
-    """A disk with room for so many bytes."""
+    """A disk with space for so many bytes."""
 
     def write(self, data):
         if self.tell() + len(data) > 100_000:

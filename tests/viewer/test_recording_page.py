@@ -59,7 +59,7 @@ def test_robots_have_the_meshes_that_they_had(page):
     parts = "() => rapidgen.stage.robots.get('rob1').parts()"
     seen = until(page, f"({parts})()", lambda parts: parts["part_1"][0][0] == 12)
     np.testing.assert_allclose(seen["part_1"][0][1:], [[0, 0, 0], [0.2, 0.2, 0.3]], atol=1e-6)
-    assert page.locator(".amiss").is_hidden()
+    assert page.locator(".faults").is_hidden()
 
 
 def test_scrubbed_there_and_back(page, recorded):
@@ -91,7 +91,7 @@ def test_curves_share_the_cursor_and_a_click_in_one_goes_there(page):
     seek(page, 15.0)
     target = page.evaluate(f"{SEEN}.cursor")
     assert target > before + 50
-    # Whoever comes now sees the same.
+    # A page that is opened now shows the same.
     page.reload()
     until(page, f"window.rapidgen && {SEEN}.charts", lambda count: count == 1)
     until(page, f"{SEEN}.cursor", lambda cursor: cursor == pytest.approx(target, abs=1))

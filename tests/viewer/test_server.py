@@ -86,7 +86,7 @@ def page(tmp_path, monkeypatch):
     (tmp_path / "secret.py").write_text("no")
     monkeypatch.setattr(serving, "ASSETS", tmp_path)
     watched = Watched()
-    (tmp_path / "beside.stl").write_text("secret")
+    (tmp_path / "outside.stl").write_text("secret")
     page = serve_page(watched, files={"mesh-1.stl": b"solid"})
     page_parts = urlsplit(page.url)
     yield page_parts.port, page_parts.fragment.removeprefix("token="), watched
@@ -190,12 +190,12 @@ def test_no_path_leaves_the_page(page, path):
         "%2fetc%2fpasswd",
         "/etc/passwd",
         "%252e%252e%252fsecret.py",
-        "beside.stl",
-        "./beside.stl",
+        "outside.stl",
+        "./outside.stl",
         "mesh-1.stl%00",
         "mesh-1.stl%00.html",
         "mesh-1.stl/",
-        "mesh-1.stl/..%2fbeside.stl",
+        "mesh-1.stl/..%2foutside.stl",
         "MESH-1.STL",
         "mesh-1.stl%0d%0aSet-Cookie:%20a=b",
         "file:%2f%2f%2fetc%2fpasswd",
@@ -229,7 +229,7 @@ def test_every_answer_has_the_policy(page):
 
 
 def talk(port, token, message, count, **headers):
-    """What a connection gets after what was said: `count` replies, or how it was refused."""
+    """Send messages; return `count` replies, or the refusal."""
     origin = f"http://127.0.0.1:{port}"
 
     async def run():
@@ -328,7 +328,7 @@ def test_requests_that_are_not_taken_do_not_use_up_the_places(page):
     assert [m["id"] for m in got if m["type"] == "reply"] == [0, 2]
 
 
-def test_a_page_that_is_not_built_is_said(tmp_path, monkeypatch):
+def test_unbuilt_page_is_reported(tmp_path, monkeypatch):
     monkeypatch.setattr(serving, "ASSETS", tmp_path)
     with pytest.raises(DiagnosticError, match="has not been built"):
         serve_page(Watched())
@@ -340,6 +340,6 @@ def test_a_weak_token_is_refused(page, monkeypatch):
         serve_page(Watched())
 
 
-def test_a_port_that_is_taken_is_said(page):
+def test_used_port_is_reported(page):
     with pytest.raises(DiagnosticError, match="cannot serve the page"):
         serve_page(Watched(), port=page[0])

@@ -1,4 +1,4 @@
-"""What stands in the space besides robots: targets, frames; and the TCP dragged by the mouse."""
+"""Targets and frames in the scene, and the TCP dragged by the mouse."""
 
 import numpy as np
 import pytest
@@ -134,7 +134,7 @@ AT_ONCE = """([names, values, event]) => names.forEach((name, i) => {
 
 
 def test_what_is_asked_for_first_stays_when_the_next_one_comes_at_once(ready, open_page):
-    """Each order said where all axes were, and so took the one before it back."""
+    """Each order had values of all axes, so it reverted the one before."""
     page = open_page(ready["view"])
     stopped(page)
     page.get_by_role("tab", name="Axes").click()

@@ -1,4 +1,7 @@
-"""What a page is sent: all of it in order, however slowly it reads, but for what is passing."""
+"""Messages to a page: complete and in order, except passing ones.
+
+The page may read slowly.
+"""
 
 import asyncio
 import socket
@@ -14,7 +17,7 @@ FRAME = text_frame(bytes(range(256)) * 4000)
 
 @asynccontextmanager
 async def viewed():
-    """A viewer, and the end that reads when it is told to."""
+    """A viewer, and the end that reads on request."""
     ours, theirs = socket.socketpair()
     theirs.setblocking(False)
     with theirs:
@@ -62,7 +65,7 @@ def test_a_page_that_never_reads_is_cut_off():
     asyncio.run(run())
 
 
-def test_what_is_sent_to_a_page_that_has_gone_reaches_nobody_else():
+def test_data_of_closed_page_reaches_no_other_page():
     async def run():
         async with viewed() as (viewer, end):
             number = viewer.transport.get_extra_info("socket").fileno()

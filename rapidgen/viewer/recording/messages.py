@@ -1,9 +1,9 @@
-"""What is in a recording: its channels and their messages, JSON with a schema each.
+"""Channels of a recording and their messages, JSON with a schema each.
 
-Times are the controller's, ns from its start. Angles are rad, lengths m, quaternions q1..q4. What
-changes is written when it does; every second a `Snapshot` has all of it once more, so that
-any moment is a snapshot and what followed. `/joints` has a sample every 4 ms in which something
-has moved; in between a robot stands.
+Times are the controller's, ns from its start. Angles are rad, lengths m, quaternions q1..q4.
+Changes are written when they occur; every second a `Snapshot` has everything once more, so that any
+moment is a snapshot plus later changes. `/joints` has a sample every 4 ms with a motion; between
+samples a robot is at rest.
 """
 
 import json
@@ -22,9 +22,12 @@ ROBOTS: Final = "robots.json"
 SIGNALS: Final = "signals.json"
 """Attachment: what each signal is, `RecordedSignal` by name."""
 OVERVIEW: Final = "overview.json"
-"""Attachment at the end: positions of each robot once a second, `[[time s, [..], [..]], ..]`."""
+"""Attachment at the end: positions of each robot once a second.
+
+`[[time s, [..], [..]], ..]`
+"""
 LOOK: Final = "look.json"
-"""Attachment: what robots look like and what stands around them, `RecordedAppearance`."""
+"""Attachment: appearance of robots and cell, `RecordedAppearance`."""
 MESHES: Final = "mesh/"
 """Attachments: meshes by the names that the look has for them."""
 SOURCES: Final = "source/"
@@ -61,7 +64,10 @@ class RecordedFrame(Recorded):
 
 
 class CarriedFrames(Recorded):
-    """Tool (in the flange, or in the world where it is stationary) and work object."""
+    """Tool and work object.
+
+    A tool is in the flange, or in the world if it is stationary.
+    """
 
     tool: RecordedFrame
     held: bool
@@ -70,7 +76,7 @@ class CarriedFrames(Recorded):
 
 
 class ProgramPlace(Recorded):
-    """Where in a program."""
+    """Position in a program."""
 
     module: str
     routine: str
@@ -84,7 +90,7 @@ class StackEntry(ProgramPlace):
 
 
 class TaskPointers(Recorded):
-    """A task: its state, its stack (outermost first), and the move that its robot executes."""
+    """A task: its state, stack (outermost first), and its robot's move."""
 
     state: str
     stack: tuple[StackEntry, ...]
@@ -110,7 +116,7 @@ class RecordedSignals(Recorded):
 
 
 class RecordedSignal(Recorded):
-    """What a signal is."""
+    """Properties of a signal."""
 
     kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
     device: str
@@ -130,7 +136,7 @@ class LogLine(Recorded):
 
 
 class SocketFrame(Recorded):
-    """What a socket of the program did; `data` in base64."""
+    """Data of a socket of the program; `data` in base64."""
 
     change: Literal["open", "in", "out", "close"]
     task: str
@@ -173,4 +179,4 @@ CHANNELS: Final[Mapping[str, type[Recorded]]] = {
     "watch": WatchedValue,
     "snapshot": Snapshot,
 }
-"""First part of each topic; `joints`, `carried` and `task` are followed by a name."""
+"""Prefix of each topic; a name follows `joints`, `carried` and `task`."""

@@ -1,4 +1,4 @@
-"""A recording as the page sees it: everything as it was at the moment to which it is scrubbed."""
+"""A recording as the page's subject: the state at the current moment."""
 
 import base64
 import json
@@ -25,12 +25,14 @@ from rapidgen.viewer.socket_log import Interpreter, SocketPiece
 _CURVES = 1500
 """Points of a curve."""
 _BACK, _PIECES = 3.0, 150
-"""s before a moment, and pieces of them, that are told of what sockets said."""
+"""s before a moment, and data within them, shown of sockets."""
 
 
 class RecordingSubject:
-    """What the server watches: `serve_page(RecordingSubject(file))`. It is looked at by one thread
-    at a time, whichever that is."""
+    """Subject of the server: `serve_page(RecordingSubject(file))`.
+
+    One thread at a time uses it.
+    """
 
     def __init__(self, file: RecordingFile) -> None:
         self._aspect = RecordedProvider(file)
@@ -57,7 +59,7 @@ class _Seen:
         self._kinematics = Kinematics.of(config) if config.chain else None
 
     def place(self, moment: Moment) -> v.RobotPlace:
-        """Where it was."""
+        """Recorded position."""
         joints = moment.joints.get(self.config.name)
         remaining = (0.0,) * len(self.config.joints)
         actual = joints.actual if joints else remaining
@@ -91,9 +93,10 @@ class RecordedProvider:
         self._task = next((robot.config.task for robot in self._robots), "")
         self._seen: tuple[object, ...] = ()
         self._sources: dict[str, int] = {}
-        self._told: dict[type, ToPage] = {}
+        self._last_sent: dict[type, ToPage] = {}
 
-    # -- what is told ----------------------------------------------------------------------------
+    # -- state
+    # ---------------------------------------------------------------------------------------
 
     def whole(self) -> Iterable[ToPage]:
         """Everything of the moment."""
@@ -108,7 +111,7 @@ class RecordedProvider:
         yield from self._now()
 
     def changes(self) -> Iterable[ToPage]:
-        """What differs; while it plays time goes on."""
+        """Return the changes; during playback the time advances."""
         now = time.monotonic()
         if self._rate:
             self._go_on((now - self._looked) * self._rate)
@@ -118,8 +121,8 @@ class RecordedProvider:
             return
         self._seen = seen
         for message in self._now():
-            if self._told.get(type(message)) != message:
-                self._told[type(message)] = message
+            if self._last_sent.get(type(message)) != message:
+                self._last_sent[type(message)] = message
                 yield message
 
     def _go_on(self, seconds: float) -> None:
@@ -156,11 +159,11 @@ class RecordedProvider:
             end=self._file.end,
             time=moment.time,
             rate=self._rate,
-            fault=self._fault or ("it was cut off, and ends here" if self._file.cut else ""),
+            fault=self._fault or ("it was interrupted, and ends here" if self._file.cut else ""),
         )
 
     def _conversation(self, moment: Moment) -> n.Conversation:
-        """What was said just before, where somebody wants to know."""
+        """Return the latest socket data if a viewer listens."""
         received: deque[SocketPiece] = deque(maxlen=_PIECES)
         if self._listening:
             begin = max(self._file.begin, moment.time - _BACK)
@@ -185,7 +188,7 @@ class RecordedProvider:
         )
 
     def _values(self, moment: Moment) -> p.FrameValues:
-        """Of values only the watch list is recorded."""
+        """Return values of the watch list; no others are recorded."""
         watch = (
             p.SeenValue(name=x.expression, kind=x.type, text=x.text, settable=False)
             for x in moment.watch.values()
@@ -202,7 +205,8 @@ class RecordedProvider:
             tasks=tuple(p.LoadedModules(task=t, modules=modules) for t, modules in tasks.items())
         )
 
-    # -- what is asked ---------------------------------------------------------------------------
+    # -- requests
+    # ------------------------------------------------------------------------------------
 
     def handlers(self) -> Mapping[type, Handler]:
         """Scrubbing, playing, curves and sources."""
@@ -273,7 +277,7 @@ class RecordedProvider:
 
 
 def _read(handler: Handler) -> Handler:
-    """A part of the file that cannot be read is told; the page goes on."""
+    """Read a part of the file; report an unreadable one and continue."""
 
     def carried_out(request: Request) -> str:
         try:

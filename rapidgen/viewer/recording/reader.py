@@ -1,4 +1,4 @@
-"""A recording that is looked at: everything as it was at a moment, series for plots, frames."""
+"""Reader of a recording: state at a moment, series for plots, frames."""
 
 import csv
 import json
@@ -32,7 +32,7 @@ _M = TypeVar("_M", bound=m.Recorded)
 _T = TypeVar("_T")
 EVENTS_KEPT = 50
 _WHOLE = frozenset({"joints", "carried", "task", "panel"})
-"""What each message tells whole: the last one counts."""
+"""Topics whose messages are complete: only the last one counts."""
 _SIGNALS: TypeAdapter[dict[str, m.RecordedSignal]] = TypeAdapter(dict[str, m.RecordedSignal])
 _Row = tuple[float, tuple[float, ...], tuple[float, ...]]
 _OVERVIEW: TypeAdapter[dict[str, list[_Row]]] = TypeAdapter(dict[str, list[_Row]])
@@ -58,7 +58,10 @@ class Moment:
 
 
 class RecordingFile:
-    """A recording. DiagnosticError RG930: what is opened is none, or a part cannot be read."""
+    """A recording.
+
+    DiagnosticError RG930: the file is not a recording, or a part is unreadable.
+    """
 
     def __init__(self, path: Path | str) -> None:
         self.path = Path(path)
@@ -87,7 +90,7 @@ class RecordingFile:
             raise self._refused("its title or version has been changed: the checksum is wrong")
         self.title = known.get("title", "")
         self.cut = self._contents.cut
-        """It was cut off; what is there can be looked at."""
+        """True if it was interrupted; the rest can be viewed."""
         self._chunks = Chunks(self._file)
         self._topics = {n: topic.removeprefix("/") for n, topic in self._contents.channels.items()}
         pieces = self._contents.pieces
@@ -97,10 +100,13 @@ class RecordingFile:
         self.end = max(piece.end for piece in pieces) / _NS
         self.robots = self._robots()
         self.signals = self._attached(m.SIGNALS, _SIGNALS, {})
-        """What each signal is, by name."""
+        """Properties of each signal by name."""
         self._overview = self._attached(m.OVERVIEW, _OVERVIEW, {})
         self.look = self._look()
-        """What robots looked like; those without a drawing are drawn from their chain."""
+        """Appearance of robots.
+
+        Those without a drawing are drawn from their chain.
+        """
 
     def _refused(self, why: str) -> Exception:
         return refusal(
@@ -118,10 +124,10 @@ class RecordingFile:
                     return tuple(group_from_manifest(one, self.path) for one in result)
                 except (ValueError, TypeError, RecursionError) as error:
                     raise self._refused(f"its robots cannot be read: {error}") from error
-        raise self._refused("it tells of no robots")
+        raise self._refused("it contains no robots")
 
     def _attached(self, name: str, kind: TypeAdapter[_T], otherwise: _T) -> _T:
-        """What an attachment holds, where there is one."""
+        """Return the content of an attachment, if it exists."""
         for own, _, data in self._contents.attachments:
             if own == name:
                 try:
@@ -158,7 +164,7 @@ class RecordingFile:
     # -- a moment --------------------------------------------------------------------------------
 
     def at(self, time: float) -> Moment:
-        """Everything as it was at a time (s), which is brought between begin and end."""
+        """Return the state at a time (s), limited to begin and end."""
         now = round(min(max(time, self.begin), self.end) * _NS)
         start = self._snapshot_before(now)
         moment = Moment(now / _NS)
@@ -173,7 +179,10 @@ class RecordingFile:
         return moment
 
     def _snapshot_before(self, time: int) -> int:
-        """Time of the last snapshot up to a time; of the first message where there is none."""
+        """Time of the last snapshot up to a time.
+
+        Without a snapshot it is that of the first message.
+        """
         for piece in reversed(self._pieces(0, time)):
             for message in reversed(self._read(piece)):
                 if message.time <= time and self._topics.get(message.channel) == "snapshot":
@@ -211,7 +220,7 @@ class RecordingFile:
     # -- ranges ----------------------------------------------------------------------------------
 
     def frames(self, begin: float, end: float) -> Iterator[tuple[float, m.SocketFrame]]:
-        """What sockets did between two times, s."""
+        """Return socket data between two times, s."""
         for message in self._messages(round(begin * _NS), round(end * _NS), "sockets"):
             yield message.time / _NS, self._decoded(m.SocketFrame, message)
 
@@ -223,9 +232,9 @@ class RecordingFile:
     def joints(
         self, robot: str, begin: float, end: float, most: int = 2000
     ) -> list[tuple[float, m.Joints]]:
-        """Positions between two times, s; no more than about `most`, evenly chosen.
+        """Return positions between two times, s; about `most`, evenly chosen.
 
-        Of a long time the samples of the snapshots, one a second.
+        For a long time they are the samples of the snapshots, one a second.
         """
         first, last = round(begin * _NS), round(end * _NS)
         if (last - first) // m.JOINTS_PERIOD_NS > 20 * most and robot in self._overview:
@@ -238,7 +247,10 @@ class RecordingFile:
         return [(x.time / _NS, self._decoded(m.Joints, x)) for x in chosen]
 
     def signal(self, name: str, begin: float, end: float) -> list[tuple[float, float]]:
-        """Times and values of a signal: at the beginning, and each change until the end, s."""
+        """Return times and values of a signal between two times, s.
+
+        The value at the start, and each change.
+        """
         result = [(begin, self.at(begin).signals[name])] if name in self.at(begin).signals else []
         for message in self._messages(round(begin * _NS) + 1, round(end * _NS), "signals"):
             values = self._decoded(m.RecordedSignals, message).values
@@ -264,7 +276,7 @@ class RecordingFile:
     # -- reading ---------------------------------------------------------------------------------
 
     def _messages(self, begin: int, end: int, topic: str = "") -> Iterator[StoredMessage]:
-        """Messages of a topic between two times, both included, in the order of time."""
+        """Return messages of a topic between two times inclusive, by time."""
         pieces = self._pieces(begin, end)
         # Pieces overlap a little: samples are written after what happened meanwhile.
         for message in self._in_order(pieces):
@@ -302,7 +314,7 @@ class RecordingFile:
             raise self._refused(f"a message cannot be read: {fault['msg']}") from error
 
     def close(self) -> None:
-        """Give the file back."""
+        """Close the file."""
         self._file.close()
 
     def __enter__(self) -> Self:

@@ -36,7 +36,7 @@ def _plain(schema: Members, definitions: Members) -> Members:
         own = members(schema.get("properties", {}))
         made["properties"] = {name: inner(part) for name, part in own.items()}
     if made["type"] == "array":
-        # Numbers of a frame are told one by one, and are all of a kind.
+        # Numbers of a frame are separate columns of the same type.
         several = items(schema.get("prefixItems", []))
         made["items"] = inner(several[0] if several else schema["items"])
     return made

@@ -1,8 +1,8 @@
-"""Recording a virtual controller while it runs.
+"""Recorder of a running virtual controller.
 
-It looks when the controller's own clock has come that far, so that a recording of the virtual clock
-is the same whatever the machine does; positions are worked out afterwards, from the formulas of the
-motion. What the controller does, and when, does not change: a schedule is the same when recorded.
+It samples by the controller's own clock, so that a recording of the virtual clock does not depend
+on the machine; positions are computed afterwards, from the formulas of the motion. The controller's
+actions and their times do not change: a schedule is the same when recorded.
 """
 
 import json
@@ -39,15 +39,15 @@ TICK_NS = 16_666_667
 LATEST_EVENTS = 20
 """Events that a snapshot repeats."""
 _ENDED = 80_002
-"""Code of the event that says so: a user's, as a program's own are."""
+"""Code of the event that reports it: a user's, as a program's own are."""
 _CHUNK = 262_144
 """Bytes of a chunk: a few seconds, which is what a scrub has to read."""
 
 
 class RecordingWriter:
-    """Records one controller from its making until `close()`.
+    """Recorder of one controller, from its creation until `close()`.
 
-    `watches` are expressions by task: worked out where the task stands, 60 times a second.
+    `watches` are expressions by task, evaluated at the task's position 60 times a second.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class RecordingWriter:
         }
         self._next_sample = self._scheduler.now
         self._next_snapshot = self._scheduler.now
-        self._told: dict[str, m.Recorded] = {}
+        self._last_sent: dict[str, m.Recorded] = {}
         self._stood: dict[str, tuple[Posture, Posture]] = {}
         """By topic: the last sample that was written."""
         self._held: dict[str, int] = {}
@@ -98,7 +98,8 @@ class RecordingWriter:
             self._attach(f"{m.MESHES}{name}", mesh, "application/octet-stream")
         self._tick()
 
-    # -- what is told ----------------------------------------------------------------------------
+    # -- state
+    # ---------------------------------------------------------------------------------------
 
     def _watch_controller(self) -> None:
         controller = self._controller
@@ -227,8 +228,8 @@ class RecordingWriter:
 
     def _tell(self, topic: str, message: m.Recorded, key: str = "") -> None:
         """Write a message that differs from the last one of its kind."""
-        if self._told.get(key or topic) != message:
-            self._told[key or topic] = message
+        if self._last_sent.get(key or topic) != message:
+            self._last_sent[key or topic] = message
             self._write(topic, message)
 
     def _write(self, topic: str, message: m.Recorded) -> None:
@@ -244,7 +245,10 @@ class RecordingWriter:
             self._give_up(error)
 
     def _give_up(self, error: OSError) -> None:
-        """The disk is full, or gone: the controller goes on; what is written can be read."""
+        """Give up: the disk is full or missing.
+
+        The controller continues; the written part is readable.
+        """
         self._closed = True
         self._unsubscribe()
         self._controller.log.warning(_ENDED, "Recording ended", error.strerror or str(error))
@@ -270,7 +274,10 @@ class RecordingWriter:
         self._writer.add_attachment(0, self._scheduler.now, name, kind, data)
 
     def close(self) -> None:
-        """End the recording and write the file's index; harmless when it has ended."""
+        """End the recording and write the file's index.
+
+        Harmless if it has ended.
+        """
         if self._closed:
             return
         self._samples()
@@ -297,9 +304,10 @@ def record(
     watches: Iterable[tuple[str, str]] = (),
     look: Appearance = PLAIN,
 ) -> Callable[[], None]:
-    """Record a controller into a file until the returned function is called. Raises OSError.
+    """Record a controller into a file until the returned function is called.
 
-    `look` (`rapidgen.viewer.appearance.appearance`) is what its robots are drawn from later.
+    `look` (`rapidgen.viewer.appearance.appearance`) is the appearance of its robots. Raises
+    OSError.
     """
     file = Path(path).open("wb")  # noqa: SIM115 - closed with the recording
     writer = RecordingWriter(controller, file, watches, look)

@@ -1,1 +1,1 @@
-"""A real robot as it is viewed: its states, and nothing that moves it."""
+"""View of a real robot: its states, without any control."""

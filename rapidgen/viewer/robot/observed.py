@@ -1,4 +1,4 @@
-"""Robots that are watched over their state ports. Nothing here sends anything but questions."""
+"""Robots observed over their state ports, read only."""
 
 import queue
 import threading
@@ -39,7 +39,7 @@ _KINDS: dict[EventType, Literal["info", "warning", "error"]] = {
 
 
 class ObservedRobots:
-    """What the server watches: connected robots with what is known of each."""
+    """Subject of the server: connected robots and their states."""
 
     def __init__(
         self, title: str, robots: Sequence[tuple[Robot, GroupConfig]], look: Appearance = PLAIN
@@ -66,7 +66,7 @@ class ObservedRobots:
 
 
 class _StateProvider:
-    """Where the robots are, and what their status says."""
+    """Positions and status of the robots."""
 
     def __init__(
         self, title: str, robots: Sequence[tuple[Robot, GroupConfig]], look: Appearance
@@ -78,7 +78,7 @@ class _StateProvider:
         self._drawings = [look.of(config) for config in self._configs]
         self._kinematics = [Kinematics.of(config) for config in self._configs]
         self._numbers: list[int] = []
-        self._told: PanelState | None = None
+        self._last_sent: PanelState | None = None
         # The client's clock counts from anywhere.
         self._began = min(robot.state.time for robot in self._robots)
 
@@ -103,8 +103,11 @@ class _StateProvider:
             self._numbers = numbers
             yield self._positions(states)
         panel = self._panel(states)
-        if self._told is None or panel.model_copy(update={"time": self._told.time}) != self._told:
-            self._told = panel
+        if (
+            self._last_sent is None
+            or panel.model_copy(update={"time": self._last_sent.time}) != self._last_sent
+        ):
+            self._last_sent = panel
             yield panel
 
     def handlers(self) -> Mapping[type, Handler]:
@@ -161,25 +164,25 @@ class _StateProvider:
 
 
 class _EventsProvider:
-    """The controller's event log, where the driver tells it."""
+    """The controller's event log, if the driver sends it."""
 
     def __init__(self, robots: Sequence[Robot]) -> None:
         self._robots = robots
-        self._told = 0
+        self._last_sent = 0
 
     def whole(self) -> Iterable[ToPage]:
-        """What was told so far."""
+        """Return the entries so far."""
         yield Log(entries=tuple(_entry(event) for event in self._robots[0].events))
 
     def changes(self) -> Iterable[ToPage]:
         """New ones."""
-        new = [event for event in self._robots[0].events if event.number > self._told]
+        new = [event for event in self._robots[0].events if event.number > self._last_sent]
         if new:
-            self._told = new[-1].number
+            self._last_sent = new[-1].number
             yield Log(entries=tuple(map(_entry, new)))
 
     def handlers(self) -> Mapping[type, Handler]:
-        """None."""
+        """There are no requests."""
         return {}
 
 

@@ -1,4 +1,4 @@
-"""The network of a virtual controller: who is connected, what is said, what goes wrong."""
+"""Network of a virtual controller: connections, data, faults."""
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
@@ -23,8 +23,8 @@ from rapidgen.viewer.socket_log import Interpreter, SocketPiece
 
 _KEPT = 500
 """Pieces between two looks; older ones are counted only."""
-_TOLD = 300
-"""Lines that whoever comes is told."""
+_MOST_LINES = 300
+"""Lines sent to a new listener."""
 RULES: Mapping[Ailment, NetworkRule] = {
     "well": NetworkRule("delay", seconds=0.0),
     "delay": NetworkRule("delay", seconds=0.5),
@@ -36,41 +36,41 @@ RULES: Mapping[Ailment, NetworkRule] = {
 
 
 class ConnectionsProvider:
-    """Sockets in use, what they say while somebody listens, and cables that are pulled."""
+    """Sockets in use, their data while a viewer listens, and link faults."""
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._controller = runner.controller
         self._sockets = runner.controller.sockets
-        self._told: tuple[ShownSocket, ...] = ()
+        self._last_sent: tuple[ShownSocket, ...] = ()
         self._ailments: dict[SocketDevice, Ailment] = {}
         self._interpreter: Interpreter | None = None
-        self._heard: deque[SocketPiece] = deque(maxlen=_KEPT)
+        self._received: deque[SocketPiece] = deque(maxlen=_KEPT)
         self._count = 0
-        self._latest: deque[Conversation] = deque(maxlen=_TOLD // 4)
+        self._latest: deque[Conversation] = deque(maxlen=_MOST_LINES // 4)
         self._listened = False
 
     def whole(self) -> Iterable[ToPage]:
-        """All of them, and the latest that was said."""
+        """Return all sockets and the latest data."""
         yield Connections(sockets=self._now())
-        lines = [line for message in self._latest for line in message.lines][-_TOLD:]
+        lines = [line for message in self._latest for line in message.lines][-_MOST_LINES:]
         listening = self._interpreter is not None
         yield Conversation(listening=listening, lines=tuple(lines), fresh=True)
 
     def changes(self) -> Iterable[ToPage]:
-        """All of them, where one has changed; what was said."""
+        """Return all sockets if one has changed, and new data."""
         now = self._now()
-        if now != self._told:
-            self._told = now
+        if now != self._last_sent:
+            self._last_sent = now
             yield Connections(sockets=now)
         listening = self._interpreter is not None
         if self._count or listening != self._listened:
             self._listened = listening
-            message = self._said()
+            message = self._new_lines()
             self._latest.append(message)
             yield message
 
-    def _said(self) -> Conversation:
-        received, self._heard = self._heard, deque(maxlen=_KEPT)
+    def _new_lines(self) -> Conversation:
+        received, self._received = self._received, deque(maxlen=_KEPT)
         missed, self._count = self._count - len(received), 0
         lines = [line for piece in received for line in self._lines(piece)]
         return Conversation(
@@ -83,7 +83,7 @@ class ConnectionsProvider:
 
     def handlers(self) -> Mapping[type, Handler]:
         """Cutting one, making one ill, listening."""
-        return {ResetConnection: self._cut, InjectFault: self._afflict, Listen: self._listen}
+        return {ResetConnection: self._cut, InjectFault: self._inject_fault, Listen: self._listen}
 
     def _now(self) -> tuple[ShownSocket, ...]:
         return tuple(
@@ -102,13 +102,13 @@ class ConnectionsProvider:
         self._sockets.cut(self._connected(request.number))
         return ""
 
-    def _afflict(self, request: Request) -> str:
+    def _inject_fault(self, request: Request) -> str:
         assert isinstance(request, InjectFault)
         device, network = self._connected(request.number), self._controller.network
         if not isinstance(network, FaultyNetwork) or device.endpoint is None or device.udp:
             raise RequestRejected("this connection cannot be made worse")
         if self._ailments.get(device) in ("silent", "half-open") and request.ailment != "silent":
-            raise RequestRejected("what was lost does not come again: cut it")
+            raise RequestRejected("lost data is not sent again: cut the connection")
         network.inject_fault(device.endpoint, RULES[request.ailment])
         self._ailments = {d: a for d, a in self._ailments.items() if d in self._sockets.in_use}
         self._ailments[device] = request.ailment
@@ -129,7 +129,7 @@ class ConnectionsProvider:
     def _hear(self, events: SocketNews) -> None:
         peer = "" if events.peer is None else _text(events.peer)
         self._count += 1
-        self._heard.append(
+        self._received.append(
             SocketPiece(
                 self._controller.now,
                 events.change,

@@ -1,4 +1,4 @@
-"""The robots of a virtual controller: what they look like, and where they are."""
+"""Robots of a virtual controller: appearance and positions."""
 
 from collections.abc import Iterable, Mapping
 
@@ -18,7 +18,7 @@ from rapidgen.viewer.robots import ToolAndWorkObject, pose_of, side_by_side
 
 
 class MotionProvider:
-    """The scene, positions, and the robots put elsewhere by hand."""
+    """The scene, positions, and jogging of the robots."""
 
     def __init__(self, runner: ControllerRunner, look: Appearance = PLAIN) -> None:
         self._controller = runner.controller
@@ -26,11 +26,11 @@ class MotionProvider:
         self._scheduler = runner.controller.scheduler
         self._groups = tuple(self._controller.motion.groups.values())
         self._drawings = tuple(look.of(group.config) for group in self._groups)
-        self._told: tuple[RobotPlace, ...] = ()
+        self._last_sent: tuple[RobotPlace, ...] = ()
         self._last: dict[str, MoveFrames] = {}
 
     def whole(self) -> Iterable[ToPage]:
-        """What is there and where it is."""
+        """Return the scene and the positions."""
         configs = [group.config for group in self._groups]
         yield Scene(
             title=self._controller.system.name,
@@ -45,8 +45,8 @@ class MotionProvider:
     def changes(self) -> Iterable[ToPage]:
         """Positions, where one has changed."""
         now = self._now()
-        if now != self._told:
-            self._told = now
+        if now != self._last_sent:
+            self._last_sent = now
             yield self._state(now)
 
     def handlers(self) -> Mapping[type, Handler]:
@@ -82,7 +82,10 @@ class MotionProvider:
         return ToolAndWorkObject(now.tool, not now.stationary, now.object)
 
     def _carrier(self, group: MotionGroup) -> MoveFrames | None:
-        """That of the last move, also when its path has been dropped since, as by a jog."""
+        """Tool and work object of the last move, also of a dropped path.
+
+        A jog drops the path.
+        """
         move = group.motion.move(self._scheduler.now)
         if move is not None:
             self._last[group.name] = move.carrier

@@ -1,4 +1,4 @@
-"""What a virtual controller says to people: event log, operator window, dialogs."""
+"""Operator output of a virtual controller: log, window, dialogs."""
 
 from collections.abc import Iterable, Mapping
 from typing import Literal
@@ -29,14 +29,14 @@ class OperatorOutputProvider:
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._controller = runner.controller
-        # Whoever opens the page can answer: dialogs wait for that.
+        # Any viewer can answer: dialogs wait for that.
         runner.controller.operator.attach()
         self._sequence = 0
         self._rows: tuple[str, ...] = ()
         self._waiting: tuple[Dialog, ...] = ()
 
     def whole(self) -> Iterable[ToPage]:
-        """Everything that is kept."""
+        """Return everything that is stored."""
         yield Log(entries=tuple(map(_entry, self._controller.log)))
         yield Screen(rows=tuple(self._controller.operator.rows))
         yield Dialogs(waiting=self._questions())

@@ -1,4 +1,4 @@
-"""The pendant of a virtual controller: its state, its buttons, its key, and how fast time is."""
+"""Pendant of a virtual controller: state, buttons, key, speed of time."""
 
 from collections.abc import Iterable, Mapping
 
@@ -15,7 +15,7 @@ from rapidgen.viewer.messages import (
 from rapidgen.viewer.provider import Handler, RequestRejected
 
 _EVERY = 0.5
-"""s of the controller's time after which its clock is told without another reason."""
+"""s of the controller's time between two updates of its clock alone."""
 
 
 class PendantProvider:
@@ -23,7 +23,7 @@ class PendantProvider:
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._controller = runner.controller
-        self._told: PanelState | None = None
+        self._last_sent: PanelState | None = None
 
     def whole(self) -> Iterable[ToPage]:
         """The status."""
@@ -31,10 +31,10 @@ class PendantProvider:
 
     def changes(self) -> Iterable[ToPage]:
         """The status, where it differs or its time is old."""
-        now, text = self._status(), self._told
+        now, text = self._status(), self._last_sent
         same = text is not None and now.model_copy(update={"time": text.time}) == text
         if text is None or not same or now.time >= text.time + _EVERY:
-            self._told = now
+            self._last_sent = now
             yield now
 
     def handlers(self) -> Mapping[type, Handler]:

@@ -1,4 +1,4 @@
-"""The programs of a virtual controller: sources, pointers, and its debugger."""
+"""Programs of a virtual controller: sources, pointers, debugger."""
 
 from collections.abc import Callable, Iterable, Mapping
 
@@ -20,13 +20,13 @@ from rapidgen.viewer.messages import Request, ToPage
 from rapidgen.viewer.provider import Handler, RequestRejected
 
 _LINES = 200
-"""Lines of log points that are told."""
+"""Lines of log points that are sent."""
 _COVERED_EVERY = 1.0
 """s of the controller's time between two counts of lines."""
 
 
 class ProgramProvider:
-    """What is executed, and what stops it. Breakpoints stay over a restart."""
+    """Execution state and breakpoints, which survive a restart."""
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._controller = runner.controller
@@ -40,9 +40,10 @@ class ProgramProvider:
         self._coverage: Coverage | None = None
         self._counted = -_COVERED_EVERY
         self._covered: dict[int, dict[int, int]] = {}
-        self._told: dict[type, ToPage] = {}
+        self._rejecting: dict[type, ToPage] = {}
 
-    # -- what is told ----------------------------------------------------------------------------
+    # -- state
+    # ---------------------------------------------------------------------------------------
 
     def whole(self) -> Iterable[ToPage]:
         """All of it."""
@@ -54,13 +55,13 @@ class ProgramProvider:
             yield p.Covered(source=source, lines=lines)
 
     def changes(self) -> Iterable[ToPage]:
-        """What differs from what was told."""
+        """Return the differences to the last sent state."""
         for now in (self._loaded(), self._pointers(), self._debugging(), self._values()):
-            before = self._told.get(type(now))
+            before = self._rejecting.get(type(now))
             if isinstance(now, p.Pointers) and isinstance(before, p.Pointers):
                 before = before.model_copy(update={"time": now.time})
             if now != before:
-                self._told[type(now)] = now
+                self._rejecting[type(now)] = now
                 yield now
         yield from self._lines()
 
@@ -103,12 +104,16 @@ class ProgramProvider:
             breakpoints=tuple(map(_breakpoint, debugger.placed.values())),
             errors=debugger.errors,
             output=tuple(
-                f"{told.time:.3f}  {told.task}  {told.text}" for told in debugger.output[-_LINES:]
+                f"{entry.time:.3f}  {entry.task}  {entry.text}"
+                for entry in debugger.output[-_LINES:]
             ),
         )
 
     def _values(self) -> p.FrameValues:
-        """Values are told while everything stands: they would flicker else, and cost."""
+        """Return values, only while all tasks are stopped.
+
+        Otherwise they would flicker, and evaluation is costly.
+        """
         debugger = self._debugger
         halted = debugger.halt is not None
         frames = debugger.frames(self._task) if halted and self._task in self._tasks else ()
@@ -145,7 +150,8 @@ class ProgramProvider:
                     self._covered[number] = lines
                     yield p.Covered(source=number, lines=lines)
 
-    # -- what is asked ---------------------------------------------------------------------------
+    # -- requests
+    # ------------------------------------------------------------------------------------
 
     def handlers(self) -> Mapping[type, Handler]:
         """Everything that the debugger does."""
@@ -164,7 +170,7 @@ class ProgramProvider:
             p.SetWatch: self._set_watch,
             p.CountLines: self._cover,
         }
-        return {kind: _told(handler) for kind, handler in result.items()}
+        return {kind: _rejecting(handler) for kind, handler in result.items()}
 
     def _source(self, request: Request) -> str:
         assert isinstance(request, p.ReadSource)
@@ -180,8 +186,8 @@ class ProgramProvider:
                 text = module.tree.source.text
                 if self._texts.get(text) == request.number and module.file.origin:
                     result = origin_of(text, module.file.origin)
-                    told = p.SourceOrigin(lines=result.lines, templates=dict(result.templates))
-                    return told.model_dump_json()
+                    entry = p.SourceOrigin(lines=result.lines, templates=dict(result.templates))
+                    return entry.model_dump_json()
         raise RequestRejected("no template made it")
 
     def _break(self, request: Request) -> str:
@@ -201,7 +207,7 @@ class ProgramProvider:
                 return str(request.number)
             placed = self._debugger.add(requested)
         except KeyError as error:
-            raise RequestRejected("that breakpoint has been taken away") from error
+            raise RequestRejected("that breakpoint has been deleted") from error
         except ValueError as error:
             raise RequestRejected(str(error)) from error
         if not placed.line:
@@ -287,8 +293,8 @@ class ProgramProvider:
             raise RequestRejected(f"there is no task {task}")
 
 
-def _told(handler: Callable[[Request], str]) -> Handler:
-    """What the debugger cannot do is not done."""
+def _rejecting(handler: Callable[[Request], str]) -> Handler:
+    """Turn an error of the debugger into RequestRejected."""
 
     def carried_out(request: Request) -> str:
         try:

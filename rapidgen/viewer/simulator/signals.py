@@ -21,7 +21,7 @@ class SignalsProvider:
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._io = runner.controller.io
-        self._told: dict[Signal, float] = {}
+        self._last_sent: dict[Signal, float] = {}
 
     def whole(self) -> Iterable[ToPage]:
         """All of them."""
@@ -29,14 +29,14 @@ class SignalsProvider:
 
     def changes(self) -> Iterable[ToPage]:
         """The values that are new."""
-        text = self._told
+        text = self._last_sent
         new = [s for s in self._io.signals.values() if text.get(s) != s.value]
         if new:
             text.update((signal, signal.value) for signal in new)
             yield SignalValues(values={signal.name: signal.value for signal in new})
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Setting one: inputs are meant, outputs are possible."""
+        """Handlers that set a signal: inputs usually, outputs possible."""
         return {SetSignal: self._set}
 
     def _set(self, request: Request) -> str:

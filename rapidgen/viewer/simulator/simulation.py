@@ -23,11 +23,11 @@ ASPECTS: tuple[Callable[[ControllerRunner], StateProvider], ...] = (
     ProgramProvider,
     TargetsProvider,
 )
-"""What is told of a virtual controller after the scene."""
+"""Providers of a virtual controller's state after the scene."""
 
 
 class Simulation:
-    """What the server watches: `serve_page(Simulation(cabinet))`."""
+    """Subject of the server: `serve_page(Simulation(runner))`."""
 
     def __init__(self, runner: ControllerRunner, look: Appearance = PLAIN) -> None:
         self._runner = runner

@@ -1,4 +1,4 @@
-"""Where the moves of the loaded programs go, for the page to draw."""
+"""Targets of the moves of the loaded programs, for the page."""
 
 from collections.abc import Iterable, Iterator, Mapping
 
@@ -30,7 +30,7 @@ class TargetsProvider:
         yield self._now
 
     def changes(self) -> Iterable[ToPage]:
-        """All of them, where modules have come or gone."""
+        """Return all targets if modules were loaded or unloaded."""
         modules = tuple(self._modules())
         if modules != self._known:
             self._known = modules
@@ -40,7 +40,7 @@ class TargetsProvider:
                 yield result
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Nothing is asked."""
+        """There are no requests."""
         return {}
 
     def _modules(self) -> Iterator[LoadedModule]:

@@ -1,5 +1,8 @@
-"""A trajectory that is dropped on the page: checked as the client does, shown, and executed through
-the simulator's own driver, as from any other client."""
+"""Trajectories dropped on the page: checked, shown and executed.
+
+They are checked as by the client, and executed through the simulator's own driver, as from any
+other client.
+"""
 
 import tempfile
 import threading
@@ -33,9 +36,9 @@ from rapidgen.viewer.trajectory_messages import (
 _AXES = 10
 """Values of a frame."""
 _PLACES = 2000
-"""Of a way that is drawn, about, unless the trajectory has more points."""
+"""Approximate number of drawn points, unless the trajectory has more."""
 _ANY = TrajectoryPolicy(capacity=1_000_000)
-"""How many points a driver holds is said by that driver."""
+"""Capacity of the check; the driver reports its own."""
 
 
 class TrajectoryProvider:
@@ -44,7 +47,7 @@ class TrajectoryProvider:
     def __init__(self, runner: ControllerRunner) -> None:
         self._runner = runner
         self._controller = runner.controller
-        self._shown = self._told = UploadedTrajectory()
+        self._shown = self._last_sent = UploadedTrajectory()
         self._checked: CheckedTrajectory | None = None
 
     def whole(self) -> Iterable[ToPage]:
@@ -53,8 +56,8 @@ class TrajectoryProvider:
 
     def changes(self) -> Iterable[ToPage]:
         """The trajectory, where it or its state is new."""
-        if self._shown is not self._told:
-            self._told = self._shown
+        if self._shown is not self._last_sent:
+            self._last_sent = self._shown
             yield self._shown
 
     def handlers(self) -> Mapping[type, Handler]:
@@ -120,7 +123,7 @@ class TrajectoryProvider:
         group = self._controller.motion.groups[self._shown.group]
         listeners, ports = self._controller.network.listeners, group.config.ports
         if ports.motion not in listeners or ports.state not in listeners:
-            raise RequestRejected("this program is no driver: it takes no trajectories")
+            raise RequestRejected("this program is not a driver: it accepts no trajectories")
         numbers = (ports.motion, ports.state, ports.control)
         known = [str(listeners[port][1]) for port in numbers if port in listeners]
         address = f"{listeners[ports.motion][0]}:{','.join(known)}"
@@ -130,7 +133,10 @@ class TrajectoryProvider:
         return ""
 
     def _execute(self, address: str, trajectory: Trajectory) -> None:
-        """On a thread of its own, as a client: the controller's has to answer meanwhile."""
+        """Execute on a separate thread, as a client.
+
+        The controller's thread has to answer meanwhile.
+        """
         text = ""
         try:
             with Robot(address) as robot:
@@ -155,7 +161,7 @@ class TrajectoryProvider:
 
 
 def _read(request: UploadTrajectory) -> Trajectory:
-    """What the text says. InvalidTrajectory."""
+    """Parse the text. Raises InvalidTrajectory."""
     is_json = request.file.lower().endswith(".json")
     with tempfile.TemporaryDirectory(prefix="rapidgen-view-") as folder:
         path = Path(folder) / ("dropped.json" if is_json else "dropped.csv")
@@ -164,7 +170,7 @@ def _read(request: UploadTrajectory) -> Trajectory:
 
 
 def _between(wire: Array, steps: int) -> Iterator[Posture]:
-    """The points and what is between them: joints go straight from one to the next."""
+    """Return the points and interpolated ones: straight in joint space."""
     places = np.arange((len(wire) - 1) * steps + 1) / steps
     columns = [np.interp(places, np.arange(len(wire)), column) for column in wire.T]
     return (tuple(row) for row in np.array(columns).T.tolist())

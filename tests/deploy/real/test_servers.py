@@ -58,7 +58,7 @@ def test_odd_names_and_contents_come_through(server):
 @pytest.mark.parametrize("server", ALL, indirect=True)
 def test_wrong_login_is_refused_and_says_no_password(server, monkeypatch):
     if server.kind == "vsftpd":
-        url = server.url.replace("anonymous", "somebody")
+        url = server.url.replace("anonymous", "unknown")
     else:
         url = server.url
     monkeypatch.setenv("RAPIDGEN_PASSWORD", "wr0ng-pass")

@@ -20,7 +20,7 @@ from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws.bodies import Generation
 from tests.refusal import refusal
 
-WORD = "nobody-sees-this"
+WORD = "absent-sees-this"
 SEVEN = ("--set", "controller.robotware=7.06", "--set", "controller.type=omnicore")
 
 

@@ -132,5 +132,5 @@ def test_subscriber_receives_dialogs_and_texts(caller):
     (item,) = media.read(event, "application/xhtml+xml").items
     assert (item.text("instr"), item.text("event")) == ("TPReadNum", "ABORT")
     assert caller.send("DELETE", "/subscription/1").status == 200
-    controller.operator.write("T_ROB1", "to nobody")
+    controller.operator.write("T_ROB1", "to no client")
     assert len(events) == 3

@@ -1,5 +1,5 @@
-// Elements made of data. Texts become text nodes, never HTML: names of robots, signals and events are
-// written by anybody.
+// Elements made of data, lists of them, and number fields. Texts become text nodes, never HTML: names of
+// robots, signals and events are untrusted.
 
 type Child = Node | string | null;
 type Properties = Record<string, string | number | boolean | ((event: Event) => void)>;
@@ -20,7 +20,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Set the text of an element, where it differs. */
+/** Set the text of an element if it differs. */
 export function say(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -46,5 +46,84 @@ export class Choice<T extends string> {
 
   show(value: T | null): void {
     for (const [own, button] of this.buttons) button.setAttribute("aria-pressed", String(own === value));
+  }
+}
+
+export interface Row<T> {
+  readonly element: HTMLElement;
+  /** Show changed data; absent: it never changes. */
+  show?(item: T): void;
+}
+
+export class Rows<T> {
+  private shown = new Map<string, Row<T>>();
+
+  /** `key` identifies an item across updates. */
+  constructor(private readonly parent: HTMLElement, private readonly key: (item: T) => string,
+    private readonly make: (item: T) => Row<T>) {}
+
+  show(items: readonly T[]): void {
+    const before = this.shown;
+    this.shown = new Map(items.map((item) => {
+      const key = this.key(item);
+      return [key, before.get(key) ?? this.make(item)];
+    }));
+    for (const [key, row] of before) if (!this.shown.has(key)) row.element.remove();
+    [...this.shown.values()].forEach((row, i) => {
+      const there = this.parent.children[i] ?? null;
+      if (there !== row.element) this.parent.insertBefore(row.element, there);
+    });
+    for (const item of items) this.shown.get(this.key(item))?.show?.(item);
+  }
+}
+
+export interface FieldOptions {
+  readonly label: string;
+  readonly disabled?: boolean;
+  /** Send the typed value; false: it was refused. */
+  commit(value: number): Promise<boolean>;
+  /** Called for the keys up (1) and down (-1); absent: the browser changes the value. */
+  step?(direction: 1 | -1): void;
+}
+
+export class Field {
+  readonly element: HTMLInputElement;
+  private reported = "";
+  private typing = false;
+
+  constructor(options: FieldOptions) {
+    this.element = h("input", {
+      type: "number", step: "any", "aria-label": options.label, disabled: options.disabled === true,
+      oninput: () => { this.typing = true; },
+      onchange: () => void this.send(options),
+      onblur: () => this.restore(),
+      onkeydown: (event) => this.key(event as KeyboardEvent, options),
+    });
+  }
+
+  /** Show the reported value, unless the user is typing. */
+  show(text: string): void {
+    this.reported = text;
+    if (!this.typing) this.element.value = text;
+  }
+
+  private restore(): void {
+    this.typing = false;
+    this.element.value = this.reported;
+  }
+
+  private async send(options: FieldOptions): Promise<void> {
+    this.typing = false;
+    const value = this.element.value.trim() === "" ? NaN : Number(this.element.value);
+    if (!Number.isFinite(value) || !(await options.commit(value))) this.restore();
+  }
+
+  private key(event: KeyboardEvent, { step }: FieldOptions): void {
+    if (event.key === "Escape") return this.restore();
+    const direction = event.key === "ArrowUp" ? 1 : event.key === "ArrowDown" ? -1 : 0;
+    if (!direction || !step) return;
+    event.preventDefault();
+    this.restore();
+    if (!event.repeat) step(direction);
   }
 }

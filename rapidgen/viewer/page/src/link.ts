@@ -1,4 +1,4 @@
-// The connection to the server: messages come, requests go, a lost one is made again.
+// The connection to the server, re-established after a loss.
 
 import type { PageRequest, PageReply, Request, ToPage } from "./messages";
 
@@ -23,29 +23,29 @@ export class Link {
     this.listeners.set(type, [...(this.listeners.get(type) ?? []), listener as (m: never) => void]);
   }
 
-  /** Call a function when the connection comes and goes. */
+  /** Call a function when the connection is opened or lost. */
   watch(watcher: (state: Connection) => void): void {
     this.watchers.push(watcher);
   }
 
-  /** Connect, with the token of the address where there is one. */
+  /** Connect, with the token of the address if there is one. */
   async open(): Promise<void> {
-    this.tell("connecting");
+    this.notify("connecting");
     const token = new URLSearchParams(location.hash.slice(1)).get("token");
     try {
       if (token !== null) {
-        // It has bought its cookie; neither history nor a bookmark needs it.
+        // The token was exchanged for a cookie; history and bookmarks do not need it.
         history.replaceState(null, "", location.pathname);
         await fetch("session", { method: "POST", body: token });
       }
       const admitted = await fetch("session");
-      if (!admitted.ok) return this.tell("refused");
+      if (!admitted.ok) return this.notify("refused");
     } catch {
       return this.again();
     }
     const socket = new WebSocket(`ws://${location.host}/link`);
     this.socket = socket;
-    socket.onopen = () => this.tell("open");
+    socket.onopen = () => this.notify("open");
     socket.onmessage = (event) => {
       for (const message of JSON.parse(event.data as string) as ToPage[]) this.take(message);
     };
@@ -58,11 +58,11 @@ export class Link {
   }
 
   private again(): void {
-    this.tell("lost");
+    this.notify("lost");
     setTimeout(() => void this.open(), AGAIN);
   }
 
-  private tell(state: Connection): void {
+  private notify(state: Connection): void {
     for (const watcher of this.watchers) watcher(state);
   }
 
@@ -76,14 +76,14 @@ export class Link {
     this.pending.delete(reply.id);
   }
 
-  /** Ask for something; the text of the answer. Rejected: it was refused, the message says why. */
+  /** Send a request; resolves to the text of the answer. Rejected with the reason of a refusal. */
   ask(request: Request): Promise<string> {
     const id = ++this.number;
-    const asked: PageRequest = { id, request };
+    const message: PageRequest = { id, request };
     return new Promise((resolve, reject) => {
       if (this.socket?.readyState !== WebSocket.OPEN) return reject(new Error("not connected"));
       this.pending.set(id, (error, text) => (error ? reject(new Error(error)) : resolve(text)));
-      this.socket.send(JSON.stringify(asked));
+      this.socket.send(JSON.stringify(message));
     });
   }
 }

@@ -1,15 +1,27 @@
-// The page: a bar of state above, the robots at the left, the panels at the right.
+// The page: status bar at the top, scene at the left, panels at the right.
 
 import "./page.css";
 import { h, say } from "./dom";
 import { Link, type Connection } from "./link";
 import type { JogTo, Positions, PanelState } from "./messages";
-import type { View } from "./panel";
-import { PANELS } from "./panels";
+import type { View, MakePanel } from "./panel";
+import { axesPanel } from "./panels/axes";
+import { connectionsPanel } from "./panels/connections";
+import { logPanel } from "./panels/log";
+import { pendantPanel } from "./panels/pendant";
+import { programPanel } from "./panels/program";
+import { recordingPanel } from "./panels/recording";
+import { signalsPanel } from "./panels/signals";
+import { trajectoryPanel } from "./panels/trajectory";
 import type { GripMode } from "./stage/grip";
 import { Stage, type ViewName } from "./stage/stage";
 import { isDark } from "./stage/palette";
 import { Tabs } from "./tabs";
+
+/** Panels in the order of their tabs. */
+const PANELS: readonly MakePanel[] = [
+  pendantPanel, recordingPanel, programPanel, axesPanel, signalsPanel, logPanel, trajectoryPanel, connectionsPanel,
+];
 
 const LOST: Record<Connection, string> = {
   connecting: "", open: "",
@@ -89,7 +101,7 @@ function showTime(time: number): void {
 
 const space = h("main", {});
 
-/** Buttons that put a handle on a TCP, of one robot after the other. */
+/** Buttons that put a handle on the TCP of one robot after another. */
 function grips(stage: Stage): HTMLElement[] {
   let held: [string, GripMode] | null = null;
   const buttons = (["translate", "rotate"] as const).map((mode) => {
@@ -109,12 +121,12 @@ function grips(stage: Stage): HTMLElement[] {
   });
   let why = "";
   stage.onwanted = async (robot, position, orientation) => {
-    const asked: JogTo = { do: "jog-to", group: robot.group.name, position, orientation };
+    const order: JogTo = { do: "jog-to", group: robot.group.name, position, orientation };
     try {
-      await link.ask(asked);
+      await link.ask(order);
       why = "";
     } catch (fault) {
-      // While it is dragged the same reason comes again and again.
+      // While it is dragged the same refusal repeats.
       if (why !== (fault as Error).message) view.notice(why = (fault as Error).message, "fault");
     }
   };
@@ -134,13 +146,13 @@ if (stage) {
     } }, name[0]?.toUpperCase() + name.slice(1));
     return button;
   });
-  const amiss = h("details", { class: "amiss", hidden: true });
+  const faults = h("details", { class: "faults", hidden: true });
   stage.onfault = () => {
     const list = stage.faults.map((why) => h("li", {}, why));
-    amiss.hidden = !list.length;
-    amiss.replaceChildren(h("summary", {}, `Not drawn as described: ${list.length}`), h("ul", {}, ...list));
+    faults.hidden = !list.length;
+    faults.replaceChildren(h("summary", {}, `Not drawn as described: ${list.length}`), h("ul", {}, ...list));
   };
-  space.append(stage.element, amiss, h("div", { class: "views", role: "group", "aria-label": "View" },
+  space.append(stage.element, faults, h("div", { class: "views", role: "group", "aria-label": "View" },
     ...views, gap(), ...layers, gap(), trail, gap(), ...grips(stage)), stage.labels.element);
   new ResizeObserver(() => stage.resize(space.clientWidth, space.clientHeight)).observe(space);
 } else {
@@ -190,7 +202,7 @@ link.watch((connection) => {
 addEventListener("hashchange", () => location.reload());
 void link.open();
 
-// For tests, and for whoever is curious in the browser's console.
+// For tests and the browser's console.
 Object.assign(window, {
   rapidgen: { link, stage, state: () => state, panels: Object.fromEntries(panels.map((panel) => [panel.id, panel])) },
 });

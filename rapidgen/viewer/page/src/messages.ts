@@ -6,7 +6,7 @@ export interface AllSignals {
   readonly signals: readonly ShownSignal[];
 }
 
-/** What the operator chose or typed. */
+/** The operator's choice or input. */
 export interface AnswerQuestion {
   readonly do: "answer";
   readonly number: number;
@@ -20,7 +20,7 @@ export interface Assign {
   readonly value: string;
 }
 
-/** A joint and the controller axis that it drives; limits and speed are the axis' (rad, m). */
+/** A joint and its controller axis. Limits and speed are the axis' (rad, m). */
 export interface Axis {
   readonly name: string;
   readonly axis: string;
@@ -36,7 +36,7 @@ export interface Connections {
   readonly sockets: readonly ShownSocket[];
 }
 
-/** What sockets said, oldest first; only while somebody listens. */
+/** Data of sockets, oldest first; only while a viewer listens. */
 export interface Conversation {
   readonly type: "conversation";
   readonly listening: boolean;
@@ -45,7 +45,7 @@ export interface Conversation {
   readonly fresh: boolean;
 }
 
-/** Where a robot is, as text for a program; it is the reply's. */
+/** Position of a robot as text for a program, in the reply. */
 export interface Copy {
   readonly do: "copy";
   readonly group: string;
@@ -58,7 +58,7 @@ export interface CountLines {
   readonly on: boolean;
 }
 
-/** How often the lines of a text were reached; only where a statement begins. */
+/** Number of executions of the lines of a text that begin a statement. */
 export interface Covered {
   readonly type: "covered";
   readonly source: number;
@@ -102,7 +102,7 @@ export interface Evaluate {
   readonly expression: string;
 }
 
-/** What the routine that is looked at holds, and the watch list. */
+/** Values of the selected routine, and the watch list. */
 export interface FrameValues {
   readonly type: "held";
   readonly task: string;
@@ -118,7 +118,7 @@ export interface InjectFault {
   readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
 }
 
-/** Put a standing robot elsewhere: controller axes in wire order; None: where it is. `relative`: by so much from where it is when the request is carried out. */
+/** Move a robot at rest by its axes in wire order; None: unchanged. `relative`: by so much from its position when the request is executed. */
 export interface Jog {
   readonly do: "jog";
   readonly group: string;
@@ -126,7 +126,7 @@ export interface Jog {
   readonly axes: readonly (number | null)[];
 }
 
-/** Put a standing robot where its TCP is at a place (of its world), on the same branch. None: as it is. */
+/** Move a robot at rest to a TCP pose in its world, on the same branch. None: unchanged. */
 export interface JogTo {
   readonly do: "jog-to";
   readonly group: string;
@@ -134,7 +134,7 @@ export interface JogTo {
   readonly orientation: readonly [number, number, number, number] | null;
 }
 
-/** Tell what sockets say from now on, or no more. */
+/** Start or stop sending the data of sockets. */
 export interface Listen {
   readonly do: "listen";
   readonly on: boolean;
@@ -146,7 +146,7 @@ export interface LoadedModules {
   readonly modules: Readonly<Record<string, number>>;
 }
 
-/** What is loaded; texts are asked for (ReadSource). */
+/** Loaded programs; their texts are requested by ReadSource. */
 export interface LoadedPrograms {
   readonly type: "loaded";
   readonly tasks: readonly LoadedModules[];
@@ -184,7 +184,7 @@ export interface PageRequest {
   readonly request: PendantAction | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | ResetConnection | InjectFault | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | DebugCommand | RunTo | RunFor | StopOnErrors | SelectFrame | Evaluate | Assign | SetWatch | CountLines | Seek | Play | ReadCurves | UploadTrajectory | RunTrajectory | RemoveTrajectory;
 }
 
-/** What the pendant's status bar says. */
+/** State of the pendant's status bar. */
 export interface PanelState {
   readonly type: "panel";
   readonly time: number;
@@ -200,7 +200,7 @@ export interface PanelState {
   readonly pace: number | null;
 }
 
-/** A button of the pendant, or something that goes wrong. */
+/** A button of the pendant, or an injected fault. */
 export interface PendantAction {
   readonly do: "act";
   readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
@@ -212,7 +212,7 @@ export interface Play {
   readonly rate: number;
 }
 
-/** Where a recording is looked at; times in s. `rate` 0: it stands. */
+/** State of the playback; times in s. `rate` 0: paused. */
 export interface Playback {
   readonly type: "playback";
   readonly begin: number;
@@ -235,7 +235,7 @@ export interface Pose {
   readonly orientation: readonly [number, number, number, number];
 }
 
-/** Positions. Sent while something moves, and once when it stands. */
+/** Positions, sent during a motion and once at rest. */
 export interface Positions {
   readonly type: "positions";
   readonly time: number;
@@ -280,7 +280,7 @@ export interface ResetConnection {
   readonly number: number;
 }
 
-/** Where a robot is. `joints` and `commanded` are URDF values, `axes` the controller's. */
+/** Position of a robot. `joints` and `commanded` are URDF values, `axes` the controller's. */
 export interface RobotPlace {
   readonly joints: readonly number[];
   readonly commanded: readonly number[];
@@ -311,7 +311,7 @@ export interface RunTrajectory {
   readonly do: "run";
 }
 
-/** The first message of a connection, and of a controller that has restarted. */
+/** The first message of a connection, and after a restart. */
 export interface Scene {
   readonly type: "scene";
   readonly title: string;
@@ -334,7 +334,7 @@ export interface Seek {
   readonly time: number;
 }
 
-/** A breakpoint, and in which line it lies (0: nowhere, `doubt` says why). */
+/** A breakpoint and its line. 0: no line, `doubt` says why. */
 export interface SeenBreakpoint {
   readonly number: number;
   readonly task: string;
@@ -347,7 +347,7 @@ export interface SeenBreakpoint {
   readonly doubt: string;
 }
 
-/** Why everything is paused. */
+/** Reason why all tasks are paused. */
 export interface SeenHalt {
   readonly reason: "breakpoint" | "step" | "cursor" | "error" | "pause" | "time";
   readonly task: string;
@@ -356,7 +356,7 @@ export interface SeenHalt {
   readonly time: number;
 }
 
-/** Where in a program. `made` is the template's line of a generated one. */
+/** Position in a program. `made` is the template's line of a generated one. */
 export interface SeenPlace {
   readonly module: string;
   readonly routine: string;
@@ -365,7 +365,7 @@ export interface SeenPlace {
   readonly level: "program" | "trap" | "event";
 }
 
-/** A robot. `urdf` is its description; its meshes are names on this server, empty for one that is not to be had. */
+/** A robot. `urdf` is its description. Meshes are names on this server, empty for missing ones. */
 export interface SeenRobot {
   readonly name: string;
   readonly task: string;
@@ -378,7 +378,7 @@ export interface SeenRobot {
   readonly base: Pose;
 }
 
-/** Where a move of a program goes: the TCP, in the world. */
+/** Target of a move of a program: the TCP, in the world. */
 export interface SeenTarget {
   readonly group: string;
   readonly name: string;
@@ -395,7 +395,7 @@ export interface SeenThing {
   readonly pose: Pose;
 }
 
-/** A value in RAPID's own words. */
+/** A value in RAPID's spelling. */
 export interface SeenValue {
   readonly name: string;
   readonly kind: string;
@@ -403,14 +403,14 @@ export interface SeenValue {
   readonly settable: boolean;
 }
 
-/** Show the values of a routine of a call stack from now on; -1: the innermost. */
+/** Show values of a routine of a call stack; -1: the innermost. */
 export interface SelectFrame {
   readonly do: "look";
   readonly task: string;
   readonly level: number;
 }
 
-/** A new one, or another wish for one that is there; the reply's text is its number. */
+/** Set a new breakpoint, or change one; the reply's text is its number. */
 export interface SetBreakpoint {
   readonly do: "break";
   readonly number: number;
@@ -434,13 +434,13 @@ export interface SetOverride {
   readonly value: number;
 }
 
-/** Simulated seconds in a second. That it stands is the debugger's business (Proceed). */
+/** Simulated seconds in a second. The debugger stops the time (Proceed). */
 export interface SetPace {
   readonly do: "pace";
   readonly value: number;
 }
 
-/** Give a signal a value. */
+/** Set a signal. */
 export interface SetSignal {
   readonly do: "signal";
   readonly name: string;
@@ -453,7 +453,7 @@ export interface SetWatch {
   readonly expressions: readonly string[];
 }
 
-/** A signal; `largest` is None where nothing bounds it. */
+/** A signal; `largest` is None if it has no maximum. */
 export interface ShownSignal {
   readonly name: string;
   readonly kind: "DI" | "DO" | "GI" | "GO" | "AI" | "AO";
@@ -462,7 +462,7 @@ export interface ShownSignal {
   readonly largest: number | null;
 }
 
-/** A socket of a task. Addresses are empty where there is none. */
+/** A socket of a task. Addresses are empty if there are none. */
 export interface ShownSocket {
   readonly number: number;
   readonly task: string;
@@ -478,7 +478,7 @@ export interface SignalValues {
   readonly values: Readonly<Record<string, number>>;
 }
 
-/** A frame of simple_message, or bytes that are none; `way` is seen from the program. */
+/** A frame of simple_message, or other bytes. `way` is seen from the program. */
 export interface SocketLogLine {
   readonly time: number;
   readonly way: "open" | "in" | "out" | "close";
@@ -490,7 +490,7 @@ export interface SocketLogLine {
   readonly fault: boolean;
 }
 
-/** The answer to ReadOrigin: each line that a template made, the template and its line. */
+/** Answer to ReadOrigin: template and line of each generated line. */
 export interface SourceOrigin {
   readonly lines: readonly (readonly [number, string, number])[];
   readonly templates: Readonly<Record<string, string>>;
@@ -502,13 +502,13 @@ export interface StopOnErrors {
   readonly errors: "never" | "unhandled" | "all";
 }
 
-/** What the moves of the loaded programs go to. */
+/** Targets of the moves of the loaded programs. */
 export interface Targets {
   readonly type: "targets";
   readonly targets: readonly SeenTarget[];
 }
 
-/** A task: what it executes, outermost routine first, and what its robot executes. */
+/** A task: its call stack, outermost first, and its robot's move. */
 export interface TaskPosition {
   readonly name: string;
   readonly state: string;
@@ -516,7 +516,7 @@ export interface TaskPosition {
   readonly motion: SeenPlace | null;
 }
 
-/** What is wrong or doubtful; `point` counts from 0, None: it is of no point. */
+/** An error or warning. `point` counts from 0, None: no single point. */
 export interface TrajectoryFinding {
   readonly code: string;
   readonly severity: string;
@@ -526,7 +526,7 @@ export interface TrajectoryFinding {
   readonly point: number | null;
 }
 
-/** Check a file's text for a robot; nothing moves. */
+/** Check a file's text for a robot; the robot does not move. */
 export interface UploadTrajectory {
   readonly do: "drop";
   readonly group: string;
@@ -534,7 +534,7 @@ export interface UploadTrajectory {
   readonly text: string;
 }
 
-/** A trajectory as it was checked; the file's name is empty when there is none. */
+/** A checked trajectory; the file's name is empty without a file. */
 export interface UploadedTrajectory {
   readonly type: "trajectory";
   readonly group: string;

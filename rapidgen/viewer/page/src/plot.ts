@@ -1,4 +1,4 @@
-// Curves over time, by themselves in a page: synced, zoomed by dragging, each switched off by its name.
+// Self-contained page of curves over time: synced, zoomed by dragging, switched by name.
 //
 // The page has a <script type="application/json" id="plot-data"> with PlotData and an element #plots.
 
@@ -10,7 +10,7 @@ export interface Curve {
   name: string;
   /** One value for each time; null is a gap. */
   values: (number | null)[];
-  /** A CSS colour; without it one of a row. */
+  /** A CSS colour; by default the next of a list. */
   color?: string;
   dashed?: boolean;
 }
@@ -29,7 +29,7 @@ export interface PlotData {
 
 const COLOURS = ["#2f6fd0", "#d9662b", "#3a9a50", "#a04bb8", "#c9a227", "#3aa6a6", "#d0402c", "#6b7680"];
 
-/** Draw charts below one another; their cursors and their zoom are one. */
+/** Draw charts below one another with a common cursor and zoom. */
 export function draw(data: PlotData, into: HTMLElement): uPlot[] {
   const sync = uPlot.sync(`charts-${Math.random()}`);
   const charts: uPlot[] = [];

@@ -1,4 +1,4 @@
-// Panels behind tabs, by mouse and by keyboard (arrow keys, as the ARIA pattern has them).
+// Tabs of panels, by mouse and by keyboard (arrow keys, as in the ARIA pattern).
 
 import { h } from "./dom";
 import type { Scene } from "./messages";
@@ -13,7 +13,7 @@ export class Tabs {
     this.buttons = panels.map((panel) =>
       h("button", {
         type: "button", role: "tab", id: `tab-${panel.id}`, "aria-controls": `panel-${panel.id}`,
-        // None before it is known which fit: they would move under the mouse.
+        // None before the fitting ones are known: they would move under the mouse.
         hidden: true, onclick: () => this.show(panel),
       }, panel.title));
     const list = h("div", { role: "tablist", "aria-label": "Panels", onkeydown: (event) => this.key(event) },
@@ -29,7 +29,7 @@ export class Tabs {
     if (first) this.show(first);
   }
 
-  /** Offer the panels of what is viewed. */
+  /** Show the tabs of the subject's panels. */
   fit(kind: Scene["kind"]): void {
     const fitting = this.panels.filter((panel) => panel.kinds?.includes(kind) ?? true);
     this.panels.forEach((panel, i) => {

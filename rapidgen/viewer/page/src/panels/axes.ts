@@ -1,10 +1,9 @@
-// The axes of each robot: where they are between their limits; in a simulation they are jogged here.
+// Axes of each robot within their limits; jogging in a simulation.
 
-import { Choice, h, say } from "../dom";
-import { Field } from "../field";
+import { Choice, h, say, Field } from "../dom";
 import type { Axis, Copy, Jog, JogTo, SeenRobot, RobotPlace } from "../messages";
 import type { MakePanel, View } from "../panel";
-import { nearness } from "../stage/nearness";
+import { nearness } from "../stage/palette";
 
 const FORMS: readonly (readonly [Copy["form"], string])[] =
   [["jointtarget", "jointtarget"], ["robtarget", "robtarget"], ["python", "Python"]];
@@ -66,7 +65,7 @@ class RobotAxes {
     }
   }
 
-  // What is not asked for stays as it is when the order arrives, which is not known here yet.
+  // An axis without a value keeps its position at the arrival of the order, which is unknown here.
 
   private jogTo(index: number, value: number): Promise<boolean> {
     const at = (i: number): number | null => (i === index ? value : null);
@@ -77,7 +76,7 @@ class RobotAxes {
     return this.order({ do: "jog", group: this.group.name, relative, axes: this.rows.map((_, i) => (i === index ? value : null)) });
   }
 
-  /** Send; after a refusal every control shows the robot again. */
+  /** Send an order; after a refusal every control shows the robot's position again. */
   private async order(request: Jog | JogTo): Promise<boolean> {
     const done = await this.view.order(request);
     if (!done) this.show(this.state);
@@ -112,7 +111,7 @@ class AxisRow {
       "aria-label": `${axis.name}, ${axis.axis}`,
       oninput: () => void jog(Number(this.slider.value), false),
       onkeydown: (event) => {
-        // A slider's own keys move it from where it is drawn, which is not always where the robot is.
+        // A slider's own keys start from its drawn position, which may differ from the robot's.
         const { key, repeat } = event as KeyboardEvent;
         if (!(key in FORWARD) && !FAR.includes(key)) return;
         event.preventDefault();

@@ -1,10 +1,8 @@
-// The network: who is connected, what is said, and what goes wrong at a click.
+// The network: connections, their data, and faults at a click.
 
-import { Asked } from "../asked";
-import { h, say, section } from "../dom";
+import { RequestState, type MakePanel, type View } from "../panel";
+import { h, say, section, Rows, type Row } from "../dom";
 import type { PendantAction, InjectFault, ShownSocket, SocketLogLine } from "../messages";
-import type { MakePanel, View } from "../panel";
-import { Rows, type Row } from "../rows";
 
 const FAULTS: readonly (readonly [PendantAction["action"], string])[] =
   [["e-stop", "Emergency stop"], ["motors-off", "Motors off"], ["stop", "Program stop"], ["power-loss", "Power failure"]];
@@ -35,13 +33,13 @@ function row(socket: ShownSocket, view: View): Row<ShownSocket> {
   const ill: HTMLSelectElement = h("select", { "aria-label": `How ${socket.peer} fares`, onchange: () =>
     void fares.ask({ do: "afflict", number: socket.number, ailment: ill.value as InjectFault["ailment"] }) },
     ...AILMENTS.map(([value, text]) => h("option", { value }, text)));
-  const fares = new Asked<InjectFault["ailment"]>(view, (ailment) => { ill.value = ailment; });
+  const fares = new RequestState<InjectFault["ailment"]>(view, (ailment) => { ill.value = ailment; });
   const element = h("tr", {},
     h("th", { scope: "row" }, socket.peer || `${socket.status} on ${socket.local}`,
       h("small", {}, `${socket.task}${socket.peer ? ` · ${socket.local}` : ""}`)),
     h("td", {}, socket.peer ? h("div", { class: "row commands" }, ill,
       h("button", { type: "button", onclick: () => view.order({ do: "cut", number: socket.number }) }, "Cut")) : null));
-  return { element, show: (now) => fares.tell(now.ailment) };
+  return { element, show: (now) => fares.report(now.ailment) };
 }
 
 interface Said {
@@ -54,22 +52,22 @@ class ProtocolLog {
   private lines: SocketLogLine[] = [];
   private missed = 0;
   private readonly listen: HTMLInputElement;
-  private readonly words = h("input", { type: "search", placeholder: "Filter", "aria-label": "Filter what was said",
+  private readonly words = h("input", { type: "search", placeholder: "Filter", "aria-label": "Filter the data",
     oninput: () => this.draw() });
   private readonly still = h("input", { type: "checkbox" });
-  private readonly list = h("ol", { class: "log said", "aria-label": "Protocol log", tabindex: 0 });
+  private readonly list = h("ol", { class: "log data", "aria-label": "Protocol log", tabindex: 0 });
   private readonly about = h("p", { class: "soft", role: "status" });
 
   constructor(view: View) {
     this.listen = h("input", { type: "checkbox", onchange: () => void listens.ask({ do: "listen", on: this.listen.checked }) });
-    const listens = new Asked<boolean>(view, (on) => { this.listen.checked = on; });
-    this.element = section("What is said",
+    const listens = new RequestState<boolean>(view, (on) => { this.listen.checked = on; });
+    this.element = section("Data",
       h("div", { class: "row" }, h("label", { class: "row" }, this.listen, "Listen"),
         h("label", { class: "row" }, this.still, "Hold the list"), this.words,
         h("button", { type: "button", onclick: () => this.clear() }, "Clear")),
       this.about, this.list);
     view.link.on("conversation", ({ listening, lines, missed, fresh }) => {
-      listens.tell(listening);
+      listens.report(listening);
       this.lines = [...(fresh ? [] : this.lines), ...lines].slice(-MOST);
       this.missed = fresh ? 0 : this.missed + (missed ?? 0);
       if (!this.still.checked) this.draw();
@@ -82,7 +80,7 @@ class ProtocolLog {
     this.draw();
   }
 
-  /** The latest first; what comes again and again is one row. */
+  /** The latest first; repeated lines are one row. */
   private draw(): void {
     const wanted = this.words.value.trim().toLowerCase();
     const rows: Said[] = [];

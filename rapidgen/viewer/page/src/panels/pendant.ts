@@ -1,10 +1,8 @@
-// What a pendant has: key, motors, stop and start, speed, the operator window with its dialogs.
+// The pendant: key, motors, stop and start, speed, the operator window with its dialogs.
 
-import { Asked } from "../asked";
-import { Choice, h, say, section } from "../dom";
+import { RequestState, type MakePanel } from "../panel";
+import { Choice, h, say, section, Rows } from "../dom";
 import type { PendantAction, Dialog, PanelState } from "../messages";
-import type { MakePanel } from "../panel";
-import { Rows } from "../rows";
 
 const STEPS = [[0.004, "4 ms"], [0.024, "24 ms"], [0.1, "0.1 s"], [1, "1 s"]] as const;
 const PACES = [0.1, 0.25, 0.5, 1, 2, 5, 10, 50, 100];
@@ -29,7 +27,7 @@ export const pendantPanel: MakePanel = (view) => {
   const speed = h("input", { type: "range", min: 0, max: 100, step: 1, id: "speed" });
   const speedText = h("output", { for: "speed" });
   let sliding = false;
-  const speeds = new Asked<number>(view, (now) => {
+  const speeds = new RequestState<number>(view, (now) => {
     if (sliding) return;
     speed.value = String(Math.round(now * 100));
     say(speedText, `${speed.value} %`);
@@ -43,7 +41,7 @@ export const pendantPanel: MakePanel = (view) => {
     say(speedText, `${speed.value} %`);
   });
 
-  // One way of standing still: the debugger's. The robot stands in the middle of its move, nothing stops.
+  // Pausing uses the debugger: the robot rests in the middle of its move, and no program stop occurs.
   let held = false;
   const pause = h("button", { type: "button",
     onclick: () => order({ do: "drive", how: held ? "resume" : "pause", task: "" }) }, "Pause");
@@ -58,7 +56,7 @@ export const pendantPanel: MakePanel = (view) => {
   });
   const pace = h("select", { id: "pace", "aria-label": "Pace of time" },
     ...PACES.map((value) => h("option", { value, selected: value === 1 }, `${value} ×`)));
-  const paces = new Asked<number>(view, (now) => {
+  const paces = new RequestState<number>(view, (now) => {
     pace.value = String(PACES.find((value) => value >= now) ?? 100);
   });
   pace.addEventListener("change", () => void paces.ask({ do: "pace", value: Number(pace.value) }));
@@ -76,8 +74,8 @@ export const pendantPanel: MakePanel = (view) => {
     say(stop, now.e_stop ? "Reset emergency stop" : "Emergency stop");
     mode.show(now.mode);
     motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
-    speeds.tell(now.override ?? 1);
-    if (now.pace) paces.tell(now.pace);
+    speeds.report(now.override ?? 1);
+    if (now.pace) paces.report(now.pace);
     tasks.replaceChildren(...Object.entries(now.tasks).map(([name, word]) =>
       h("tr", {}, h("th", { scope: "row" }, name), h("td", { "data-state": word }, word))));
   });

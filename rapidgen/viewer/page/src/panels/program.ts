@@ -1,20 +1,66 @@
 // Programs: their sources with pointers and breakpoints, steps, call stack, values.
 
-import { Asked } from "../asked";
-import { h, say, section } from "../dom";
-import type { Debugging, DebugCommand, Pointers, SeenPlace, SeenValue } from "../messages";
-import type { MakePanel, View } from "../panel";
+import { RequestState, type View, type MakePanel } from "../panel";
+import { h, say, section, Rows, type Row } from "../dom";
+import type { SeenBreakpoint, Debugging, DebugCommand, Pointers, SeenPlace, SeenValue } from "../messages";
 import { SourceEditor } from "../program/editor";
-import { Origins } from "../program/origin";
-import { Points } from "../program/points";
-import { Sources } from "../program/sources";
+import { Origins, Sources } from "../program/sources";
+
+export class Points {
+  readonly element = h("ul", { class: "points" });
+  private readonly rows: Rows<SeenBreakpoint>;
+
+  constructor(view: View) {
+    this.rows = new Rows(this.element, (point) => `${point.number} ${point.module} ${point.line}`,
+      (point) => new PointRow(point, view));
+  }
+
+  show(points: readonly SeenBreakpoint[]): void {
+    this.rows.show(points);
+  }
+}
+
+class PointRow implements Row<SeenBreakpoint> {
+  readonly element: HTMLElement;
+  private readonly count = h("small", { class: "soft" });
+  private readonly doubt = h("p", { class: "soft" });
+  private readonly fields: Record<"condition" | "hits" | "log", HTMLInputElement>;
+  private readonly wishes: RequestState<SeenBreakpoint>;
+
+  constructor({ number, task, module, line }: SeenBreakpoint, view: View) {
+    // All fields are sent: the last input may not have been reported back yet.
+    const change = (): void => void this.wishes.ask({ do: "break", number, task, module, line,
+      condition: this.fields.condition.value, hits: this.fields.hits.value, log: this.fields.log.value });
+    const field = (hint: string): HTMLInputElement =>
+      h("input", { type: "text", placeholder: hint, "aria-label": `${hint} of line ${line}`, onchange: change });
+    this.wishes = new RequestState(view, (point, refused) => this.write(point, refused));
+    this.fields = { condition: field("Condition"), hits: field("Pass"), log: field("Log, do not pause") };
+    this.element = h("li", {},
+      h("div", { class: "row" }, h("b", {}, `${module}, line ${line}`), this.count, h("span", { class: "space" }),
+        h("button", { type: "button", class: "quiet", "aria-label": `Remove the breakpoint of line ${line}`,
+          onclick: () => view.order({ do: "unbreak", number }) }, "×")),
+      h("div", { class: "row" }, ...Object.values(this.fields)), this.doubt);
+  }
+
+  show(point: SeenBreakpoint): void {
+    say(this.count, `reached ${point.count} ×`);
+    say(this.doubt, point.doubt);
+    this.doubt.hidden = !point.doubt;
+    this.wishes.report(point);
+  }
+
+  private write(point: SeenBreakpoint, refused: boolean): void {
+    for (const [name, input] of Object.entries(this.fields) as [keyof PointRow["fields"], HTMLInputElement][])
+      if (refused || document.activeElement !== input) input.value = point[name];
+  }
+}
 
 const REASONS = { breakpoint: "At a breakpoint", step: "Stepped", cursor: "At the cursor", error: "Error", pause: "Paused", time: "Paused after a time step" };
 const KEYS: Record<string, DebugCommand["how"]> = { F5: "resume", F6: "pause", F10: "over", F11: "in" };
 
 export const programPanel: MakePanel = (view) => new ProgramPanel(view);
 
-/** What a recording has not. */
+/** Parts that a recording does not have. */
 function live(element: HTMLElement): HTMLElement {
   element.classList.add("live");
   return element;
@@ -62,7 +108,7 @@ class ProgramPanel {
     onchange: () => void this.view.order({ do: "cover", on: this.counts.checked }).then((done) => {
       if (!done) this.counts.checked = !this.counts.checked;
     }) });
-  private readonly pauses: Asked<Debugging["errors"]>;
+  private readonly pauses: RequestState<Debugging["errors"]>;
   private readonly halt = h("p", { class: "halt", role: "status", hidden: true });
   private readonly stack = h("ol", { class: "stack" });
   private readonly variables = h("table", { class: "values" });
@@ -72,7 +118,7 @@ class ProgramPanel {
 
   constructor(private readonly view: View) {
     const { link } = view;
-    this.pauses = new Asked(view, (errors) => { this.errors.value = errors; });
+    this.pauses = new RequestState(view, (errors) => { this.errors.value = errors; });
     this.points = new Points(view);
     this.sources = new Sources(link);
     this.origins = new Origins(link, this.sources, {
@@ -105,7 +151,7 @@ class ProgramPanel {
       live(section("Log points", this.output)),
       live(h("p", { class: "soft" }, "Everything pauses, time and robots included. A step does not enter traps, event routines and " +
         "modules with NOSTEPIN: a breakpoint in one is noticed.")));
-    // Wherever the focus is: a value that is shown anew takes it away.
+    // For any focus: an updated value removes it.
     document.addEventListener("keydown", (event) => {
       if (this.visible) this.key(event);
     });
@@ -144,7 +190,7 @@ class ProgramPanel {
     if (visible) this.point(true);
   }
 
-  /** For tests: what the editor shows. */
+  /** For tests: the content of the editor. */
   get seen(): SourceEditor["seen"] & { module: string; halted: number | null } {
     return { ...this.editor.seen, module: this.module, halted: this.debugging?.halt?.time ?? null };
   }
@@ -169,7 +215,7 @@ class ProgramPanel {
     void this.open(names.includes(this.module) ? this.module : names[0] ?? "", true).then(() => this.point(true));
   }
 
-  /** Read a module; resolves when its text is there. */
+  /** Show a module; resolves when its text is loaded. */
   private open(module: string, again = false): Promise<void> {
     if (module && (module !== this.module || this.template || again)) this.opening = this.opened(module);
     return this.opening;
@@ -190,7 +236,7 @@ class ProgramPanel {
     this.tellOrigin(this.editor.line);
   }
 
-  /** Read a module, or a template of the one that is read, from a line on. */
+  /** Show a module, or the template of the shown one, at a line. */
   private async read(name: string, line: number): Promise<void> {
     this.follow.checked = false;
     const text = (await this.origins.of(this.task, this.module))?.templates[name];
@@ -217,14 +263,14 @@ class ProgramPanel {
     return this.debugging?.halt && this.level >= 0 ? stack[this.level] : stack.at(-1);
   }
 
-  /** Go where the program is; `jump`: what is read now may be elsewhere although the pointer has not moved. */
+  /** Show the program pointer; `jump`: also if another place is shown and the pointer has not moved. */
   private point(jump = false): void {
     if (!this.visible) return;
     const place = this.place;
     if (place && this.follow.checked) {
       const go = jump || this.template !== "" || place.module !== this.module || this.debugging?.halt;
       void this.open(place.module).then(() => {
-        // It has gone on, or something else is read, by the time that the text has come.
+        // The program has continued, or another source is shown, by the time the text has arrived.
         const now = this.place;
         if (now?.module === this.module && !this.template && (go || this.editor.seen.program !== now.line)) this.editor.go(now.line);
         this.mark();
@@ -275,7 +321,7 @@ class ProgramPanel {
       say(this.halt, [REASONS[halt.reason], place, halt.text, halt.place?.made].filter(Boolean).join(" · "));
       if (halt.task && halt.task !== this.task && halt !== before?.halt) this.choose(halt.task);
     }
-    this.pauses.tell(debugging.errors);
+    this.pauses.report(debugging.errors);
     this.points.show(debugging.breakpoints);
     say(this.output, debugging.output.join("\n"));
     this.point();

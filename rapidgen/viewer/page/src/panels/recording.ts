@@ -1,4 +1,4 @@
-// A recording: scrubbed to any moment, played, with curves that share its cursor.
+// A recording: scrubbing, playback, and curves with the same cursor.
 
 import type uPlot from "uplot";
 import { h, say, section } from "../dom";
@@ -17,7 +17,7 @@ class RecordingPanel {
   readonly element: HTMLElement;
   private playback: Playback | null = null;
   private wanted: number | null = null;
-  private asked = false;
+  private waiting = false;
   private opened = false;
   private visible = false;
   private drawn = false;
@@ -77,7 +77,7 @@ class RecordingPanel {
     if (visible && !this.drawn) void this.plot();
   }
 
-  /** `whole`: also the field that has the focus. */
+  /** `whole`: including the field with the focus. */
   private show(playback: Playback, whole = false): void {
     this.playback = playback;
     for (const input of [this.slider, this.moment]) {
@@ -94,16 +94,16 @@ class RecordingPanel {
     this.cursor();
   }
 
-  /** Go to a moment; while one is asked for only the latest other one is remembered. */
+  /** Go to a moment; during a request only the latest other one is remembered. */
   private seek(time: number): void {
     this.wanted = time;
-    if (this.asked) return;
-    this.asked = true;
+    if (this.waiting) return;
+    this.waiting = true;
     void this.view.link.ask({ do: "seek", time }).then(() => true, (why: Error) => {
       this.view.notice(why.message, "fault");
       return false;
     }).then((done) => {
-      this.asked = false;
+      this.waiting = false;
       const next = this.wanted;
       this.wanted = null;
       if (next !== null && next !== time) this.seek(next);
@@ -122,9 +122,9 @@ class RecordingPanel {
     const [kind, name = ""] = this.what.value.split(/ (.*)/);
     const half = Number(this.span.value) / 2;
     const [begin, end] = half ? [playback.time - half, playback.time + half] : [playback.begin, playback.end];
-    const asked = { robot: kind === "robot" ? name : "", signal: kind === "signal" ? name : "", begin, end };
+    const curves = { robot: kind === "robot" ? name : "", signal: kind === "signal" ? name : "", begin, end };
     try {
-      this.data = JSON.parse(await this.view.link.ask({ do: "curves", ...asked })) as PlotData;
+      this.data = JSON.parse(await this.view.link.ask({ do: "curves", ...curves })) as PlotData;
     } catch (why) {
       return this.view.notice((why as Error).message, "fault");
     }
@@ -132,12 +132,12 @@ class RecordingPanel {
     this.charts = draw(this.data, this.curves);
     for (const chart of this.charts)
       chart.over.addEventListener("click", (event) => this.seek(chart.posToVal(event.offsetX, "x")));
-    // Charts know their scales when they have been drawn, which they put off until what runs now has ended.
+    // Charts have scales once they are drawn, which they defer until the current task has ended.
     await Promise.resolve();
     this.cursor();
   }
 
-  /** The moment in the curves. */
+  /** Show the moment in the curves. */
   private cursor(): void {
     const time = this.playback?.time;
     if (time === undefined) return;
@@ -156,7 +156,7 @@ class RecordingPanel {
     this.view.stage?.picture((blob) => save(blob, "robots.png"));
   }
 
-  /** Film what is shown from now on, until the next click: a WebM. */
+  /** Record the scene as WebM until the next click. */
   private film(): void {
     if (this.filming) return this.filming.stop();
     const stage = this.view.stage;
@@ -175,7 +175,7 @@ class RecordingPanel {
     };
     this.filming = film;
     say(this.video, "End the film");
-    // In pieces, as they are encoded: a film is as long as what has come.
+    // In pieces, as they are encoded: the film contains the pieces so far.
     film.start(250);
     stage.draw();
   }

@@ -1,7 +1,6 @@
-// Signals by name: searched, and set where the page may.
+// Signals by name: searched, and set if the page may.
 
-import { h, say } from "../dom";
-import { Field } from "../field";
+import { h, say, Field } from "../dom";
 import type { ShownSignal } from "../messages";
 import type { MakePanel, View } from "../panel";
 

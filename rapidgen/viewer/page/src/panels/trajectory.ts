@@ -1,4 +1,4 @@
-// A trajectory from a file: checked, drawn with its speeds, executed by the simulator's driver.
+// A trajectory of a file: checked, drawn with its speeds, executed by the simulator's driver.
 
 import { h, say, section } from "../dom";
 import type { UploadedTrajectory, TrajectoryFinding } from "../messages";

@@ -1,27 +1,56 @@
-// A source that is read: pointers and breakpoints in it, values under the mouse.
+// A source: pointers and breakpoints in it, values under the mouse.
 //
-// It lives in a shadow root: there CodeMirror's styles are constructed, which the page's policy allows.
+// It is in a shadow root: CodeMirror constructs its styles there, which the page's policy permits.
 
+import { StreamLanguage, HighlightStyle, syntaxHighlighting } from "@codemirror/language";
+import { tags } from "@lezer/highlight";
 import { EditorState, RangeSet, StateEffect, StateField, type Extension } from "@codemirror/state";
-import {
-  Decoration, EditorView, GutterMarker, gutter, highlightActiveLine, hoverTooltip, keymap, lineNumbers,
-  type BlockInfo, type ViewUpdate,
-} from "@codemirror/view";
+import { Decoration, EditorView, GutterMarker, gutter, highlightActiveLine, hoverTooltip, keymap, lineNumbers, type BlockInfo, type ViewUpdate } from "@codemirror/view";
 import { h } from "../dom";
-import { rapid } from "./rapid";
 
-/** What is shown of a source beside its text; lines from 1. */
+const WORDS = new Set(("module endmodule proc endproc func endfunc trap endtrap record endrecord alias local task " +
+  "var pers const inout ref if then elseif else endif for from to step do endfor while endwhile test case default " +
+  "endtest return goto raise retry trynext exit connect with error undo backward nostepin sysmodule viewonly " +
+  "readonly noview not and or xor div mod").split(" "));
+const VALUES = new Set(["true", "false"]);
+
+const language = StreamLanguage.define({
+  token(stream) {
+    if (stream.eatSpace()) return null;
+    if (stream.match(/^!.*/)) return "comment";
+    if (stream.match(/^"(?:[^"]|"")*"?/)) return "string";
+    if (stream.match(/^(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?/)) return "number";
+    const word = stream.match(/^[A-Za-z_]\w*/) as RegExpMatchArray | null;
+    if (word) {
+      const known = word[0].toLowerCase();
+      return WORDS.has(known) ? "keyword" : VALUES.has(known) ? "number" : null;
+    }
+    stream.next();
+    return null;
+  },
+});
+
+const colours = HighlightStyle.define([
+  { tag: tags.keyword, color: "var(--accent)" },
+  { tag: tags.comment, color: "var(--soft)", fontStyle: "italic" },
+  { tag: tags.string, color: "var(--good)" },
+  { tag: tags.number, color: "var(--warn)" },
+]);
+
+export const rapid = [language, syntaxHighlighting(colours)];
+
+/** Marks of a source besides its text; lines from 1. */
 export interface Marks {
-  /** Breakpoints: whether one pauses always, on a condition, or only tells. */
+  /** Breakpoints: pausing always, on a condition, or only logging. */
   readonly breakpoints: ReadonlyMap<number, "plain" | "conditional" | "log">;
   readonly program: number | null;
   readonly motion: number | null;
-  /** How often lines were reached; empty: nobody counts. */
+  /** Executions of lines; empty: not counted. */
   readonly covered: Readonly<Record<number, number>>;
 }
 
 export interface EditorActions {
-  /** Set or take away a breakpoint. */
+  /** Set or remove a breakpoint. */
   toggle(line: number): void;
   /** The value of an expression as text, or null. */
   value(expression: string): Promise<string | null>;
@@ -193,7 +222,7 @@ export class SourceEditor {
     this.view.dispatch({ effects: setMarks.of(marks) });
   }
 
-  /** Bring a line into view, and the cursor into it. What is in view stays: somebody may point at a line. */
+  /** Bring a line into view, and the cursor into it. The view stays if it has the line: the mouse may be over it. */
   go(line: number): void {
     const doc = this.view.state.doc;
     const { from } = doc.line(Math.min(Math.max(line, 1), doc.lines));
@@ -203,7 +232,7 @@ export class SourceEditor {
     this.view.dispatch({ selection: { anchor: from }, effects: inView ? [] : EditorView.scrollIntoView(from, { y: "center" }) });
   }
 
-  /** For tests: what is written and marked. */
+  /** For tests: text and marks. */
   get seen(): { text: string; program: number | null; motion: number | null; breakpoints: number[] } {
     const { program, motion, breakpoints } = this.marks;
     return { text: this.view.state.doc.toString(), program, motion, breakpoints: [...breakpoints.keys()] };

@@ -1,4 +1,4 @@
-// A robot's links in space, out of its description: with meshes where it has some, coloured at limits.
+// A robot's links from its description: with meshes if it has any, coloured at limits.
 
 import * as THREE from "three";
 import URDFLoader, { type URDFRobot } from "urdf-loader";
@@ -10,12 +10,12 @@ export type Nearness = "housing" | "near" | "limit";
 
 export class Body {
   readonly urdf: URDFRobot;
-  /** All meshes have come, or have been given up; whether there were any. */
+  /** Resolves when all meshes are loaded or have failed; to whether there were any. */
   readonly ready: Promise<boolean>;
   private readonly skins = new Map<string, Skin[]>();
   private readonly near = new Map<string, Nearness>();
 
-  /** `shade`: all of it in one material. */
+  /** `shade`: everything in one material. */
   constructor(urdf: string, meshes: Meshes, private readonly palette: Palette, private readonly shade: THREE.Material | null = null) {
     const coming: Promise<void>[] = [];
     const loader = new URDFLoader(new THREE.LoadingManager());
@@ -36,7 +36,7 @@ export class Body {
     });
   }
 
-  /** Materials of its own for each link: one may be red while others are not. */
+  /** Separate materials for each link: one may be red while others are not. */
   private dress(): void {
     for (const [name, link] of Object.entries(this.urdf.links)) {
       const made = new Map<string, Skin>();
@@ -59,7 +59,7 @@ export class Body {
     return skin;
   }
 
-  /** Colours of the theme; what has colours of its own keeps them. */
+  /** Apply the theme's colours to parts without their own. */
   paint(): void {
     for (const [name, skins] of this.skins) {
       const near = this.near.get(name) ?? "housing";
@@ -74,7 +74,7 @@ export class Body {
     }
   }
 
-  /** How near the joint under a link is to its limits. */
+  /** Mark the distance of a link's joint from its limits. */
   warn(link: string, near: Nearness): boolean {
     if ((this.near.get(link) ?? "housing") === near) return false;
     this.near.set(link, near);
@@ -101,13 +101,13 @@ export class Body {
     return (this.skins.get(link) ?? []).map((skin) => skin.color.getHexString());
   }
 
-  /** Hide the links, not what they carry. */
+  /** Hide the links, not their attachments. */
   bare(alone: boolean): void {
     for (const skins of this.skins.values()) for (const skin of skins) skin.visible = !alone;
   }
 }
 
-/** The description's colour, where it has one, on what has none itself. */
+/** Apply the description's colour to parts without their own. */
 function dye(mesh: THREE.Object3D, material: THREE.MeshPhongMaterial): void {
   const named = material.name === "own";
   mesh.traverse((part) => {
@@ -117,7 +117,7 @@ function dye(mesh: THREE.Object3D, material: THREE.MeshPhongMaterial): void {
   });
 }
 
-/** Where a mesh should be: solids from the link's joint to the next ones. */
+/** Solids from the link's joint to the next ones, instead of a missing mesh. */
 function bone(part: THREE.Object3D): void {
   const visual = part.parent;
   const link = visual?.parent;

@@ -1,4 +1,4 @@
-// A handle on the TCP of a robot: where it is dragged to, the robot is asked to go.
+// A handle on the TCP of a robot: dragging it jogs the robot.
 
 import * as THREE from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
@@ -7,14 +7,14 @@ import type { Robot } from "./robot";
 const SIZE = 0.75;
 export type GripMode = "translate" | "rotate";
 type Dragged = [robot: Robot, position: [number, number, number], orientation: [number, number, number, number]];
-/** Asks for a TCP in the robot's world; resolves when that has been carried out or refused. */
+/** Requests a TCP in the robot's world; resolves when it was executed or refused. */
 export type Wanted = (...dragged: Dragged) => Promise<void>;
 
 export class Grip {
   private readonly controls: TransformControls;
   private readonly handle = new THREE.Object3D();
   private robot: Robot | null = null;
-  private asked = false;
+  private waiting = false;
   private next: Dragged | null = null;
   held = false;
 
@@ -42,9 +42,9 @@ export class Grip {
     this.rest(robot);
   }
 
-  /** Be where the TCP is, unless somebody drags or what was dragged is not answered yet. */
+  /** Follow the TCP, except while the user drags and until the answer. */
   follow(): void {
-    if (this.robot && !this.held && !this.asked) this.rest(this.robot);
+    if (this.robot && !this.held && !this.waiting) this.rest(this.robot);
   }
 
   private rest(robot: Robot): void {
@@ -53,7 +53,7 @@ export class Grip {
     this.handle.updateMatrixWorld();
   }
 
-  /** Its middle, and a place on its x arrow, which is as long on every picture. */
+  /** Its centre, and a point on its x arrow, whose length on the screen is constant. */
   reach(camera: THREE.PerspectiveCamera): [number[], number[]] {
     const middle = this.handle.position.clone();
     // As TransformControls scales itself: 1.9 tan(fov / 2) of the distance, a quarter of it.
@@ -62,18 +62,18 @@ export class Grip {
     return [middle.toArray(), middle.clone().addScaledVector(x, size * 0.4).toArray()];
   }
 
-  /** One at a time: while one is on its way, the latest other one is remembered. */
+  /** One request at a time: meanwhile the latest other one is remembered. */
   private async ask(): Promise<void> {
     if (!this.robot) return;
     this.next = this.dragged(this.robot);
-    if (this.asked) return;
-    this.asked = true;
+    if (this.waiting) return;
+    this.waiting = true;
     while (this.next) {
       const latest: Dragged = this.next;
       this.next = null;
       await this.wanted(...latest);
     }
-    this.asked = false;
+    this.waiting = false;
     this.follow();
   }
 

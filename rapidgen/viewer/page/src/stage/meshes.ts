@@ -1,4 +1,4 @@
-// Meshes of descriptions: each is fetched and read once, whoever shows it. Broken ones are said.
+// Meshes of descriptions: each is fetched and read once for all robots. Broken ones are reported.
 
 import * as THREE from "three";
 import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
@@ -12,9 +12,9 @@ export class Meshes {
 
   constructor(private readonly failed: (why: string) => void) {}
 
-  /** A copy of a mesh that shares its geometry; null: there is none, which has been said. */
+  /** A copy of a mesh that shares its geometry; null: it is missing, and reported. */
   async load(name: string): Promise<THREE.Object3D | null> {
-    if (!name) return null; // the server has said why
+    if (!name) return null; // the server has reported why
     let found = this.known.get(name);
     if (!found) this.known.set(name, found = this.fetched(name));
     return (await found)?.clone() ?? null;
@@ -38,7 +38,7 @@ function read(name: string, data: ArrayBuffer): THREE.Object3D {
   if (name.endsWith(".obj")) return uncoloured(new OBJLoader().parse(text));
   const document = new DOMParser().parseFromString(text, "text/xml");
   if (document.documentElement.localName !== "COLLADA") throw new Error("it is no COLLADA");
-  // Pictures would be further files, of further names.
+  // Textures would be further files with further names.
   for (const images of [...document.querySelectorAll("library_images")]) images.remove();
   const found = new ColladaLoader().parse(new XMLSerializer().serializeToString(document), "");
   if (!found) throw new Error("it cannot be read");
@@ -52,7 +52,7 @@ function uncoloured(group: THREE.Object3D): THREE.Object3D {
   return group;
 }
 
-/** Only surfaces, in plain materials, as many as can be drawn. */
+/** Only surfaces, in plain materials, up to a limit. */
 function checked(found: THREE.Object3D): THREE.Object3D {
   const others: THREE.Object3D[] = [];
   let triangles = 0;
@@ -74,7 +74,7 @@ function checked(found: THREE.Object3D): THREE.Object3D {
   return found;
 }
 
-/** CAD is seen from behind, too. */
+/** CAD surfaces are drawn on both sides. */
 function lambert(given: THREE.Material): THREE.MeshLambertMaterial {
   const { color, vertexColors, opacity, transparent, name } = given as THREE.MeshLambertMaterial;
   return new THREE.MeshLambertMaterial({

@@ -1,4 +1,6 @@
-// Colours of the space, by theme; they fit the page's own (page.css).
+// Colours of the scene by theme, matching those of page.css.
+
+import type { Axis } from "../messages";
 
 export interface Palette {
   ground: string;
@@ -30,4 +32,12 @@ export function palette(): Palette & { renew(): void } {
   const own = { ...LIGHT, renew: () => void Object.assign(own, isDark() ? DARK : LIGHT) };
   own.renew();
   return own;
+}
+
+/** Distance of an axis from its limits, as a key of the palette. */
+export function nearness(axis: Axis, value: number): "housing" | "near" | "limit" {
+const margin = Math.min(value - axis.lower, axis.upper - value);
+  const range = axis.upper - axis.lower;
+  if (!(range > 0) || margin > 0.05 * range) return "housing";
+  return margin > 0.01 * range ? "near" : "limit";
 }

@@ -1,13 +1,12 @@
-// One robot in space: its links, its TCP with a trail, and the ghost that is ahead of it.
+// One robot in the scene: its links, its TCP with a trail, and a ghost at the commanded position.
 
 import * as THREE from "three";
 import type { URDFRobot } from "urdf-loader";
 import type { SeenRobot, RobotPlace, Pose } from "../messages";
 import { Body } from "./body";
 import type { Meshes } from "./meshes";
-import { nearness } from "./nearness";
-import type { Palette } from "./palette";
-import { Trail } from "./trail";
+import { nearness, type Palette } from "./palette";
+import { Trail } from "./marks";
 
 const AHEAD = 2e-3; // rad or m: the ghost is shown where it differs by more
 
@@ -42,7 +41,7 @@ export class Robot {
     this.root.add(this.body.urdf, this.ghost.urdf, this.trail.line, this.object);
   }
 
-  /** Hide the links, not what they carry. */
+  /** Hide the links, not their attachments. */
   bare(alone: boolean): void {
     this.body.bare(alone);
   }
@@ -62,7 +61,7 @@ export class Robot {
     if (this.ghost.urdf.visible) this.set(this.ghost.urdf, state.commanded);
     if (state.tool_held) place(this.tcp, state.tool);
     place(this.object, state.work_object);
-    // That of the world is where the robot's own is.
+    // The world's marker is at the robot's.
     this.object.visible = this.framed && !isHome(state.work_object);
     this.warn(state);
     this.root.updateMatrixWorld(true);

@@ -1,15 +1,13 @@
-// The space with the robots. It is drawn when something has changed, never else.
+// The scene with the robots, drawn only after changes.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Scene, Positions, SeenTarget } from "../messages";
 import { Grip, type GripMode, type Wanted } from "./grip";
-import { Labels } from "./labels";
+import { Labels, TargetMarks, drawnWay } from "./marks";
 import { Meshes } from "./meshes";
 import { palette } from "./palette";
 import { axes, place, Robot } from "./robot";
-import { TargetMarks } from "./targets";
-import { drawnWay } from "./way";
 
 export type ViewName = "fit" | "front" | "side" | "top";
 const FROM: Record<ViewName, [number, number, number]> = {
@@ -34,17 +32,17 @@ export class Stage {
   private marks: TargetMarks[] = [];
   private readonly layers = { targets: true, frames: true, ghost: true };
   private readonly grip: Grip;
-  /** Carries out what is dragged. */
+  /** Executes a drag of the handle. */
   onwanted: Wanted = () => Promise.resolve();
   private readonly meshes = new Meshes((why) => { this.faults.push(why); this.onfault(); });
-  /** What does not look as its description says; `onfault` hears when there is more. */
+  /** Deviations from the description; `onfault` is called for a new one. */
   faults: string[] = [];
   onfault = (): void => undefined;
   private touched = false;
   private due = false;
   private time = 0;
 
-  /** Throws where there is no WebGL. */
+  /** Throws without WebGL. */
   constructor() {
     const soft = drawnByCpu();
     this.renderer = new THREE.WebGLRenderer({ antialias: !soft, powerPreference: "low-power" });
@@ -79,7 +77,7 @@ export class Stage {
     this.draw();
   }
 
-  /** The room that the picture has, in CSS pixels. */
+  /** Size of the picture, in CSS pixels. */
   resize(width: number, height: number): void {
     if (width < 1 || height < 1) return;
     this.renderer.setSize(width, height, false);
@@ -88,7 +86,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Other robots. */
+  /** Replace the robots. */
   build(scene: Scene): void {
     for (const robot of this.robots.values()) robot.dispose();
     this.robots.clear();
@@ -117,7 +115,7 @@ export class Stage {
       return true;
     });
     this.look("fit");
-    // Meshes come later: what has been seen by then stays where somebody has turned it.
+    // Meshes arrive later: the view stays if the user has turned it by then.
     this.touched = false;
     void Promise.all([...coming, ...[...this.robots.values()].map((robot) => robot.ready)]).then((came) => {
       if (came.includes(true) && !this.touched) this.look("fit");
@@ -154,7 +152,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Draw before the next picture of the screen. */
+  /** Draw before the next frame of the screen. */
   draw(): void {
     if (this.due) return;
     this.due = true;
@@ -172,7 +170,7 @@ export class Stage {
     this.element.toBlob((blob) => { if (blob) taken(blob); });
   }
 
-  /** Draw a way of the TCP, coloured by speed (m/s), with marks at some of its points; empty: none. */
+  /** Draw a path of the TCP, coloured by speed (m/s), with marks at some of its points; empty: none. */
   route(group: string, way: readonly (readonly number[])[], pace: readonly number[], marks: readonly number[]): void {
     this.way.clear();
     this.robots.get(group)?.root.add(this.way);
@@ -180,7 +178,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Draw where moves go. */
+  /** Draw the targets of moves. */
   aim(targets: readonly SeenTarget[]): void {
     this.targets = targets;
     for (const marks of this.marks) marks.dispose();
@@ -196,7 +194,7 @@ export class Stage {
     this.layer("targets", this.layers.targets);
   }
 
-  /** Show or hide something. */
+  /** Show or hide a part of the scene. */
   layer(name: keyof typeof this.layers, shown: boolean): void {
     this.layers[name] = shown;
     for (const marks of this.marks) marks.root.visible = this.layers.targets;
@@ -213,7 +211,7 @@ export class Stage {
   /** A handle on a robot's TCP, by which it can be dragged; null: none. */
   hold(name: string | null, mode: GripMode = "translate"): void {
     this.grip.take(name === null ? null : this.robots.get(name) ?? null, mode);
-    // Meshes that come now do not turn the picture under a hand.
+    // Meshes that arrive now do not turn the view during a drag.
     this.touched = true;
     this.draw();
   }
@@ -235,19 +233,19 @@ export class Stage {
     return [...this.pixel(middle), this.pixel(arrow)];
   }
 
-  /** Show markers alone, without the robots that are around them. */
+  /** Show markers alone, without the robots around them. */
   bare(alone: boolean): void {
     for (const robot of this.robots.values()) robot.bare(alone);
     this.draw();
   }
 
-  /** Where the camera stands, what it looks at, and how wide (degrees, upright). */
+  /** Position of the camera, its target, and its vertical angle (degrees). */
   eye(): { position: number[]; target: number[]; angle: number } {
     const { position, fov } = this.camera;
     return { position: position.toArray(), target: this.controls.target.toArray(), angle: fov };
   }
 
-  /** Where a point of the world is on the picture, in CSS pixels. */
+  /** Position of a point of the world on the picture, in CSS pixels. */
   pixel(point: readonly number[]): [number, number] {
     this.camera.updateMatrixWorld();
     const seen = new THREE.Vector3(...point).project(this.camera);
@@ -256,7 +254,7 @@ export class Stage {
   }
 }
 
-/** Whether no graphics card draws here: smooth edges would cost a third of the pictures. */
+/** True if software renders: antialiasing would cost a third of the frame rate. */
 function drawnByCpu(): boolean {
   const gl = document.createElement("canvas").getContext("webgl2");
   const about = gl?.getExtension("WEBGL_debug_renderer_info");
