@@ -1,4 +1,4 @@
-"""`python -m rapidgen`: the command, where its folder is not on the PATH."""
+"""`python -m rapidgen`: the command without its folder in PATH."""
 
 from rapidgen.cli.entry import run
 

@@ -10,35 +10,35 @@ Members: TypeAlias = dict[str, Json]
 
 
 def members(data: Json) -> Members:
-    """An object."""
+    """Return the members of an object."""
     if not isinstance(data, dict):
         raise TypeError(f"{type(data).__name__} is no object")
     return data
 
 
 def items(data: Json) -> list[Json]:
-    """An array."""
+    """Return the items of an array."""
     if not isinstance(data, list):
         raise TypeError(f"{type(data).__name__} is no array")
     return data
 
 
 def text(data: Json) -> str:
-    """A string."""
+    """Return a string."""
     if not isinstance(data, str):
         raise TypeError(f"{type(data).__name__} is no text")
     return data
 
 
 def number(data: Json) -> float:
-    """A number."""
+    """Return a number."""
     if not isinstance(data, int | float):
         raise TypeError(f"{type(data).__name__} is no number")
     return data
 
 
 def whole(data: Json) -> int:
-    """A whole number."""
+    """Return a whole number."""
     if not isinstance(data, int):
         raise TypeError(f"{type(data).__name__} is no whole number")
     return data

@@ -104,7 +104,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    # Who talks to a driver alone should not pay for HTTP and websockets.
+    # Clients of a driver alone must not pay for HTTP and websockets.
     if name in ("AsyncController", "Controller"):
         from rapidgen.client import rws
 

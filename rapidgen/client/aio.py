@@ -40,7 +40,7 @@ T = TypeVar("T")
 _SLICE = 0.1
 """s between two checks of the clock while no data arrives."""
 _BREATH = 64
-"""Frames after which a sender lets the others of its loop do something."""
+"""Frames after which a sender yields to other tasks of its loop."""
 
 
 class _Link(asyncio.Protocol):
@@ -77,7 +77,7 @@ class _Link(asyncio.Protocol):
 
 
 class AsyncFlowRunner:
-    """Carries out flows on the loop that runs."""
+    """Runner of flows on the running loop."""
 
     def __init__(self, address: Address, make_core: MakeCore) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -92,7 +92,7 @@ class AsyncFlowRunner:
         return self._loop.time() if self._loop is not None else 0.0
 
     async def run(self, flow: Flow[T]) -> T:
-        """Carry out a flow on this loop."""
+        """Run a flow on this loop."""
         self._loop = asyncio.get_running_loop()
         outcome: bool | None = None
         failure: BaseException | None = None

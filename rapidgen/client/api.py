@@ -43,7 +43,7 @@ class FlowRunner(Protocol):
 
     core: Core
     guard: AbstractContextManager[object]
-    """Held while something is looked at that another thread may change."""
+    """Lock of data that another thread may change."""
 
     def __init__(self, address: Address, make_core: MakeCore) -> None: ...
 
@@ -170,7 +170,7 @@ class RunApi(JobApi[C_co]):
 
 
 class StreamApi(JobApi[C_co]):
-    """Points that the robot executes while more of them come."""
+    """Points that the robot executes while later ones are added."""
 
     append = _of_job(flows.job.append)
     flush = _of_job(flows.job.flush)
@@ -178,7 +178,7 @@ class StreamApi(JobApi[C_co]):
 
     @property
     def total(self) -> int:
-        """Points that were appended."""
+        """Number of added points."""
         return self._job.total
 
     @property
@@ -370,10 +370,10 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         return self.pose_of(self.state.joints)
 
     def pose_of(self, joints: Sequence[float]) -> Pose:
-        """The pose that joints (rad, m) reach: ((x, y, z), (w, x, y, z)), m.
+        """Return the pose that joints (rad, m) reach.
 
-        Raises NotSupported where the robot's geometry is not known, InvalidProgram for what are no
-        joints of it.
+        It is ((x, y, z), (w, x, y, z)), m. Raises NotSupported if the robot's geometry is unknown,
+        InvalidProgram if the values are not its joints.
         """
         return self.group.poses.pose(_on_axes(self.group, joints))
 

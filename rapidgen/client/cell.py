@@ -46,7 +46,7 @@ class _Start:
         self.sendings: dict[str, DownloadInProgress] = {}
 
     def begin(self) -> None:
-        """Every motion begins."""
+        """Start every motion."""
         self.sendings = {
             n: DownloadInProgress(self._cores[n], complete) for n, complete in self._checked.items()
         }
@@ -99,7 +99,7 @@ class Cell:
             warnings.warn(text, RuntimeWarning, stacklevel=2)
 
     def close(self) -> None:
-        """Close all; what moves is stopped first."""
+        """Close all; active motions are stopped first."""
         _each(self.robots, lambda robot: robot.close())
 
     def stop(self) -> dict[str, State | None]:
@@ -110,7 +110,7 @@ class Cell:
         """Start trajectories together, by robot name.
 
         Raises KeyError for a name that no robot has, InvalidTrajectory with the faults of all
-        before a byte is sent; when one robot refuses or fails, all are stopped and its error is
+        before a byte is sent; if one robot refuses or fails, all are stopped and its error is
         raised.
         """
         moving = _chosen(self.robots, trajectories)
@@ -218,7 +218,7 @@ class AsyncCell:
             warnings.warn(text, RuntimeWarning, stacklevel=2)
 
     async def close(self) -> None:
-        """Close all; what moves is stopped first."""
+        """Close all; active motions are stopped first."""
         await _gather({name: robot.close() for name, robot in self.robots.items()})
 
     async def stop(self) -> dict[str, State | None]:
@@ -247,7 +247,7 @@ class AsyncCell:
 
 
 async def _gather(waiting: Mapping[str, Coroutine[None, None, T]]) -> dict[str, T]:
-    """All of them; the first error after all were tried."""
+    """Await all; raise the first error after all were tried."""
     outcomes = await asyncio.gather(*waiting.values(), return_exceptions=True)
     results: dict[str, T] = {}
     for name, outcome in zip(waiting, outcomes, strict=True):

@@ -58,7 +58,7 @@ class Channel:
             if stopping():
                 return False
             with self._lock:
-                # Looked at again: a STOP may have come between the test and the lock.
+                # Checked again: a STOP may have arrived between the test and the lock.
                 if stopping():
                     return False
                 if self._is_offered and self._rest:
@@ -164,7 +164,7 @@ class Channel:
         )
 
     def close(self) -> None:
-        """Close it; twice is once."""
+        """Close the connection; a second call does nothing."""
         self.socket.close()
 
 

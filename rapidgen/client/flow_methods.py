@@ -49,7 +49,7 @@ class Method(Protocol[P, T_co]):
 def method(
     flow: Callable[..., Generator[object, Never, T]], subject: Callable[[_OfBlocking], object]
 ) -> Method[P, T]:
-    """A method that carries out `flow` for its client's `subject`."""
+    """Return a method that runs `flow` for its client's `subject`."""
 
     def run(self: _OfBlocking, *args: P.args, **options: P.kwargs) -> T:
         steps = cast("Generator[Never, object, T]", flow(subject(self), *args, **options))

@@ -14,7 +14,7 @@ from rapidgen.client.errors import NotReady
 from rapidgen.client.trajectory import Trajectory
 
 _LARGEST = 100_000_000
-"""Bytes of what is remembered."""
+"""Largest size of the stored list, bytes."""
 FIRST_SPEED = 0.1
 """Share of the commanded speed for a trajectory new to a real host."""
 

@@ -19,7 +19,7 @@ from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
 _MM = 0.001
-# What a number is, and what it has to be.
+# Types of numbers and their checks.
 _SPEED = "speed", "m/s of the TCP, or a Speed with all parts: m/s and rad/s"
 _LEVEL = "value of a signal", "0 or 1, or a group's or an analog signal's number"
 _TIME = "time", "seconds, such as 1.5"
@@ -58,7 +58,7 @@ class Speed:
 
     @property
     def words(self) -> tuple[float, ...]:
-        """In the order of the wire."""
+        """Return the words in the order of the wire."""
         return astuple(self)
 
 
@@ -94,7 +94,7 @@ class Zone:
 
     @property
     def words(self) -> tuple[float, ...]:
-        """In the order of the wire."""
+        """Return the words in the order of the wire."""
         *sizes, stops = astuple(self)
         return (float(stops), *sizes)
 
@@ -341,7 +341,7 @@ class Program:
         external: Mapping[str, float] | None = None,
         triggers: Sequence[Trigger] = (),
     ) -> Self:
-        """To a pose on the circle through the position of `via` (MoveC)."""
+        """Move to a pose on the circle through the position of `via` (MoveC)."""
         self._hold(speed, zone)
         return self._to_pose(Instruction.MOVE_C, pose, via, configuration, external, triggers)
 

@@ -101,7 +101,7 @@ class CsvWriter:
         self.count = 0
         self._began = 0.0
         self._newest: tuple[float, tuple[float, ...]] | None = None
-        """Held back: the next one may have come together with it."""
+        """Row that is not written yet: the next one may have the same time."""
         units = ["rad" if joint.kind == "revolute" else "m" for joint in group.joints]
         pairs = [f"{name} {unit}" for name, unit in zip(group.names, units, strict=True)]
         self._file = path.open("w", encoding="utf-8", newline="")

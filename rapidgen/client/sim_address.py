@@ -50,7 +50,7 @@ def _unclear(name: str, own: list[Simulator], result: list[Simulator]) -> Invali
         help = f"`rapidgen sim` with the configuration of '{name}', or the other configuration here"
     else:
         message = "no simulator of yours runs on this machine"
-        # The name is a robot's; only that of a shipped model starts a simulator, too.
+        # The name is that of a robot; only a shipped model's name starts a simulator too.
         config = name if name in shipped_names() else "CONFIG"
         help = f"`rapidgen sim {config} --ports auto` in another terminal"
     return InvalidTarget(fault("RG642", message, help, *displayed), exit_code=1)

@@ -94,7 +94,7 @@ class SyncFlowRunner:
                     channel.offer_after(STOP_FRAME)
                 channel.offer(partial(core.due, port))
             except RobotError as error:
-                # The reader hears of it too.
+                # The reader receives it too.
                 core.state_port.note(str(error))
 
     def _tick(self) -> None:

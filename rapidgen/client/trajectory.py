@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[np.float64]
 _SHOWN = 4
-"""Points that a notebook shows from either end."""
+"""Points that a notebook shows at each end."""
 
 
 class Waypoint(NamedTuple):
@@ -49,9 +49,9 @@ class Trajectory:
     positions: Array
     names: tuple[str, ...]
     path: str
-    """The file it was read from."""
+    """Path of the file, if it was read from one."""
     lines: tuple[int, ...]
-    """The file's line of each point, where there is one."""
+    """The file's line of each point, if there is one."""
 
     def __init__(
         self,
@@ -241,9 +241,9 @@ class Trajectory:
         `robot` is `Robot.group`. Raises InvalidTrajectory if names do not fit or limits are
         unknown, ValueError for fewer than two points.
         """
-        from rapidgen.client.core.checks import check_names
-
-        check_names(self, robot)
+        faults = robot.name_faults(self.names, self.positions.shape[1])
+        if faults:
+            raise InvalidTrajectory(faults, exit_code=1)
         if not robot.has_limits:
             raise InvalidTrajectory.because(
                 "RG615", "the robot's speeds are not known", "connect with a configuration"
@@ -252,7 +252,7 @@ class Trajectory:
         wire = robot.to_wire(ordered.positions)
         acceleration = np.where(np.isfinite(robot.acceleration), robot.acceleration, 1e6)
         times = parametrise(wire, robot.speed * speed, acceleration * speed)
-        # Rounded up to what the planner follows: a shorter segment would be refused.
+        # Rounded up to the planner's minimum: a shorter segment would be refused.
         steps = np.maximum(np.diff(times), robot.policy.min_segment)
         return replace(ordered, times=np.concatenate([[0.0], np.cumsum(steps)]))
 

@@ -404,7 +404,7 @@ ENDED = {"in_error": 1, "error_code": 53, "possible": 0}
 @pytest.mark.parametrize(
     ("report", "message"),
     [
-        (ENDED, "a server task of the driver has ended, nothing moves"),
+        (ENDED, "a server task of the driver has ended, no motion is possible"),
         ({**ENDED, "in_error": 0}, ""),
         ({**ENDED, "error_code": 40}, ""),
     ],

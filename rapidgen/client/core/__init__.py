@@ -1,1 +1,4 @@
-"""Decides: bytes and times in, decisions out. No I/O, no thread, no loop."""
+"""Decisions of the client: bytes and times in, decisions out.
+
+No I/O, no thread, no loop.
+"""

@@ -33,7 +33,7 @@ from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.program import Program
 from rapidgen.client.trajectory import Array, Trajectory
-from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE
 
 Way = Literal["download", "stream"]
@@ -245,16 +245,9 @@ def quantised(wire: Array, group: Group) -> Array:
     return steps
 
 
-def check_names(trajectory: Trajectory, group: Group) -> None:
-    """Raises InvalidTrajectory when the columns are not the robot's joints."""
-    result = _names(trajectory, group)
-    if result:
-        raise InvalidTrajectory(result, exit_code=1)
-
-
 def _fitting(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -> Trajectory:
     """Return the trajectory in the robot's columns; later checks need them."""
-    findings = findings + _names(trajectory, group)
+    findings = findings + group.name_faults(trajectory.names, trajectory.positions.shape[1])
     if not len(trajectory):
         findings.append(
             _finding("RG619", "the trajectory has no points", "give at least one point")
@@ -298,35 +291,6 @@ def _capacity(trajectory: Trajectory, capacity: int) -> Iterator[Diagnostic]:
         "a larger `trajectory.capacity` in the configuration accepts more (build and deploy "
         "again)",
     )
-
-
-def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
-    names, own = trajectory.names, group.names
-    if not names:
-        columns = trajectory.positions.shape[1]
-        if columns == len(own):
-            return []
-        return [
-            _finding(
-                "RG611",
-                f"{columns} joints, the robot has {len(own)}",
-                f"the robot's joints are: {', '.join(own)}",
-            )
-        ]
-    result = [
-        _finding(
-            "RG611",
-            f"the robot has no joint '{name}'",
-            suggest(name, own) or f"the robot's joints are: {', '.join(own)}",
-        )
-        for name in names
-        if name not in own
-    ]
-    missing = [name for name in own if name not in names]
-    if missing:
-        help = f"a column for each of the robot's joints: {', '.join(own)}"
-        result.append(_finding("RG611", f"joints are missing: {', '.join(missing)}", help))
-    return result
 
 
 def _finite(requested: _CheckInput) -> Iterator[Diagnostic]:

@@ -44,7 +44,7 @@ class ClockRateEstimator:
 
         Several states of one read have the same time.
         """
-        # What was held up before it is read at once: the later of the two counts without it.
+        # Delayed states are read at once: the later of two reads counts without the earlier.
         if self._first is None or self._first[0] == now:
             self._first = self._later = now, number
         elif self._later[0] in (now, self._first[0]) and now > self._first[0] + _LATER:

@@ -55,7 +55,7 @@ class Download(CommandedMotion):
         self._was_in_error = state_port.status.in_error is TriState.TRUE
         self._start = state_port.wire_joints
         self._looked_at = 0
-        """Joint messages when one was looked at last."""
+        """Joint messages at the last evaluation."""
         self._seen_moving = False
         self._stood_since: float | None = None
         self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)

@@ -20,6 +20,7 @@ from rapidgen.config.model import (
     UserDatum,
     UserRoutine,
 )
+from rapidgen.diagnostics import Diagnostic, error, suggest
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.messages import HelloReply
 
@@ -168,6 +169,28 @@ class Group:
         """URDF joint velocities of the ten axis velocities of a message."""
         return self.map.rates_to_urdf(values[: len(self.joints)])
 
+    def name_faults(self, names: Sequence[str], columns: int) -> list[Diagnostic]:
+        """Return RG611 for columns that are not the robot's joints.
+
+        Without `names` their number has to fit.
+        """
+        own = self.names
+        help = f"the robot's joints are: {', '.join(own)}"
+        if not names:
+            if columns == len(own):
+                return []
+            return [error("RG611", None, f"{columns} joints, the robot has {len(own)}", help)]
+        result = [
+            error("RG611", None, f"the robot has no joint '{name}'", suggest(name, own) or help)
+            for name in names
+            if name not in own
+        ]
+        missing = [name for name in own if name not in names]
+        if missing:
+            help = f"a column for each of the robot's joints: {', '.join(own)}"
+            result.append(error("RG611", None, f"joints are missing: {', '.join(missing)}", help))
+        return result
+
     def with_controller_limits(self, hello: HelloReply) -> "Group":
         """Return a copy with the controller's limits where they are narrower."""
         joints = tuple(
@@ -181,7 +204,7 @@ class Group:
         return replace(self, map=replace(self.map, joints=joints))
 
     def require(self, hello: HelloReply) -> None:
-        """Raise IncompatibleDriver when the driver was made for other joints."""
+        """Raise IncompatibleDriver if the driver was made for other joints."""
         if hello.mapping != self.mapping or hello.joint_count != len(self.joints):
             raise IncompatibleDriver.because(
                 "RG606",

@@ -4,7 +4,7 @@ from rapidgen.client.core.request_port import PendingReply
 from rapidgen.wire.simple_message import messages
 
 _OFTEN = 4
-"""Heartbeats in the time within which the controller awaits one, ..."""
+"""Heartbeats within the controller's time-out, ..."""
 _PERIOD = 0.5
 """... and at most so many s apart: a simulated clock may run faster."""
 

@@ -46,13 +46,13 @@ class Job:
         self._kept: list[Trajectory] = []
 
     def begin(self, checked: CheckedPoints) -> PointStream:
-        """The first points of a stream."""
+        """Begin with the first points of a stream."""
         self.way, self.last = "stream", checked.last
         self.motion = self.stream = stream = self.core.begin_stream(checked)
         return stream
 
     def take(self, motion: Download) -> None:
-        """All points, as a whole."""
+        """Take all points of a complete trajectory."""
         self.way, self.motion, self.is_ended = "download", motion, True
 
     def keep(self, checked: CheckedPoints) -> None:
@@ -73,7 +73,7 @@ class Job:
 
     @property
     def total(self) -> int:
-        """Points that were appended."""
+        """Number of added points."""
         return self.last.points if self.last is not None else 0
 
     @property
@@ -99,7 +99,7 @@ class Job:
 
     @property
     def stopped_position(self) -> tuple[float, ...] | None:
-        """Joints where the robot stood at the end, by the best that is known."""
+        """Joints at which the robot stopped, as far as known."""
         motion = self.motion
         if motion is None:
             return None

@@ -47,7 +47,7 @@ _ARRIVED = 1.0
 _STRANDED = 3.0
 """s at rest elsewhere that count as a failure without PROGRESS."""
 GOAL_TOLERANCE = 0.01
-"""rad or m: as industrial_robot_client."""
+"""rad or m: as in industrial_robot_client."""
 
 
 class Phase(Enum):
@@ -114,7 +114,7 @@ class CommandedMotion(ABC):
         self.approach = 0.0
         """Time of the first point, at the robot's position, s."""
         self.longest = 0.0
-        """Seconds that may pass without a sign of getting on."""
+        """Longest time without progress, s."""
         self.goal: Sequence[float] = ()
         """Axis values of the last point, rad or m."""
         self.stood: tuple[float, ...] | None = None
@@ -123,7 +123,7 @@ class CommandedMotion(ABC):
         self._state_port = state_port
         self._silence = silence
         self.events_before = state_port.event_count
-        """Entries of the controller's log that had come before it."""
+        """Entries of the controller's log before the motion."""
         self._before = state_port.progress
         self._began = state_port.clock()
         self._first_sample = state_port.samples
@@ -169,7 +169,7 @@ class CommandedMotion(ABC):
 
     @property
     def mark(self) -> tuple[object, ...]:
-        """Changes when the motion gets on."""
+        """Value that changes with the progress of the motion."""
         progress = self.progress
         return (progress.state, progress.reached, progress.received)
 

@@ -11,7 +11,7 @@ from rapidgen.client.core.group import Group
 from rapidgen.diagnostics import Diagnostic, Severity, error
 
 _UNIT = 1e-3
-"""A quaternion's length may be off by so much."""
+"""Tolerance of a quaternion's length."""
 
 
 class ProgramTraversal:
@@ -59,7 +59,7 @@ def operands(pose: Pose, posture: Posture) -> tuple[float, ...]:
 
 
 def unit(walk: ProgramTraversal, pose: Pose | None) -> Pose | None:
-    """A pose with a quaternion of length 1."""
+    """Return a pose with a quaternion of length 1."""
     if pose is None or not all(isfinite(value) for part in pose for value in part):
         walk.say("RG670", f"{pose} is no pose", "finite numbers")
         return None

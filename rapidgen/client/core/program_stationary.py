@@ -25,11 +25,11 @@ from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message.spec import FIXED_LIMIT, LONGEST_TEXT, Instruction
 
 _FARTHEST = 10.0
-"""m or s of a signal's place, at most."""
+"""Limit of a trigger's place, m or s."""
 _LARGEST = 3.4e38
 """Largest value of a RAPID num."""
 _LONGEST = 2000.0
-"""s of a wait."""
+"""Limit of a wait, s."""
 Checked = tuple[Sequence[float], float]
 """Operands of an instruction, and its minimum duration in s."""
 
@@ -161,7 +161,7 @@ def _of_routine(
 
 
 def _joints_of(walk: ProgramTraversal, value: Argument) -> Posture | None:
-    """Axis values of what are joints of this robot."""
+    """Return axis values of this robot's joints."""
     if isinstance(value, Sequence) and len(value) == len(walk.group.names):
         joints = [v for v in value if isinstance(v, float | int) and isfinite(v)]
         return walk.group.map.to_controller(joints) if len(joints) == len(value) else None
@@ -171,7 +171,7 @@ def _joints_of(walk: ProgramTraversal, value: Argument) -> Posture | None:
 def _reached(
     walk: ProgramTraversal, parameter: RoutineParameter, value: Argument
 ) -> tuple[float, ...] | float:
-    """A pose with the joints that reach it, nearest to where the robot is."""
+    """Return a pose with the joints that reach it, nearest to the position."""
     try:
         pose = unit(walk, pose_of(cast("Pose", value)))
     except InvalidProgram as error:

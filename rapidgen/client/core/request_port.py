@@ -12,7 +12,7 @@ from rapidgen.wire.simple_message.declaration import Content
 
 @dataclass(slots=True, eq=False)
 class PendingReply:
-    """A request that waits for its reply."""
+    """A request that awaits its reply."""
 
     number: int
     reply: Content | None = None
@@ -34,7 +34,7 @@ class RequestPort:
         return waiting
 
     def forget_orders(self) -> None:
-        """Expect no replies any more but those to STOP."""
+        """Drop the awaited replies except those to STOP."""
         self.pending = deque(waiting for waiting in self.pending if waiting.is_stop)
 
     def answered(self, number: int, reply: Content, *, orders_have_data: bool) -> bool:

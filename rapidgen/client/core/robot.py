@@ -96,7 +96,7 @@ _HELD_UP = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Timeouts:
-    """Seconds. Every wait of the client has one."""
+    """Time limits of the client's waits, s."""
 
     connect: float = 5.0
     hello: float = 1.0
@@ -257,7 +257,7 @@ class Core:
             self.motion.stood = self._group.from_wire(report.joints)
 
     def lost(self, port: Port, why: str) -> None:
-        """A connection broke."""
+        """Record that a connection was lost."""
         result = fault(
             "RG602",
             f"the connection to the {port.name.lower()} port was lost: {why}",
@@ -288,7 +288,7 @@ class Core:
             self.ports[port].is_open = False
 
     def closed(self) -> None:
-        """The caller closed all connections."""
+        """Record that the caller closed all connections."""
         if self.state_open:
             self.state_port.note("closed", logging.INFO)
         self.fault = None
@@ -372,7 +372,8 @@ class Core:
         if pace is None:
             return None
         if pace > _SIMULATION:
-            # A stall of this machine shortens the time by so much more; no robot is in danger.
+            # A stall of this machine shortens the time by the same factor; no real robot is
+            # concerned.
             pace *= _SLACK
         self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
         return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
@@ -403,7 +404,7 @@ class Core:
             return []
         self._stopped_blindly = run
         self.ports[Port.MOTION].forget_orders()
-        # Should no STOP get through, the controller misses the heartbeat.
+        # If no STOP arrives, the controller misses the heartbeat.
         self.heartbeat.forget()
         ports = [port for port, talk in self.ports.items() if talk.is_open]
         for port in ports:
@@ -412,7 +413,7 @@ class Core:
             self.state_port.note(why, logging.WARNING)
         return ports
 
-    # What callers ask
+    # Requests of callers
 
     @property
     def group(self) -> Group | None:
@@ -420,12 +421,12 @@ class Core:
         return self._group
 
     def use(self, group: Group) -> None:
-        """Take these names, units and limits."""
+        """Set names, units and limits."""
         self._group = group
         self.state_port.use(group)
 
     def evidence(self) -> ErrorContext:
-        """The last messages and states, for an exception."""
+        """Return the last messages and states, for an exception."""
         return self.state_port.evidence()
 
     @property
@@ -464,12 +465,12 @@ class Core:
         hello = self.state_port.driver.hello
         if hello is not None:
             return hello.capacity
-        # Who does not say how many it holds may be abb_driver, which drops the others.
+        # A driver that does not report its capacity may be abb_driver, which drops further points.
         return min(PLAIN_CAPACITY, self._group.policy.capacity if self._group else PLAIN_CAPACITY)
 
     @property
     def batch(self) -> int:
-        """Points that go well together."""
+        """Number of points of an efficient message."""
         hello = self.state_port.driver.hello
         return hello.batch if hello is not None and hello.batch > 0 else batch_points(MAX_JOINTS)
 
@@ -625,7 +626,7 @@ class Core:
 
     @staticmethod
     def go_on(stream: PointStream, checked: CheckedPoints) -> None:
-        """More points of a stream."""
+        """Queue more points of a stream."""
         assert isinstance(stream.queue, PointQueue)
         stream.queue.put(pack_points(checked.durations, checked.wire))
         stream.goes_on(checked.durations.tolist(), checked.last.wire.tolist())
@@ -655,7 +656,7 @@ class Core:
         return motion
 
     def request_stop(self, port: Port) -> PendingReply:
-        """A STOP is about to be sent on this connection."""
+        """Record that a STOP will be sent on this connection."""
         if self.motion is not None:
             self.motion.stopping = True
         return self.ports[port].request(JOINT_TRAJ_PT.number, is_stop=True)

@@ -34,7 +34,7 @@ class Status:
     error_code: int = 0
     error: Reason | None = None
     error_joint: int = 0
-    """1 to 10; 0 when the error is of no joint."""
+    """1 to 10; 0 if no joint has the error."""
 
     def __str__(self) -> str:
         message = [self.mode.name if self.mode is not Mode.UNKNOWN else "mode unknown"]
@@ -61,7 +61,7 @@ class Progress:
     planned: int | None = None
     reached: int | None = None
     fraction: float = 0.0
-    """0 to 1; by time where the driver does not say."""
+    """0 to 1; by time if the driver does not report it."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -69,7 +69,8 @@ class State:
     """Joints and status at one moment.
 
     `joints` and `velocity` are in rad and m (per s), in URDF order, as `names`; `time` is the
-    moment of reception on the client's clock, s; `rate` the measured joint messages per s.
+    moment of reception on the client's clock, s; `rate` is the measured number of joint messages
+    per s.
     """
 
     names: tuple[str, ...]

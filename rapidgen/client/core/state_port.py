@@ -54,7 +54,7 @@ class Listener(Protocol):
     """Receiver of joint messages and events."""
 
     def add(self, sample: Sample) -> None:
-        """A joint message, or a feedback."""
+        """Add a joint message, or a feedback."""
 
     def taken(self, time: float) -> None:
         """Record the client's time at which the controller accepted a motion."""
@@ -74,7 +74,7 @@ class StatePort:
     """
 
     def __init__(self, clock: Callable[[], float], where: str = "") -> None:
-        """`where`: which robot this is, for the log."""
+        """`where`: name of the robot in the log."""
         self.clock = clock
         self.where = where
         self.driver = Driver()
@@ -130,7 +130,7 @@ class StatePort:
         self._state = None
 
     def use(self, group: Group) -> None:
-        """From now on states have this group's names and units."""
+        """Use this group's names and units for later states."""
         self._group = group
         self._state = None
 

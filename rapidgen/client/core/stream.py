@@ -107,7 +107,7 @@ class PointQueue:
 
 
 class InstructionQueue:
-    """Instructions of a program, packed: each as many words as it needs."""
+    """Packed instructions of a program, each of as many words as it needs."""
 
     number = PROGRAM.number
     batch = 16
@@ -175,10 +175,10 @@ class PointStream(CommandedMotion):
         self._reached_points = 0
         self._ring = hello.ring
         self._send_limit = hello.ring
-        """Points that may be sent at all, for what is known now."""
+        """Limit of the points that may be sent, as far as known now."""
         self._flights: deque[_Flight] = deque()
         self._looked_at = 0
-        """PROGRESS messages when one was looked at last."""
+        """PROGRESS messages at the last evaluation."""
         self._is_flushing = False
         self._is_filled = False
         """True from the order to start a full ring buffer until the start."""

@@ -7,7 +7,7 @@ from rapidgen.axes.frames import Pose
 from rapidgen.client.program import UserTool, UserWorkObject, pose_of
 
 _UNIT = 1e-3
-"""A quaternion's length may be off by so much."""
+"""Tolerance of a quaternion's length."""
 _FARTHEST, _HEAVIEST, _INERTIA = 100.0, 2000.0, 2000.0
 """Limits of the driver: m, kg, kg m2."""
 

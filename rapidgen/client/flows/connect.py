@@ -1,4 +1,4 @@
-"""Connecting, and finding out who is there."""
+"""Flows that connect and identify the driver."""
 
 import logging
 import math
@@ -88,7 +88,7 @@ def _open(core: Core) -> Flow[None]:
 
 
 def reach_control(core: Core) -> Flow[None]:
-    """Open the control connection where that was left for later, or failed."""
+    """Open the control connection if it is missing."""
     if core.may_reach_control and not core.ports[Port.CONTROL].is_open:
         core.may_reach_control = False
         core.without_control("")

@@ -43,7 +43,7 @@ def read_signal(core: Core, signal: str | int) -> Flow[float]:
 
 
 def write_signal(core: Core, signal: str | int, value: float) -> Flow[float]:
-    """Set a signal; the value as it was read then. Raises as `pause`."""
+    """Set a signal; return its value as read afterwards. Raises as `pause`."""
     if value is None or isinstance(value, str):
         raise RequestRefused.because(
             "RG625",
@@ -90,7 +90,7 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
 
 
 def ask(core: Core, content: Content, what: str) -> Flow[Content]:
-    """A request over the control port and its reply."""
+    """Send a request over the control port and return its reply."""
     yield from alive(core)
     yield from reach_control(core)
     control = core.ports[Port.CONTROL]

@@ -12,7 +12,10 @@ from rapidgen.wire.simple_message.spec import Port
 
 
 def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:
-    """Send, and wait until the controller took it; only then it moves."""
+    """Send all; return when the controller has accepted it.
+
+    The robot moves only then.
+    """
     sending = DownloadInProgress(core, checked)
     try:
         yield from sending.points()
@@ -48,7 +51,7 @@ class DownloadInProgress:
         return Send(Port.MOTION, data, self._core.timeouts.send, motion=self.motion)
 
     def accepted(self) -> Flow[None]:
-        """Wait for the controller's word on the whole trajectory."""
+        """Wait for the controller's reply to the whole trajectory."""
         core, motion = self._core, self.motion
         timeout = core.timeouts.reply + PER_POINT * motion.frames
         yield Wait(lambda: motion.is_taken or motion.is_over, timeout)

@@ -61,7 +61,7 @@ class SendAtOnce:
 
 @dataclass(frozen=True, slots=True)
 class Wait:
-    """Wait until the condition holds; it is looked at after each message."""
+    """Wait until the condition holds; it is checked after each message."""
 
     until: Callable[[], bool]
     timeout: float
@@ -69,7 +69,7 @@ class Wait:
 
 @dataclass(frozen=True, slots=True)
 class Close:
-    """Close a connection that is of no use."""
+    """Close a useless connection."""
 
     port: Port
 

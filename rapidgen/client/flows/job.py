@@ -79,7 +79,10 @@ def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[Non
 
 
 def _keep(job: Job, points: Trajectory) -> None:
-    """For a driver that does not stream: checked now, sent at the end."""
+    """Collect points for a driver that does not stream.
+
+    They are checked now and sent at the end.
+    """
     core, total = job.core, job.total + len(points)
     if total > core.capacity:
         raise InvalidTrajectory.because(
@@ -94,7 +97,7 @@ def _keep(job: Job, points: Trajectory) -> None:
 
 
 def flush(job: Job) -> Flow[None]:
-    """Let the robot start with what there is. Raises as `append`."""
+    """Start the robot with the points sent so far. Raises as `append`."""
     if job.stream is not None:
         job.stream.flush()
         yield from _going_on(job.core, job.stream)

@@ -1,4 +1,4 @@
-"""Before a motion, and until its end."""
+"""Flows before a motion and until its end."""
 
 from collections.abc import Callable
 from functools import partial

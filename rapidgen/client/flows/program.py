@@ -31,19 +31,19 @@ from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import Comm, EventType, Port, Reason
 
 LONGEST_JOG = {"revolute": 0.2, "prismatic": 0.1}
-"""rad and m of one jog."""
+"""Limits of one jog, rad and m."""
 DIRECTIONS = ("x", "y", "z")
 """Limit of the work object's values."""
 _DEAD_MAN = 0.2
-"""s without a word of the client after which a jogged robot is stopped."""
+"""s of silence of the client after which a jogged robot is stopped."""
 _LOOK = 0.01
-"""s between two looks whether a routine has ended."""
+"""s between two checks whether a routine has ended."""
 _GRACE = 2.0
 """s after its time-out within which the controller leaves a routine."""
 _EVENT_WAIT = 1.0
 """s within which an event of the controller arrives."""
 _ANY = 1e6
-"""s that a routine without a time-out may take."""
+"""s permitted to a routine without a time-out."""
 
 
 def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
@@ -73,7 +73,7 @@ def move_to(
 def move_linear(
     core: Core, pose: Pose, *, speed: SpeedLike = SLOW, timeout: float | None = None
 ) -> Flow[Result]:
-    """Go to a pose on a line, and wait for the end. Raises as `run`."""
+    """Move to a pose on a line, and wait for the end. Raises as `run`."""
     return (yield from _go(core, Program(speed=speed).move_linear(pose), timeout))
 
 
@@ -170,7 +170,7 @@ def call(
 def _called(
     core: Core, job: Job, motion: CommandedMotion, routine: str, timeout: float | None
 ) -> Flow[tuple[Left, ...]]:
-    """Wait for the end of a routine, and ask what it left. Raises as `call`."""
+    """Wait for the end of a routine and read its results. Raises as `call`."""
     motion.longest = _ANY if timeout is None else timeout + _GRACE
     deadline = core.clock() + motion.longest
     result_reply = yield from _read_result(core)

@@ -1,4 +1,4 @@
-"""STOP, and the end."""
+"""Flows that stop the robot and close connections."""
 
 import logging
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Port, TriState
 
 PER_POINT = 0.02
-"""s that a controller may take to read one point."""
+"""s that a controller may need to read one point."""
 _SUPERSEDED = 0.5
 """s within which PROGRESS reports a motion that has replaced this one."""
 _STILL_SAMPLES = 5
@@ -42,7 +42,7 @@ def _send_stop(core: Core, ports: Sequence[Port]) -> Flow[dict[Port, PendingRepl
 
 
 def _connect_and_send(core: Core, port: Port) -> Flow[dict[Port, PendingReply]]:
-    """STOP on a connection that is made for it. Raises StopFailed."""
+    """Send STOP on a new connection. Raises StopFailed."""
     try:
         yield Open(port, min(core.timeouts.connect, core.timeouts.stop))
     except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
@@ -200,7 +200,7 @@ def _until_standing(core: Core) -> Flow[State]:
     state_port = core.state_port
     seen = state_port.samples
 
-    def stands() -> bool:
+    def is_at_rest() -> bool:
         # Two joint messages: the status between them was made after the STOP was answered.
         if state_port.samples < seen + 2:
             return False
@@ -208,10 +208,10 @@ def _until_standing(core: Core) -> Flow[State]:
         still = state_port.samples >= seen + _STILL_SAMPLES and state_port.is_still(_STILL_SAMPLES)
         return state_port.status.in_motion is not TriState.TRUE or still
 
-    came = yield Wait(lambda: stands() or not core.state_open, core.timeouts.stop)
+    came = yield Wait(lambda: is_at_rest() or not core.state_open, core.timeouts.stop)
     state = state_port.state
     # Another client may move the robot again before this flow resumes.
-    if state is None or not came or not (core.state_open or stands()):
+    if state is None or not came or not (core.state_open or is_at_rest()):
         raise _not_stopped(core, "STOP was answered, and the robot was not observed at rest")
     state_port.note("is at rest after STOP", logging.INFO)
     return state

@@ -16,7 +16,7 @@ __all__ = ["AsyncController", "Controller", "RwsError"]
 
 
 def __getattr__(name: str) -> object:
-    # Who deploys over FTP, or talks to a driver alone, should not pay for HTTP and websockets.
+    # Deployment over FTP and clients of a driver alone must not pay for HTTP and websockets.
     with _extras.named():
         if name == "Controller":
             from rapidgen.client.rws.sync import Controller

@@ -34,7 +34,7 @@ class RwsAddress:
 
 
 def parse_address(text: str) -> RwsAddress:
-    """An address from what a user writes. Raises DiagnosticError RG657."""
+    """Parse an address of a user. Raises DiagnosticError RG657."""
     if not isinstance(text, str):
         raise _bad(repr(text))
     complete = text if "://" in text else f"rws://{text}"

@@ -1,4 +1,4 @@
-"""`AsyncController`: the same surface on asyncio."""
+"""`AsyncController`: the controller client for asyncio."""
 
 import asyncio
 import ssl
@@ -49,7 +49,7 @@ T = TypeVar("T")
 
 
 class RwsAsyncRunner:
-    """Carries out flows on the caller's loop, one after the other."""
+    """Runner of flows on the caller's loop, one after another."""
 
     def __init__(self, core: RwsCore, timeout: float) -> None:
         self._core = core
@@ -61,7 +61,10 @@ class RwsAsyncRunner:
         self._auth: httpx2.Auth | None = None
 
     async def run(self, flow: Flow[T]) -> T:
-        """The outcome of a flow. What an effect raises is thrown into it."""
+        """Return the outcome of a flow.
+
+        An exception of an effect is thrown into it.
+        """
         async with self._lock:
             try:
                 return await self._carry_out(flow)

@@ -15,11 +15,11 @@ from rapidgen.wire.rws.bodies import Generation
 P = ParamSpec("P")
 T = TypeVar("T")
 RESTART_TIMEOUT = 180.0
-"""s that a subscription waits for a controller that restarts."""
+"""s for which a subscription waits for a restarting controller."""
 
 
 class RwsFlowRunner(Protocol):
-    """Carries out flows for a core."""
+    """A runner of flows for a core."""
 
     def __init__(self, core: RwsCore, timeout: float) -> None: ...
 
@@ -64,12 +64,12 @@ class ControllerApi(Generic[C_co]):
 
     @property
     def generation(self) -> Generation:
-        """RWS 1.0, 2.0, or 2.0 of RobotWare 8; known once it is connected."""
+        """RWS 1.0, 2.0, or 2.0 of RobotWare 8; known after connecting."""
         return self._core.generation
 
     @property
     def where(self) -> str:
-        """Host and port that were found."""
+        """Host and port of the connection."""
         return self._core.where
 
     @property

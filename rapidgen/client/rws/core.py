@@ -64,12 +64,12 @@ class RwsCore:
     connected: bool = False
     robotware: str = ""
     system: str = ""
-    """Name of the system that was found."""
+    """Name of the connected system."""
     held: dict[str, int] = field(default_factory=dict)
     """Domains of mastership of this session, with their counts."""
     requests: int = 0
     clock: Callable[[], float] = time.monotonic
-    """s; what waits measures by it."""
+    """Clock of waits, s."""
 
     @property
     def where(self) -> str:
@@ -90,7 +90,7 @@ class RwsCore:
         return f"{{{str(uuid5(NAMESPACE_DNS, f'{APPLICATION}.{socket.gethostname()}')).upper()}}}"
 
     def tell(self, text: str, level: int = logging.INFO) -> None:
-        """Log something; no body and no login is ever in it."""
+        """Log a message, which never has a body or a login."""
         _LOG.log(level, "%s: %s", self.where, text)
 
     def check_login(self) -> None:

@@ -11,7 +11,7 @@ INTERRUPTIONS = (KeyboardInterrupt, CancelledError)
 
 @dataclass(frozen=True, slots=True)
 class Response:
-    """An answer. Names of headers are in lower case."""
+    """A response. Names of headers are in lower case."""
 
     status: int
     headers: Mapping[str, str] = field(default_factory=dict)
@@ -70,7 +70,7 @@ class DropConnections:
 
 @dataclass(frozen=True, slots=True)
 class Pause:
-    """Let s pass."""
+    """Wait s."""
 
     seconds: float
 

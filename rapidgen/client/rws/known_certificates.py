@@ -11,7 +11,7 @@ from rapidgen._atomic_write import write_whole
 from rapidgen._reading import read_foreign
 
 _LARGEST = 1_000_000
-"""Bytes of the list."""
+"""Largest size of the list, bytes."""
 
 
 def default_file() -> Path:
@@ -34,7 +34,7 @@ def known(file: Path, where: str) -> str:
 
 
 def remember(file: Path, where: str, fingerprint: str) -> None:
-    """Keep a fingerprint, in place of an older one."""
+    """Store a fingerprint, replacing an older one."""
     lines = read_foreign(file, _LARGEST).decode().splitlines() if file.exists() else []
     lines = [line for line in lines if line.partition(" ")[0] != where]
     file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)

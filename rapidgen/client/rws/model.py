@@ -190,13 +190,13 @@ class Dialog:
 
     @property
     def task(self) -> str:
-        """The task that waits."""
+        """Task of the dialog."""
         return self.stack.removeprefix("RAPID/").partition("/")[0]
 
 
 @dataclass(frozen=True, slots=True)
 class QueueMessage:
-    """A message out of a queue: from a task it is `type;value`."""
+    """A message of a queue; from a task it is `type;value`."""
 
     data: str
     user: int
@@ -204,7 +204,7 @@ class QueueMessage:
 
 @dataclass(frozen=True, slots=True)
 class ResourceEvent:
-    """An event of a subscription: what it is about, and its new value."""
+    """An event of a subscription: its resource and its new value."""
 
     resource: str
     kind: str

@@ -1,4 +1,4 @@
-"""`Controller`: Robot Web Services from the caller's thread."""
+"""`Controller`: Robot Web Services on the caller's thread."""
 
 import socket
 import ssl
@@ -61,7 +61,10 @@ class RwsSyncRunner:
         self._auth: httpx2.Auth | None = None
 
     def run(self, flow: Flow[T]) -> T:
-        """The outcome of a flow. What an effect raises is thrown into it."""
+        """Return the outcome of a flow.
+
+        An exception of an effect is thrown into it.
+        """
         with self._lock:
             try:
                 return self._carry_out(flow)

@@ -69,7 +69,7 @@ def queue(name: str) -> Topic:
 
 
 def dialogs() -> Topic:
-    """Dialogs of programs: the instruction that waits."""
+    """Dialogs of programs: the instruction of the open one."""
     return Topic("dialogs", _DIALOGS, suffix="uievent")
 
 

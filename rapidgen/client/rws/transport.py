@@ -79,7 +79,7 @@ def socket_options(
 
 
 def response_of(answer: httpx2.Response) -> Response:
-    """An answer as data."""
+    """Return an httpx response as data."""
     headers = {name.lower(): value for name, value in answer.headers.items()}
     return Response(answer.status_code, headers, answer.content)
 

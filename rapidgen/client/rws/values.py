@@ -26,7 +26,10 @@ def read(literal: str) -> RapidValue:
 
 
 def write(value: RapidValue) -> str:
-    """A value as a literal. ValueError: RAPID has no such number."""
+    """Format a value as a literal.
+
+    ValueError: RAPID has no such number.
+    """
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
     if isinstance(value, str):

@@ -66,7 +66,7 @@ def cfg_create(core: RwsCore, domain: str, type: str, instance: str) -> Flow[Non
 
 
 def cfg_delete(core: RwsCore, domain: str, type: str, instance: str) -> Flow[None]:
-    """Take an instance out."""
+    """Delete an instance."""
     names = {"domain": domain, "type": type, "instance": instance}
     yield from held(core, "cfg", ask(core, ops.CFG_DELETE, names))
 

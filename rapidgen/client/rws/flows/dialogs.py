@@ -29,7 +29,7 @@ def _waiting(core: RwsCore) -> Flow[Dialog]:
     if not dialogs:
         raise NotConfirmed.because("RG655", f"{core.where} returns no dialog")
     stack = dialogs[0].text("stack")
-    # Some controllers have no reading side of parameters [VC 6.16, VC 7.21].
+    # Some controllers cannot return parameters [VC 6.16, VC 7.21].
     names = {"stack": stack}
     result, _ = yield from ask(core, ops.DIALOG_PARAMETERS, names, accepted=(400, 404))
     values = {item.title: item.text("value") for item in result.all("rap-uiparams-li")}

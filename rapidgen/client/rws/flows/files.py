@@ -27,13 +27,16 @@ def list_files(core: RwsCore, path: str = "HOME") -> Flow[tuple[FileInfo, ...]]:
 
 
 def read_file(core: RwsCore, path: str) -> Flow[bytes]:
-    """A file as it is."""
+    """Return the content of a file."""
     _, response = yield from ask(core, ops.READ_FILE, {"path": volume(core, path)})
     return response.body
 
 
 def write_file(core: RwsCore, path: str, data: bytes) -> Flow[bool]:
-    """Write a file whole; whether it is a new one. Its folder must be there."""
+    """Write a whole file; return True if it is new.
+
+    Its folder must exist.
+    """
     _, response = yield from ask(core, ops.WRITE_FILE, {"path": volume(core, path)}, data=data)
     return response.status == 201
 
@@ -47,7 +50,7 @@ def delete_file(core: RwsCore, path: str) -> Flow[bool]:
 
 
 def make_folder(core: RwsCore, path: str) -> Flow[None]:
-    """Make a folder in one that is there."""
+    """Create a folder in an existing one."""
     parent, _, name = path.strip("/").rpartition("/")
     yield from _act(core, ops.CREATE_FOLDER, "create", parent, name)
 

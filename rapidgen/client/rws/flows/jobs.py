@@ -17,9 +17,9 @@ from rapidgen.wire.rws.forms import Fields
 from rapidgen.wire.rws.operations import RwsOperation
 
 _LOOK = 1.0
-"""s between two looks at a job, or at a controller that restarts."""
+"""s between two checks of a job or a restarting controller."""
 _LONGEST = 600.0
-"""s that a backup or a load may take."""
+"""s permitted to a backup or a load."""
 
 
 def finish(
@@ -47,7 +47,7 @@ def finish(
 
 
 def backup(core: RwsCore, name: str, *, volume_name: str = "BACKUP") -> Flow[str]:
-    """Make a backup into a new folder on the controller; its path there."""
+    """Make a backup in a new folder on the controller; return its path."""
     path = f"{volume_name}/{name}"
     form = {"backup": f"/fileservice/{volume(core, path)}"}
     yield from finish(core, ops.BACKUP, {}, form)
@@ -79,13 +79,13 @@ def _restarted(core: RwsCore, operation: RwsOperation, form: Fields, wait: float
     try:
         yield from ask(core, operation, form=form)
     except ConnectionLost:
-        pass  # it was quicker than its answer; whether it restarts is looked at below
+        pass  # it restarted before its answer; the next step checks this
     except RwsError:
         yield from give(core, "cfg")
         raise
     yield from _gone(core, wait)
     core.held.clear()
-    # Looking has logged in to the new run already, perhaps.
+    # The check may have logged in after the restart already.
     yield from close(core)
     yield from wait_ready(core, wait=wait)
 

@@ -60,9 +60,9 @@ def execution(core: RwsCore) -> Flow[ProgramState]:
 
 
 def motors(core: RwsCore, on: bool) -> Flow[None]:
-    """Motors on or off; returns when they are.
+    """Switch motors on or off; return when they are.
 
-    Raises RwsError (RG650), NotConfirmed (RG655): the controller agreed, and they are not.
+    Raises RwsError (RG650), NotConfirmed (RG655): accepted without effect.
     """
     requested = "motoron" if on else "motoroff"
     yield from ask(core, ops.SET_CTRL_STATE, form={"ctrl-state": requested})

@@ -8,13 +8,13 @@ from rapidgen.client.rws.model import QueueMessage
 from rapidgen.wire.rws import operations as ops
 
 _LOOK = 0.2
-"""s between two looks into a queue."""
+"""s between two checks of a queue."""
 _COMMAND = "111"
 """Value that public clients send [code: abb_robot_client, abb-rws-client]."""
 
 
 def queues(core: RwsCore) -> Flow[tuple[str, ...]]:
-    """Names of the queues that clients have made."""
+    """Return the names of the clients' queues."""
     body, _ = yield from ask(core, ops.QUEUES)
     return tuple(item.text("queue-name") or item.title for item in body.all("dipc-queue-li"))
 
@@ -33,7 +33,7 @@ def make_queue(core: RwsCore, name: str, *, size: int = 10, largest: int = 444) 
 
 
 def delete_queue(core: RwsCore, name: str) -> Flow[None]:
-    """No more of a queue."""
+    """Delete a queue."""
     yield from ask(core, ops.DELETE_QUEUE, {"queue": name})
 
 

@@ -53,7 +53,7 @@ def ask(
         body = write_form(form or {})
     response = yield from _send(core, route.method, target, headers, body)
     if response.status == 406 and not one:
-        # Some want XHTML, and say so [VC 7.21, real 7.21].
+        # Some resources require XHTML [VC 7.21, real 7.21].
         headers["Accept"] = media.XHTML
         response = yield from _send(core, route.method, target, headers, body)
     read = _read(core, response)

@@ -42,7 +42,7 @@ function row(socket: ShownSocket, view: View): Row<ShownSocket> {
   return { element, show: (now) => fares.report(now.ailment) };
 }
 
-interface Said {
+interface LogRow {
   line: SocketLogLine;
   count: number;
 }
@@ -83,8 +83,8 @@ class ProtocolLog {
   /** The latest first; repeated lines are one row. */
   private draw(): void {
     const wanted = this.words.value.trim().toLowerCase();
-    const rows: Said[] = [];
-    const runs = new Map<string, { way: string; rows: Map<string, Said> }>();
+    const rows: LogRow[] = [];
+    const runs = new Map<string, { way: string; rows: Map<string, LogRow> }>();
     for (const line of this.lines) {
       if (wanted && !`${line.name} ${line.text} ${line.task} ${line.peer}`.toLowerCase().includes(wanted)) continue;
       const who = `${line.task} ${line.peer}`;

@@ -25,15 +25,15 @@ class PointRow implements Row<SeenBreakpoint> {
   private readonly count = h("small", { class: "soft" });
   private readonly doubt = h("p", { class: "soft" });
   private readonly fields: Record<"condition" | "hits" | "log", HTMLInputElement>;
-  private readonly wishes: RequestState<SeenBreakpoint>;
+  private readonly state: RequestState<SeenBreakpoint>;
 
   constructor({ number, task, module, line }: SeenBreakpoint, view: View) {
     // All fields are sent: the last input may not have been reported back yet.
-    const change = (): void => void this.wishes.ask({ do: "break", number, task, module, line,
+    const change = (): void => void this.state.ask({ do: "break", number, task, module, line,
       condition: this.fields.condition.value, hits: this.fields.hits.value, log: this.fields.log.value });
     const field = (hint: string): HTMLInputElement =>
       h("input", { type: "text", placeholder: hint, "aria-label": `${hint} of line ${line}`, onchange: change });
-    this.wishes = new RequestState(view, (point, refused) => this.write(point, refused));
+    this.state = new RequestState(view, (point, refused) => this.write(point, refused));
     this.fields = { condition: field("Condition"), hits: field("Pass"), log: field("Log, do not pause") };
     this.element = h("li", {},
       h("div", { class: "row" }, h("b", {}, `${module}, line ${line}`), this.count, h("span", { class: "space" }),
@@ -46,7 +46,7 @@ class PointRow implements Row<SeenBreakpoint> {
     say(this.count, `reached ${point.count} ×`);
     say(this.doubt, point.doubt);
     this.doubt.hidden = !point.doubt;
-    this.wishes.report(point);
+    this.state.report(point);
   }
 
   private write(point: SeenBreakpoint, refused: boolean): void {

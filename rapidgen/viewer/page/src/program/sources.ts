@@ -56,7 +56,7 @@ export interface OriginActions {
   template(name: string, line: number): void;
 }
 
-interface Told {
+interface TemplatePlace {
   readonly text: string;
   readonly places: readonly (readonly [string, () => void])[];
   readonly more?: string;
@@ -69,7 +69,7 @@ export class Origins {
   private readonly known = new Map<number, Promise<SourceOrigin | null>>();
   /** They stay while the program moves from line to line: one of them may have the focus. */
   private readonly buttons: HTMLButtonElement[] = [];
-  private places: Told["places"] = [];
+  private places: TemplatePlace["places"] = [];
   private shown = "";
 
   constructor(private readonly link: Link, private readonly sources: Sources, private readonly actions: OriginActions) {}
@@ -107,7 +107,7 @@ export class Origins {
     });
   }
 
-  private async maker({ task, module, line }: Read): Promise<Told | null> {
+  private async maker({ task, module, line }: Read): Promise<TemplatePlace | null> {
     const origin = await this.of(task, module);
     const [, template, number] = origin?.lines.find(([own]) => own === line) ?? [];
     if (!origin || template === undefined || number === undefined) return null;
@@ -116,7 +116,7 @@ export class Origins {
     return { text: `Line ${line} is made by`, places: [[name, () => this.actions.template(template, number)]] };
   }
 
-  private async made({ task, module, template, line }: Read): Promise<Told> {
+  private async made({ task, module, template, line }: Read): Promise<TemplatePlace> {
     // The module that was shown before comes first.
     const modules = [module, ...this.sources.modules(task).filter((own) => own !== module)];
     const found = (await Promise.all(modules.map(async (own) => ((await this.of(task, own))?.lines ?? [])
