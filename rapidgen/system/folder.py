@@ -1,4 +1,4 @@
-"""A generated folder: manifest.json, SYS.cfg, EIO.cfg and HOME (docs/develop/architecture.md)."""
+"""A generated folder: manifest.json, SYS.cfg, EIO.cfg and HOME (docs/reference/driver.md)."""
 
 import hashlib
 import json
