@@ -8,9 +8,11 @@ import os
 import re
 import resource
 import signal
+import sys
 import time
 from collections import Counter
-from fnmatch import fnmatchcase as fnmatch
+from fnmatch import translate
+from importlib.machinery import PathFinder
 from pathlib import Path
 
 import pytest
@@ -36,29 +38,46 @@ settings.load_profile(os.environ.get("RAPIDGEN_PROPERTIES", "gate"))
 # A shell that starts this in the background makes it deaf to Ctrl-C, and whatever it starts, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+
+class Unchanged:
+    """Import the modules of rapidgen as they are.
+
+    pytest rewrites the asserts of all of them, as rapidgen has a plugin of it: seconds in each
+    worker, and compiled files that no other process can use.
+    """
+
+    @staticmethod
+    def find_spec(name, path=None, target=None):
+        return PathFinder.find_spec(name, path, target) if name.startswith("rapidgen.") else None
+
+
+sys.meta_path.insert(0, Unchanged)
+
 LONG_TESTS = Path(__file__).with_name("long_tests.txt")
 
 COLLECTING = "(start, imports, collection)"
 HERE = Path(__file__).parent
 
 
-def is_long(test: str, patterns: list[str]) -> bool:
-    """Return whether the last pattern that matches a node id below tests/ is one without `!`."""
-    last = next((p for p in reversed(patterns) if fnmatch(test, p.removeprefix("!"))), "!")
-    return not last.startswith("!")
+def long_tests() -> re.Pattern[str]:
+    """Return what matches a node id below tests/, in a group if the test is long.
 
-
-def long_patterns() -> list[str]:
-    """Return the lines of long_tests.txt, whose brackets stand for themselves."""
+    The last line of long_tests.txt that fits counts; brackets stand for themselves.
+    """
     lines = [line.strip() for line in LONG_TESTS.read_text("utf-8").splitlines()]
-    return [re.sub(r"[\[\]]", "?", line) for line in lines if line and not line.startswith("#")]
+    patterns = [re.sub(r"[\[\]]", "?", line) for line in lines if line and line[0] != "#"]
+    branches = [
+        translate(p[1:]) if p.startswith("!") else f"({translate(p)})" for p in reversed(patterns)
+    ]
+    return re.compile("|".join(branches))
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark the tests of long_tests.txt, which `make test` deselects."""
-    patterns = long_patterns()
+    long = long_tests()
     for item in items:
-        if is_long(item.nodeid.removeprefix("tests/"), patterns):
+        match = long.match(item.nodeid.removeprefix("tests/"))
+        if match and match.lastindex:
             item.add_marker("long")
 
 
@@ -82,6 +101,11 @@ class Garbage:
     def __init__(self) -> None:
         young, middle, _ = gc.get_threshold()
         gc.set_threshold(young, middle, self.SELDOM)
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_finish(self) -> None:
+        # What is there stays to the end: no need to look through it again and again.
+        gc.freeze()
 
     @pytest.hookimpl(wrapper=True, trylast=True)
     def pytest_runtest_protocol(self):

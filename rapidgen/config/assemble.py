@@ -1,6 +1,7 @@
 """The layers of one configuration become one tree: shipped model, the user's file, overrides."""
 
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
 
 from rapidgen._data import data_folder
@@ -119,7 +120,7 @@ def _model(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
 
 def _parsed(name: str, data: bytes, displayed: str, made: Assembly) -> MappingNode:
     made.inputs.append((name, data))
-    root, faults = keys_of(data, displayed)
+    root, faults = _known_keys(data, displayed)
     made.found += faults
     return root
 
@@ -146,6 +147,10 @@ def keys_of(
             label="not a mapping",
         )
     return root, faults
+
+
+# Groups share models, and reading one takes most of the time that loading a configuration takes.
+_known_keys = lru_cache(maxsize=16)(keys_of)
 
 
 def _text(root: MappingNode, key: str) -> str:

@@ -153,7 +153,7 @@ def made_up(monkeypatch):
     case = SuiteCase("made-up", "a pair of assumptions breaks it", "made up", _a_pair_breaks)
     monkeypatch.setattr("rapidgen.verification.suite.CASES", (case,))
     monkeypatch.setattr("rapidgen.verification.suite_runner.CASES", (case,))
-    hostile = ("costs=4.0", "settle=0.2", "retry_raised=false", "for_loop=tested", "seed=3")
+    hostile = ("costs=4.0", "settle=0.2", "for_loop=tested")
     array = {"": (), "pairs 1": hostile, "pairs 2": ("for_loop=tested", "seed=2")}
     monkeypatch.setattr("rapidgen.verification.suite_runner.rows", lambda strength: array)
     return ["test", "irb120", "--case", "made-up", "--jobs", "1"]

@@ -362,11 +362,12 @@ def _suspects(program: Program, module: LoadedModule) -> set[str]:
         unknown.difference_update(p.name.lower() for p in declared.parameters)
     if not unknown:
         return unknown
+    spelled = {text: key for text in set(tokens) if (key := text.lower()) in unknown}
     suspects = set()
     last = len(tokens) - 1
     for i, text in enumerate(tokens):
-        key = text.lower()
-        if key not in unknown or key in suspects:
+        key = spelled.get(text, "")
+        if not key or key in suspects:
             continue
         after = tokens[i + 1] if i < last else ""
         before = tokens[i - 1].upper() if i else ""
