@@ -57,28 +57,45 @@ LONG_TESTS = Path(__file__).with_name("long_tests.txt")
 
 COLLECTING = "(start, imports, collection)"
 HERE = Path(__file__).parent
+UNMATCHED = pytest.StashKey[list[str]]()
 
 
-def long_tests() -> re.Pattern[str]:
-    """Return what matches a node id below tests/, in a group if the test is long.
-
-    The last line of long_tests.txt that fits counts; brackets stand for themselves.
-    """
+def long_tests() -> list[str]:
+    """Return the lines of long_tests.txt: patterns, of which the last that fits a test counts."""
     lines = [line.strip() for line in LONG_TESTS.read_text("utf-8").splitlines()]
-    patterns = [re.sub(r"[\[\]]", "?", line) for line in lines if line and line[0] != "#"]
-    branches = [
-        translate(p[1:]) if p.startswith("!") else f"({translate(p)})" for p in reversed(patterns)
-    ]
-    return re.compile("|".join(branches))
+    return [line for line in lines if line and not line.startswith("#")]
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark the tests of long_tests.txt, which `make test` deselects."""
-    long = long_tests()
+    lines = long_tests()[::-1]
+    # Brackets stand for themselves.
+    texts = [translate(re.sub(r"[\[\]]", "?", line.removeprefix("!"))) for line in lines]
+    patterns = re.compile("|".join(f"({text})" for text in texts))
+    files, matched = set(), set()
     for item in items:
-        match = long.match(item.nodeid.removeprefix("tests/"))
-        if match and match.lastindex:
-            item.add_marker("long")
+        name = item.nodeid.removeprefix("tests/")
+        files.add(name.partition("::")[0])
+        if match := patterns.match(name):
+            line = lines[match.lastindex - 1]
+            matched.add(line)
+            if not line.startswith("!"):
+                item.add_marker("long")
+    config.stash[UNMATCHED] = [
+        line
+        for line in lines
+        if line not in matched
+        and (file := line.removeprefix("!").partition("::")[0]).endswith(".py")
+        and (file in files or not (HERE / file).exists())
+        and not any("::" in argument for argument in config.args)
+    ]
+
+
+@pytest.fixture
+def unmatched(pytestconfig: pytest.Config) -> list[str]:
+    """Lines of long_tests.txt about collected files that fit no test."""
+    return pytestconfig.stash[UNMATCHED]
 
 
 def cpu_seconds() -> float:
