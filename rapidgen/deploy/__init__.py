@@ -1,4 +1,4 @@
-"""Plan, apply, verify and roll back what lies on a controller."""
+"""Deployment of drivers to controllers: plan, apply, verify, roll back."""
 
 from rapidgen.deploy.apply import apply
 from rapidgen.deploy.driver_set import DriverSet, from_files, from_folder

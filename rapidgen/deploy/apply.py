@@ -100,7 +100,7 @@ def _apply_files(transport: Transport, plan: Plan, say: Say, given_up: Callable[
     try:
         _hold(work, journal)
     except TransportFault:
-        # The other run may use files of the same names, until it is done.
+        # Another run may use files of the same names until it ends.
         if not names(transport, work.folder) & {"journal.a", "journal.b", "switching"}:
             delete_all(work, journal.staged)
         raise
@@ -184,7 +184,7 @@ def _other_driver_error(plan: Plan, other: OtherDriver) -> Diagnostic:
 
 
 def moved_on(target: str) -> DiagnosticError:
-    """RG522."""
+    """Return RG522."""
     return refused(
         "RG522",
         f"{target} has changed since it was planned",
@@ -302,7 +302,7 @@ def _old_fences(plan: Plan) -> frozenset[str]:
 
 
 def _verify(work: FileOperations) -> None:
-    """Everything read back once more, in place."""
+    """Read all files back once more, in place."""
     for change in work.plan.changes:
         if read_or_none(work.transport, change.where) != change.after:
             raise differs(change.shown)

@@ -31,7 +31,7 @@ from rapidgen.system import CfgText, cfg_bytes, read_backup
 
 Say = Callable[[str], None]
 _LARGEST_PLAN = 100_000_000
-"""Bytes of a file of plans, which has every file that would be written."""
+"""Largest file of plans, which includes every file to write, bytes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,15 +48,15 @@ class FleetJob:
     overwrite: bool = False
     parallel: int = 1
     backup: Path | None = None
-    """A backup of the one controller, for what its transport does not see."""
+    """Backup of the only controller, for data that its transport cannot read."""
     restart: bool = False
     """True if a controller may be restarted, warm."""
     wait: float = 0.0
-    """s for what only people do at a controller."""
+    """s to wait for actions of people at a controller."""
     hello: Hello | None = None
     """Returns the build that serves a state port, after a restart."""
     giving_up: Interruption = field(default_factory=Interruption)
-    """Ctrl-C while plans are carried out."""
+    """Ctrl-C during execution of plans."""
 
     def loaded(self) -> tuple[CfgText, ...]:
         """Return the loaded cfg of that backup.
@@ -90,7 +90,7 @@ def desired_set(config: str, overrides: Sequence[str] = ()) -> DriverSet:
 
 
 def config_name(config: str) -> str:
-    """Name of the robot that a configuration is for."""
+    """Return the name of a configuration's robot."""
     from rapidgen.config import load_config
 
     if (Path(config) / "manifest.json").is_file():
@@ -292,7 +292,7 @@ def save_edits(plans: Sequence[Plan], folder: Path) -> list[Path]:
 
 
 def save_neighbours(plans: Sequence[Plan], folder: Path) -> list[Path]:
-    """Copies of other drivers on this machine: cfg files that load them again."""
+    """Copy other drivers to this machine, as cfg files that restore them."""
     saved = []
     for plan in plans:
         for text in plan.neighbour.texts(plan.cfg_present) if plan.neighbour else ():
@@ -327,7 +327,7 @@ def _host(plan: Plan) -> str:
 
 
 def check_names(plans: Sequence[Plan], name: str) -> None:
-    """RG524 where a controller carries the driver of another robot."""
+    """Raise RG524 if a controller has the driver of another robot."""
     for plan in plans:
         _check_name(plan, name)
 

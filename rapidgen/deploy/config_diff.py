@@ -6,7 +6,7 @@ from math import degrees
 from rapidgen._json import Json
 
 _SHOWN = 8
-"""Keys; more than these are another configuration."""
+"""Limit of changed keys; more of them mean another configuration."""
 _OF_A_JOINT = ("lower", "upper", "speed", "acceleration", "offset")
 _IN_DEG = ("start_tolerance",)
 _IN_MM = (
@@ -32,7 +32,7 @@ def changed_keys(old: Json, new: Json) -> list[str]:
 
 
 def _leaves(value: Json, path: tuple[str, ...] = (), kind: str = "") -> Iterator[tuple[str, str]]:
-    """Each value by its path; `kind` is that of the joint that it belongs to."""
+    """Yield each value by its path; `kind` is that of its joint."""
     if isinstance(value, dict):
         kind = str(value.get("kind", "")) if path[-2:-1] == ("joints",) else kind
         for key, part in value.items():

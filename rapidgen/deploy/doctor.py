@@ -143,7 +143,7 @@ def _state_port(where: str, host: str, port: int, build: str, hello: Hello) -> C
 
 
 def _driver_error(where: str, host: str, port: int, get_error: GetError) -> Iterator[Check]:
-    """An error of the driver that does not go away by itself."""
+    """Yield an error of the driver that does not end by itself."""
     try:
         reason = get_error(host, port)
     except OSError:

@@ -57,10 +57,10 @@ class DriverSet:
         return tuple(parse_cfg(f.data, path=f.path) for f in self.files if f.kind == "cfg")
 
     def blocking_modules(self) -> dict[str, bytes]:
-        """Modules that, put in place, make every motion group refuse to move.
+        """Return modules that make every motion group refuse to move.
 
-        They are as few modules as touch every task, with another BUILD_ID than all others have:
-        ROS_common compares them when a task starts. Path to bytes.
+        They are the smallest set that reaches every task, with a BUILD_ID that differs from all
+        others: ROS_common compares them when a task starts. Path to bytes.
         """
         chosen: dict[str, bytes] = {}
         reached: set[str] = set()
@@ -73,7 +73,7 @@ class DriverSet:
 
 
 def digest(data: bytes) -> str:
-    """sha256 in hex."""
+    """Return sha256 in hex."""
     return hashlib.sha256(data).hexdigest()
 
 

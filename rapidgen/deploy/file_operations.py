@@ -29,7 +29,7 @@ class FileOperations:
     mode: Rename
     say: Say
     made: set[str] = field(default_factory=set)
-    """Folders that are known to be there."""
+    """Folders that are known to exist."""
     given_up: Callable[[], bool] = lambda: False
     """True if the user wants to end.
 
@@ -47,9 +47,9 @@ class FileOperations:
 
 
 def write(work: FileOperations, path: str, data: bytes) -> None:
-    """Write a file and read it back; once more when it differs.
+    """Write a file and read it back; try once more if it differs.
 
-    Raises TransportFault RG526 when it differs again.
+    Raises TransportFault RG526 if it differs again.
     """
     folder = parent(path)
     if folder and folder not in work.made:
@@ -64,7 +64,7 @@ def write(work: FileOperations, path: str, data: bytes) -> None:
 
 
 def swap(work: FileOperations, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
-    """Put a staged file in place by the smallest step that there is."""
+    """Move a staged file into place by the smallest available step."""
     if work.mode == "none":
         write(work, where, data)
         return
@@ -85,7 +85,7 @@ def delete(work: FileOperations, path: str) -> None:
 
 
 def delete_all(work: FileOperations, paths: Iterable[str]) -> None:
-    """Delete those of the files that are there: one listing a folder."""
+    """Delete the existing files among these; one listing a folder."""
     folders: dict[str, list[str]] = {}
     for path in paths:
         folders.setdefault(parent(path), []).append(path)
@@ -97,7 +97,7 @@ def delete_all(work: FileOperations, paths: Iterable[str]) -> None:
 
 
 def delete_folder(work: FileOperations, folder: str) -> None:
-    """Delete a folder if it is there and empty; one that refuses stays."""
+    """Delete a folder if it is empty; keep one that cannot be deleted."""
     try:
         if not work.transport.entries(folder):
             work.transport.delete_folder(folder)
@@ -143,7 +143,7 @@ def _renames(transport: Transport, old: str, new: str) -> bool:
 
 
 def _forget(transport: Transport, folder: str, members: tuple[str, ...]) -> None:
-    """Best effort: what stays is overwritten by the next probe."""
+    """Delete as far as possible: the next probe overwrites the rest."""
     try:
         for name in sorted(names(transport, folder) & set(members)):
             transport.delete(f"{folder}/{name}")
@@ -163,7 +163,7 @@ def check_not_interrupted(work: FileOperations) -> None:
 
 
 def differs(path: str) -> TransportFault:
-    """RG526: what was read is not what was written."""
+    """Return RG526: the read data differ from the written ones."""
     return TransportFault(
         "denied",
         f"{path} reads back otherwise than it was written",

@@ -16,7 +16,7 @@ from rapidgen.diagnostics import DiagnosticError, refusal
 T = TypeVar("T")
 
 _LARGEST_LIST = 1_000_000
-"""Bytes of a file of targets."""
+"""Largest file of targets, bytes."""
 
 Word = Literal["done", "same", "failed", "given up", "not begun"]
 
@@ -32,7 +32,7 @@ class TargetOutcome:
 
 
 def parse_targets(urls: Iterable[str]) -> tuple[Target, ...]:
-    """Targets of `--to`, where `@FILE` is a list with one URL a line.
+    """Parse the targets of `--to`; `@FILE` is a list with one URL a line.
 
     Raises DiagnosticError RG509, RG510.
     """
@@ -105,7 +105,7 @@ def on_all(
 
 @contextlib.contextmanager
 def connected(target: Target, access: Access) -> Iterator[Transport]:
-    """A transport that is closed at the end."""
+    """Yield a transport and close it at the end."""
     transport = connect(target, access)
     try:
         yield transport

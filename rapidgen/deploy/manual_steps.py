@@ -97,7 +97,7 @@ def _files(names: Sequence[str]) -> str:
 
 
 def other_driver_steps(neighbour: OtherDriver) -> tuple[ManualStep, ...]:
-    """How another driver goes before ours comes."""
+    """Return the steps that remove another driver before ours is loaded."""
     steps = [
         ManualStep("pendant", "back the controller up: that is the way back to the other driver")
     ]
@@ -127,7 +127,10 @@ def other_driver_steps(neighbour: OtherDriver) -> tuple[ManualStep, ...]:
 
 
 def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
-    """Loading removes nothing, and cannot tell which instance without a name it replaces."""
+    """Return the steps that delete instances.
+
+    Loading deletes none, and cannot identify an instance without a name.
+    """
     sections: dict[str, list[str]] = {}
     for change in cfg:
         if change.action == "remove" or (change.action == "change" and not change.named):
@@ -167,7 +170,7 @@ def _load(cfg: Sequence[CfgChange], desired: Sequence[CfgText]) -> list[ManualSt
     """
     changes = {(c.domain, c.key): c for c in cfg}
     steps = []
-    # Signals come before what names them.
+    # Signals precede instances that name them.
     for text in sorted(desired, key=lambda text: text.path):
         rows = [(s.name, i) for s in text.sections for i in s.instances]
         own = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]

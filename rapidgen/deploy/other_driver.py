@@ -201,7 +201,7 @@ def _names(transport: Transport, folder: str) -> tuple[str, ...]:
 
 
 def _source(transport: Transport, home: str, file: str) -> bytes | None:
-    """The module's text, where it lies in HOME and can be read."""
+    """Return the module's text if it is in HOME and readable."""
     path = _path(file)
     try:
         return read_or_none(transport, home + safe(path)) if path else None

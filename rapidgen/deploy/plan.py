@@ -103,19 +103,19 @@ class Plan:
     layout: Layout
     state: StateFolder = field(repr=False)
     had: Manifest | None = field(repr=False)
-    """The last complete set: when a run was cut, the one from before it."""
+    """The last complete set: after an interruption, the one from before it."""
     wanted: DriverSet | None = field(repr=False)
     repair: bool = False
-    """A run was cut while it switched files."""
+    """True if a run was interrupted while it switched files."""
     origin: Mapping[str, FileRecord] = field(default_factory=dict, repr=False)
     """Copies of foreign files, by path."""
     cfg_before: Mapping[str, Json] = field(default_factory=dict, repr=False)
     cfg_present: tuple[CfgText, ...] = field(default=(), repr=False)
-    """Loaded cfg: SYSPAR, or that of a backup; empty where it is not seen."""
+    """Loaded cfg: SYSPAR, or that of a backup; empty if not visible."""
     cfg_ours: frozenset[str] = field(default=frozenset(), repr=False)
     """cfg instances that earlier deployments added."""
     neighbour: OtherDriver | None = None
-    """Another driver that has to go first."""
+    """Another driver that has to be removed first."""
     in_memory: tuple[str, ...] = ()
     """A backup's programs with names of ours.
 
@@ -145,20 +145,20 @@ class Plan:
 
     @property
     def files_match(self) -> bool:
-        """The files and what is written down about them are as they have to be."""
+        """True if the files and their records are as wanted."""
         same = all(c.action == "same" for c in self.changes)
         return same and not self.interrupted and not self.is_stale
 
     @property
     def is_pending(self) -> bool:
-        """Everything is in place, and counts only after a restart."""
+        """True if everything is in place, and a restart is pending."""
         live = self.live
         loaded = live is not None and live.restart and not live.touches_cfg
         return loaded and self.files_match
 
     @property
     def is_stale(self) -> bool:
-        """The manifest on the controller does not say what has to lie there."""
+        """True if the manifest on the controller is not as wanted."""
         if self.wanted is None or self.damaged:
             return self.had is not None
         recorded = {r.path: r.sha256 for r in self.had.files} if self.had else None

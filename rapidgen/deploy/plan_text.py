@@ -96,7 +96,7 @@ def plans_text(plans: Sequence[Plan], *, diff: bool = False) -> str:
 
 
 def diff_text(plan: Plan) -> str:
-    """Unified diffs of all files that are texts, those that come and go, too."""
+    """Return a unified diff of all text files, including new and deleted ones."""
     out: list[str] = []
     for change in plan.changes:
         if change.action == "same" or _is_new_id(plan, change):
@@ -131,7 +131,7 @@ def outcomes_json(outcomes: Sequence[TargetOutcome]) -> Members:
 
 
 def size_text(size: int) -> str:
-    """Bytes as people read them."""
+    """Format a number of bytes for people."""
     return f"{size} B" if size < 1000 else f"{size / 1000:.1f} kB"
 
 
@@ -145,7 +145,7 @@ def _changed_keys(plan: Plan) -> list[str]:
 
 
 def _file_lines(plan: Plan) -> list[str]:
-    """Files, those of a folder together to which the same happens."""
+    """Return lines of files, grouped by folder and action."""
     width = max((len(c.shown) for c in plan.changes), default=0)
 
     def alike(change: FileChange) -> tuple[str, str]:

@@ -221,7 +221,7 @@ def find_layout(transport: Transport) -> Layout:
 
     The latter is a backup or a virtual controller.
     """
-    # Of two names that differ in case the one in capitals counts.
+    # Of two names that differ in case the upper-case one counts.
     result = sorted((e.name for e in transport.entries("") if e.folder is not False), reverse=True)
     names = {name.casefold(): name for name in result}
     home, syspar = names.get("home", ""), names.get("syspar", "")
@@ -368,7 +368,7 @@ def _tasks(desired: DriverSet | None, old: Mapping[str, tuple[str, ...]]) -> lis
 
 
 def _check_release(view: ControllerSnapshot, desired: DriverSet | None, target: str) -> None:
-    """RG525; what is built for RobotWare 7 is for 8, too."""
+    """Raise RG525; a build for RobotWare 7 is for 8 too."""
     major = view.robotware.partition(".")[0]
     if desired is None or not major.isdecimal():
         return

@@ -102,7 +102,7 @@ def new_manifest(plan: Plan, desired: DriverSet, number: int) -> Manifest:
 
 
 def backup_set(transport: Transport, home: str, number: int) -> DriverSet:
-    """The set that backup `number` keeps. Raises DiagnosticError RG528."""
+    """Return the set of backup `number`. Raises DiagnosticError RG528."""
     manifest, files = read_backup(transport, home, number)
     return DriverSet(
         manifest.name,
@@ -117,7 +117,7 @@ def backup_set(transport: Transport, home: str, number: int) -> DriverSet:
 
 
 def delete_backups(work: FileOperations, *, keep: frozenset[str]) -> None:
-    """All backups but those named."""
+    """Delete all backups except those named."""
     folder = f"{work.folder}/backup"
     for name in sorted(names(work.transport, folder) - keep):
         delete_backup(work, name)
@@ -154,5 +154,5 @@ def delete_empty_folders(work: FileOperations) -> None:
 
 
 def now() -> str:
-    """UTC, to the second."""
+    """Return UTC, to the second."""
     return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -27,11 +27,11 @@ DEFAULTS = frozenset(
 
 
 _LARGEST = 1_000_000
-"""Bytes of a file of passwords."""
+"""Largest file of passwords, bytes."""
 
 
 class Secret:
-    """A text that no representation, log or pickle shows."""
+    """A text that no representation, log or pickle contains."""
 
     __slots__ = ("_text",)
 
@@ -39,7 +39,7 @@ class Secret:
         self._text = text
 
     def get(self) -> str:
-        """The text itself, for the one call that needs it."""
+        """Return the text itself, for its single use."""
         return self._text
 
     def __repr__(self) -> str:
@@ -71,7 +71,7 @@ class Credentials:
 
 
 def redact(text: str, login: Credentials) -> str:
-    """A server's words without the password that it may echo."""
+    """Return a server's words without the password that it may echo."""
     password = login.password.get()
     return text.replace(password, "***") if password else text
 

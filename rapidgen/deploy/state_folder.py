@@ -18,7 +18,7 @@ from rapidgen.diagnostics import DiagnosticError, refusal
 
 FORMAT = 1
 KEPT = 5
-"""Backups that stay on the controller."""
+"""Number of backups that stay on the controller."""
 
 DAMAGE = (
     ValueError,
@@ -53,7 +53,7 @@ class FileRecord:
 
 @dataclass(frozen=True, slots=True)
 class StoredSet:
-    """A set that a backup keeps: `id` is the deployment that replaced it."""
+    """A set of a backup: `id` is the deployment that replaced it."""
 
     id: int
     time: str
@@ -85,7 +85,7 @@ class Manifest:
     generated: Mapping[str, Json] = field(default_factory=dict)
 
     def record(self, path: str) -> FileRecord | None:
-        """The record of a path in HOME."""
+        """Return the record of a path in HOME."""
         return next((r for r in self.files if r.path == path), None)
 
 
@@ -103,7 +103,7 @@ class Journal:
     old: Manifest | None
     new: Manifest | None
     known: Mapping[str, tuple[str, ...]]
-    """Hashes by path that this or an earlier attempt found or put there."""
+    """Hashes by path that this or an earlier attempt found or wrote."""
     staged: tuple[str, ...]
 
 
@@ -122,7 +122,7 @@ class StateFolder:
     digest: str = ""
     present: bool = False
     litter: bool = False
-    """Files of a run that was cut while it tried out what rename does."""
+    """Files of a run that was interrupted while it tested rename."""
 
     def carried(self, had: Manifest | None, *, repair: bool) -> str:
         """Name of the robot whose driver is there, also partially; '' for none.
@@ -134,7 +134,7 @@ class StateFolder:
 
 
 def read_state(transport: Transport, home: str) -> StateFolder:
-    """State folder of the HOME with this prefix ('' or 'HOME/')."""
+    """Read the state folder of the HOME with this prefix ('' or 'HOME/')."""
     folder = home + STATE
     try:
         names = {e.name for e in transport.entries(folder)}
@@ -187,7 +187,7 @@ def manifest_json(manifest: Manifest) -> Members:
 
 
 def manifest_from(read: Json) -> Manifest:
-    """Raises one of DAMAGE for anything unexpected."""
+    """Parse a manifest. Raises one of DAMAGE for anything unexpected."""
     data = members(read)
     if whole(data["format"]) != FORMAT:
         raise LaterFormat
@@ -229,7 +229,7 @@ def journal_json(journal: Journal) -> Members:
 
 
 def journal_from(read: Json) -> Journal:
-    """Raises one of DAMAGE for anything unexpected."""
+    """Parse a journal. Raises one of DAMAGE for anything unexpected."""
     data = members(read)
     if data["format"] != FORMAT:
         raise ValueError("a later format")
@@ -321,7 +321,7 @@ def _record(read: Json) -> FileRecord:
 
 
 def _staged(value: object) -> str:
-    """Only such names are ever deleted on a journal's word."""
+    """Check a staged name: only such names of a journal are ever deleted."""
     path = safe(_text(value))
     if not path.endswith((NEW, FENCE)):
         raise ValueError("not a staged file")

@@ -1,4 +1,4 @@
-"""`--to URL`: which controller, over which transport."""
+"""`--to URL`: the controller and its transport."""
 
 import os
 import re
@@ -32,7 +32,7 @@ class Access:
 
 
 def parse_target(url: str) -> Target:
-    """The target that a URL names.
+    """Return the target of a URL.
 
     Raises DiagnosticError RG509 (not such a URL) and RG510 (a password in it).
     """
@@ -85,7 +85,7 @@ def _refuse_password(place: str) -> None:
 
 
 def connect(target: Target, access: Access) -> Transport:
-    """A logged-in transport. Raises DiagnosticError RG501..RG511."""
+    """Return a logged-in transport. Raises DiagnosticError RG501..RG511."""
     login = credentials(target, access) if target.way.port else Credentials("")
     return target.open(login, access.timeout)
 
@@ -117,6 +117,6 @@ def credentials(target: Target, access: Access) -> Credentials:
 
 
 def _bad(url: str, reason: str, help: str = "") -> DiagnosticError:
-    # A URL that is not understood may hold a password in an odd place: it is not repeated.
+    # An invalid URL may contain a password at an odd place: it is not repeated.
     displayed = url if "@" not in url else url.partition("://")[0] + "://..."
     return refusal("RG509", None, f"--to {displayed}: {reason}", help)

@@ -18,9 +18,9 @@ MAIN = re.compile(rb"^\s*PROC\s+main\s*\(", re.I | re.M)
 
 
 def entry_steps(desired: DriverSet, loaded: Sequence[CfgText], target: str) -> list[ManualStep]:
-    """Steps where a motion task starts with another routine than our main.
+    """Return steps if a motion task starts another routine than our main.
 
-    Raises DiagnosticError RG538 where the loaded cfg has no such motion task.
+    Raises DiagnosticError RG538 if the loaded cfg has no such motion task.
     """
     there = {i.text("Name").casefold(): i for t in loaded for i in t.instances("CAB_TASKS")}
     own_files = {

@@ -11,7 +11,7 @@ from rapidgen.diagnostics.render import render
 
 
 def main() -> int:
-    """Exit code 2 where no ROS 2 is sourced."""
+    """Run the node; exit code 2 without a sourced ROS 2."""
     if find_spec("rclpy") is None:
         finding = error(
             "RG691",

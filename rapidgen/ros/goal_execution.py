@@ -110,7 +110,7 @@ class ActiveGoal:
         self.ending.set()
 
     def replace(self) -> None:
-        """End it in favour of another one."""
+        """End it because another goal replaces it."""
         self.is_replaced = True
         self.ending.set()
 
@@ -121,7 +121,7 @@ class ActiveGoal:
 
 
 class GoalExecutor:
-    """Carries out goals for one robot, one at a time."""
+    """Executor of goals for one robot, one at a time."""
 
     def __init__(
         self,
@@ -162,7 +162,7 @@ class GoalExecutor:
             under.over.set()
 
     def cancel_pending(self) -> None:
-        """End the goals that wait for their moment or for another one's end."""
+        """End the goals that wait for their time or for another one's end."""
         for under in self._unsent:
             under.cancel_pending()
 
@@ -235,7 +235,7 @@ class GoalExecutor:
         return under.ending.is_set()
 
     def _fitted(self, requested: ValidatedGoal) -> ValidatedGoal:
-        """The points as the user's policy has them sent. Raises GoalRefused."""
+        """Return the points as the policy permits. Raises GoalRefused."""
         if requested.watches_path and not self._measures:
             raise GoalRefused(
                 Code.INVALID_GOAL,
@@ -342,7 +342,7 @@ class GoalExecutor:
         desired = unsure = 0.0
         async for time, joints, velocity in self._samples():
             if before is None:
-                # It began somewhere between the sample in which it stood and this one.
+                # It began between the sample at rest and this one.
                 before, unsure = time, max(time - self._stood, 0.0)
             passed, before = max(time - before, 0.0), time
             # The controller's time, simulated or real; slower under an override, none in a pause.

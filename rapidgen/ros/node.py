@@ -54,7 +54,7 @@ _QOS = QoSProfile(depth=10)
 _KEPT = 10
 """s for which a goal's result is available."""
 _LOOK = 0.2
-"""s between two looks for a signal to end."""
+"""s between two checks for an ending signal."""
 _FAREWELL = 2.0
 """s within which results of goals stopped at the end are sent."""
 
@@ -96,7 +96,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         for group in config.groups:
             make = _maker(config, parameters, group.name)
             space = f"{group.name}/" if several else ""
-            # One clock, however many groups there are: two of them would go back and forth.
+            # One clock for all groups: two of them would go back and forth.
             clock = parameters.publish_clock and not self._doors
             name = f"{group.name}_controller"
             self._doors.append(
@@ -105,26 +105,26 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         return super().on_configure(state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Reach for the robot, and keep at it."""
+        """Connect to the robot, and keep the connection."""
         self._running = [self.ask(door.link.run()) for door in self._doors]
         for running in self._running:
             running.add_done_callback(self._link_ended)
         return super().on_activate(state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Stop what moves for a goal, and let the robot go."""
+        """Stop motions of goals, and disconnect."""
         self._let_go()
         return super().on_deactivate(state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """No topics, services and actions any more."""
+        """Destroy topics, services and actions."""
         for door in self._doors:
             door.destroy()
         self._doors = []
         return super().on_cleanup(state)
 
     def destroy_node(self) -> None:
-        """Stop what moves for a goal, end the loop."""
+        """Stop motions of goals, end the loop."""
         self._let_go()
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
@@ -152,7 +152,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             executor.spin_once(timeout_sec=0.05)
 
     def _parameters_set(self, parameters: list[Message]) -> SetParametersResult:
-        """`speed` acts at once; the others are read when the node is configured."""
+        """Set `speed` at once; others are read when the node is configured."""
         for parameter in parameters:
             if not self._doors or parameter.name not in NAMES:
                 continue
@@ -160,7 +160,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
                 why = f"{parameter.name} is read when the node is configured: clean it up before"
                 return SetParametersResult(successful=False, reason=why)
             if parameter.value == WHOLE and not self._is_busy:
-                continue  # What every motion begins with.
+                continue  # The speed at the start of each motion.
             links = [door.link for door in self._doors]
             done, report = self.asked(set_speeds(links, float(parameter.value)))
             if not done:
@@ -177,7 +177,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             self.set_parameters([Parameter("speed", value=WHOLE)])
 
     def ask(self, coroutine: Coroutine[object, None, T]) -> "Future[T]":
-        """Carry out on the links' loop."""
+        """Run on the links' loop and return the result."""
         return asyncio.run_coroutine_threadsafe(coroutine, self._loop)
 
     def asked(self, coroutine: Coroutine[object, None, object]) -> tuple[bool, str]:
@@ -191,7 +191,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         return True, "done"
 
     def soon(self, act: Callable[[], None]) -> None:
-        """Do something on the links' loop, and do not wait for it."""
+        """Run on the links' loop without waiting."""
         self._loop.call_soon_threadsafe(act)
 
     def now(self) -> float:
@@ -251,10 +251,10 @@ class GroupInterface:
             f"{controller}/follow_joint_trajectory",
             execute_callback=self._execute,
             callback_group=self._callbacks,
-            # A rejection carries no reason: goals are accepted, and aborted with one.
+            # A rejection has no reason: goals are accepted, and aborted with one.
             goal_callback=lambda _: GoalResponse.ACCEPT,
             cancel_callback=self._cancel,
-            # As rcl has it since Iron; rclpy would keep each goal for a quarter of an hour.
+            # rcl's default since Iron; rclpy would keep each goal for a quarter of an hour.
             result_timeout=_KEPT,
         )
 
@@ -265,7 +265,7 @@ class GroupInterface:
             return bool(self._goals)
 
     def destroy(self) -> None:
-        """Take everything from ROS again."""
+        """Destroy all entities of the group."""
         self._action.destroy()
         for service in self._services:
             self._node.destroy_service(service)
@@ -362,7 +362,7 @@ class GroupInterface:
         try:
             outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
             outcome_text = f"{self._name}: goal {outcome.status.value}: {outcome.text}"
-            # Two calls: rclpy refuses another severity from the place of an earlier one.
+            # Two calls: rclpy refuses another severity at the source line of an earlier one.
             if outcome.status is FinalStatus.SUCCEEDED:
                 self._node.get_logger().info(outcome_text)
             else:
@@ -446,19 +446,19 @@ def _described(text: str) -> ParameterDescriptor:
 
 
 async def _ended(count: int) -> None:
-    """Until all other tasks of this loop, `count` links among them, are over."""
+    """Wait for all other tasks of this loop, `count` links among them."""
     others = asyncio.all_tasks() - {asyncio.current_task()}
     if count and others:
         await asyncio.gather(*others, return_exceptions=True)
 
 
 def _seconds(report: Message) -> float:
-    """A Time or Duration in s."""
+    """Convert a Time or Duration to s."""
     return float(report.sec) + float(report.nanosec) * 1e-9
 
 
 def _time(stamp: int) -> Time:
-    """ns as a Time."""
+    """Convert ns to a Time."""
     seconds, nanoseconds = divmod(stamp, 10**9)
     return Time(sec=seconds, nanosec=nanoseconds)
 
@@ -471,7 +471,7 @@ def _duration(seconds: float) -> Duration:
 def run(arguments: list[str]) -> int:
     """Run the node until SIGINT, SIGTERM or SIGHUP.
 
-    `arguments` as ROS 2 has them (`--ros-args -p config:=...`).
+    `arguments` are as in ROS 2 (`--ros-args -p config:=...`).
     """
     # rclpy's own handlers would prevent messages after a signal.
     rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)

@@ -12,7 +12,7 @@ from rapidgen.ros.goal_execution import Policy
 from rapidgen.ros.goals import Defaults
 
 WHOLE = 100.0
-"""% of the programmed speed, which each motion begins with."""
+"""% of the programmed speed at the start of each motion."""
 
 DECLARED: tuple[tuple[str, str | bool | float | list[str], str], ...] = (
     ("config", "", "robot YAML, or the name of a shipped model"),

@@ -28,20 +28,20 @@ from rapidgen.ros.time_stamps import RosTimeEstimator
 from rapidgen.wire.simple_message.spec import Feature, Reason
 
 AGAIN = 1.0
-"""s between two tries to reach the robot."""
+"""s between two attempts to connect."""
 
 
 class LinkListener(Protocol):
     """Receiver of data to publish, on the link's loop."""
 
     def joint_states(self, states: JointStates) -> None:
-        """A new sample of the joints; never the same one twice."""
+        """Publish a new sample of the joints, each once."""
 
     def status(self, status: RobotStatus, health: RobotHealth) -> None:
         """Publish with each joint message, and each second without a link."""
 
     def note(self, text: str) -> None:
-        """For the log: a change of the link, or what was done with a goal."""
+        """Log a change of the link, or the result of a goal."""
 
 
 class RobotLink:
@@ -83,7 +83,7 @@ class RobotLink:
         return self._machine()
 
     async def run(self) -> None:
-        """Hold the link until this is cancelled; what moves then is stopped first."""
+        """Keep the link until this is cancelled; then stop the motion first."""
         while True:
             robot = self._make()
             try:
@@ -125,12 +125,12 @@ class RobotLink:
             report = health(state, robot.driver, str(robot.address))
             self._public.status(robot_status(state.status), report)
 
-    # What others ask for
+    # Requests of ROS
 
     async def follow(
         self, goal: Goal, tell: Callable[[GoalFeedback], None], under: ActiveGoal
     ) -> Outcome:
-        """Carry out a goal; without a link it is aborted with the reason."""
+        """Execute a goal; without a link abort it with the reason."""
         follower = self._follower
         if follower is None:
             text = f"no link to the robot: {self._why}"
@@ -149,7 +149,7 @@ class RobotLink:
         return await robot.stop()
 
     async def pause(self) -> None:
-        """Hold what moves on its path. Raises RobotError."""
+        """Pause the motion on its path. Raises RobotError."""
         robot = self._there()
         await robot.pause()
         stood = await robot.wait_until(lambda state: not state.is_moving, 10.0)
@@ -179,15 +179,18 @@ class RobotLink:
         return self._there().override * 100
 
     async def set_speed(self, percent: float) -> None:
-        """Go at 1 to 100 % of the programmed speed. Raises RobotError, ValueError."""
+        """Move at 1 to 100 % of the programmed speed.
+
+        Raises RobotError, ValueError.
+        """
         await self._there().set_speed(percent)
 
     async def read_signal(self, name: str) -> float:
-        """A signal that the configuration exposes. Raises RobotError."""
+        """Read a signal that the configuration exposes. Raises RobotError."""
         return await self._there().read_signal(name)
 
     async def write_signal(self, name: str, value: float) -> float:
-        """Set a signal; the value as it was read then. Raises RobotError."""
+        """Set a signal; return its value as read afterwards. Raises RobotError."""
         return await self._there().write_signal(name, value)
 
     async def call(self, routine: str, arguments: Sequence[Argument]) -> tuple[Left, ...]:

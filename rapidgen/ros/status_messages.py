@@ -122,7 +122,7 @@ def _worst(status: Status, trajectory: TrajectoryState | None) -> tuple[Level, s
     if status.mode is Mode.MANUAL:
         return Level.WARN, "manual mode: the robot moves while the enabling device is held"
     if trajectory is TrajectoryState.PAUSED:
-        # In a pause no motion is possible, either.
+        # During a pause no motion is possible either.
         return Level.WARN, "paused"
     if status.motion_possible is TriState.FALSE:
         return Level.WARN, "the motion task is not executing"

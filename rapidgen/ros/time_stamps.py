@@ -60,7 +60,7 @@ class RosTimeEstimator:
         return self._last
 
     def _went_back(self, received: float) -> bool:
-        """ROS time may be simulated: where it begins again, stamps do."""
+        """Handle a simulated ROS time that begins again, and its stamps."""
         if round(received * 1e9) >= self._last:
             return False
         self._last = 0

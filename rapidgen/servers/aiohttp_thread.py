@@ -10,7 +10,7 @@ from aiohttp import web
 
 
 class WebThread:
-    """Serves one application; `port` is known when it has started."""
+    """Thread of one application; `port` is known after the start."""
 
     def __init__(self, app: web.Application) -> None:
         self.loop = asyncio.new_event_loop()
@@ -60,7 +60,7 @@ class WebThread:
         # A client that does not answer the end of TLS would keep its socket open, so the loop is
         # closed.
         for transport in filter(None, open_ones):
-            # AttributeError: in Python 3.11.2, Debian 12's, where TLS is closed twice already.
+            # AttributeError: Python 3.11.2 (Debian 12), if TLS is closed twice.
             with suppress(AttributeError):
                 transport.abort()
         await asyncio.sleep(0)

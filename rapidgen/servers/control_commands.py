@@ -24,7 +24,7 @@ READABLE = frozenset({"status", "signals", "get", "log", "screen", "questions", 
 
 
 def commands(controller: VirtualController) -> dict[str, Command]:
-    """Every request's function, by the word in `do`."""
+    """Return the function of every request by its `do`."""
     remote = _Remote(controller)
     result: dict[str, Command] = {
         "status": remote.status,
@@ -88,7 +88,7 @@ class _Remote:
     # -- state ------------------------------------------------------------------------------
 
     def status(self, _request: Members) -> Json:
-        """Modes, tasks, positions (rad, m in wire order)."""
+        """Return modes, tasks, positions (rad, m in wire order)."""
         c = self._controller
         return {
             "name": c.system.name,
@@ -115,7 +115,7 @@ class _Remote:
         return [*self._controller.where()]
 
     def action(self, name: str) -> Command:
-        """A request without arguments."""
+        """Return the function of a request without arguments."""
 
         def perform(_request: Members) -> Json:
             self._controller.perform(name)
@@ -124,7 +124,7 @@ class _Remote:
         return perform
 
     def mode(self, request: Members) -> Json:
-        """`value`: auto, manual_reduced or manual_full."""
+        """Set the mode: `value` is auto, manual_reduced or manual_full."""
         expected = request.get("value")
         if expected not in _MODES:
             raise CommandError(f"value is one of {', '.join(_MODES)}")
@@ -132,7 +132,7 @@ class _Remote:
         return None
 
     def override(self, request: Members) -> Json:
-        """`value` in percent, of all groups or of `group`."""
+        """Set the override: `value` in percent, of all groups or of `group`."""
         value = _number(request, "value")
         if not 0 <= value <= 100:
             raise CommandError("an override is 0 to 100 percent")
@@ -147,7 +147,7 @@ class _Remote:
     # -- signals ----------------------------------------------------------------------------
 
     def signals(self, _request: Members) -> Json:
-        """Values by name."""
+        """Return values by name."""
         return {s.name: s.value for s in self._controller.io.signals.values()}
 
     def set_signal(self, request: Members) -> Json:
@@ -169,7 +169,7 @@ class _Remote:
     # -- variables --------------------------------------------------------------------------
 
     def get(self, request: Members) -> Json:
-        """`task`, `name` as `Module:datum`: the value as RAPID text."""
+        """Return the value of `task`, `name` (`Module:datum`) as RAPID text."""
         task, name = self._datum(request)
         try:
             type_ = task.type_of(name)[0]
@@ -179,7 +179,7 @@ class _Remote:
             raise CommandError(f"{task.name} has no data '{name}'") from error
 
     def set(self, request: Members) -> Json:
-        """`task`, `name`, `value` as RAPID text."""
+        """Set `task`, `name` to `value` as RAPID text."""
         task, name = self._datum(request)
         text = _text(request, "value")
         try:
@@ -221,18 +221,18 @@ class _Remote:
     # -- log, screen, dialogs ---------------------------------------------------------------
 
     def log(self, request: Members) -> Json:
-        """Events after sequence number `since`, oldest first."""
+        """Return events after sequence number `since`, oldest first."""
         since = request.get("since", 0)
         if not isinstance(since, int):
             raise CommandError("since is a sequence number")
         return [_event(event) for event in self._controller.log.since(since)]
 
     def screen(self, _request: Members) -> Json:
-        """Rows of the operator window."""
+        """Return the rows of the operator window."""
         return list(self._controller.operator.rows)
 
     def questions(self, _request: Members) -> Json:
-        """Dialogs that wait."""
+        """Return the open dialogs."""
         return [_question(question) for question in self._controller.operator.questions]
 
     def answer(self, request: Members) -> Json:

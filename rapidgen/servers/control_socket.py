@@ -212,7 +212,7 @@ class ControlSocket:
         if "token" not in request:
             return False
         given = request["token"]
-        # A JSON text may have half of a surrogate pair, which has no UTF-8.
+        # A JSON text may have half of a surrogate pair, which UTF-8 cannot encode.
         if isinstance(given, str) and hmac.compare_digest(
             given.encode("utf-8", "surrogatepass"), self.token.encode()
         ):

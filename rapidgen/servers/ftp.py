@@ -13,7 +13,7 @@ from pathlib import Path
 from rapidgen.servers.service import Service, in_use, loopback
 
 _TICK = 0.2
-"""s between looks at the stop flag; requests are served at once."""
+"""s between two checks of the stop flag; requests are served at once."""
 
 
 _NOT_A_CONTROLLERS = ("SITE CHMOD", "MFMT")

@@ -33,7 +33,7 @@ class Service:
 
 
 def loopback(host: str) -> str:
-    """`host` as a numeric loopback address.
+    """Return `host` as a numeric loopback address.
 
     Raises DiagnosticError RG560: a virtual controller's files are never offered to a network.
     """

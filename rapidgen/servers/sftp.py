@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import paramiko
 
 _TICK = 0.2
-"""s between looks at the stop flag; connections are accepted at once."""
+"""s between two checks of the stop flag; connections are accepted at once."""
 
 
 _SENSELESS = (ValueError, IndexError, KeyError, TypeError, AttributeError, struct.error)
@@ -126,7 +126,7 @@ def _login(user: str, password: str) -> "paramiko.ServerInterface":
 
 
 def _plain(path: str) -> Path:
-    """A path of the client below the root: `..` stops there."""
+    """Return a path of the client below the root: `..` stops there."""
     if "\0" in path:
         raise PermissionError(13, "NUL in a path", path)
     return Path(os.path.normpath("/" + path.lstrip("/"))).relative_to("/")
@@ -195,7 +195,7 @@ def _interface() -> "type[paramiko.SFTPServerInterface]":
                 os.close(descriptor)
                 return _code(error)
             handle = SFTPHandle(flags)
-            # The two names that paramiko's SFTPHandle reads and writes through.
+            # The two names that paramiko's SFTPHandle uses to read and write.
             setattr(handle, "readfile", file)  # noqa: B010
             setattr(handle, "writefile", file)  # noqa: B010
             return handle

@@ -9,7 +9,7 @@ __all__ = ["Plot", "plot"]
 
 
 def __getattr__(name: str) -> object:
-    # Who shows a live table should not pay for curves.
+    # A live table must not pay for curves.
     if name in __all__:
         from rapidgen.viewer import plotting
 

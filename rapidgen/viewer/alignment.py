@@ -21,9 +21,9 @@ _POSTURES = 12
 _TURN = 0.4
 """rad or m: movement of the joints for the measurement."""
 _SAME = 1e-3
-"""m and rad: by so much the two may differ."""
+"""m and rad: tolerance of the alignment."""
 _NEAR = 1e-6
-"""m and rad: roots that are one."""
+"""m and rad: tolerance of equal roots."""
 Matrix = NDArray[np.float64]
 
 
@@ -53,7 +53,7 @@ def _holds(seen: list[Pose], meant: list[Pose], root: Pose, flange: Pose, within
 
 
 def _root(seen: list[Pose], meant: list[Pose]) -> Pose:
-    """X of A X = X B: the rotation that fits the turns' axes, then the place."""
+    """Return X of A X = X B: rotation from the turns' axes, then position."""
     moved = [
         (frames.compose(d, frames.invert(seen[0])), frames.compose(k, frames.invert(meant[0])))
         for d, k in zip(seen[1:], meant[1:], strict=True)

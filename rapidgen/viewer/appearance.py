@@ -24,9 +24,9 @@ from rapidgen.viewer.robots import pose_of
 from rapidgen.viewer.urdf_visuals import drawn, shares
 
 LARGEST = 40_000_000
-"""Bytes of a mesh."""
+"""Largest mesh, bytes."""
 MOST = 200_000_000
-"""Bytes of all meshes."""
+"""Largest size of all meshes, bytes."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Appearance:
     """Poses of robots by task in lower case, as far as known."""
 
     def of(self, group: GroupConfig) -> Drawing:
-        """The drawing of a robot."""
+        """Return the drawing of a robot."""
         drawing = self.drawings.get(group.name) or described(group)
         base = self.bases.get(group.task.casefold())
         return drawing if base is None else replace(drawing, base=base)
@@ -73,7 +73,7 @@ class Meshes:
         return self.name_of(visual.mesh)
 
     def name_in(self, name: str, folder: Path) -> str:
-        """The same of a mesh in a folder."""
+        """Return the page's name of a mesh in a folder."""
         try:
             return self.name_of(mesh_beside(name, folder))
         except NoMesh as why:
@@ -81,7 +81,7 @@ class Meshes:
             return ""
 
     def name_of(self, mesh: Path) -> str:
-        """The same of a file."""
+        """Return the page's name of a mesh file."""
         if mesh not in self._names:
             self._names[mesh] = self._read(mesh)
         return self._names[mesh]

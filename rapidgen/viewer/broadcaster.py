@@ -51,7 +51,7 @@ class Broadcaster:
             self.tell(_batch(new))
 
     def ask(self, data: str | bytes) -> MessageBatch:
-        """Carry a request out; the answer."""
+        """Execute a request; return the answer."""
         try:
             requested = PageRequest.model_validate_json(data)
         except ValidationError as error:

@@ -63,11 +63,11 @@ class Chart:
     unit: str
     curves: tuple[Curve, ...]
     least_height: float = 0.0
-    """Curves of less height are not enlarged to their noise."""
+    """Smallest height of a chart, so that noise is not enlarged."""
 
     @property
     def heading(self) -> str:
-        """Its title with its unit."""
+        """Title with unit."""
         return f"{self.title} [{self.unit}]" if self.unit else self.title
 
 
@@ -155,7 +155,7 @@ def _distinct_labels(layers: list[JointCurves]) -> list[JointCurves]:
 
 
 def _late(commanded: JointCurves, executed: JointCurves) -> float:
-    """s by which `commanded` must be moved so that `executed` fits it best."""
+    """Return the s by which `commanded` fits `executed` best."""
     names = [name for name in commanded.names if name in executed.names]
     late = np.arange(-_SEARCHED, _SEARCHED, 0.005)
     misses = np.zeros(len(late))

@@ -1,6 +1,6 @@
-"""RAPID with what was executed of it, as one self-contained HTML file.
+"""Coverage of RAPID as one self-contained HTML file.
 
-What a program's author wrote (names, paths, comments) is text here, never markup.
+Texts of a program's author (names, paths, comments) are text here, never markup.
 """
 
 from collections.abc import Iterable, Mapping
@@ -30,7 +30,7 @@ class CoveredFile:
 
 
 def coverage_page(title: str, files: Iterable[CoveredFile]) -> str:
-    """The page: a table of the files, then every file with its lines."""
+    """Return the page: a table of the files, then every file with its lines."""
     given = list(files)
     reached = sum(_counts(file)[0] for file in given)
     lines = sum(_counts(file)[1] for file in given)

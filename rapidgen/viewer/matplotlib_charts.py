@@ -1,4 +1,4 @@
-"""Charts as a picture, by matplotlib. Imported by who has it."""
+"""Charts as a picture by matplotlib, an optional package."""
 
 import io
 from collections.abc import Sequence
@@ -25,7 +25,7 @@ def picture(title: str, charts: Sequence[Chart], kind: str) -> bytes:
         axes = figure.add_subplot(rows, columns, index + 1)
         axes.set_title(_plain(chart.heading), fontsize=10, loc="left")
         for number, curve in enumerate(chart.curves):
-            # The first is wider, so that those over it do not hide it.
+            # The first line is wider, so that later ones do not hide it.
             (line,) = axes.plot(curve.times, curve.values, label=_plain(curve.label))
             line.set_linewidth(2.6 if number == 0 and len(chart.curves) > 1 else 1.2)
             if curve.is_limit:

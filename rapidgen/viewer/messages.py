@@ -25,7 +25,7 @@ class Pose(MessageModel):
     orientation: tuple[float, float, float, float]
 
 
-# -- to the page: what is there -------------------------------------------------------------------
+# -- to the page: scene ---------------------------------------------------------------------------
 
 
 class Axis(MessageModel):
@@ -86,7 +86,7 @@ class Scene(MessageModel):
     """Deviations from the description."""
 
 
-# -- to the page: what changes --------------------------------------------------------------------
+# -- to the page: changes -------------------------------------------------------------------------
 
 
 class RobotPlace(MessageModel):
@@ -144,10 +144,10 @@ class PanelState(MessageModel):
     execution_error: bool
     failed: bool
     running: bool | None
-    """A program runs; of a robot that is watched: it can move."""
+    """A program runs; for a real robot: it can move."""
     connected: bool = True
     tasks: Mapping[str, str]
-    """Positions of each task, in a word."""
+    """Activity of each task, in a word."""
     override: float | None
     """Speed of programs, 0..1."""
     pace: float | None
@@ -167,7 +167,7 @@ class LogEntry(MessageModel):
 
 
 class Log(MessageModel):
-    """Events that are new, oldest first."""
+    """New events, oldest first."""
 
     type: Literal["log"] = "log"
     entries: tuple[LogEntry, ...]
@@ -183,7 +183,7 @@ class Screen(MessageModel):
 
 
 class Dialog(MessageModel):
-    """A dialog that waits; without choices a text or number is typed."""
+    """An open dialog; without choices a text or number is typed."""
 
     number: int
     task: str
@@ -193,7 +193,7 @@ class Dialog(MessageModel):
 
 
 class Dialogs(MessageModel):
-    """All dialogs that wait."""
+    """All open dialogs."""
 
     type: Literal["dialogs"] = "dialogs"
     waiting: tuple[Dialog, ...]
@@ -217,14 +217,14 @@ class AllSignals(MessageModel):
 
 
 class SignalValues(MessageModel):
-    """AllSignals that have changed."""
+    """Signals that have changed."""
 
     type: Literal["values"] = "values"
     values: Mapping[str, float]
 
 
 class PageReply(MessageModel):
-    """The answer to a request; `error` is empty when it was carried out."""
+    """The answer to a request; `error` is empty if it was executed."""
 
     type: Literal["reply"] = "reply"
     id: int
@@ -384,7 +384,7 @@ Answer: TypeAlias = p.SourceOrigin
 
 
 class PageRequest(MessageModel):
-    """A request and the number that its reply will have."""
+    """A request and the number of its reply."""
 
     id: int
     request: Annotated[Request, Field(discriminator="do")]

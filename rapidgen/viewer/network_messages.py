@@ -43,7 +43,7 @@ class SocketLogLine(MessageModel):
     """Name of the message; empty: no frame."""
     text: str
     fault: bool = False
-    """The bytes are no good frame."""
+    """True if the bytes are not a valid frame."""
 
 
 class Conversation(MessageModel):
@@ -62,14 +62,14 @@ class Conversation(MessageModel):
 
 
 class ResetConnection(MessageModel):
-    """Cut a connection: the task's socket is reset, and so is the other end."""
+    """Cut a connection: the task's socket and its peer are reset."""
 
     do: Literal["cut"] = "cut"
     number: int
 
 
 class InjectFault(MessageModel):
-    """Let a connection be slow, silent and so on from now on."""
+    """Make a connection slow, silent and so on from now on."""
 
     do: Literal["afflict"] = "afflict"
     number: int

@@ -60,7 +60,7 @@ class PageConnection:
 
 
 def text_frame(data: bytes) -> bytes:
-    """A text message in one frame, as servers write them (RFC 6455, 5.2)."""
+    """Return a text message in one frame of a server (RFC 6455, 5.2)."""
     length = len(data)
     if length < 126:
         head = struct.pack("!BB", 0x81, length)

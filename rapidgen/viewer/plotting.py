@@ -33,7 +33,7 @@ class Plot:
     charts: tuple[Chart, ...]
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write a .html, .png or .svg file whole.
+        """Write a whole .html, .png or .svg file.
 
         DiagnosticError RG626: another suffix, or matplotlib is missing; RG920: a checkout without
         the built page. Raises OSError.
@@ -43,7 +43,7 @@ class Plot:
         if path.suffix == ".html":
             write_whole(path, self.html().encode())
         else:
-            # Imported by who draws: matplotlib is an extra, and slow to come.
+            # Imported on use: matplotlib is an extra, and slow to import.
             from rapidgen.viewer.matplotlib_charts import picture
 
             write_whole(path, picture(self.title, self.charts, path.suffix[1:]))

@@ -41,15 +41,15 @@ class Drawing:
     """Pose of its base among other drawings; None if unknown."""
 
     def values(self, urdf: Sequence[float]) -> tuple[float, ...]:
-        """Values of `movable` (rad, m) for those of the group's joints."""
+        """Return values of `movable` (rad, m) for the group's joints."""
         return (*urdf, *(sum(urdf[i] * k for i, k in terms) for terms in self.passive))
 
 
 def described(group: GroupConfig) -> Drawing:
-    """The description of a group; without geometry there is only its base.
+    """Return the description of a group; only the base without geometry.
 
     Links of the arm are `link_1` and so on, one for each step of the chain; those of its
-    positioners have the unit's number in front.
+    positioners have the unit's number as a prefix.
     """
     robot = Element("robot", name=group.name)
     base = SubElement(robot, "link", name=BASE)

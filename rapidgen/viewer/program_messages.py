@@ -92,7 +92,7 @@ class SeenHalt(MessageModel):
     place: SeenPlace | None
     text: str
     time: float
-    """The controller's, s."""
+    """The controller's time, s."""
 
 
 class Debugging(MessageModel):
@@ -165,14 +165,14 @@ class SetBreakpoint(MessageModel):
 
 
 class RemoveBreakpoint(MessageModel):
-    """Take one away."""
+    """Remove a breakpoint."""
 
     do: Literal["unbreak"] = "unbreak"
     number: int
 
 
 class DebugCommand(MessageModel):
-    """Pause, go on, step a task."""
+    """Pause, resume or step a task."""
 
     do: Literal["drive"] = "drive"
     how: Literal["pause", "resume", "in", "over", "out"]
@@ -180,7 +180,7 @@ class DebugCommand(MessageModel):
 
 
 class RunTo(MessageModel):
-    """Go on to a line."""
+    """Run to a line."""
 
     do: Literal["run-to"] = "run-to"
     task: Name
@@ -189,14 +189,14 @@ class RunTo(MessageModel):
 
 
 class RunFor(MessageModel):
-    """Go on for so many seconds of the controller's time."""
+    """Run for so many seconds of the controller's time."""
 
     do: Literal["run-for"] = "run-for"
     seconds: Annotated[float, Field(gt=0, le=3600)]
 
 
 class StopOnErrors(MessageModel):
-    """At which errors everything pauses."""
+    """Errors at which all tasks pause."""
 
     do: Literal["errors"] = "errors"
     errors: Literal["never", "unhandled", "all"]
@@ -211,14 +211,14 @@ class SelectFrame(MessageModel):
 
 
 class Evaluate(MessageModel):
-    """The reply's text is the value of an expression where it is looked at."""
+    """The reply's text is the value of an expression in the selected frame."""
 
     do: Literal["evaluate"] = "evaluate"
     expression: Text
 
 
 class Assign(MessageModel):
-    """Set a datum, an element or a component where it is looked at."""
+    """Set a datum, an element or a component in the selected frame."""
 
     do: Literal["assign"] = "assign"
     target: Text
@@ -233,7 +233,7 @@ class SetWatch(MessageModel):
 
 
 class CountLines(MessageModel):
-    """Count how often lines are reached from now on, or no more."""
+    """Start or stop counting executions of lines."""
 
     do: Literal["cover"] = "cover"
     on: bool
@@ -262,7 +262,7 @@ class Seek(MessageModel):
 
 
 class Play(MessageModel):
-    """Let it run, at so many seconds in a second; 0 stops."""
+    """Play at so many seconds in a second; 0 pauses."""
 
     do: Literal["play"] = "play"
     rate: Annotated[float, Field(ge=0, le=100)]

@@ -33,10 +33,10 @@ class StateProvider(Protocol):
 
 
 class Subject(Protocol):
-    """A simulation, a robot or a recording, seen by the server."""
+    """A simulation, a robot or a recording, as the server sees it."""
 
     def post(self, function: Callable[[], None]) -> bool:
-        """Run a function on the thread of what is watched; False: not now."""
+        """Run a function on the subject's thread; False: not possible now."""
 
     def aspects(self) -> tuple[StateProvider, ...]:
-        """The aspects of now, the scene's first; others after a restart."""
+        """Current providers, the scene's first; others after a restart."""

@@ -1,4 +1,4 @@
-"""A configured robot in the page's words."""
+"""A configured robot as messages of the page."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from rapidgen.viewer.messages import Axis, Pose, SeenRobot
 from rapidgen.viewer.primitive_urdf import Drawing
 
 _SAME = 0.05
-"""m between two feet that are one place."""
+"""m between two feet that count as the same place."""
 _SPACING = 1.4
 """Distance between two robots, as a share of an arm's length."""
 
@@ -70,7 +70,7 @@ def _foot(config: GroupConfig) -> frames.Vector:
 
 
 def pose_of(frame: frames.Pose) -> Pose:
-    """A frame as the page has it."""
+    """Return a frame as a message."""
     return Pose(position=frame[0], orientation=frame[1])
 
 
@@ -87,7 +87,7 @@ class ToolAndWorkObject:
 
     @classmethod
     def configured(cls, config: GroupConfig) -> "ToolAndWorkObject":
-        """Those of the configuration."""
+        """Return tools and work objects of the configuration."""
         placed = config.work_object
         complete = frames.compose(_frame(placed.user_frame), _frame(placed.object_frame))
         return cls(_frame(config.tool.frame), config.tool.held, complete)

@@ -32,7 +32,7 @@ _TYPES: Final = {
     ".svg": "image/svg+xml",
 }
 LOOKS: Final = 1 / 30
-"""s between two looks at what is watched."""
+"""s between two updates."""
 _LARGEST: Final = 1_048_576
 UNANSWERED: Final = 8
 """Requests of one viewer that may wait for their answers.
@@ -120,7 +120,7 @@ class _Server:
     # -- the thread ------------------------------------------------------------------------------
 
     def start(self, host: str, port: int) -> None:
-        """Open the port and begin to look."""
+        """Open the port and start the updates."""
         try:
             self._thread.start("view", host, port)
         except OSError as error:
@@ -210,7 +210,7 @@ class _Server:
         def join() -> None:
             self._thread.soon(partial(self._begin, viewer, self.hub.join()))
 
-        # What is not read fills the connection, so that a viewer that floods only blocks itself.
+        # Unread data fill the connection, so that a flooding viewer only blocks itself.
         places = asyncio.Semaphore(UNANSWERED)
 
         def answer(frame: bytes) -> None:

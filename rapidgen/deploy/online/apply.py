@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from rapidgen.client.rws import Controller
 
 _LOOK = 1.0
-"""s between two looks whether a person has done it."""
+"""s between two checks of a person's action."""
 _PROMPT = 10.0
 """s for which the prompt of RMMP stays on the pendant [RWS manual]."""
 _SESSION_ENDS = 310.0
@@ -125,7 +125,7 @@ def _await_earlier_run(run: OnlineRun) -> None:
 
 
 def _holder(run: OnlineRun) -> MastershipHolder | None:
-    """Another session that has mastership of what is written."""
+    """Return another session with mastership of what is written."""
     for domain in ("cfg", "rapid"):
         who = run.services.holder(domain)
         if who is not None and not who.mine:
@@ -158,7 +158,7 @@ def _await(run: OnlineRun) -> None:
 
 
 def _ask_pendant(run: OnlineRun) -> tuple[bool, str]:
-    """Ask by RMMP; whether it was granted, or why not."""
+    """Ask by RMMP; return whether it was granted, or why not."""
     wait = max(run.options.wait, _PROMPT)
     if run.services.generation is not Generation.EIGHT:
         run.work.say(
@@ -190,7 +190,7 @@ def _missing(run: OnlineRun, *, granted: bool) -> tuple[str, str] | None:
 
 
 def another(plan: Plan, id: str) -> DiagnosticError:
-    """RG540."""
+    """Return RG540."""
     return refused(
         "RG540",
         f"the plan was made for controller {id}, and another one answers at {plan.target}",
@@ -246,7 +246,7 @@ def after_files(run: OnlineRun) -> None:
                 rearrange(run.services, run.work, run.live, run.options.wait)
     if not run.live.restart:
         if run.plan.wanted is not None and run.rearranges:
-            # NORMAL tasks that stood: their program is there, and waits to be started.
+            # Stopped NORMAL tasks: their program is loaded, and waits for a start.
             verify(run.services, run.plan, run.live, None, PostRestartCheck(), run.work.say)
             with _steps(run):
                 _point(run)

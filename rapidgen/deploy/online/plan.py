@@ -62,14 +62,14 @@ class MemoryModule:
 
 @dataclass(frozen=True, slots=True)
 class OnlinePlan:
-    """All of it, for the controller with this `id`."""
+    """Complete online plan, for the controller with this `id`."""
 
     id: str
     shown: str
     delete: tuple[Row, ...] = ()
-    """Instances that go."""
+    """Deleted instances."""
     again: tuple[Row, ...] = ()
-    """Those that come back changed."""
+    """Those that are restored with changes."""
     change: tuple[AttributeChange, ...] = ()
     load: tuple[CfgText, ...] = ()
     """Files to load with `add`: signals before instances that name them."""
@@ -79,9 +79,9 @@ class OnlinePlan:
     """Foreign modules in conflict with ours; `--overwrite` unloads them."""
     unload: tuple[MemoryModule, ...] = ()
     replace: tuple[MemoryModule, ...] = ()
-    """Modules of NORMAL tasks, which a restart would leave as they are."""
+    """Modules of NORMAL tasks, which a restart would not change."""
     restore: tuple[MemoryModule, ...] = ()
-    """Saved modules that come back."""
+    """Saved modules that are restored."""
     restart: bool = False
     """True if a change takes effect only after a restart."""
     symbols: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
@@ -333,7 +333,7 @@ def _wanted(desired: DriverSet | None, name: str) -> Instance:
 
 def _change(row: Row, new: Instance) -> AttributeChange:
     def plain(instance: Instance) -> dict[str, str]:
-        # A flag is true or not there.
+        # A flag is true or absent.
         return {
             a.name: " ".join(map(str, a.values)) if a.values else "true"
             for a in instance.attributes
@@ -381,7 +381,7 @@ def _loads(
 def _memory(
     view: ControllerSnapshot, desired: DriverSet | None, old: Mapping[str, tuple[str, ...]]
 ) -> tuple[tuple[MemoryModule, ...], tuple[MemoryModule, ...]]:
-    """Modules of NORMAL tasks that are loaded anew, and those that go."""
+    """Return modules of NORMAL tasks to load anew, and those to unload."""
     replace, unload = [], []
     for task, names in view.modules.items():
         if not view.normal(task):

@@ -35,7 +35,7 @@ _NONE = ("E_CFG_DOMAIN_INVALID", "E_CFG_TYPE_INVALID", "E_CFG_INSTANCE_INVALID")
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """An instance of the controller, and what the controller calls it."""
+    """An instance of the controller, and the controller's name of it."""
 
     domain: str
     section: str
@@ -70,7 +70,7 @@ class ControllerSnapshot:
 
     @property
     def orphans(self) -> tuple[str, ...]:
-        """Background tasks that cfg no longer has: they are there until a restart."""
+        """Background tasks without cfg, which exist until a restart."""
         rows = {r.title.casefold() for r in self.rows if r.section == "CAB_TASKS"}
         background = (t.name for t in self.tasks if t.kind != "normal")
         return tuple(n for n in background if rows and n.casefold() not in rows)
@@ -191,7 +191,7 @@ def _instance(section: str, text: CfgInstance, known: Sequence[Instance]) -> Ins
 
 
 def _through(text: CfgInstance, reference: Instance) -> Instance:
-    """The attributes that a reference has."""
+    """Return the attributes of a reference."""
     values = {name.casefold(): value for name, value in text.attributes.items()}
     result = []
     for attribute in reference.attributes:

@@ -22,7 +22,7 @@ None: another program answers. Raises OSError: no answer.
 """
 
 _LOOK = 0.5
-"""s between two looks at a port."""
+"""s between two checks of a port."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class PostRestartCheck:
     hello: Hello | None = None
     host: str = ""
     timeout: float = 20.0
-    """s until a port has to answer."""
+    """s within which a port has to answer."""
 
 
 def verify(
@@ -82,7 +82,7 @@ def verify(
 
 
 def way_back(plan: Plan) -> str:
-    """The command that undoes a deployment."""
+    """Return the command that undoes a deployment."""
     return "`rapidgen rollback`" if plan.had is not None else "`rapidgen uninstall`"
 
 
@@ -109,7 +109,7 @@ def _driver(
 
 
 def _events(services: "Controller", last: int) -> tuple[LogEvent, ...]:
-    """Errors since the restart; where numbers began anew, all that there are."""
+    """Return errors since the restart; all if the numbers began anew."""
     newest = max((event.number for event in services.log(count=1)), default=0)
     events = services.log(after=last if newest >= last else 0)
     return tuple(event for event in events if event.type == "error")

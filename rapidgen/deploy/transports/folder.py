@@ -98,13 +98,13 @@ class FolderTransport:
         return real
 
     def _entry(self, path: str) -> Path:
-        """The name itself: a link at the end is not followed."""
+        """Return the name itself: a link at the end is not followed."""
         head, _, tail = safe(path).rpartition("/")
         return self._real(head) / tail
 
 
 def open_folder(target: Target, _login: Credentials, _timeout: float) -> FolderTransport:
-    """The folder that a URL names. Raises TransportFault (RG506)."""
+    """Open the folder of a URL. Raises TransportFault (RG506)."""
     return FolderTransport(Path(target.path))
 
 
@@ -123,7 +123,7 @@ def _open_to_write(path: Path) -> BinaryIO:
 
 
 def _sync(folder: Path) -> None:
-    """Make a rename outlive a power cut."""
+    """Make a rename survive a power failure."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(descriptor)

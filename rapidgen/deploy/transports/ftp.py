@@ -219,7 +219,7 @@ class FtpTransport:
                 f"{place}: a letter that FTP does not carry (it has those of latin-1)",
             ) from None
         except (ftplib.Error, ValueError, IndexError, OverflowError) as error:
-            # After an answer that makes no sense the next one may belong to any command.
+            # After an invalid answer the next one may belong to any command.
             self.close()
             text = redact(str(error), self._login)
             raise TransportFault("garbled", f"{place}: senseless answer: {text[:200]}") from None
@@ -256,7 +256,7 @@ class FtpTransport:
 
 
 class _Session(ftplib.FTP):
-    """ftplib with answers that are bounded in lines and in time."""
+    """ftplib with answers that are limited in lines and time."""
 
     def __init__(self, timeout: float) -> None:
         super().__init__(timeout=timeout, encoding="latin-1")

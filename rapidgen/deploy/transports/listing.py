@@ -89,7 +89,7 @@ def _number(text: str) -> int | None:
 
 
 def _kept(entries: Iterable[Entry]) -> tuple[Entry, ...]:
-    """Without '.', '..', repeated names and names that are no names."""
+    """Drop '.', '..', repeated names and invalid names."""
     retained: dict[str, Entry] = {}
     for entry in entries:
         plain = entry.name.isprintable() and not re.search(r"[/\\]", entry.name)

@@ -51,12 +51,12 @@ class Target:
 
     @property
     def way(self) -> Scheme:
-        """The transport that the scheme names."""
+        """Return the transport of the scheme."""
         return SCHEMES[self.scheme]
 
     @property
     def shown(self) -> str:
-        """The URL without the user, as plans and tables show it."""
+        """The URL without the user, for plans and tables."""
         port = "" if self.port == self.way.port else f":{self.port}"
         host = f"[{self.host}]" if ":" in self.host else self.host
         return f"{self.scheme}://{host}{port}{self.path}"

@@ -1,6 +1,6 @@
 """rws://, rwss:// - HOME by the file service of Robot Web Services.
 
-Only here there is more than files: `services` is the same controller's web services.
+It offers more than files: `services` is the same controller's web services.
 """
 
 from collections.abc import Iterator
@@ -75,7 +75,7 @@ class RwsTransport:
             raise TransportFault("missing", f"{path}: there is no such file")
 
     def make_folder(self, path: str) -> None:
-        """With those above it: the service makes one at a time."""
+        """Create a folder and its parents: the service creates one at a time."""
         if path in self._made:
             return
         self.make_folder(parent(safe(path)))
@@ -92,7 +92,7 @@ class RwsTransport:
         self._made.add(path)
 
     def delete_folder(self, path: str) -> None:
-        # The service deletes a folder with all that is in it.
+        # The service deletes a folder with its content.
         if self.entries(path):
             raise TransportFault("denied", f"{path} is not empty")
         self._made.discard(path)

@@ -55,7 +55,7 @@ def _names(kind: int, data: bytes) -> int:
     at = _skip(data, 0, 4)  # the request's number
     if kind == _STATUS:
         at = _skip(data, at, 4)
-        if at < len(data):  # servers of old say no more
+        if at < len(data):  # old servers send no more
             _text(data, at)
     elif kind in (_HANDLE, _DATA):
         _text(data, at)

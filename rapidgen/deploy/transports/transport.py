@@ -20,7 +20,7 @@ FILE_LIMIT = 8 * 1024 * 1024
 A RAPID module of 8 MB is refused elsewhere too.
 """
 LISTING_LIMIT = 20_000
-"""Most names in one folder."""
+"""Largest number of names in one folder."""
 
 Kind = Literal["missing", "denied", "unsupported", "full", "lost", "garbled", "login", "outside"]
 
@@ -98,7 +98,10 @@ class Transport(Protocol):
         """Read a whole file; kind 'missing' if there is none."""
 
     def write(self, path: str, data: bytes) -> None:
-        """Create or overwrite a file. Not atomic: a cut leaves a part of it."""
+        """Create or overwrite a file.
+
+        Not atomic: an interruption leaves a part of it.
+        """
 
     def rename(self, old: str, new: str) -> None:
         """Rename, over an existing file if the server can, else 'denied'."""
@@ -107,7 +110,7 @@ class Transport(Protocol):
         """Delete a file; kind 'missing' if there is none."""
 
     def make_folder(self, path: str) -> None:
-        """Make a folder; one that is there already is fine."""
+        """Create a folder unless it exists."""
 
     def delete_folder(self, path: str) -> None:
         """Delete an empty folder."""
@@ -128,7 +131,7 @@ def refused(code: str, message: str, help: str = "") -> DiagnosticError:
 
 
 def safe(path: str) -> str:
-    """`path` unchanged when it is plain and stays inside.
+    """Return `path` if it is plain and stays inside.
 
     Raises TransportFault 'outside' (RG508) otherwise: `..`, absolute, drives, control characters.
     """
@@ -140,7 +143,7 @@ def safe(path: str) -> str:
 
 
 def parent(path: str) -> str:
-    """Folder of a path; '' is the root."""
+    """Return the folder of a path; '' is the root."""
     return path.rpartition("/")[0]
 
 

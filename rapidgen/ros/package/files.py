@@ -30,7 +30,7 @@ class CellMember:
 
     config: RobotConfig
     source: str
-    """The configuration as the node is to read it: a file, or a shipped name."""
+    """The node's configuration: a file, or a shipped name."""
     at: tuple[float, ...] = (0.0,) * 6
     """Its base in the world: x, y, z in m; roll, pitch, yaw in rad."""
     overrides: tuple[str, ...] = ()

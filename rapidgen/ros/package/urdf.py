@@ -38,7 +38,7 @@ class LinkChain:
 
     links: tuple[str, ...]
     joints: tuple[str, ...]
-    """Joints that goals name, from the root on."""
+    """Joints of goals, from the root on."""
 
     @property
     def tip(self) -> str:
@@ -48,7 +48,7 @@ class LinkChain:
 
 @dataclass(frozen=True, slots=True)
 class UrdfDrawing:
-    """A URDF and what of it others need to name."""
+    """A URDF and data for its users."""
 
     root: ET.Element
     arms: dict[str, LinkChain]
@@ -77,7 +77,7 @@ def draw(config: RobotConfig, name: str) -> UrdfDrawing:
 
 
 def draw_cell(robots: Sequence[PlacedRobot], name: str) -> UrdfDrawing:
-    """The same of several robots in one world."""
+    """Return the URDF of several robots in one world."""
     root = ET.Element("robot", name=name)
     ET.SubElement(root, "link", name=ROOT)
     arms, positioners = {}, {}
@@ -142,7 +142,7 @@ class _Drawer:
             child = self._link(child)
             self._fixed(parent, child, step.xyz, step.rpy)
             return [child]
-        # A passive joint may follow several: one mimicking joint for each, about one axis.
+        # A passive joint may follow several: one mimicking joint for each, about the same axis.
         made: list[str] = []
         xyz, rpy = step.xyz, step.rpy
         for number, (followed, factor) in enumerate(step.follows, 1):

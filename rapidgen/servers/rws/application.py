@@ -30,7 +30,7 @@ from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, w
 from rapidgen.wire.rws.operations import RwsOperation
 
 SESSION, CONNECTION = "-http-session-", "ABBCX"
-"""Cookies: of the session, and of the TCP connection."""
+"""Cookies of the session and of the TCP connection."""
 LARGEST_FORM = 100_000
 _REALM = 'Basic realm="Robot Web Services"'
 
@@ -48,7 +48,7 @@ class RwsApplication:
     ) -> None:
         self.context = office = RwsContext(runner, generation, login, strict=strict)
         self.generation = generation
-        # The ceiling is that of RWS 1.0 [RWS manual].
+        # The limit is that of RWS 1.0 [RWS manual].
         self.sessions = Sessions(lambda: runner.now, limited=strict and self.is_one)
         self.groups = office.groups = Groups(
             generation, lambda: runner.controller.scheduler, partial(watched, office)
@@ -74,7 +74,7 @@ class RwsApplication:
         """Return the session of a request; None if it is not logged in."""
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None and self.is_one and (user := self._user(got)) is not None:
-            # A client may show its connection's cookie and its digest [code: abb_robot_client].
+            # A client may send its connection's cookie and its digest [code: abb_robot_client].
             number = _cookies(got).get(CONNECTION, "")
             session = self._connections.get(number)
             if session is not None and session.user != user:
@@ -82,7 +82,7 @@ class RwsApplication:
         return session
 
     def _booted(self) -> None:
-        """Dialogs of programs can be answered from now on."""
+        """Let dialogs of programs wait for answers after a boot."""
         self.context.controller.operator.attach()
 
     def _restarted(self) -> None:

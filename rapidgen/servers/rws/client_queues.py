@@ -1,4 +1,4 @@
-"""Message queues (DIPC) that clients have made, and what is in them."""
+"""Message queues of clients (DIPC) and their messages."""
 
 from collections import deque
 from dataclasses import dataclass, field

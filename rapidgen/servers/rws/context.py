@@ -42,7 +42,7 @@ class RwsContext:
     groups: Groups
     """Subscriptions."""
     end_session: Callable[[Session], None]
-    """A user logs out."""
+    """Called when a user logs out."""
     sessions: Callable[[], tuple[Session, ...]]
     """Users logged in."""
 
@@ -70,13 +70,13 @@ class RwsContext:
         self.led: set[str] = set()
         """Units in lead-through."""
         self.program_names: dict[str, str] = {}
-        """Names of program files that were loaded, by task."""
+        """Names of loaded program files, by task."""
         self.mode_lock = ""
         """Lock of the operating mode by a pin: `Temporary`, `Permanent` or empty."""
 
     @property
     def controller(self) -> VirtualController:
-        """The controller that runs now."""
+        """The running controller."""
         return self.runner.controller
 
     def _new_masters(self) -> Masterships:
@@ -102,7 +102,10 @@ class RwsContext:
         return RwsResponse(202, headers=(("Location", f"/progress/{number}"),))
 
     def write_file(self, path: Path, data: bytes) -> bool:
-        """Write a file of the controller's disks; whether it is a new one. Denied."""
+        """Write a file of the controller's disks; return True if it is new.
+
+        Raises RequestDenied.
+        """
         new = not path.exists()
         try:
             self.controller.files.spend(len(data))

@@ -20,7 +20,7 @@ OPTIONS = ("616-1 PC Interface",)
 
 
 def built_in(context: "RwsContext") -> dict[tuple[str, str], tuple[Instance, ...]]:
-    """Instances by domain and type."""
+    """Return default instances by domain and type."""
     groups = [g for g in context.controller.motion.groups.values() if g.config.mechanical_unit]
     joints = [row for group in groups for row in _joints(group)]
     return {
@@ -45,7 +45,7 @@ def _unit_group(group: MotionGroup) -> Instance:
 
 
 def _joints(group: MotionGroup) -> list[tuple[Instance, Instance]]:
-    """ARM and JOINT of each axis."""
+    """Return ARM and JOINT of each axis."""
     result = []
     for number, joint in enumerate(group.config.joints, 1):
         arm = arm_name(group.config, joint)

@@ -41,7 +41,7 @@ class Masterships:
         self.stations: dict[str, str] = {}
         """Names of control stations by their id."""
         self.station = ""
-        """The control station that has write access."""
+        """The control station with write access."""
         self.motion_allowed = False
 
     @property
@@ -51,7 +51,10 @@ class Masterships:
         return ("cfg", "motion", "rapid") if one else ("edit", "motion")
 
     def request(self, session: Session, domain: str) -> None:
-        """Take a domain; again is no fault. Denied: another has it."""
+        """Take a domain; taking it again is permitted.
+
+        RequestDenied: another session has it.
+        """
         self._check(domain)
         holder = self.holders.get(domain)
         if holder is None:

@@ -31,7 +31,7 @@ class HttpResponse:
     body: bytes = b""
 
     def header(self, name: str) -> str:
-        """The first header of a name, or an empty text."""
+        """Return the first header of a name, or an empty text."""
         return next((v for k, v in self.headers if k.lower() == name.lower()), "")
 
 
@@ -52,7 +52,7 @@ class RwsRequest:
 
     @property
     def form(self) -> dict[str, str]:
-        """The form's fields; of several with one name the last."""
+        """Return the form's fields; the last of several with one name."""
         return dict(self.pairs)
 
     @property
@@ -71,7 +71,7 @@ class RwsRequest:
         return value
 
     def kind(self, one: str, two: str) -> str:
-        """A class by generation."""
+        """Return a class name by generation."""
         return one if self.is_one else two
 
 
@@ -111,6 +111,6 @@ def whole(name: str, text: str, least: int = 0, most: int = 999_999_999) -> int:
 def show(
     *items: Item, title: str = "rw", collection: bool = False, following: str = ""
 ) -> RwsResponse:
-    """An answer with these items."""
+    """Return a response with these items."""
     body = Body(items, title=title, collection=collection, next=following)
     return RwsResponse(200, body)

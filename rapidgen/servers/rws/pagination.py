@@ -1,4 +1,4 @@
-"""Collections by the page: whole in RWS 1.0, cut in RWS 2.0."""
+"""Pagination of collections: whole in RWS 1.0, pages in RWS 2.0."""
 
 from collections.abc import Sequence
 

@@ -15,7 +15,7 @@ from rapidgen.servers.rws.sessions import Session
 
 Privilege = Literal["modify", "exec"]
 PROMPT_SECONDS = 10.0
-"""s that the pendant's user has, from the last poll on."""
+"""s for an answer of the pendant's user, from the last poll."""
 _CHOICES = ("Grant", "Deny")
 
 

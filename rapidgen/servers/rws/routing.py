@@ -18,7 +18,7 @@ _TABLE: list[tuple[RwsOperation, Handler]] = []
 
 
 def serves(*operations: RwsOperation) -> Callable[[Handler], Handler]:
-    """The decorated function carries these operations out."""
+    """Register the decorated function for these operations."""
 
     def put(handler: Handler) -> Handler:
         _TABLE.extend((operation, handler) for operation in operations)
@@ -28,7 +28,7 @@ def serves(*operations: RwsOperation) -> Callable[[Handler], Handler]:
 
 
 def served() -> tuple[tuple[RwsOperation, Handler], ...]:
-    """All operations that are served, and what carries each out."""
+    """Return all served operations and their handlers."""
     return tuple(_TABLE)
 
 

@@ -24,7 +24,7 @@ from rapidgen.wire.rws.events import PROTOCOLS
 _LOG = logging.getLogger("rapidgen.servers")
 
 KNOWN = "robotics"
-"""The password that controllers are delivered with."""
+"""The default password of controllers."""
 LARGEST_BODY = 64 * 1024 * 1024
 _RESTARTING = HttpResponse(503, (("Retry-After", "1"),))
 _UNREAD = 1000
@@ -208,7 +208,7 @@ class _Server:
     async def _send(
         self, socket: web.WebSocketResponse, events: "asyncio.Queue[bytes | None]"
     ) -> WSCloseCode:
-        """Send events until there are no more, or too many; how to close then."""
+        """Send events until they end or exceed the limit; return the close code."""
         while (event := await events.get()) is not None and events.qsize() <= _UNREAD:
             await socket.send_str(event.decode())
         return WSCloseCode.GOING_AWAY

@@ -28,7 +28,7 @@ class Session:
     location: str = ""
     alias: str = ""
     station: str = ""
-    """Control station of RobotWare 8 that it is part of."""
+    """Control station of RobotWare 8 to which it belongs."""
     on_end: list[Callable[[], None]] = field(default_factory=list)
 
 
@@ -36,7 +36,7 @@ class Sessions:
     """All sessions of a server."""
 
     def __init__(self, clock: Callable[[], float], *, limited: bool = True) -> None:
-        """`limited`: there may be RATE requests in a second."""
+        """`limited`: at most RATE requests in a second."""
         self._clock = clock
         self._limited = limited
         self._sessions: dict[str, Session] = {}
@@ -47,12 +47,12 @@ class Sessions:
         return len(self._sessions)
 
     def all(self) -> tuple[Session, ...]:
-        """All of them, in the order in which they began."""
+        """All sessions, in the order of their start."""
         self._expire()
         return tuple(self._sessions.values())
 
     def is_too_fast(self) -> bool:
-        """Count a request; whether it is one too many in this second."""
+        """Count a request; True if it exceeds the rate."""
         if not self._limited:
             return False
         now = self._clock()
@@ -82,7 +82,7 @@ class Sessions:
         return session
 
     def end(self, session: Session) -> None:
-        """End a session, and what depends on it."""
+        """End a session and everything that depends on it."""
         if self._sessions.pop(session.key, None) is not None:
             for act in tuple(session.on_end):
                 act()

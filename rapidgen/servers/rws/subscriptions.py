@@ -74,7 +74,7 @@ class Groups:
         scheduler: Callable[[], Scheduler],
         watched: Callable[[RwsRequest, WantedResource], EventSource],
     ) -> None:
-        """`watched` finds a resource, or refuses it."""
+        """`watched` returns the source of a resource, or refuses it."""
         self._generation = generation
         self._scheduler = scheduler
         self._watched = watched
@@ -89,11 +89,14 @@ class Groups:
         return group
 
     def of(self, session: Session) -> list[EventGroup]:
-        """Groups of a session."""
+        """Return groups of a session."""
         return [group for group in self._groups.values() if group.session is session]
 
     def begin(self, request: RwsRequest, requested: Iterable[WantedResource]) -> EventGroup:
-        """A new group. Denied: too many, or something that cannot be watched."""
+        """Create a group.
+
+        RequestDenied: too many, or a resource without a source.
+        """
         if len(self.of(request.session)) >= MOST_GROUPS:
             raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
         self._made += 1
@@ -137,7 +140,7 @@ class Groups:
         return [w.seen.item() for w in group.watches if w.seen.has_state]
 
     def end(self, group: EventGroup) -> None:
-        """Watch no more."""
+        """End a group."""
         if self._groups.pop(str(group.number), None) is None:
             return
         for watch in group.watches:
@@ -173,7 +176,7 @@ class Groups:
         group.waiting.clear()
 
     def leave(self, number: str, send: Send) -> None:
-        """`send` hears no more of a group; RWS 2.0 has no second time."""
+        """Disconnect the websocket; RWS 2.0 permits no second one."""
         group = self._groups.get(number)
         if group is None or group.send is not send:
             return

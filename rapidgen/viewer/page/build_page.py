@@ -20,12 +20,12 @@ ASSETS = HERE.parent / "assets"
 
 
 class PageHook(BuildHookInterface[BuilderConfig]):
-    """Called by hatchling before it packs."""
+    """Hook that hatchling calls before it packs."""
 
     PLUGIN_NAME = "page"
 
     def initialize(self, version: str, build_data: dict[str, object]) -> None:
-        """Build what is missing; an editable install is no release."""
+        """Build a missing page; an editable install is not a release."""
         if version == "editable" or (ASSETS / "index.html").is_file():
             return
         if _node() is None:
@@ -35,7 +35,7 @@ class PageHook(BuildHookInterface[BuilderConfig]):
 
 
 def build() -> None:
-    """Install the locked packages and build. SystemExit: it cannot be done."""
+    """Install the locked packages and build. SystemExit: impossible."""
     result = _node()
     if result is None:
         sys.exit("the page needs Node.js to be built: `pip install --group build`, or the system's")

@@ -24,7 +24,7 @@ from rapidgen.viewer.primitive_urdf import Drawing
 from rapidgen.viewer.recording.messages import Recorded
 
 MOST: Final = 64_000_000
-"""Bytes of all meshes of a recording."""
+"""Largest size of all meshes of a recording, bytes."""
 _MESH = re.compile(r"mesh-([0-9a-f]{20})(\.stl|\.obj|\.dae)", re.ASCII)
 
 
@@ -58,7 +58,7 @@ def carried(look: Appearance, most: int = MOST) -> Appearance:
 
 
 def written(look: Appearance) -> bytes:
-    """All but the meshes, JSON."""
+    """Return everything except the meshes, as JSON."""
     result = RecordedAppearance(
         drawings=dict(look.drawings), things=look.things, bases=dict(look.bases), faults=look.faults
     )

@@ -21,14 +21,14 @@ from mcap.reader import SeekingReader
 from mcap.records import Attachment, Chunk, Metadata
 
 LARGEST_CHUNK: Final = 64 * 1024 * 1024
-"""Bytes of a chunk, unpacked."""
+"""Largest unpacked chunk, bytes."""
 LARGEST_SUMMARY: Final = 256 * 1024 * 1024
 LARGEST_ATTACHMENT: Final = 256 * 1024 * 1024
 MOST_ATTACHED: Final = 512 * 1024 * 1024
 LARGEST_METADATA: Final = 1024 * 1024
-"""Bytes of other parts of a file."""
+"""Largest other part of a file, bytes."""
 _KEPT = 16
-"""Chunks that stay unpacked."""
+"""Number of chunks that stay unpacked."""
 _RECORD = struct.Struct("<BQ")
 _MESSAGE = struct.Struct("<HIQQ")
 _CHUNK_HEAD = struct.Struct("<QQQI")
@@ -54,7 +54,7 @@ class RecordingDamaged(Exception):
 
 @dataclass(frozen=True, slots=True)
 class StoredChunk:
-    """A chunk: where it is, and the times (ns) of its messages."""
+    """A chunk: its place, and the times (ns) of its messages."""
 
     offset: int
     begin: int
@@ -190,7 +190,10 @@ def _scanned(stream: BinaryIO, size: int) -> Contents:
 
 
 def _take(result: Contents, stream: BinaryIO, opcode: int, at: int, length: int) -> bool:
-    """Add what a record has; False: no such record is among the data. Damaged."""
+    """Add the data of a record; False: not a data record.
+
+    Raises RecordingDamaged.
+    """
     match opcode:
         case Opcode.CHUNK:
             _take_chunk(result, stream, at)
@@ -244,7 +247,7 @@ def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
 
 
 def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """Opcode, begin and end of each record."""
+    """Yield opcode, begin and end of each record."""
     at, size = 0, len(data)
     while at + _RECORD.size <= size:
         opcode, length = _RECORD.unpack_from(data, at)
@@ -266,14 +269,17 @@ class StoredMessage(NamedTuple):
 
 
 class Chunks:
-    """Messages of the pieces of a file, which stay unpacked for a while."""
+    """Messages of the chunks of a file, some of which stay unpacked."""
 
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
         self._kept: OrderedDict[int, tuple[StoredMessage, ...]] = OrderedDict()
 
     def messages(self, piece: StoredChunk) -> tuple[StoredMessage, ...]:
-        """In the order of their times. Damaged: the piece cannot be read."""
+        """Yield messages in the order of their times.
+
+        RecordingDamaged: a chunk cannot be read.
+        """
         match = self._kept.get(piece.offset)
         if match is None:
             try:

@@ -20,7 +20,7 @@ METADATA: Final = "rapidgen"
 ROBOTS: Final = "robots.json"
 """Attachment: the configured groups."""
 SIGNALS: Final = "signals.json"
-"""Attachment: what each signal is, `RecordedSignal` by name."""
+"""Attachment: properties of each signal, `RecordedSignal` by name."""
 OVERVIEW: Final = "overview.json"
 """Attachment at the end: positions of each robot once a second.
 
@@ -29,9 +29,9 @@ OVERVIEW: Final = "overview.json"
 LOOK: Final = "look.json"
 """Attachment: appearance of robots and cell, `RecordedAppearance`."""
 MESHES: Final = "mesh/"
-"""Attachments: meshes by the names that the look has for them."""
+"""Attachments: meshes by their names in the appearance."""
 SOURCES: Final = "source/"
-"""Attachments TASK/MODULE: what tasks have loaded, from their time on."""
+"""Attachments TASK/MODULE: loaded sources, from their time on."""
 JOINTS_PERIOD_NS: Final = 4_000_000
 SNAPSHOT_EVERY_NS: Final = 1_000_000_000
 
@@ -44,7 +44,7 @@ def with_checksum(values: Mapping[str, str]) -> dict[str, str]:
 
 
 class Recorded(BaseModel):
-    """Anything in a message."""
+    """Base of the parts of messages."""
 
     model_config = ConfigDict(frozen=True)
 
@@ -84,7 +84,7 @@ class ProgramPlace(Recorded):
 
 
 class StackEntry(ProgramPlace):
-    """A routine of a call stack, and what it runs for."""
+    """A routine of a call stack, and the reason of its call."""
 
     level: Literal["program", "trap", "event"]
 
@@ -99,7 +99,7 @@ class TaskPointers(Recorded):
 
 
 class RecordedPanel(Recorded):
-    """The controller as a whole."""
+    """State of the controller."""
 
     mode: str
     motors_on: bool
@@ -155,7 +155,7 @@ class WatchedValue(Recorded):
 
 
 class Snapshot(Recorded):
-    """All of it at once."""
+    """Complete state at one time."""
 
     joints: dict[str, Joints]
     carried: dict[str, CarriedFrames]

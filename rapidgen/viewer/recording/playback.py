@@ -23,7 +23,7 @@ from rapidgen.viewer.robots import ToolAndWorkObject, pose_of, side_by_side
 from rapidgen.viewer.socket_log import Interpreter, SocketPiece
 
 _CURVES = 1500
-"""Points of a curve."""
+"""Number of points of a curve."""
 _BACK, _PIECES = 3.0, 150
 """s before a moment, and data within them, shown of sockets."""
 
@@ -45,7 +45,7 @@ class RecordingSubject:
         return True
 
     def aspects(self) -> tuple[StateProvider, ...]:
-        """The one."""
+        """The only provider."""
         return (self._aspect,)
 
 
@@ -80,7 +80,7 @@ class _Seen:
 
 
 class RecordedProvider:
-    """All of a recording, at a moment."""
+    """Complete state of a recording at a moment."""
 
     def __init__(self, file: RecordingFile) -> None:
         self._file = file
@@ -99,7 +99,7 @@ class RecordedProvider:
     # ---------------------------------------------------------------------------------------
 
     def whole(self) -> Iterable[ToPage]:
-        """Everything of the moment."""
+        """Return the complete state of the moment."""
         yield v.Scene(
             title=self._file.title,
             kind="recording",
@@ -209,7 +209,7 @@ class RecordedProvider:
     # ------------------------------------------------------------------------------------
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Scrubbing, playing, curves and sources."""
+        """Handlers of scrubbing, playback, curves and sources."""
         return {
             p.Seek: _read(self._seek),
             p.Play: _read(self._play),
@@ -250,7 +250,7 @@ class RecordedProvider:
         return match
 
     def _curves(self, request: Request) -> str:
-        """The reply's text is what the page's plots take (PlotData of plot.ts)."""
+        """Return the data of the page's plots (PlotData of plot.ts)."""
         assert isinstance(request, p.ReadCurves)
         begin = max(request.begin, self._file.begin)
         end = min(request.end, self._file.end)
@@ -264,7 +264,7 @@ class RecordedProvider:
             charts = [{"title": f"{request.robot}, axes", "unit": "rad, m", "curves": curves}]
         elif request.signal in self._moment.signals:
             changes = self._file.signal(request.signal, begin, end)
-            # A signal stays until it changes: a step has two points.
+            # A signal keeps its value until it changes: a step has two points.
             times, values = [], []
             for (at, value), (until, _) in zip(changes, [*changes[1:], (end, 0.0)], strict=True):
                 times += [at, max(at, until - 1e-6)]

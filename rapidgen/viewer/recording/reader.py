@@ -40,7 +40,10 @@ _OVERVIEW: TypeAdapter[dict[str, list[_Row]]] = TypeAdapter(dict[str, list[_Row]
 
 @dataclass(slots=True, eq=False)
 class Moment:
-    """Everything as it was. Positions by robot, pointers by task."""
+    """Complete state at a moment.
+
+    Positions by robot, pointers by task.
+    """
 
     time: float
     """s from the controller's start."""
@@ -52,7 +55,7 @@ class Moment:
     watch: dict[tuple[str, str], m.WatchedValue] = field(default_factory=dict)
     """By task and expression."""
     connections: list[m.SocketFrame] = field(default_factory=list)
-    """Those that are open."""
+    """Open sockets."""
     log: list[m.LogLine] = field(default_factory=list)
     """The latest events."""
 
@@ -152,11 +155,11 @@ class RecordingFile:
         return PLAIN
 
     def sources(self, time: float) -> dict[tuple[str, str], str]:
-        """By task and module: the text that was loaded at a time."""
+        """Return the loaded text at a time, by task and module."""
         result = {}
         for name, at, data in self._contents.attachments:
             task, slash, module = name.removeprefix(m.SOURCES).partition("/")
-            # What is loaded is noticed up to a second later.
+            # A loaded module is noticed up to a second later.
             if name.startswith(m.SOURCES) and slash and at <= time * _NS + m.SNAPSHOT_EVERY_NS:
                 result[task, module] = data.decode(errors="replace")
         return result
@@ -225,7 +228,7 @@ class RecordingFile:
             yield message.time / _NS, self._decoded(m.SocketFrame, message)
 
     def log(self, begin: float, end: float) -> list[m.LogLine]:
-        """Events between two times, s."""
+        """Return events between two times, s."""
         result = self._messages(round(begin * _NS), round(end * _NS), "log")
         return [self._decoded(m.LogLine, message) for message in result]
 
@@ -259,7 +262,10 @@ class RecordingFile:
         return result
 
     def write_csv(self, path: Path | str, robot: str = "") -> None:
-        """Positions of a robot (the first by default), one row a sample. KeyError."""
+        """Write positions of a robot (the first by default), one row a sample.
+
+        Raises KeyError.
+        """
         group = next((g for g in self.robots if robot in ("", g.name)), None)
         if group is None:
             raise KeyError(robot)
@@ -278,7 +284,7 @@ class RecordingFile:
     def _messages(self, begin: int, end: int, topic: str = "") -> Iterator[StoredMessage]:
         """Return messages of a topic between two times inclusive, by time."""
         pieces = self._pieces(begin, end)
-        # Pieces overlap a little: samples are written after what happened meanwhile.
+        # Chunks overlap a little: samples are written after other messages of the same time.
         for message in self._in_order(pieces):
             if begin <= message.time <= end and topic in ("", self._topics.get(message.channel)):
                 yield message

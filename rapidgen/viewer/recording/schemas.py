@@ -1,8 +1,8 @@
-"""JSON schemas of a recording's channels, as readers of MCAP take them.
+"""JSON schemas of a recording's channels, for readers of MCAP.
 
-Foxglove and Lichtblick read a plain kind of schema: every field has a type, arrays have one kind of
-items, objects their properties. References, unions and tuples they refuse, and the whole channel
-with them [parseJsonSchema in their mcap-support]. Pydantic's become of that kind here.
+Foxglove and Lichtblick accept plain schemas only: every field has a type, arrays have one type of
+items, objects their properties. They reject references, unions and tuples, and the whole channel
+with them [parseJsonSchema in their mcap-support]. This module simplifies Pydantic's schemas.
 """
 
 from collections.abc import Iterable
@@ -13,7 +13,7 @@ from rapidgen._json import Json, Members, items, members, text
 
 
 def plain_schema(kind: type[BaseModel], signals: Iterable[str] = ()) -> Members:
-    """The schema of a message; `values` of signals have their names."""
+    """Return the schema of a message; `values` of signals have their names."""
     complete: Members = kind.model_json_schema()
     made = _plain(complete, members(complete.get("$defs", {})))
     if "values" in members(made["properties"]):
@@ -29,7 +29,7 @@ def _plain(schema: Members, definitions: Members) -> Members:
     if "$ref" in schema:
         return inner(definitions[text(schema["$ref"]).rpartition("/")[2]])
     if "anyOf" in schema:
-        # What may be absent is null then.
+        # A field that may be absent is null then.
         return inner(next(o for o in items(schema["anyOf"]) if members(o).get("type") != "null"))
     made: Members = {key: schema[key] for key in ("type", "description", "enum") if key in schema}
     if made["type"] == "object":

@@ -35,13 +35,13 @@ from rapidgen.viewer.recording.schemas import plain_schema
 from rapidgen.viewer.robots import ToolAndWorkObject
 
 TICK_NS = 16_666_667
-"""Between two looks at pointers and values: 60 a second."""
+"""Time between two samples of pointers and values: 60 a second."""
 LATEST_EVENTS = 20
-"""Events that a snapshot repeats."""
+"""Number of events that a snapshot repeats."""
 _ENDED = 80_002
 """Code of the event that reports it: a user's, as a program's own are."""
 _CHUNK = 262_144
-"""Bytes of a chunk: a few seconds, which is what a scrub has to read."""
+"""Size of a chunk in bytes: a few seconds, which a scrub has to read."""
 
 
 class RecordingWriter:
@@ -64,7 +64,7 @@ class RecordingWriter:
         self._schemas: dict[type[m.Recorded], int] = {}
         self._channels: dict[str, int] = {}
         self.watches = list(watches)
-        """May be changed at any time."""
+        """The watch list, which may change at any time."""
         self._groups = controller.motion.groups
         self._recorders = {
             name: Recorder(self._scheduler, group) for name, group in self._groups.items()
@@ -73,9 +73,9 @@ class RecordingWriter:
         self._next_snapshot = self._scheduler.now
         self._last_sent: dict[str, m.Recorded] = {}
         self._stood: dict[str, tuple[Posture, Posture]] = {}
-        """By topic: the last sample that was written."""
+        """Last written sample by topic."""
         self._held: dict[str, int] = {}
-        """By topic: until when the robot has stood there since."""
+        """Time until which the robot has been at rest since, by topic."""
         self._overview: dict[str, list[tuple[float, Posture, Posture]]] = {}
         self._sources: set[int] = set()
         self._events: deque[m.LogLine] = deque(map(_line, controller.log), LATEST_EVENTS)
@@ -124,7 +124,8 @@ class RecordingWriter:
     def _socket(self, events: SocketNews) -> None:
         self._write("sockets", _frame(events))
 
-    # -- what is looked at -----------------------------------------------------------------------
+    # -- samples
+    # -------------------------------------------------------------------------------------
 
     def _tick(self) -> None:
         if self._closed:
@@ -144,7 +145,7 @@ class RecordingWriter:
         self._scheduler.call_later_readonly(TICK_NS, self._tick)
 
     def _samples(self) -> None:
-        """Positions since the last look."""
+        """Write positions since the last sample."""
         now, first = self._scheduler.now, self._next_sample
         times = range(first, now + 1, m.JOINTS_PERIOD_NS)
         self._next_sample = first + len(times) * m.JOINTS_PERIOD_NS
@@ -227,7 +228,7 @@ class RecordingWriter:
     # -- the file --------------------------------------------------------------------------------
 
     def _tell(self, topic: str, message: m.Recorded, key: str = "") -> None:
-        """Write a message that differs from the last one of its kind."""
+        """Write a message that differs from the last one of its type."""
         if self._last_sent.get(key or topic) != message:
             self._last_sent[key or topic] = message
             self._write(topic, message)
@@ -320,7 +321,7 @@ def record(
 
 
 def _joints(sample: tuple[Posture, Posture]) -> str:
-    """Two hundred and fifty times a second: `m.Joints` without the model."""
+    """Write joints 250 times a second: `m.Joints` without the model."""
     return f'{{"commanded":{list(sample[0])},"actual":{list(sample[1])}}}'
 
 

@@ -61,7 +61,7 @@ class ObservedRobots:
         return True
 
     def aspects(self) -> tuple[StateProvider, ...]:
-        """States and events."""
+        """Providers of states and events."""
         return self._aspects
 
 
@@ -79,11 +79,11 @@ class _StateProvider:
         self._kinematics = [Kinematics.of(config) for config in self._configs]
         self._numbers: list[int] = []
         self._last_sent: PanelState | None = None
-        # The client's clock counts from anywhere.
+        # The client's clock has an arbitrary origin.
         self._began = min(robot.state.time for robot in self._robots)
 
     def whole(self) -> Iterable[ToPage]:
-        """The robots, where they are, what they say."""
+        """Return the robots, their positions and status."""
         yield Scene(
             title=self._title,
             kind="robot",
@@ -96,7 +96,7 @@ class _StateProvider:
         yield self._panel(states)
 
     def changes(self) -> Iterable[ToPage]:
-        """Positions of a state that is new, the status where it differs."""
+        """Return positions of a new state, and a changed status."""
         states = [robot.state for robot in self._robots]
         numbers = [state.number for state in states]
         if numbers != self._numbers:
@@ -111,7 +111,7 @@ class _StateProvider:
             yield panel
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Positions as text; a real robot is not commanded from a page."""
+        """Handlers of positions as text; the page cannot command a real robot."""
         return {Copy: self._copy}
 
     def _copy(self, request: Request) -> str:
@@ -175,7 +175,7 @@ class _EventsProvider:
         yield Log(entries=tuple(_entry(event) for event in self._robots[0].events))
 
     def changes(self) -> Iterable[ToPage]:
-        """New ones."""
+        """Return new entries."""
         new = [event for event in self._robots[0].events if event.number > self._last_sent]
         if new:
             self._last_sent = new[-1].number

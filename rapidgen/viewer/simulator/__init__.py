@@ -1,1 +1,1 @@
-"""A virtual controller as it is viewed: one aspect a file."""
+"""View of a virtual controller: one provider a file."""

@@ -22,7 +22,7 @@ from rapidgen.viewer.provider import Handler, RequestRejected
 from rapidgen.viewer.socket_log import Interpreter, SocketPiece
 
 _KEPT = 500
-"""Pieces between two looks; older ones are counted only."""
+"""Data between two updates; older ones are only counted."""
 _MOST_LINES = 300
 """Lines sent to a new listener."""
 RULES: Mapping[Ailment, NetworkRule] = {
@@ -82,7 +82,7 @@ class ConnectionsProvider:
             yield from self._interpreter.lines(piece)
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Cutting one, making one ill, listening."""
+        """Handlers that cut a connection, inject a fault, or listen."""
         return {ResetConnection: self._cut, InjectFault: self._inject_fault, Listen: self._listen}
 
     def _now(self) -> tuple[ShownSocket, ...]:

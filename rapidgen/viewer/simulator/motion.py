@@ -43,14 +43,14 @@ class MotionProvider:
         yield self._state(self._now())
 
     def changes(self) -> Iterable[ToPage]:
-        """Positions, where one has changed."""
+        """Return positions if one has changed."""
         now = self._now()
         if now != self._last_sent:
             self._last_sent = now
             yield self._state(now)
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Jogging, and positions as text."""
+        """Handlers of jogging, and of positions as text."""
         return {Jog: self._jog, JogTo: self._jog_to, Copy: self._copy}
 
     def _state(self, groups: tuple[RobotPlace, ...]) -> Positions:
@@ -133,7 +133,7 @@ class MotionProvider:
             raise RequestRejected(f"{fault.joint.name} would leave its range")
         if any(t.state == "running" and t.spec.motion for t in self._tasks()):
             raise RequestRejected("a program has the robot: stop it first")
-        self._carrier(group)  # Remembered: the path may be dropped.
+        self._carrier(group)  # Stored, because the path may be dropped.
         try:
             group.jog(axes)
         except ValueError as error:

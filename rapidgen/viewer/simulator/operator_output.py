@@ -42,7 +42,7 @@ class OperatorOutputProvider:
         yield Dialogs(waiting=self._questions())
 
     def changes(self) -> Iterable[ToPage]:
-        """New events, the screen and the dialogs where they differ."""
+        """Return new events, and screen and dialogs if they differ."""
         entries = self._controller.log.since(self._sequence)
         if entries:
             self._sequence = entries[-1].sequence
@@ -57,7 +57,7 @@ class OperatorOutputProvider:
             yield Dialogs(waiting=waiting)
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Answers to dialogs."""
+        """Handlers of answers to dialogs."""
         return {AnswerQuestion: self._answer}
 
     def _questions(self) -> tuple[Dialog, ...]:

@@ -19,18 +19,18 @@ _EVERY = 0.5
 
 
 class PendantProvider:
-    """PanelState, and what changes it."""
+    """State of the panel, and the requests that change it."""
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._controller = runner.controller
         self._last_sent: PanelState | None = None
 
     def whole(self) -> Iterable[ToPage]:
-        """The status."""
+        """Return the status."""
         yield self._status()
 
     def changes(self) -> Iterable[ToPage]:
-        """The status, where it differs or its time is old."""
+        """Return the status if it differs or its time is old."""
         now, text = self._status(), self._last_sent
         same = text is not None and now.model_copy(update={"time": text.time}) == text
         if text is None or not same or now.time >= text.time + _EVERY:
@@ -38,7 +38,7 @@ class PendantProvider:
             yield now
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Buttons, key, speed and pace."""
+        """Handlers of buttons, key, speed and pace."""
         return {
             PendantAction: self._act,
             SetMode: self._mode,

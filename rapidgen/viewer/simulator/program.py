@@ -46,7 +46,7 @@ class ProgramProvider:
     # ---------------------------------------------------------------------------------------
 
     def whole(self) -> Iterable[ToPage]:
-        """All of it."""
+        """Return the complete state."""
         yield self._loaded()
         yield self._pointers()
         yield self._debugging()
@@ -154,7 +154,7 @@ class ProgramProvider:
     # ------------------------------------------------------------------------------------
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Everything that the debugger does."""
+        """Handlers of all debugger commands."""
         result: dict[type, Handler] = {
             p.ReadSource: self._source,
             p.ReadOrigin: self._origin,

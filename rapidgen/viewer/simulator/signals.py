@@ -24,11 +24,11 @@ class SignalsProvider:
         self._last_sent: dict[Signal, float] = {}
 
     def whole(self) -> Iterable[ToPage]:
-        """All of them."""
+        """Return all signals."""
         yield AllSignals(signals=tuple(map(_shown, self._io.signals.values())))
 
     def changes(self) -> Iterable[ToPage]:
-        """The values that are new."""
+        """Return changed values."""
         text = self._last_sent
         new = [s for s in self._io.signals.values() if text.get(s) != s.value]
         if new:

@@ -1,4 +1,4 @@
-"""A virtual controller that is viewed, over its restarts."""
+"""A virtual controller as the page's subject, over its restarts."""
 
 from collections.abc import Callable
 
@@ -38,6 +38,6 @@ class Simulation:
         return self._runner.post(function)
 
     def aspects(self) -> tuple[StateProvider, ...]:
-        """Topics of the controller that runs now."""
+        """Providers of the running controller."""
         scene = MotionProvider(self._runner, self._look)
         return (scene, *(make(self._runner) for make in ASPECTS))

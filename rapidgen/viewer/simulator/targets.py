@@ -12,11 +12,11 @@ from rapidgen.viewer.provider import Handler
 from rapidgen.viewer.robots import pose_of
 
 _MOST = 400
-"""Targets that are drawn; the first ones of each program."""
+"""Number of drawn targets; the first ones of each program."""
 
 
 class TargetsProvider:
-    """The targets that programs declare, anew when modules have been loaded."""
+    """Targets that programs declare, updated when modules are loaded."""
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._tasks = runner.controller.rapid_tasks
@@ -25,7 +25,7 @@ class TargetsProvider:
         self._now = Targets(targets=())
 
     def whole(self) -> Iterable[ToPage]:
-        """All of them."""
+        """Return all targets."""
         yield from self.changes()
         yield self._now
 

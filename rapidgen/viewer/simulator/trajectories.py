@@ -34,7 +34,7 @@ from rapidgen.viewer.trajectory_messages import (
 )
 
 _AXES = 10
-"""Values of a frame."""
+"""Number of values of a frame."""
 _PLACES = 2000
 """Approximate number of drawn points, unless the trajectory has more."""
 _ANY = TrajectoryPolicy(capacity=1_000_000)
@@ -42,7 +42,7 @@ _ANY = TrajectoryPolicy(capacity=1_000_000)
 
 
 class TrajectoryProvider:
-    """The trajectory that lies on the page; all viewers see the same one."""
+    """The trajectory of the page, common to all viewers."""
 
     def __init__(self, runner: ControllerRunner) -> None:
         self._runner = runner
@@ -51,17 +51,17 @@ class TrajectoryProvider:
         self._checked: CheckedTrajectory | None = None
 
     def whole(self) -> Iterable[ToPage]:
-        """The trajectory, if there is one."""
+        """Return the trajectory, if there is one."""
         yield self._shown
 
     def changes(self) -> Iterable[ToPage]:
-        """The trajectory, where it or its state is new."""
+        """Return the trajectory if it or its state is new."""
         if self._shown is not self._last_sent:
             self._last_sent = self._shown
             yield self._shown
 
     def handlers(self) -> Mapping[type, Handler]:
-        """Checking, executing, forgetting."""
+        """Handlers that check, execute and drop a trajectory."""
         return {
             UploadTrajectory: self._drop,
             RunTrajectory: self._run,

@@ -1,4 +1,4 @@
-"""Backups: made, looked at, restored."""
+"""Backups: make, check, restore."""
 
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @serves(ops.BACKUP)
 def back_up_now(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A backup into a new folder: done when it is answered."""
+    """Make a backup in a new folder, before the answer."""
     text = request.field("backup")
     if not text.startswith("/fileservice/"):
         raise RequestDenied(400, "E_INVALID_PATH", f"{text}: /fileservice/... is wanted")

@@ -41,7 +41,7 @@ def _title(section: str, instance: Instance) -> str:
 
 @serves(ops.CFG)
 def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The domains."""
+    """Return the domains."""
     return show(
         *(Item("cfg-domain-li", name) for name in DOMAINS),
         collection=True,
@@ -50,7 +50,7 @@ def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.CFG_DOMAIN)
 def get_types(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Types of a domain."""
+    """Return the types of a domain."""
     text = _domain(context, request)
     names = dict.fromkeys(section.name for section in text.sections)
     names |= dict.fromkeys(kind for domain, kind in built_in(context) if domain == text.domain)
@@ -108,7 +108,7 @@ def _value(attribute: Attribute) -> str:
 
 @serves(ops.CFG_ATTRIBUTES)
 def get_attributes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Attributes that instances of a type have."""
+    """Return the attributes of a type's instances."""
     names = dict.fromkeys(a.name for i in _instances(context, request) for a in i.attributes)
     result = (
         Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names
@@ -183,7 +183,7 @@ def create_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.CFG_DELETE)
 def delete_instance(context: "RwsContext", request: RwsRequest) -> None:
-    """Take an instance out."""
+    """Delete an instance."""
     if not request.is_one:
         context.masters.need(request, "cfg")
     old = _one(context, request)

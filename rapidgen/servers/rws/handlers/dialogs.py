@@ -61,7 +61,7 @@ def _quoted(text: str) -> str:
 
 
 def _parameters(context: "RwsContext", question: Question) -> dict[str, str]:
-    """Values by name, as RAPID literals."""
+    """Return values by name, as RAPID literals."""
     chosen = context.dialogs.get(question.number, "")
     if question.dialog.startswith("TP"):
         keys = {f"TPFK{i}": _quoted(text) for i, text in enumerate(question.choices, 1)}
@@ -80,7 +80,7 @@ def _parameters(context: "RwsContext", question: Question) -> dict[str, str]:
 
 @serves(ops.DIALOG_PARAMETERS)
 def get_parameters(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """All parameters of a dialog."""
+    """Return all parameters of a dialog."""
     result = _parameters(context, _asked_for(context, request)).items()
     items = (Item("rap-uiparams-li", name, {"value": value}) for name, value in result)
     return show(*items, collection=True)

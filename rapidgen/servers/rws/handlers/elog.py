@@ -29,7 +29,7 @@ def _events(context: "RwsContext", domain: str) -> list[Event]:
 
 @serves(ops.ELOGS)
 def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The domains, and how many entries each has."""
+    """Return the domains and their numbers of entries."""
     result = []
     for domain in Domain:
         number = str(int(domain))
@@ -41,7 +41,7 @@ def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ELOG)
 def get_events(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Entries of a domain, newest first: by the fifty in RWS 2.0."""
+    """Return entries of a domain, newest first; fifty at a time in RWS 2.0."""
     domain = request.names["domain"]
     events = _events(context, domain)[::-1]
     if request.query.get("resource") in ("info", "count"):
@@ -90,14 +90,14 @@ def _item(context: "RwsContext", domain: str, event: Event) -> Item:
 
 @serves(ops.CLEAR_ELOG)
 def clear(context: "RwsContext", request: RwsRequest) -> None:
-    """Forget all entries; here of all domains."""
+    """Delete all entries; here of all domains."""
     _events(context, request.names["domain"])
     context.controller.log.clear()
 
 
 @serves(ops.CLEAR_ELOGS)
 def clear_all(context: "RwsContext", request: RwsRequest) -> None:
-    """Forget all entries of all domains."""
+    """Delete all entries of all domains."""
     context.controller.log.clear()
 
 

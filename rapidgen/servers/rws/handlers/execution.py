@@ -25,7 +25,7 @@ _START = {
 
 
 def execution(controller: "VirtualController") -> str:
-    """`running` while a NORMAL task is."""
+    """Return `running` while a NORMAL task runs."""
     normal = (t for t in controller.rapid_tasks.values() if t.spec.type == "NORMAL")
     return "running" if any(t.state == "running" for t in normal) else "stopped"
 
@@ -97,7 +97,7 @@ def start_entry(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.STOP)
 def stop(context: "RwsContext", request: RwsRequest) -> None:
-    """Stop the program; `alltsk` stops background tasks, too [real 7.21]."""
+    """Stop the program; `alltsk` also stops background tasks [real 7.21]."""
     mode = request.field("stopmode", ("cycle", "instr", "stop", "qstop"))
     tasks = request.form.get("usetsp", "normal")
     if tasks not in ("normal", "alltsk", "alltask"):
@@ -114,7 +114,7 @@ def stop(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.RESET_PP)
 def reset_pp(context: "RwsContext", request: RwsRequest) -> None:
-    """Program pointers of all tasks to main."""
+    """Set program pointers of all tasks to main."""
     # RobotWare 6 takes mastership by itself [code: abb_librws, abb_robot_client].
     context.masters.need(request, "rapid", by_itself=request.is_one)
     controller = context.controller

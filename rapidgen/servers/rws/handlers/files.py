@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @serves(ops.VOLUMES)
 def volumes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Volumes: variables with a `$` in RWS 1.0 [VC 6.16]."""
+    """Return the volumes: variables with a `$` in RWS 1.0 [VC 6.16]."""
     kind, sign = request.kind("fs-device", "fs-dir"), request.kind("$", "")
     return show(*(Item(kind, f"{sign}{name}") for name in VOLUMES), collection=True)
 
@@ -39,7 +39,7 @@ def _missing(request: RwsRequest, what: str) -> RequestDenied:
 
 @serves(ops.READ_FILE)
 def read(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A file as it is, or what lies in a folder."""
+    """Return a file, or the entries of a folder."""
     path = _path(context, request)
     if path.is_dir():
         entries = sorted(path.iterdir(), key=lambda p: p.name.lower())
@@ -74,7 +74,7 @@ def write(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.DELETE_FILE)
 def delete(context: "RwsContext", request: RwsRequest) -> None:
-    """Delete a file, or a folder with all that is in it."""
+    """Delete a file, or a folder with its content."""
     path = _path(context, request)
     if _is_volume(context, path):
         raise RequestDenied(403, "E_REJECT", "a volume cannot be deleted", -2)
@@ -101,7 +101,7 @@ def act(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
 
 @serves(ops.CREATE_FOLDER)
 def create(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A new folder."""
+    """Create a folder."""
     path = _new(context, request, _path(context, request), request.names["path"])
     try:
         path.mkdir()

@@ -29,7 +29,7 @@ def _gone(context: "RwsContext") -> None:
 
 @serves(ops.MASTERSHIPS)
 def masterships(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The domains."""
+    """Return the domains."""
     _gone(context)
     return show(*(Item("msh-resource-li", d) for d in context.masters.domains), collection=True)
 
@@ -73,7 +73,7 @@ def release(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.REQUEST_WITH_ID)
 def request_with_id(context: "RwsContext", asked: RwsRequest) -> RwsResponse:
-    """Take a domain; the number is for giving it back from another session."""
+    """Take a domain; its number releases it from another session."""
     request(context, asked)
     domain = asked.names["domain"]
     return show(Item("msh-resource", domain, {"mastership-id": str(asked.session.number)}))
@@ -177,7 +177,7 @@ def motion_allowed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ALLOW_MOTION)
 def allow_motion(context: "RwsContext", request: RwsRequest) -> None:
-    """Let a start move something."""
+    """Permit a start to move a robot."""
     context.masters.need(request, "motion")
     notify = request.field("allow-motion-control", ("true", "false"))
     context.masters.motion_allowed = notify == "true"

@@ -25,7 +25,7 @@ _PARTS = ("checkchangecount", "mechunits", "errorstate", "nonmotionexecution")
 
 @serves(ops.MOTION_SYSTEM)
 def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The motion system: its count of changes, its first unit."""
+    """Return the motion system: its count of changes, its first unit."""
     units = [g.config.mechanical_unit for g in context.controller.motion.groups.values()]
     notify = {
         "change-count": str(context.runner.restarts),

@@ -23,12 +23,12 @@ def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 def networks(context: "RwsContext") -> list[str]:
-    """Networks, in order."""
+    """Return networks, in order."""
     return list(dict.fromkeys(map(network_of, devices(context))))
 
 
 def devices(context: "RwsContext") -> list[str]:
-    """Devices that some signal is on."""
+    """Return devices with a signal."""
     result = (s.spec.device for s in context.controller.io.signals.values())
     return [device for device in dict.fromkeys(result) if device]
 

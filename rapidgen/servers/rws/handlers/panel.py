@@ -19,7 +19,7 @@ _WORDS = {"auto": "AUTO", "manual_reduced": "MANR", "manual_full": "MANF"}
 
 
 def ctrl_state(controller: "VirtualController") -> str:
-    """The controller's state in the words of Robot Web Services."""
+    """Return the controller's state in the words of Robot Web Services."""
     if controller.failed:
         return "sysfail"
     if controller.e_stop:
@@ -28,24 +28,24 @@ def ctrl_state(controller: "VirtualController") -> str:
 
 
 def opmode(controller: "VirtualController") -> str:
-    """The operating mode in the words of Robot Web Services."""
+    """Return the operating mode in the words of Robot Web Services."""
     return _WORDS[controller.mode]
 
 
 def speed(controller: "VirtualController") -> int:
-    """The override in percent; of several robots the slowest one's."""
+    """Return the override in percent; of several robots the lowest."""
     return round(100 * min((g.override for g in controller.motion.groups.values()), default=1.0))
 
 
 @serves(ops.CTRL_STATE)
 def get_ctrl_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Motors, emergency stop, system failure."""
+    """Return motors, emergency stop, system failure."""
     return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(context.controller)}))
 
 
 @serves(ops.SET_CTRL_STATE)
 def set_ctrl_state(context: "RwsContext", request: RwsRequest) -> None:
-    """Motors on or off."""
+    """Switch motors on or off."""
     on = request.field("ctrl-state", ("motoron", "motoroff")) == "motoron"
     controller = context.controller
     if on and controller.mode != "auto":
@@ -82,7 +82,7 @@ def set_opmode(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SPEED)
 def get_speed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The override."""
+    """Return the override."""
     return show(
         Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(context.controller))})
     )
@@ -90,7 +90,7 @@ def get_speed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_SPEED)
 def set_speed(context: "RwsContext", request: RwsRequest) -> None:
-    """The override in percent, in automatic mode."""
+    """Set the override in percent, in automatic mode."""
     percent = whole("speed-ratio", request.field("speed-ratio"), 0, 100)
     if context.controller.mode != "auto":
         raise RequestDenied(403, "E_MODE_REJECT", "only in automatic mode", -2)
@@ -103,7 +103,7 @@ def set_speed(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.SET_SPEED_PLAIN)
 def set_speed_plainly(context: "RwsContext", request: RwsRequest) -> None:
-    """RWS 2.0 keeps `?action=` for the speed; without it is 400 [VC 7.21]."""
+    """Refuse a speed without `?action=`: 400 in RWS 2.0 [VC 7.21]."""
     raise RequestDenied(400, "E_INVALIDARG", "action=setspeedratio is wanted")
 
 
@@ -158,7 +158,7 @@ def unlock(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.LANGUAGE)
 def set_language(context: "RwsContext", request: RwsRequest) -> None:
-    """The pendant's language: texts are English here."""
+    """Set the pendant's language: texts are English here."""
     if request.field("lang-code").lower() != "en":
         raise RequestDenied(400, "E_INVALIDARG", "only en is installed")
 

@@ -69,7 +69,7 @@ def _movable(context: "RwsContext", request: RwsRequest) -> Task:
 
 @serves(ops.POINTER_TO_ROUTINE)
 def pointer_to_routine(context: "RwsContext", request: RwsRequest) -> None:
-    """Program pointer of one task to a routine."""
+    """Set one task's program pointer to a routine."""
     task = _movable(context, request)
     try:
         context.controller.tasks[task.name].pp_to_routine(request.field("routine"))
@@ -79,7 +79,7 @@ def pointer_to_routine(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.POINTER_TO_MAIN)
 def pointer_to_main(context: "RwsContext", request: RwsRequest) -> None:
-    """Program pointer of one task to main."""
+    """Set one task's program pointer to main."""
     context.controller.tasks[_movable(context, request).name].pp_to_main()
 
 

@@ -55,7 +55,7 @@ def get_build_errors(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 def _own(context: "RwsContext", task: Task) -> list[str]:
-    """Modules of the program: system modules are not of it."""
+    """Return modules of the program, without system modules."""
     programs = context.runner.programs
     return [m.name for m in programs.modules(task) if not m.is_system and not m.file.shared]
 
@@ -109,7 +109,7 @@ def _listed(path: Path, request: RwsRequest, words: str) -> list[str]:
 
 @serves(ops.UNLOAD_PROGRAM)
 def unload(context: "RwsContext", request: RwsRequest) -> None:
-    """Take the program's modules out; system modules stay."""
+    """Unload the program's modules; system modules stay."""
     context.masters.need(request, "rapid")
     task = find_task(context, request.names["task"], request)
     try:

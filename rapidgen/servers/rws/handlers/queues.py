@@ -1,4 +1,4 @@
-"""Message queues (DIPC): those of clients, and RMQ_<task> of the tasks.
+"""Message queues (DIPC) of clients, and RMQ_<task> of the tasks.
 
 A message to a task is `type;value` [doc: PC SDK, RAPID message queue], as one from a task is;
 between clients it is any text of at most 444 bytes.
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rapidgen.servers.rws.context import RwsContext
 
 LARGEST = 444
-"""Bytes of a message [RWS manual]."""
+"""Largest message [RWS manual], bytes."""
 _OF_A_TASK = "rmq_"
 
 
@@ -49,7 +49,7 @@ def _item(kind: str, queue: ClientQueue) -> Item:
 
 @serves(ops.QUEUES)
 def get_queues(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Queues of clients."""
+    """Return the queues of clients."""
     result = (_item("dipc-queue-li", queue) for queue in context.queues.values())
     return show(*result, collection=True)
 
@@ -86,7 +86,7 @@ def _close(context: "RwsContext", queue: ClientQueue) -> None:
 
 @serves(ops.DELETE_QUEUE)
 def delete(context: "RwsContext", request: RwsRequest) -> None:
-    """No more of a queue."""
+    """Delete a queue."""
     _close(context, find(context, request.names["queue"]))
 
 

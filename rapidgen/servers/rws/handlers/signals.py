@@ -23,12 +23,12 @@ _WRITABLE = ("all",)
 
 
 def value_of(signal: Signal) -> str:
-    """A signal's value as text."""
+    """Return a signal's value as text."""
     return f"{signal.value:g}" if signal.spec.type[0] == "A" else str(int(signal.value))
 
 
 def title_of(signal: Signal) -> str:
-    """Network, device and name, or the name of a signal without a device."""
+    """Return network, device and name; only the name without a device."""
     device = signal.spec.device
     return f"{network_of(device)}/{device}/{signal.name}" if device else signal.name
 
@@ -57,7 +57,7 @@ def find(context: "RwsContext", path: str) -> Signal:
 
 
 def item(signal: Signal, kind: str, request: RwsRequest) -> Item:
-    """A signal as an item."""
+    """Return a signal as an item."""
     notify = {
         "name": signal.name,
         "type": signal.spec.type,
@@ -80,7 +80,7 @@ def _is_writable(signal: Signal) -> bool:
 
 @serves(ops.SIGNALS)
 def get_signals(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """All signals: whole in RWS 1.0, by the hundred in 2.0 [VC 7.21]."""
+    """Return all signals; a hundred at a time in RWS 2.0 [VC 7.21]."""
     result = context.controller.io.signals.values()
     return page(request, [item(s, "ios-signal-li", request) for s in result], 100, "signals")
 

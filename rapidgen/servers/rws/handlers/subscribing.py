@@ -37,7 +37,7 @@ def subscribe(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ADD_SUBSCRIPTION)
 def add(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """More resources for a group."""
+    """Add resources to a group."""
     group = context.groups.find(request.names["group"], request.session)
     context.groups.add(request, group, _wanted(request))
     return _opened(context, request, group, 200)
@@ -45,7 +45,7 @@ def add(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.UNSUBSCRIBE)
 def unsubscribe(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Watch no more."""
+    """End a group."""
     context.groups.end(context.groups.find(request.names["group"], request.session))
     return RwsResponse(200)
 
@@ -61,7 +61,7 @@ def unsubscribe_one(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SUBSCRIPTIONS)
 def get_groups(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Groups of this session."""
+    """Return groups of this session."""
     own = context.groups.of(request.session)
     items = (Item("sub-group-li", str(g.number), {}, {"self": str(g.number)}) for g in own)
     return show(*items, collection=True)

@@ -1,4 +1,4 @@
-"""RAPID data: read, written, described, looked for."""
+"""RAPID data: read, write, describe, search."""
 
 import re
 import warnings
@@ -45,7 +45,7 @@ class Datum:
 
     @property
     def value(self) -> Value:
-        """Its present value."""
+        """The current value."""
         value = self.task[self.name]
         for i in self.element:
             value = value[i]
@@ -88,7 +88,7 @@ def _unknown(request: RwsRequest, path: str) -> RequestDenied:
 
 @serves(ops.SYMBOL)
 def get_symbol(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The value as a RAPID literal."""
+    """Return the value as a RAPID literal."""
     result = find(context, request.names["symbol"], request)
     text = literal_text(result.value, result.type)
     name = request.names["symbol"].rpartition("/")[2]
@@ -154,7 +154,7 @@ def get_properties(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SEARCH_SYMBOLS)
 def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Data of a task or a module by kind, type and a pattern of the name."""
+    """Return data of a task or a module by kind, type and name pattern."""
     form = request.form
     if not request.is_one and "task" in form:
         raise RequestDenied(400, "E_INVALIDARG", "task")  # [VC 7.21]
@@ -190,7 +190,7 @@ def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 def _data(task: TaskView, only: str) -> Iterator[tuple[Item, str]]:
-    """Data of the modules of a task, each with its kind."""
+    """Yield data of the modules of a task, each with its kind."""
     for module in task.rapid.program.modules.values():
         if only and module.name.lower() != only.lower():
             continue

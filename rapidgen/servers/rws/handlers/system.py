@@ -17,7 +17,7 @@ _MODES = ("restart", "istart", "pstart", "bstart")
 
 
 def version(context: "RwsContext") -> tuple[int, int]:
-    """RobotWare's release, of the generation that is spoken."""
+    """Return RobotWare's release for the generation."""
     major, minor = context.controller.system.robotware
     least = {Generation.ONE: 6, Generation.TWO: 7, Generation.EIGHT: 8}[context.generation]
     return (major, minor) if major == least else (least, 0)
@@ -37,7 +37,7 @@ def identity(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SYSTEM)
 def get_system(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Name and RobotWare."""
+    """Return name and RobotWare version."""
     (major, minor), name = version(context), context.controller.system.name
     if request.is_one:
         notify = {
@@ -72,7 +72,7 @@ def get_options(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.PRODUCTS)
 def get_products(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Products: RobotWare alone."""
+    """Return the products: RobotWare alone."""
     major, minor = version(context)
     notify = {"version": f"{major}.{minor}", "version-name": f"{major}.{minor}.0"}
     return show(Item("sys-product-li", "RobotWare", notify), collection=True)
@@ -87,7 +87,7 @@ def get_robot_type(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.CLOCK)
 def get_clock(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Date and time."""
+    """Return date and time."""
     now = date_time(context.controller.scheduler)
     notify = {"datetime": now.strftime("%Y-%m-%d T %H:%M:%S")}
     return show(Item("ctrl-clock-info", "clock", notify))
@@ -160,7 +160,7 @@ def get_energy(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.VISION)
 def get_vision(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """No camera is connected."""
+    """Return vision data: no camera is connected."""
     return show(Item("number-of-cameras-li", "cameras", {"number-of-cameras": "0"}))
 
 
@@ -172,7 +172,7 @@ def get_time_zone(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SET_CLOCK)
 def set_clock(context: "RwsContext", request: RwsRequest) -> None:
-    """The clock is the simulation's: it cannot be put."""
+    """Refuse to set the clock, which is the simulation's."""
     raise RequestDenied(403, "E_REJECT", "the clock of a virtual controller is its machine's", -2)
 
 
@@ -185,14 +185,14 @@ def restart_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.VIRTUAL_TIME)
 def virtual_time(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Virtual time in ms."""
+    """Return the virtual time in ms."""
     notify = {"vtcounter": str(round(context.runner.now * 1000))}
     return show(Item("ctrl-vttime", "vttime", notify))
 
 
 @serves(ops.VIRTUAL_STATE)
 def virtual_state(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Virtual time runs."""
+    """Return the state of virtual time, which runs."""
     return show(Item("ctrl-vtstate", "vtstate", {"vtcurrstate": "running"}))
 
 
@@ -205,5 +205,5 @@ def virtual_speed(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.SAFETY_MODE)
 def safety_mode(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """No safety controller is modelled."""
+    """Return the safety mode: no safety controller is modelled."""
     return show(Item("safetymodestatus", "mode", {"safetymode": "DEACTIVATED"}))

@@ -20,7 +20,7 @@ _EXECUTION = {
     "running": "started", "stopped": "stopped", "error": "stopped", "finished": "stopped",
     "ready": "ready", "empty": "uninitialized",
 }  # fmt: skip
-# RobotWare 6 answers by other statuses than 7 [VC 6.16, VC 7.21].
+# RobotWare 6 answers with other statuses than 7 [VC 6.16, VC 7.21].
 _STATUS = {
     "E_EXEC_STATE": (400, 403), "E_NO_SUCH_SYMBOL": (400, 404), "E_FILE_NOT_FOUND": (400, 404),
     "E_MOD_AMBNAME": (400, 400), "E_MOD_WRITE_PROTECTED": (403, 403),
@@ -68,7 +68,7 @@ def _item(context: "RwsContext", task: Task, kind: str, request: RwsRequest) -> 
 
 @serves(ops.TASKS)
 def get_tasks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """All tasks."""
+    """Return all tasks."""
     tasks = context.controller.rapid_tasks.values()
     return show(*(_item(context, t, "rap-task-li", request) for t in tasks), collection=True)
 
@@ -83,7 +83,7 @@ def get_task(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @serves(ops.ACTIVATE_ALL, ops.DEACTIVATE_ALL)
 def activate_all(context: "RwsContext", request: RwsRequest) -> None:
-    """All NORMAL tasks at once."""
+    """Select all NORMAL tasks at once."""
     for task in context.controller.rapid_tasks.values():
         if task.spec.type == "NORMAL":
             activate(context, replace(request, names={"task": task.name}))
@@ -91,7 +91,7 @@ def activate_all(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.TASK_SELECTION)
 def selection(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The task selection panel [VC 7.21]."""
+    """Return the task selection panel [VC 7.21]."""
     left_out = context.controller.operation.omitted
     result = [
         Item(
@@ -145,7 +145,10 @@ def activate(context: "RwsContext", request: RwsRequest) -> None:
 
 
 def task_to_boot(context: "RwsContext", request: RwsRequest) -> Task:
-    """The task that a path, or `?task=` of RWS 1.0, names. Denied."""
+    """Return the task of a path, or of `?task=` in RWS 1.0.
+
+    Raises RequestDenied.
+    """
     name = request.names.get("task") or request.query.get("task", "")
     return find_task(context, name, request)
 
@@ -182,7 +185,7 @@ def get_module(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 def no_module(request: RwsRequest, name: str) -> RequestDenied:
-    """The answer for a module that is not there."""
+    """Return the answer for a missing module."""
     return RequestDenied(
         400 if request.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517
     )
@@ -210,7 +213,7 @@ def load_module(context: "RwsContext", request: RwsRequest) -> RwsResponse | Non
 
 @serves(ops.UNLOAD_MODULE)
 def unload_module(context: "RwsContext", request: RwsRequest) -> None:
-    """Take a module out of a task."""
+    """Unload a module of a task."""
     context.masters.need(request, "rapid")
     task = find_task(context, request.names["task"], request)
     name = request.field("module")

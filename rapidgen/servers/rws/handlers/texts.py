@@ -44,7 +44,7 @@ def _count(context: "RwsContext", task: Task) -> str:
 
 @serves(ops.MODULE_TEXT)
 def get_text(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """The source of a module."""
+    """Return the source of a module."""
     module = _module(context, request)
     notify = {"change-count": _count(context, module.task), "module-text": module.text}
     return show(Item("rap-module-text", request.names["module"], notify))
@@ -59,7 +59,7 @@ def get_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 @dataclass(frozen=True, slots=True)
 class _Range:
-    """Two places of a text, as offsets."""
+    """Two positions of a text, as offsets."""
 
     begin: int
     end: int
@@ -90,7 +90,7 @@ def _range(text: str, fields: dict[str, str]) -> _Range:
 
 @serves(ops.TEXT_RANGE)
 def get_range(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """A piece of the source; -1 is the end."""
+    """Return a range of the source; -1 is the end."""
     text = _module(context, request).text
     piece = _range(text, dict(request.query))
     notify = {"text": text[piece.begin : piece.end]}

@@ -1,4 +1,4 @@
-"""Users, grants, remote writing in manual mode; the end of a session."""
+"""Users, grants, remote writing in manual mode, logout."""
 
 from typing import TYPE_CHECKING
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 @serves(ops.LOGOUT)
 def logout(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """End the session; what it held is free, but RobotWare 8's write access."""
+    """End the session and its masterships, except RobotWare 8's write access."""
     context.end_session(request.session)
     return show(title="logout")
 
 
 @serves(ops.REGISTER_USER)
 def register(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """Say who it is, for others to read."""
+    """Register a name that others can read."""
     session = request.session
     session.alias = request.form.get("username", "")
     session.application = request.form.get("application", "")
@@ -84,7 +84,7 @@ def impersonate(context: "RwsContext", request: RwsRequest) -> None:
 
 @serves(ops.ALL_GRANTS)
 def all_grants(context: "RwsContext", request: RwsRequest) -> RwsResponse:
-    """All grants that there are."""
+    """Return all grants."""
     names = ("grantname", "description")
     result = (Item("uas-grant", g, dict.fromkeys(names, g)) for g in sorted(GRANTS))
     return show(*result, collection=True)

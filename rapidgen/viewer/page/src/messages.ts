@@ -13,7 +13,7 @@ export interface AnswerQuestion {
   readonly value: string;
 }
 
-/** Set a datum, an element or a component where it is looked at. */
+/** Set a datum, an element or a component in the selected frame. */
 export interface Assign {
   readonly do: "assign";
   readonly target: string;
@@ -52,7 +52,7 @@ export interface Copy {
   readonly form: "jointtarget" | "robtarget" | "python";
 }
 
-/** Count how often lines are reached from now on, or no more. */
+/** Start or stop counting executions of lines. */
 export interface CountLines {
   readonly do: "cover";
   readonly on: boolean;
@@ -65,7 +65,7 @@ export interface Covered {
   readonly lines: Readonly<Record<string, number>>;
 }
 
-/** Pause, go on, step a task. */
+/** Pause, resume or step a task. */
 export interface DebugCommand {
   readonly do: "drive";
   readonly how: "pause" | "resume" | "in" | "over" | "out";
@@ -81,7 +81,7 @@ export interface Debugging {
   readonly output: readonly string[];
 }
 
-/** A dialog that waits; without choices a text or number is typed. */
+/** An open dialog; without choices a text or number is typed. */
 export interface Dialog {
   readonly number: number;
   readonly task: string;
@@ -90,13 +90,13 @@ export interface Dialog {
   readonly choices: readonly string[];
 }
 
-/** All dialogs that wait. */
+/** All open dialogs. */
 export interface Dialogs {
   readonly type: "dialogs";
   readonly waiting: readonly Dialog[];
 }
 
-/** The reply's text is the value of an expression where it is looked at. */
+/** The reply's text is the value of an expression in the selected frame. */
 export interface Evaluate {
   readonly do: "evaluate";
   readonly expression: string;
@@ -111,7 +111,7 @@ export interface FrameValues {
   readonly watch: readonly SeenValue[];
 }
 
-/** Let a connection be slow, silent and so on from now on. */
+/** Make a connection slow, silent and so on from now on. */
 export interface InjectFault {
   readonly do: "afflict";
   readonly number: number;
@@ -152,7 +152,7 @@ export interface LoadedPrograms {
   readonly tasks: readonly LoadedModules[];
 }
 
-/** Events that are new, oldest first. */
+/** New events, oldest first. */
 export interface Log {
   readonly type: "log";
   readonly entries: readonly LogEntry[];
@@ -170,7 +170,7 @@ export interface LogEntry {
   readonly task: string;
 }
 
-/** The answer to a request; `error` is empty when it was carried out. */
+/** The answer to a request; `error` is empty if it was executed. */
 export interface PageReply {
   readonly type: "reply";
   readonly id: number;
@@ -178,7 +178,7 @@ export interface PageReply {
   readonly text: string;
 }
 
-/** A request and the number that its reply will have. */
+/** A request and the number of its reply. */
 export interface PageRequest {
   readonly id: number;
   readonly request: PendantAction | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | ResetConnection | InjectFault | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | DebugCommand | RunTo | RunFor | StopOnErrors | SelectFrame | Evaluate | Assign | SetWatch | CountLines | Seek | Play | ReadCurves | UploadTrajectory | RunTrajectory | RemoveTrajectory;
@@ -206,7 +206,7 @@ export interface PendantAction {
   readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
-/** Let it run, at so many seconds in a second; 0 stops. */
+/** Play at so many seconds in a second; 0 pauses. */
 export interface Play {
   readonly do: "play";
   readonly rate: number;
@@ -263,7 +263,7 @@ export interface ReadSource {
   readonly number: number;
 }
 
-/** Take one away. */
+/** Remove a breakpoint. */
 export interface RemoveBreakpoint {
   readonly do: "unbreak";
   readonly number: number;
@@ -274,7 +274,7 @@ export interface RemoveTrajectory {
   readonly do: "forget";
 }
 
-/** Cut a connection: the task's socket is reset, and so is the other end. */
+/** Cut a connection: the task's socket and its peer are reset. */
 export interface ResetConnection {
   readonly do: "cut";
   readonly number: number;
@@ -292,13 +292,13 @@ export interface RobotPlace {
   readonly standing: boolean;
 }
 
-/** Go on for so many seconds of the controller's time. */
+/** Run for so many seconds of the controller's time. */
 export interface RunFor {
   readonly do: "run-for";
   readonly seconds: number;
 }
 
-/** Go on to a line. */
+/** Run to a line. */
 export interface RunTo {
   readonly do: "run-to";
   readonly task: string;
@@ -472,7 +472,7 @@ export interface ShownSocket {
   readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
 }
 
-/** AllSignals that have changed. */
+/** Signals that have changed. */
 export interface SignalValues {
   readonly type: "values";
   readonly values: Readonly<Record<string, number>>;
@@ -496,7 +496,7 @@ export interface SourceOrigin {
   readonly templates: Readonly<Record<string, string>>;
 }
 
-/** At which errors everything pauses. */
+/** Errors at which all tasks pause. */
 export interface StopOnErrors {
   readonly do: "errors";
   readonly errors: "never" | "unhandled" | "all";
