@@ -29,7 +29,7 @@ from test_hostile import FLOWS, NOWHERE, run  # noqa: E402
 from rapidgen.client.rws.address import parse_address  # noqa: E402
 from rapidgen.client.rws.core import Login, RwsCore  # noqa: E402
 from rapidgen.servers.rws import routing  # noqa: E402
-from rapidgen.servers.rws.disks import VOLUMES  # noqa: E402
+from rapidgen.servers.rws.context import VOLUMES  # noqa: E402
 from rapidgen.servers.rws.messages import HttpRequest  # noqa: E402
 from rapidgen.wire.rws import media  # noqa: E402
 from rapidgen.wire.rws.bodies import Generation  # noqa: E402

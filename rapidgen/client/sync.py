@@ -6,7 +6,8 @@ The caller's threads write, one thread a robot reads.
 import threading
 import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from inspect import GEN_CLOSED, getgeneratorstate
 from typing import TypeVar
@@ -21,9 +22,38 @@ from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, RobotTimeout
+from rapidgen.client.flows.data import Datum
 from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, SendAtOnce, Wait
-from rapidgen.client.user_data import CellData
 from rapidgen.wire.simple_message.spec import Port
+
+
+@dataclass(frozen=True, eq=False)
+class CellData(Mapping[str, Datum]):
+    """Entries of the configuration's `data:` by `MODULE:NAME`.
+
+    They are read and written at the robot. Raises as `read_data` and `write_data`, so NotSupported
+    for an unlisted name.
+    """
+
+    names: tuple[str, ...]
+    read: Callable[[str], Datum]
+    write: Callable[[str, Datum], Datum]
+
+    def __getitem__(self, name: str) -> Datum:
+        return self.read(name)
+
+    def __setitem__(self, name: str, value: Datum) -> None:
+        self.write(name, value)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)
+
 
 T = TypeVar("T")
 _SLICE = 0.1

@@ -10,10 +10,8 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, TypeAdapter
 
-from rapidgen.viewer import network_messages as n
-from rapidgen.viewer import program_messages as p
-from rapidgen.viewer import trajectory_messages as t
-from rapidgen.viewer.message_base import MessageModel
+from rapidgen.viewer import panel_messages as p
+from rapidgen.viewer.panel_messages import MessageModel
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -335,15 +333,15 @@ ToPage: TypeAlias = (
     | Dialogs
     | AllSignals
     | SignalValues
-    | n.Connections
-    | n.Conversation
+    | p.Connections
+    | p.Conversation
     | p.LoadedPrograms
     | p.Pointers
     | p.Debugging
     | p.FrameValues
     | p.Covered
     | p.Playback
-    | t.UploadedTrajectory
+    | p.UploadedTrajectory
     | PageReply
 )
 Request: TypeAlias = (
@@ -356,9 +354,9 @@ Request: TypeAlias = (
     | JogTo
     | Copy
     | SetSignal
-    | n.ResetConnection
-    | n.InjectFault
-    | n.Listen
+    | p.ResetConnection
+    | p.InjectFault
+    | p.Listen
     | p.ReadSource
     | p.ReadOrigin
     | p.SetBreakpoint
@@ -375,9 +373,9 @@ Request: TypeAlias = (
     | p.Seek
     | p.Play
     | p.ReadCurves
-    | t.UploadTrajectory
-    | t.RunTrajectory
-    | t.RemoveTrajectory
+    | p.UploadTrajectory
+    | p.RunTrajectory
+    | p.RemoveTrajectory
 )
 Answer: TypeAlias = p.SourceOrigin
 """JSON type of a reply's text."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from rapidgen.machine.network.sockets import SocketChange
-from rapidgen.viewer.network_messages import SocketLogLine
+from rapidgen.viewer.panel_messages import SocketLogLine
 from rapidgen.wire.simple_message.codec import decode
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.frames import ContentError, Frame, FrameSplitter, FramingError

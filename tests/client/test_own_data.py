@@ -4,7 +4,7 @@ import pytest
 from driven import BENT, complaints, driven, moved
 
 from rapidgen.client import NotSupported, Program, RequestRefused, Robot
-from rapidgen.client.user_data import CellData
+from rapidgen.client.sync import CellData
 from rapidgen.system.model import ModuleFile
 from rapidgen.wire.simple_message.spec import Reason
 

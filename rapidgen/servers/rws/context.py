@@ -3,22 +3,60 @@
 The controller, permissions, and running jobs.
 """
 
+from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.machine.files import DiskFault
-from rapidgen.servers.rws.client_queues import ClientQueue
+from rapidgen.runtime.queues import Queue
+from rapidgen.runtime.text import literal_text
 from rapidgen.servers.rws.mastership import Masterships
-from rapidgen.servers.rws.messages import RequestDenied, RwsResponse
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse
 from rapidgen.servers.rws.rmmp import ManualPrivilege
 from rapidgen.servers.rws.sessions import Session
 from rapidgen.servers.rws.subscriptions import Groups
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES, OK
 from rapidgen.wire.rws.grants import GRANTS
+
+MESSAGE_KINDS = ("IPC_SEND", "IPC_PACKAGE")
+"""Kinds of messages, by `dipc-msgtype`."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClientText:
+    """Message from one client to another."""
+
+    sender: str
+    data: str
+    command: str
+    user: str
+    kind: str
+
+
+@dataclass(slots=True, eq=False)
+class ClientQueue:
+    """A queue that a client has made; tasks put their answers into `queue`."""
+
+    name: str
+    queue: Queue
+    texts: deque[ClientText] = field(default_factory=deque)
+
+    def __len__(self) -> int:
+        return len(self.texts) + len(self.queue.messages)
+
+    def take(self) -> ClientText | None:
+        """Remove and return the first message; None if the queue is empty."""
+        if self.texts:
+            return self.texts.popleft()
+        if not self.queue.messages:
+            return None
+        message = self.queue.messages.popleft()
+        data = f"{message.type.name};{literal_text(message.value, message.type)}"
+        return ClientText(message.sender, data, "0", f"{message.user:g}", MESSAGE_KINDS[1])
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,3 +153,29 @@ class RwsContext:
         except OSError as fault:
             raise RequestDenied(404, "E_DIR_NOT_EXIST", fault.strerror or "") from fault
         return new
+
+
+VOLUMES = ("HOME", "TEMP", "BACKUP", "RAMDISK")
+
+
+def disk_path(context: "RwsContext", words: str, request: RwsRequest) -> Path:
+    """Return the file of a path on a volume.
+
+    The path is `$HOME/a`, `HOME/a`, `HOME:/a` or `/fileservice/...`. RequestDenied: it names no
+    volume, or leads out of one.
+    """
+    text = words.removeprefix("/fileservice/").strip("/")
+    first, _, remaining = text.partition("/")
+    name = first.strip("$:").upper()
+    if ":" in first.rstrip(":"):
+        name, _, more = first.partition(":")
+        name, remaining = name.strip("$").upper(), f"{more}/{remaining}".strip("/")
+    if name not in VOLUMES:
+        # RobotWare 6 and 7 differ here [VC 6.16, VC 7.21].
+        if request.is_one:
+            raise RequestDenied(404, "E_FAIL", f"no volume {first}")
+        raise RequestDenied(400, "E_INVALID_PATH", f"no volume {first}")
+    try:
+        return context.controller.files.path(f"{name}:{remaining}")
+    except DiskFault as fault:
+        raise RequestDenied(400, "E_INVALID_PATH", str(fault)) from fault

@@ -1,6 +1,6 @@
 """Requests, responses and refusals of Robot Web Services."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rapidgen.servers.rws.sessions import Session
@@ -114,3 +114,26 @@ def show(
     """Return a response with these items."""
     body = Body(items, title=title, collection=collection, next=following)
     return RwsResponse(200, body)
+
+
+def page(
+    request: RwsRequest, items: Sequence[Item], most: int, name: str, *, always: bool = False
+) -> RwsResponse:
+    """Return the requested page, at most `most` items.
+
+    `always`: RWS 1.0 divides them too.
+    """
+    if request.is_one and not always:
+        return show(*items, collection=True)
+    try:
+        start, limit = (
+            int(request.query.get(k, str(d))) for k, d in (("start", 0), ("limit", most))
+        )
+    except ValueError as error:
+        raise RequestDenied(400, "E_INVALIDARG", "start or limit") from error
+    if start < 0 or limit < 1:
+        raise RequestDenied(400, "E_INVALIDARG", "start or limit")
+    limit = min(limit, most)
+    end = start + limit
+    following = f"{name}?start={end}&limit={limit}" if end < len(items) else ""
+    return show(*items[start:end], collection=True, following=following)

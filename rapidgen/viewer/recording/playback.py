@@ -12,8 +12,7 @@ from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.viewer import messages as v
-from rapidgen.viewer import network_messages as n
-from rapidgen.viewer import program_messages as p
+from rapidgen.viewer import panel_messages as p
 from rapidgen.viewer.messages import Request, ToPage
 from rapidgen.viewer.primitive_urdf import Drawing
 from rapidgen.viewer.provider import Handler, RequestRejected, StateProvider
@@ -149,7 +148,7 @@ class RecordedProvider:
                 if name in moment.signals
             )
         )
-        yield n.Connections(sockets=tuple(map(_socket, moment.connections)))
+        yield p.Connections(sockets=tuple(map(_socket, moment.connections)))
         yield self._conversation(moment)
         yield self._loaded(moment)
         yield _pointers(moment)
@@ -162,7 +161,7 @@ class RecordedProvider:
             fault=self._fault or ("it was interrupted, and ends here" if self._file.cut else ""),
         )
 
-    def _conversation(self, moment: Moment) -> n.Conversation:
+    def _conversation(self, moment: Moment) -> p.Conversation:
         """Return the latest socket data if a viewer listens."""
         received: deque[SocketPiece] = deque(maxlen=_PIECES)
         if self._listening:
@@ -173,7 +172,7 @@ class RecordedProvider:
                 received.append(SocketPiece(at, frame.change, *ends, data))
         interpreter = Interpreter()
         lines = tuple(line for piece in received for line in interpreter.lines(piece))
-        return n.Conversation(listening=self._listening, lines=lines, fresh=True)
+        return p.Conversation(listening=self._listening, lines=lines, fresh=True)
 
     def _panel(self, moment: Moment, panel: m.RecordedPanel) -> v.PanelState:
         tasks = {name: task.state for name, task in moment.tasks.items()}
@@ -216,11 +215,11 @@ class RecordedProvider:
             p.ReadCurves: _read(self._curves),
             p.ReadSource: _read(self._source),
             p.SelectFrame: _read(self._look),
-            n.Listen: _read(self._listen),
+            p.Listen: _read(self._listen),
         }
 
     def _listen(self, request: Request) -> str:
-        assert isinstance(request, n.Listen)
+        assert isinstance(request, p.Listen)
         self._listening = request.on
         return ""
 
@@ -299,8 +298,8 @@ def _entry(line: m.LogLine) -> v.LogEntry:
     return v.LogEntry.model_validate(line.model_dump())
 
 
-def _socket(frame: m.SocketFrame) -> n.ShownSocket:
-    return n.ShownSocket(
+def _socket(frame: m.SocketFrame) -> p.ShownSocket:
+    return p.ShownSocket(
         number=0, task=frame.task, status="connected", local=frame.local, peer=frame.peer
     )
 

@@ -14,8 +14,10 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mcap.writer import Writer
+from pydantic import BaseModel
 
 from rapidgen import __version__
+from rapidgen._json import Json, Members, items, members, text
 from rapidgen.axes.kinematics import Posture
 from rapidgen.config.manifest import group_to_manifest
 from rapidgen.controller.controller import VirtualController
@@ -31,7 +33,6 @@ from rapidgen.runtime.task.task import Task
 from rapidgen.viewer.appearance import PLAIN, Appearance
 from rapidgen.viewer.recording import appearance
 from rapidgen.viewer.recording import messages as m
-from rapidgen.viewer.recording.schemas import plain_schema
 from rapidgen.viewer.robots import ToolAndWorkObject
 
 TICK_NS = 16_666_667
@@ -377,3 +378,33 @@ def _entry(frame: StackFrame) -> m.StackEntry:
 
 def _place(at: Location) -> m.ProgramPlace:
     return m.ProgramPlace.model_construct(module=at.module, routine=at.routine, line=at.span.line)
+
+
+def plain_schema(kind: type[BaseModel], signals: Iterable[str] = ()) -> Members:
+    """Return the schema of a message; `values` of signals have their names."""
+    complete: Members = kind.model_json_schema()
+    made = _plain(complete, members(complete.get("$defs", {})))
+    if "values" in members(made["properties"]):
+        numbers: Members = {name: {"type": "number"} for name in signals}
+        members(made["properties"])["values"] = {"type": "object", "properties": numbers}
+    return made
+
+
+def _plain(schema: Members, definitions: Members) -> Members:
+    def inner(part: Json) -> Members:
+        return _plain(members(part), definitions)
+
+    if "$ref" in schema:
+        return inner(definitions[text(schema["$ref"]).rpartition("/")[2]])
+    if "anyOf" in schema:
+        # A field that may be absent is null then.
+        return inner(next(o for o in items(schema["anyOf"]) if members(o).get("type") != "null"))
+    made: Members = {key: schema[key] for key in ("type", "description", "enum") if key in schema}
+    if made["type"] == "object":
+        own = members(schema.get("properties", {}))
+        made["properties"] = {name: inner(part) for name, part in own.items()}
+    if made["type"] == "array":
+        # Numbers of a frame are separate columns of the same type.
+        several = items(schema.get("prefixItems", []))
+        made["items"] = inner(several[0] if several else schema["items"])
+    return made

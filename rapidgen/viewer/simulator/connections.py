@@ -8,7 +8,7 @@ from rapidgen.machine.network.fault_injection import FaultyNetwork, NetworkRule
 from rapidgen.machine.network.interface import SocketAddress
 from rapidgen.machine.network.sockets import SocketDevice, SocketNews
 from rapidgen.viewer.messages import Request, ToPage
-from rapidgen.viewer.network_messages import (
+from rapidgen.viewer.panel_messages import (
     Ailment,
     Connections,
     Conversation,

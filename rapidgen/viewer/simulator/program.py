@@ -15,7 +15,7 @@ from rapidgen.controller.runner import ControllerRunner
 from rapidgen.controller.tracing import Coverage
 from rapidgen.generate.source_map import origin_of
 from rapidgen.runtime.errors import Location
-from rapidgen.viewer import program_messages as p
+from rapidgen.viewer import panel_messages as p
 from rapidgen.viewer.messages import Request, ToPage
 from rapidgen.viewer.provider import Handler, RequestRejected
 

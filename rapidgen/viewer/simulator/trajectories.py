@@ -23,15 +23,15 @@ from rapidgen.controller.runner import ControllerRunner
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.motion.group import MotionGroup
 from rapidgen.viewer.messages import Request, ToPage
-from rapidgen.viewer.provider import Handler, RequestRejected
-from rapidgen.viewer.robots import ToolAndWorkObject
-from rapidgen.viewer.trajectory_messages import (
+from rapidgen.viewer.panel_messages import (
     RemoveTrajectory,
     RunTrajectory,
     TrajectoryFinding,
     UploadedTrajectory,
     UploadTrajectory,
 )
+from rapidgen.viewer.provider import Handler, RequestRejected
+from rapidgen.viewer.robots import ToolAndWorkObject
 
 _AXES = 10
 """Number of values of a frame."""

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.controller.programs import back_up
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.servers.rws.disks import disk_path
+from rapidgen.servers.rws.context import disk_path
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.system import is_backup, read_backup

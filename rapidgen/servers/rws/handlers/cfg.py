@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 
 from rapidgen._reading import read_foreign
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.servers.rws.context import disk_path
 from rapidgen.servers.rws.default_cfg import DOMAINS, built_in
-from rapidgen.servers.rws.disks import disk_path
-from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
-from rapidgen.servers.rws.pagination import page
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, page, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, scalar, write_cfg
 from rapidgen.system.cfg_loading import CfgFileLoad, LoadResult, add, identity_text

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 from rapidgen.machine.event_log import Domain, Event
 from rapidgen.machine.scheduler import date_time
-from rapidgen.servers.rws.disks import disk_path
-from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
-from rapidgen.servers.rws.pagination import page
+from rapidgen.servers.rws.context import disk_path
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, page, show, whole
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item

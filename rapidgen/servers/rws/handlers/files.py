@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen._reading import read_foreign
 from rapidgen.machine.files import CAPACITY
-from rapidgen.servers.rws.disks import VOLUMES, disk_path
+from rapidgen.servers.rws.context import VOLUMES, disk_path
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops

@@ -14,7 +14,7 @@ from rapidgen._reading import read_foreign
 from rapidgen.controller.programs import CannotLoad
 from rapidgen.runtime.loading import LARGEST_MODULE, module_text
 from rapidgen.runtime.task.task import Task
-from rapidgen.servers.rws.disks import disk_path
+from rapidgen.servers.rws.context import disk_path
 from rapidgen.servers.rws.handlers.tasks import find_task, load_refused
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves

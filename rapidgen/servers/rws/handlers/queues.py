@@ -10,7 +10,7 @@ from rapidgen.runtime.compiler.link import find_type
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.queues import Message
 from rapidgen.runtime.text import NotALiteral, parse_value
-from rapidgen.servers.rws.client_queues import KINDS, ClientQueue, ClientText
+from rapidgen.servers.rws.context import MESSAGE_KINDS, ClientQueue, ClientText
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.servers.rws.routing import serves
 from rapidgen.system.model import QueueSpec
@@ -109,7 +109,7 @@ def send(context: "RwsContext", request: RwsRequest) -> None:
     queue = find(context, name)
     if len(queue) >= queue.queue.spec.max_messages:
         raise RequestDenied(400, "E_QUEUEFULL", name)
-    kind = KINDS[request.form.get("dipc-msgtype", "1") != "0"]
+    kind = MESSAGE_KINDS[request.form.get("dipc-msgtype", "1") != "0"]
     queue.texts.append(ClientText(sender, data, command, user, kind))
     queue.queue.changed.notify()
 

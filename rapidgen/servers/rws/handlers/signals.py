@@ -6,8 +6,7 @@ Their access level decides which client may set them.
 from typing import TYPE_CHECKING
 
 from rapidgen.machine.io import Signal
-from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
-from rapidgen.servers.rws.pagination import page
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, page, show
 from rapidgen.servers.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from rapidgen.controller.programs import CannotLoad
 from rapidgen.runtime.loading import module_text
 from rapidgen.runtime.task.task import Task
-from rapidgen.servers.rws.disks import disk_path
+from rapidgen.servers.rws.context import disk_path
 from rapidgen.servers.rws.handlers.execution import execution
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves

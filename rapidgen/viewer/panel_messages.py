@@ -1,13 +1,18 @@
-"""Messages between server and page about programs.
+"""Messages between server and page of single panels.
 
-Sources, pointers, breakpoints, values.
+Programs and recordings, the network, dropped trajectories.
 """
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field
 
-from rapidgen.viewer.message_base import MessageModel
+
+class MessageModel(BaseModel):
+    """Base of the parts of messages."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
 
 Name = Annotated[str, Field(max_length=200)]
 Text = Annotated[str, Field(max_length=1000)]
@@ -276,3 +281,137 @@ class ReadCurves(MessageModel):
     signal: Name = ""
     begin: Annotated[float, Field(allow_inf_nan=False)]
     end: Annotated[float, Field(allow_inf_nan=False)]
+
+
+Ailment = Literal["well", "delay", "split", "slow", "silent", "half-open"]
+
+
+class ShownSocket(MessageModel):
+    """A socket of a task. Addresses are empty if there are none."""
+
+    number: int
+    task: str
+    status: str
+    local: str
+    peer: str
+    ailment: Ailment = "well"
+
+
+class Connections(MessageModel):
+    """All sockets in use."""
+
+    type: Literal["connections"] = "connections"
+    sockets: tuple[ShownSocket, ...]
+
+
+class SocketLogLine(MessageModel):
+    """A frame of simple_message, or other bytes.
+
+    `way` is seen from the program.
+    """
+
+    time: float
+    way: Literal["open", "in", "out", "close"]
+    task: str
+    local: str
+    peer: str
+    name: str
+    """Name of the message; empty: no frame."""
+    text: str
+    fault: bool = False
+    """True if the bytes are not a valid frame."""
+
+
+class Conversation(MessageModel):
+    """Data of sockets, oldest first; only while a viewer listens."""
+
+    type: Literal["conversation"] = "conversation"
+    listening: bool
+    lines: tuple[SocketLogLine, ...]
+    missed: int = 0
+    """Number of earlier lines that were dropped."""
+    fresh: bool = False
+    """True if the lines are older than the request."""
+
+
+# -- from the page --------------------------------------------------------------------------------
+
+
+class ResetConnection(MessageModel):
+    """Cut a connection: the task's socket and its peer are reset."""
+
+    do: Literal["cut"] = "cut"
+    number: int
+
+
+class InjectFault(MessageModel):
+    """Make a connection slow, silent and so on from now on."""
+
+    do: Literal["afflict"] = "afflict"
+    number: int
+    ailment: Ailment
+
+
+class Listen(MessageModel):
+    """Start or stop sending the data of sockets."""
+
+    do: Literal["listen"] = "listen"
+    on: bool
+
+
+class TrajectoryFinding(MessageModel):
+    """An error or warning.
+
+    `point` counts from 0, None: no single point.
+    """
+
+    code: str
+    severity: str
+    message: str
+    help: str
+    line: int | None
+    point: int | None
+
+
+class UploadedTrajectory(MessageModel):
+    """A checked trajectory; the file's name is empty without a file."""
+
+    type: Literal["trajectory"] = "trajectory"
+    group: str = ""
+    file: str = ""
+    seconds: float = 0.0
+    points: int = 0
+    way: tuple[tuple[float, float, float], ...] = ()
+    """The TCP, m in the world, at every point and between.
+
+    Empty without geometry.
+    """
+    pace: tuple[float, ...] = ()
+    """TCP speed from the place before to each of `way`, m/s."""
+    steps: int = 1
+    """Places of `way` from a point to the next."""
+    findings: tuple[TrajectoryFinding, ...] = ()
+    state: Literal["refused", "checked", "running", "done", "failed"] = "checked"
+    told: str = ""
+    """Reason of a failure."""
+
+
+class UploadTrajectory(MessageModel):
+    """Check a file's text for a robot; the robot does not move."""
+
+    do: Literal["drop"] = "drop"
+    group: str
+    file: Annotated[str, Field(max_length=200)]
+    text: Annotated[str, Field(max_length=900_000)]
+
+
+class RunTrajectory(MessageModel):
+    """Execute what was checked, through the simulator's driver."""
+
+    do: Literal["run"] = "run"
+
+
+class RemoveTrajectory(MessageModel):
+    """Take it off the page."""
+
+    do: Literal["forget"] = "forget"
