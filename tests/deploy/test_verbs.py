@@ -96,7 +96,7 @@ def test_a_plan_is_short_and_tells_what_was_configured_otherwise(run, home):
     assert len(out.splitlines()) <= 25
     assert "  ~ state.rate: 10 → 20\n" in out
     assert "  ~ HOME:/rapidgen/ROS_stateServer.mod   +3 -3\n" in out
-    assert "files, nothing but the build's id\n" in out
+    assert "files, only the build's id\n" in out
 
 
 def test_changed_keys_use_units_of_the_configuration(run, home):

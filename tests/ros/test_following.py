@@ -246,7 +246,7 @@ def test_the_rest_that_a_planner_leaves_at_the_end():
     with station() as s:
         outcome = s.outcome(replace(THERE, points=points))
         assert outcome.status is FinalStatus.SUCCEEDED
-        assert "last segment of 0.030 s was given 0.1 s" in outcome.text
+        assert "last segment of 0.030 s was extended to 0.1 s" in outcome.text
         assert s.joints == pytest.approx([0.3] * 6, abs=1e-4)
 
 
