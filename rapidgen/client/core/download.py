@@ -1,8 +1,16 @@
 """A trajectory that was sent completely before the motion. Sans-IO.
 
-The states alone decide when it has ended. Without PROGRESS three conditions hold together: position
-**and** in_motion **and** time. So a path that ends at its start, or crosses its end, does not end
-early, and a robot that never moved has not arrived.
+The rules, besides those of `motion.py`:
+
+1. The robot may move once the end frame is being sent; its reply accepts or refuses the trajectory.
+2. With PROGRESS the reported state ends the motion.
+3. Without PROGRESS (abb_driver) the trajectory is done if three conditions hold together: in_motion
+   is 0, the planned time is over, and the robot is at the last point. So a path that ends at its
+   start, or crosses its end, does not end early.
+4. A robot that was never seen moving has not arrived, unless the trajectory does not move it. Every
+   joint message is evaluated for this, since many may arrive at once.
+5. A robot at rest elsewhere, `_GRACE` s after the planned end, is a failure. So are an emergency
+   stop, motors off and a new error of the controller.
 """
 
 from collections.abc import Sequence

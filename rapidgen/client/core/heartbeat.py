@@ -1,4 +1,10 @@
-"""Schedule of the client's heartbeats during a motion. Sans-IO."""
+"""Schedule of the client's heartbeats during a motion. Sans-IO.
+
+The first heartbeat of a motion arms the controller: it stops the robot if the next one does not
+arrive within the time-out that each carries. A time-out of 0 at the end of the motion disarms it.
+After `forget` (a lost connection, a failed motion) no heartbeat follows, so an armed controller
+stops the robot by itself.
+"""
 
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.wire.simple_message import messages

@@ -1,9 +1,17 @@
 """Effects: requests of a flow to the client that runs it.
 
-A flow is a generator: it yields an effect (a connection, bytes to send, a wait) and is resumed with
-the outcome. `Wait` returns whether the condition became true in time; a failed `Open` or `Send` is
-thrown in as RobotError. If the caller is interrupted (Ctrl-C, cancellation) the interruption is
-thrown in; flows that wait for a motion react to it with a STOP.
+A flow is a generator that makes the decisions of one call, common to both clients. It yields an
+effect (a connection, bytes to send, a wait) and is resumed with the outcome. The rules:
+
+1. A flow does no I/O and calls no clock except the core's. Between two effects it runs without
+   interruption, under the lock of the sync client or in one step of the loop, so it sees a
+   consistent core.
+2. `Wait` returns whether the condition became true in time. The client tests it after each message,
+   so a condition that becomes false again may be missed.
+3. A failed `Open` or `Send` is thrown in as RobotError.
+4. An interruption of the caller (Ctrl-C, cancellation) is thrown in at the current effect. Flows
+   that wait for a motion react to it with a STOP, and raise it when the robot is at rest.
+5. `SendAtOnce` overtakes points that another flow is sending: those end at the next frame boundary.
 """
 
 from asyncio import CancelledError

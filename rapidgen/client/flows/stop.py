@@ -1,4 +1,19 @@
-"""Flows that stop the robot and close connections."""
+"""Flows that stop the robot and close connections.
+
+The rules:
+
+1. STOP is written to every open connection before anything is awaited. A missing connection is
+   opened for it only if no other one proves the stop.
+2. The control port answers STOP without delay. The driver reads STOP on the motion port after the
+   data sent there, so its answer is also required while data there is unanswered: the driver might
+   read that data after the STOP of the control port.
+3. The wait for the motion port is longer by `PER_POINT` for each unread point.
+4. An answer proves that the driver stops, not that the robot is at rest: two later joint messages
+   with in_motion 0, or several without movement, do (`_until_standing`).
+5. After an error of a motion (`ended`) the flow stops the robot and adds the result to the error.
+   It stops nothing if another client's motion has replaced the failed one.
+6. Everything that cannot be proved is said in the error, with the emergency stop as help.
+"""
 
 import logging
 from collections.abc import Sequence
