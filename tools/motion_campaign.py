@@ -32,8 +32,11 @@ RELEASED = 4.0
 PERIOD = 0.002
 SPEED = {"joint": 1 + 1e-6, "flat": 1 + 1e-6, "brakes": 1 + 1e-6, "cartesian": 1 + 1e-3}
 ACCELERATION = {"joint": 1 + 1e-3, "flat": 1 + 1e-3, "brakes": inf, "cartesian": 1 + 1e-3}
-"""Shares of the axes' limits that may be reached. `flat`: a robot without geometry; `brakes`:
-some stops are by the brakes, which slow down as hard as the end of an axis' range asks for."""
+"""Shares of the axes' limits that may be reached.
+
+`flat`: a robot without geometry; `brakes`: some stops are by the brakes, which slow down as hard as
+the end of an axis' range asks for.
+"""
 KINDS = ("joint", "flat", "brakes", "cartesian", "cartesian", "cartesian")
 RAMPS = (0.05, 0.05, 0.0, 0.2)
 

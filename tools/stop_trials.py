@@ -71,7 +71,10 @@ def trial(state, seed):
 
 
 def recovered(bench):
-    """What an operator does; whether it took PP to main. Nothing moves meanwhile."""
+    """What an operator does; whether it took PP to main.
+
+    Nothing moves meanwhile.
+    """
     last = bench.last_event
     bench.start_again()
     bench.stays(3, "the program was started, and nobody has asked for motion")

@@ -1,4 +1,6 @@
-"""Axis values: units, joint map, limits, timing and kinematics. Pure functions, no I/O.
+"""Axis values: units, joint map, limits, timing and kinematics.
+
+Pure functions, no I/O.
 
 Three languages for one posture, and the map between them:
 

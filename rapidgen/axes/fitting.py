@@ -70,7 +70,10 @@ def displacement(old: Sequence[Vector], new: Sequence[Vector]) -> tuple[Pose, fl
 
 
 def sphere(points: Sequence[Vector]) -> Sphere:
-    """The sphere through four points or more, by least squares. NoFit: they lie in a plane."""
+    """The sphere through four points or more, by least squares.
+
+    NoFit: they lie in a plane.
+    """
     import numpy as np
 
     at = np.array(points)

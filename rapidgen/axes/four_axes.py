@@ -21,7 +21,10 @@ _LEVEL = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Palletiser:
-    """Geometry at zero, seen from axis 1: plane x, z. Signs are those of the four joints."""
+    """Geometry at zero, seen from axis 1: plane x, z.
+
+    Signs are those of the four joints.
+    """
 
     shoulder: tuple[float, float]
     upper: tuple[float, float]

@@ -12,7 +12,10 @@ ROUNDING = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class LimitFault:
-    """One value outside its range; `point` counts from 0. NaN and infinity are outside."""
+    """One value outside its range; `point` counts from 0.
+
+    NaN and infinity are outside.
+    """
 
     point: int
     joint: Joint

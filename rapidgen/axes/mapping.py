@@ -20,7 +20,10 @@ _EXTERNAL_AXES = tuple(f"eax_{letter}" for letter in "abcdef")
 
 @dataclass(frozen=True)
 class JointMap:
-    """Both ways between the three forms. All sequences are in wire order (`joints`)."""
+    """Both ways between the three forms.
+
+    All sequences are in wire order (`joints`).
+    """
 
     joints: tuple[Joint, ...]
     coupling: float = 0.0

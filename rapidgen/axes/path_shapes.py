@@ -23,7 +23,10 @@ class CircleMode(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """Straight, turning evenly about one axis the short way. The share may leave 0..1."""
+    """Straight, turning evenly about one axis the short way.
+
+    The share may leave 0..1.
+    """
 
     start: Pose
     end: Pose

@@ -21,8 +21,11 @@ BRANCHES: tuple[ArmBranch, ...] = tuple(
     for flip in (False, True)
 )
 SINGULAR = 1e-5
-"""rad of axis 5 taken as zero. A quaternion of six decimals leaves some 5e-6 there, one of single
-precision 3e-7, which would turn axes 4 and 6 anywhere; what is ignored is 10 um at 1 m."""
+"""rad of axis 5 taken as zero.
+
+A quaternion of six decimals leaves some 5e-6 there, one of single precision 3e-7, which would turn
+axes 4 and 6 anywhere; what is ignored is 10 um at 1 m.
+"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -64,7 +64,10 @@ class CellRobotKeys(StrictModel):
 
 @dataclass(frozen=True)
 class CellSignalKeys(SignalKeys):
-    """A signal of the cell. `access` is what a driver's clients may; here it means nothing."""
+    """A signal of the cell.
+
+    `access` is what a driver's clients may; here it means nothing.
+    """
 
     value: Annotated[float, Rule("Value when the controller is switched on.")] = 0.0
     size: Annotated[int, Rule("Bits of a group signal.", ge=1, le=GROUP_BITS)] = GROUP_BITS
@@ -184,7 +187,10 @@ class Thing:
 
 @dataclass(frozen=True, slots=True)
 class CellDescription:
-    """A checked description. Frames and loads in SI units; starts and reactions in RAPID's."""
+    """A checked description.
+
+    Frames and loads in SI units; starts and reactions in RAPID's.
+    """
 
     robots: Mapping[str, CellRobotKeys] = field(default_factory=dict)
     signals: Mapping[str, CellSignalKeys] = field(default_factory=dict)

@@ -22,7 +22,10 @@ def group_to_manifest(group: GroupConfig) -> Members:
 
 
 def group_from_manifest(data: Json, path: Path) -> GroupConfig:
-    """What `group_to_manifest` gave. TypeError, ValueError: it is something else."""
+    """What `group_to_manifest` gave.
+
+    TypeError, ValueError: it is something else.
+    """
     made = _in(GroupConfig, data, "group", path)
     assert isinstance(made, GroupConfig)
     return made

@@ -200,7 +200,10 @@ class GroupConfig:
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryPolicy:
-    """What the motion server accepts. Tolerances are rad (m for prismatic axes)."""
+    """What the motion server accepts.
+
+    Tolerances are rad (m for prismatic axes).
+    """
 
     capacity: int = 1000
     zone: str = "z50"

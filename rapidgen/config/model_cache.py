@@ -21,7 +21,10 @@ _FOLDER = Path(__file__).parent
 
 
 def shipped_groups(name: str) -> tuple[GroupConfig, ...]:
-    """The motion groups of a shipped model by name. DiagnosticError RG009: there is none."""
+    """The motion groups of a shipped model by name.
+
+    DiagnosticError RG009: there is none.
+    """
     source = find_shipped(name)
     if source.stem != name:
         raise ValueError(f"{name} is no shipped model")

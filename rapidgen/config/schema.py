@@ -201,7 +201,10 @@ class ToolDataKeys(StrictModel):
 
 @dataclass(frozen=True)
 class ToolKeys(ToolDataKeys):
-    """The tool that the driver moves with. Another name than tool0 declares that tooldata."""
+    """The tool that the driver moves with.
+
+    Another name than tool0 declares that tooldata.
+    """
 
     name: Annotated[Identifier, Rule("Name of the tooldata.")] = "tool0"
     declared: Annotated[
@@ -291,7 +294,10 @@ class PayloadKeys(StrictModel):
 
 @dataclass(frozen=True)
 class PortsKeys(StrictModel):
-    """TCP ports of one group. Defaults: 11000, 11001, 11002, and 10 more for each next group."""
+    """TCP ports of one group.
+
+    Defaults: 11000, 11001, 11002, and 10 more for each next group.
+    """
 
     motion: Annotated[Port | None, Rule("Trajectories and stop.")] = None
     control: Annotated[
@@ -303,7 +309,10 @@ class PortsKeys(StrictModel):
 
 @dataclass(frozen=True)
 class UrdfKeys(StrictModel):
-    """A robot description. Its meshes are for the page alone; ROS is not needed."""
+    """A robot description.
+
+    Its meshes are for the page alone; ROS is not needed.
+    """
 
     file: Annotated[str, Rule("URDF or xacro file, relative to this file.")]
     macro: Annotated[str | None, Rule("Macro to call when the file only defines macros.")] = None

@@ -36,7 +36,10 @@ def _metres(values: list[float]) -> tuple[float, float, float]:
 def placement_of(
     frame: schema.FrameKeys, path: KeyPath, report: DraftFindings, arm: Arm, *, tool: bool = False
 ) -> model.Placement:
-    """A frame in m; of a `tool` it begins at the flange. RG071: hardly a frame of that arm."""
+    """A frame in m; of a `tool` it begins at the flange.
+
+    RG071: hardly a frame of that arm.
+    """
     position = _metres(frame.position)
     doubt = frame_doubt(position, arm, tool=tool)
     if doubt:
@@ -155,8 +158,11 @@ def routine_of(
 def data_of(
     keys: schema.GroupKeys, path: KeyPath, report: DraftFindings
 ) -> tuple[model.UserDatum, ...]:
-    """What clients may read and write. The control server does it, and finds a datum by the part
-    of its name that is one in the whole task."""
+    """What clients may read and write.
+
+    The control server does it, and finds a datum by the part of its name that is one in the whole
+    task.
+    """
     if keys.data and keys.ports.control == 0:
         report.error(
             "RG014",

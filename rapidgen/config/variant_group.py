@@ -18,7 +18,10 @@ _NAME = re.compile(r"[IC]RB (\w+)-([\d.]+)/([\d.]+)")
 _SETTLE = 0.25
 """s from standstill to full speed; no source tells accelerations."""
 ASSUMED_SPEED = 100.0
-"""deg/s of an axis whose speed no source tells: as large arms have it. Times are a guess then."""
+"""deg/s of an axis whose speed no source tells: as large arms have it.
+
+Times are a guess then.
+"""
 
 
 def variants_of(robot_type: str) -> tuple[Variant | None, tuple[Variant, ...]]:

@@ -168,7 +168,10 @@ def _syntax(fault: Any, text: str, displayed: str, at: Span | None) -> Diagnosti
 
 
 class _Builder:
-    """Events to nodes, with limits. A stack of its own: depth costs no Python frames."""
+    """Events to nodes, with limits.
+
+    A stack of its own: depth costs no Python frames.
+    """
 
     def __init__(self, events: Iterator[Any], displayed: str, at: Span | None) -> None:
         self._events = events

@@ -1,4 +1,7 @@
-"""The one shape of a finding. Nothing here formats text for a terminal: see render.py."""
+"""The one shape of a finding.
+
+Nothing here formats text for a terminal: see render.py.
+"""
 
 import sys
 from collections.abc import Iterable, Sequence
@@ -67,7 +70,10 @@ def error(
     related: Sequence[Label] = (),
     severity: Severity = Severity.ERROR,
 ) -> Diagnostic:
-    """A finding: the one way to make one. `at` is its place, `help` says what to do."""
+    """A finding: the one way to make one.
+
+    `at` is its place, `help` says what to do.
+    """
     return Diagnostic(code, severity, message, at, label, help, tuple(notes), tuple(related))
 
 
@@ -77,7 +83,9 @@ def _beside(d: Diagnostic) -> list[str]:
 
 
 class DiagnosticError(Exception):
-    """A user's fault that ends what was under way. The only exception commands show.
+    """A user's fault that ends what was under way.
+
+    The only exception commands show.
 
     `exit_code` is 2 for bad input or usage and 1 for a refusal or a failure.
     """

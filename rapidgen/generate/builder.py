@@ -1,4 +1,7 @@
-"""A configuration becomes files. Everything is made in memory; nothing here touches the disk."""
+"""A configuration becomes files.
+
+Everything is made in memory; nothing here touches the disk.
+"""
 
 import hashlib
 import json

@@ -102,7 +102,10 @@ def task_name(config: RobotConfig, group: GroupConfig, role: TaskRole) -> str:
 
 
 def module_file(config: RobotConfig, group: GroupConfig, module: str) -> str:
-    """Path of a module below HOME. Groups have a folder each: their PERS differ in name."""
+    """Path of a module below HOME.
+
+    Groups have a folder each: their PERS differ in name.
+    """
     kind = "sys" if module in SYSTEM_MODULES else "mod"
     ending = f"{kind}x" if config.robotware[0] >= 7 else kind
     folder = FOLDER if len(config.groups) == 1 else f"{FOLDER}/{group.name}"

@@ -5,7 +5,10 @@ import struct
 
 
 def single(value: float) -> float:
-    """`value` rounded to an IEEE single. Raises OverflowError outside its range."""
+    """`value` rounded to an IEEE single.
+
+    Raises OverflowError outside its range.
+    """
     return float(struct.unpack("<f", struct.pack("<f", value))[0])
 
 

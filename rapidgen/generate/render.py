@@ -28,7 +28,10 @@ class RenderedText:
 
 
 class Renderer:
-    """Renders the templates of one folder. An undefined name is an error, never an empty text."""
+    """Renders the templates of one folder.
+
+    An undefined name is an error, never an empty text.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._environment = jinja2.Environment(

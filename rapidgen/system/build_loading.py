@@ -79,7 +79,10 @@ def delivered(manifest: Members) -> BaseController:
 def additions(
     manifest: Members, texts: Mapping[str, bytes], without: Collection[str], folder: Path
 ) -> tuple[CfgFileLoad, ...]:
-    """A build's cfg files in their order. Raises DiagnosticError RG701, RG702, RG711."""
+    """A build's cfg files in their order.
+
+    Raises DiagnosticError RG701, RG702, RG711.
+    """
     try:
         optional = {text(name) for name in items(manifest.get("optional") or [])}
     except TypeError as fault:

@@ -28,7 +28,10 @@ _IDENTITY = {
 
 @dataclass(frozen=True, slots=True)
 class CfgFileLoad:
-    """A file to be loaded. `optional`: it may be refused whole, and the rest stays."""
+    """A file to be loaded.
+
+    `optional`: it may be refused whole, and the rest stays.
+    """
 
     file: CfgText
     optional: bool = False

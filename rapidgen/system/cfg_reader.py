@@ -61,7 +61,10 @@ MAX_MODULES = 2_000
 
 
 def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
-    """CAB_TASKS in order, without modules. Raises RG708 for a fault in one, or too many."""
+    """CAB_TASKS in order, without modules.
+
+    Raises RG708 for a fault in one, or too many.
+    """
     result = []
     for instance in _few(cfg, "CAB_TASKS", MAX_TASKS):
         name = _name(cfg, instance)
@@ -87,7 +90,10 @@ def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
 
 
 def modules_of(cfg: CfgText) -> tuple[ModuleEntry, ...]:
-    """CAB_TASK_MODULES in order, which is the order of loading. Raises RG708 for too many."""
+    """CAB_TASK_MODULES in order, which is the order of loading.
+
+    Raises RG708 for too many.
+    """
     return tuple(
         ModuleEntry(
             instance.text("File"),

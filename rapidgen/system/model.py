@@ -16,7 +16,10 @@ SignalType = Literal["DI", "DO", "GI", "GO", "AI", "AO"]
 
 @dataclass(frozen=True, slots=True)
 class ModuleFile:
-    """One module file as bytes. `path` is for messages; `target` is its HOME: path, if any."""
+    """One module file as bytes.
+
+    `path` is for messages; `target` is its HOME: path, if any.
+    """
 
     name: str
     path: str
@@ -27,7 +30,10 @@ class ModuleFile:
     shared: bool = False
     """Installed once for all tasks, which have its data in common [K §14]."""
     installed: bool = False
-    """Built in: outermost scope, data outlive PP to main [K §13]. Shared modules are, too."""
+    """Built in: outermost scope, data outlive PP to main [K §13].
+
+    Shared modules are, too.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +41,10 @@ class QueueSpec:
     """A task's message queue (RmqType, RmqMaxMsgSize, RmqMaxNoOfMsg); the defaults are [mem]."""
 
     open: bool = True
-    """False: RmqType is None, and nobody finds the queue. A task that does not say has one."""
+    """False: RmqType is None, and nobody finds the queue.
+
+    A task that does not say has one.
+    """
     max_size: int = 400
     max_messages: int = 5
 

@@ -52,7 +52,10 @@ def run(controller: VirtualController, main: Awaitable[_T]) -> _T:
 
 
 class _SchedulerSelector(selectors.BaseSelector):
-    """What BaseEventLoop waits in: lets simulated time pass. It watches no files."""
+    """What BaseEventLoop waits in: lets simulated time pass.
+
+    It watches no files.
+    """
 
     def __init__(self, loop: "VirtualLoop") -> None:
         self._loop = loop

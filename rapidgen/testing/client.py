@@ -22,7 +22,10 @@ class Client:
     def __init__(
         self, controller: VirtualController, port: int, *, timeout: float = PATIENCE
     ) -> None:
-        """Connect as soon as the program listens. TimeoutError: it never does, and why."""
+        """Connect as soon as the program listens.
+
+        TimeoutError: it never does, and why.
+        """
         self._controller = controller
         self._timeout = timeout
         self._read = b""

@@ -33,7 +33,10 @@ class BenchPool:
             bench.compile()
 
     def take(self, config: RobotConfig, system: System, setting: Setting) -> Bench:
-        """The one for a setting, or one that boots. It can be taken once: by a copy."""
+        """The one for a setting, or one that boots.
+
+        It can be taken once: by a copy.
+        """
         bench = self._kept.pop((system, _at_boot(setting)), None)
         if bench is None:
             return Bench(config, system, setting)

@@ -44,7 +44,10 @@ class Cluster:
     """The workers of a scheduler that are of this build."""
 
     def __init__(self, address: str, context: object, tell: Callable[[str], None]) -> None:
-        """Connect; `tell` hears of workers that come, go and are refused. DiagnosticError RG808."""
+        """Connect; `tell` hears of workers that come, go and are refused.
+
+        DiagnosticError RG808.
+        """
         self._address = address
         self._tell = tell
         self._context = pickle.dumps(context)
@@ -134,8 +137,9 @@ class Cluster:
         return [(given.piece.number, result)]
 
     def _fetched(self, given: _Given) -> tuple[bool, object]:
-        """What a worker has made of a piece. Raises WorkerProcessLost, KilledWorker,
-        FutureCancelledError.
+        """What a worker has made of a piece.
+
+        Raises WorkerProcessLost, KilledWorker, FutureCancelledError.
 
         A worker may be lost between its answer and this: Dask then waits for it to come back.
         """
@@ -212,7 +216,10 @@ def rejection_reason(build: str, key: str, context: bytes) -> str:
 
 
 def perform(key: str, function: Callable[..., object], item: object) -> tuple[bool, object]:
-    """A piece of work, by an engine that has nothing to do. Raises WorkerProcessLost."""
+    """A piece of work, by an engine that has nothing to do.
+
+    Raises WorkerProcessLost.
+    """
     with _lock:
         idle = _idle.setdefault(key, [])
         engine = idle.pop() if idle else None

@@ -536,7 +536,10 @@ class Splitter:
         self._rest = b""
 
     def feed(self, data: bytes) -> list[RawFrame]:
-        """Add bytes; the messages that they complete. Broken for a length that none has."""
+        """Add bytes; the messages that they complete.
+
+        Broken for a length that none has.
+        """
         self._rest += data
         failures = []
         while len(self._rest) >= 4:
@@ -567,7 +570,10 @@ def encode(content: RawContent, comm: RawComm = RawComm.TOPIC) -> bytes:
 
 
 def decode(frame: RawFrame) -> RawContent:
-    """What a message says. Broken for one that docs/develop/protocol.md does not know."""
+    """What a message says.
+
+    Broken for one that docs/develop/protocol.md does not know.
+    """
     number, comm, code, data = frame
     good = code in (1, 2) if comm == RawComm.REPLY else (comm in (1, 2) and code == 0)
     if good and comm == RawComm.REPLY and not data:

@@ -15,7 +15,10 @@ def title(name: str) -> str:
 
 
 class CheckFailed(Exception):
-    """A demand that did not hold. The text says what was wanted and what was seen."""
+    """A demand that did not hold.
+
+    The text says what was wanted and what was seen.
+    """
 
 
 class NotApplicable(Exception):

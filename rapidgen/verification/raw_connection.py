@@ -26,7 +26,9 @@ C = TypeVar("C")
 
 
 class RawLink:
-    """One client connection, as bytes and frames. Frames are taken, with their time, as they come.
+    """One client connection, as bytes and frames.
+
+    Frames are taken, with their time, as they come.
 
     `reading` False: a client that never reads.
     """

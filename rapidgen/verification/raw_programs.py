@@ -122,7 +122,10 @@ class Programmer:
         return self.link.reply(PROGRAM, 5)
 
     def takes(self, what: str, orders: Sequence[RawMove], flags: RawStreamFlag = ALL) -> int:
-        """Send a program; Broken unless it is taken. Its number among the trajectories."""
+        """Send a program; Broken unless it is taken.
+
+        Its number among the trajectories.
+        """
         reply = self.send(orders, flags)
         if not isinstance(reply, messages.RawPointsAccepted) or reply.accepted != len(orders):
             raise CheckFailed(f"{what}: {len(orders)} instructions are right, the reply is {reply}")

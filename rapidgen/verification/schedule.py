@@ -55,7 +55,10 @@ class StatementHit:
 
 @dataclass(frozen=True, slots=True)
 class Disturbance:
-    """One step; its other chances are drawn from `seed`. `where`: None, at some time."""
+    """One step; its other chances are drawn from `seed`.
+
+    `where`: None, at some time.
+    """
 
     name: str
     act: str

@@ -57,8 +57,10 @@ CEILING = 5.0
 _PIECES = 60
 """Of a way, to see how fast the TCP is on it."""
 LATE = 59_901
-"""Event of the virtual controller: moves took longer than told. That they do not take much
-longer is measured."""
+"""Event of the virtual controller: moves took longer than told.
+
+That they do not take much longer is measured.
+"""
 CORNER_FAILURE = 50_024
 """Event: a move with a zone ended as a stop point, because the next one came too late."""
 
@@ -74,7 +76,10 @@ class Bench:
         robots: Sequence[GroupConfig] = (),
         controller: VirtualController | None = None,
     ) -> None:
-        """Boot. `robots`: the controller's, where they are not the configuration's."""
+        """Boot.
+
+        `robots`: the controller's, where they are not the configuration's.
+        """
         self.config = config
         self._robots = robots or config.groups
         self.system = system

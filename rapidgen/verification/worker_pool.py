@@ -59,7 +59,10 @@ class Call:
     """Workers that ended with it."""
 
     def again(self) -> "Call":
-        """The same for another worker. Raises WorkersLost when it has ended too many."""
+        """The same for another worker.
+
+        Raises WorkersLost when it has ended too many.
+        """
         if self.lost + 1 == TRIES:
             raise WorkersLost(f"{TRIES} workers ended with {self.item}")
         return replace(self, lost=self.lost + 1)
@@ -230,7 +233,10 @@ def serve(connection: Connection, context: object) -> None:
 
 
 def run_in_fork(function: Callable[[], R]) -> R:
-    """The result of `function`, or what it raised. Raises ForkFailed when there is neither."""
+    """The result of `function`, or what it raised.
+
+    Raises ForkFailed when there is neither.
+    """
     reading, writing = os.pipe()
     with _no_matter_of_threads():
         child = os.fork()

@@ -36,7 +36,10 @@ class WorkerProcess:
         self._connection.send_bytes(context)
 
     def work(self, function: Callable[..., object], item: object) -> tuple[bool, object]:
-        """Whether a call returned, and what it returned or raised. Raises WorkerProcessLost."""
+        """Whether a call returned, and what it returned or raised.
+
+        Raises WorkerProcessLost.
+        """
         try:
             self._connection.send((function, item))
             outcome: tuple[bool, object] = self._connection.recv()

@@ -143,7 +143,10 @@ def grounds(
     setting: Setting | None = None,
     row: str = "",
 ) -> Grounds:
-    """Run all cases once. Raises ValueError when one does not hold without a mutation."""
+    """Run all cases once.
+
+    Raises ValueError when one does not hold without a mutation.
+    """
     names = tuple(case.name for case in cases)
     bare = Grounds(config, system, names, setting or Setting(), _own_text(), row)
     with hire(bare) as workers:

@@ -49,7 +49,10 @@ class Allowance:
         self._end, self._items = time.thread_time() + seconds, items
 
     def spend(self, items: int = 0) -> None:
-        """Take items from what is left. Raises ExpressionError if time or items are used up."""
+        """Take items from what is left.
+
+        Raises ExpressionError if time or items are used up.
+        """
         self._items -= items
         if self._items < 0:
             raise ExpressionError("its expressions make too many items")
@@ -57,13 +60,19 @@ class Allowance:
             raise ExpressionError("it takes too long to expand")
 
     def take(self, value: Data) -> Data:
-        """Return a value that was made, whose size is allowed. Raises ExpressionError."""
+        """Return a value that was made, whose size is allowed.
+
+        Raises ExpressionError.
+        """
         self.spend(size_of(value))
         return value
 
 
 def size_of(value: Data) -> int:
-    """Return the items and characters of a value. Raises ExpressionError if there are too many."""
+    """Return the items and characters of a value.
+
+    Raises ExpressionError if there are too many.
+    """
     if isinstance(value, int):
         _limit_bits(value.bit_length())
     elif isinstance(value, str):

@@ -157,7 +157,10 @@ def _skeleton(root: "Element") -> "Element":
 
 
 def _yourdfpy() -> ModuleType:
-    """The module. It brings trimesh and scipy: collecting garbage meanwhile costs a tenth."""
+    """The module.
+
+    It brings trimesh and scipy: collecting garbage meanwhile costs a tenth.
+    """
     enabled = gc.isenabled()
     gc.disable()
     try:

@@ -316,7 +316,10 @@ def _start_alone(bench: Bench) -> None:
 
 @case("without-routines", "no event routine, and counters that begin anew", "R7a", background=True)
 def _without_routines(bench: Bench) -> None:
-    """Signals, and no event routines: the supervisor alone ends all. Counters begin anew."""
+    """Signals, and no event routines: the supervisor alone ends all.
+
+    Counters begin anew.
+    """
     with _beside(bench, replace(bench.system, events=()), early=True) as other:
         view = other.controller.task(other.task("ROS_supervisor"))
         set_counters(other, WRAP - 2)

@@ -143,7 +143,10 @@ class _Cell:
 
 
 def _answer(link: RawLink, others: Position, axis: int, value: float) -> messages.RawContent:
-    """The reply to a point with that value. Its trajectory gets no end, so nothing moves."""
+    """The reply to a point with that value.
+
+    Its trajectory gets no end, so nothing moves.
+    """
     link.send(raw_point(-1, (*others[:axis], value, *others[axis + 1 :]), 1.0, RawComm.REQUEST))
     return decode(link.expect_reply(2, "a point is answered"))
 

@@ -97,10 +97,13 @@ def program_matches_rapid(
     other: Bench | None = None,
     hand: list[RawMove] | None = None,
 ) -> None:
-    """A program beside the same one in RAPID. Raises Unlike, and Broken as an expectation does.
+    """A program beside the same one in RAPID.
+
+    Raises Unlike, and Broken as an expectation does.
 
     `other`: a controller that is `called`, of which nothing has run yet. `hand`: what is written in
-    RAPID, if that is not literally the program."""
+    RAPID, if that is not literally the program.
+    """
     home, since = bench.position, bench.now
     client.takes("a program", program)
     mine = _moved(bench, program, since)

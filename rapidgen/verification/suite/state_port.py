@@ -50,7 +50,10 @@ def content(one: Round, kind: type[C]) -> C:
 
 
 def rounds(link: RawLink, since: float) -> list[Round]:
-    """What a client was told since a time, by rounds. Each begins with JOINT; replies are none."""
+    """What a client was told since a time, by rounds.
+
+    Each begins with JOINT; replies are none.
+    """
     failures: list[Round] = []
     for when, frame in link.frames:
         if when < since or frame.comm == RawComm.REPLY:

@@ -148,7 +148,10 @@ def _moves_by_itself(bench: Bench, link: RawLink, state: RawLink) -> None:
 
 @case("own-main-signal", "ROS_run returns at a signal, and leaves speeds as it found them")
 def _until_a_signal(bench: Bench) -> None:
-    """VelSet is the program's; a client's speed is over. A signal may be out of reach."""
+    """VelSet is the program's; a client's speed is over.
+
+    A signal may be out of reach.
+    """
     with bench.beside(_system(bench, _MAIN_SIGNAL)) as other:
         view, group = other.controller.task(other.group.task), other.motion_group
         link = other.motion()

@@ -1,1 +1,4 @@
-"""Robot Web Services as data: operations, bodies, forms, codes, events. No I/O."""
+"""Robot Web Services as data: operations, bodies, forms, codes, events.
+
+No I/O.
+"""

@@ -60,7 +60,10 @@ class Fault:
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """What an answer holds. `next` is where a collection goes on, relative to `base`."""
+    """What an answer holds.
+
+    `next` is where a collection goes on, relative to `base`.
+    """
 
     items: tuple[Item, ...] = ()
     title: str = ""

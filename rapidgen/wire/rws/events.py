@@ -36,7 +36,9 @@ def write_wanted(expected: Sequence[WantedResource]) -> list[tuple[str, str]]:
 
 
 def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[WantedResource]:
-    """What a form asks for. Indices may begin at 0, `resources` may come once for all.
+    """What a form asks for.
+
+    Indices may begin at 0, `resources` may come once for all.
 
     ValueError: nothing is asked for, or at no priority.
     """

@@ -24,7 +24,10 @@ def write_form(fields: Fields) -> bytes:
 
 
 def read_form(data: bytes | str) -> list[tuple[str, str]]:
-    """Fields in order; `Attr=[v,1]` may come raw. UnicodeDecodeError: no text of UTF-8."""
+    """Fields in order; `Attr=[v,1]` may come raw.
+
+    UnicodeDecodeError: no text of UTF-8.
+    """
     text = data.decode() if isinstance(data, bytes) else data
     pairs = (part.partition("=") for part in text.split("&") if part)
     return [(unquote_plus(key), unquote_plus(value)) for key, _, value in pairs]

@@ -48,7 +48,10 @@ def parse(header: str) -> Digest | None:
 
 
 def is_right(sent: Digest, method: str, password: str) -> bool:
-    """Whether the response is that of this password. The user goes into it as it is."""
+    """Whether the response is that of this password.
+
+    The user goes into it as it is.
+    """
     ha1 = _md5(f"{sent.user}:{REALM}:{password}")
     ha2 = _md5(f"{method}:{sent.uri}")
     expected = _md5(f"{ha1}:{sent.nonce}:{sent.nc}:{sent.cnonce}:auth:{ha2}")

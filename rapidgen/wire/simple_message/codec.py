@@ -40,7 +40,10 @@ def number_of(content: Content) -> int:
 
 
 def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
-    """A topic or request as one frame. Raises ContentError for a value its field cannot hold."""
+    """A topic or request as one frame.
+
+    Raises ContentError for a value its field cannot hold.
+    """
     number, packing = _BY_CLASS[type(content)]
     return Frame(number, comm, ReplyCode.NONE, packing.pack(content)).to_bytes()
 

@@ -22,8 +22,11 @@ class Wire(StrEnum):
     INT32 = "int32"
     FLOAT32 = "float32"
     FIXED = "fixed"
-    """A fixed-point number: an int32 of steps of 1 / FIXED_SCALE. Eight bytes at a time would be
-    fewer to read, but what a controller makes of a ULINT above 2^52 is in no manual."""
+    """A fixed-point number: an int32 of steps of 1 / FIXED_SCALE.
+
+    Eight bytes at a time would be fewer to read, but what a controller makes of a ULINT above 2^52
+    is in no manual.
+    """
     CHAR = "char"
     """One byte of ASCII; a text is filled up with zero bytes."""
 

@@ -80,8 +80,10 @@ JOINT_POSITION = MessageType("JOINT_POSITION", 10, JointPosition, _CONTROLLER, (
 
 
 class TrajectoryPoint(NamedTuple):
-    """One point of a trajectory. As a topic it is not answered. On the control port only STOP
-    is taken."""
+    """One point of a trajectory.
+
+    As a topic it is not answered. On the control port only STOP is taken.
+    """
 
     sequence: Annotated[int, int32("1, 2, 3, ... or a special sequence number")]
     joints: Annotated[
@@ -140,7 +142,10 @@ STATUS = MessageType("STATUS", 13, StatusReport, _CONTROLLER, (Port.STATE,))
 
 
 class TrajectoryPointFull(NamedTuple):
-    """A point with derivatives. Neither abb_driver nor a rapidgen driver takes it."""
+    """A point with derivatives.
+
+    Neither abb_driver nor a rapidgen driver takes it.
+    """
 
     robot_id: Annotated[int, int32()]
     sequence: Annotated[int, int32()]
@@ -157,8 +162,10 @@ JOINT_TRAJ_PT_FULL = MessageType(
 
 
 class JointFeedback(NamedTuple):
-    """Where the axes are, with time and derivatives. Only on connections that asked for it in
-    HELLO."""
+    """Where the axes are, with time and derivatives.
+
+    Only on connections that asked for it in HELLO.
+    """
 
     robot_id: Annotated[int, int32("0")]
     valid_fields: Annotated[int, _VALID]
@@ -234,7 +241,10 @@ HELLO = MessageType(
 
 
 class ProgressReport(NamedTuple):
-    """How far the newest trajectory is. Only on connections that asked for it in HELLO."""
+    """How far the newest trajectory is.
+
+    Only on connections that asked for it in HELLO.
+    """
 
     trajectory: Annotated[int, int32("number of the newest trajectory, from 1; 0 follows 2^22 - 1")]
     state: Annotated[int, _STATE]
@@ -306,7 +316,10 @@ POINTS = MessageType(
 
 
 class Stopped(NamedTuple):
-    """Where the robot stands after a halt, when its path is gone. Sent by itself."""
+    """Where the robot stands after a halt, when its path is gone.
+
+    Sent by itself.
+    """
 
     trajectory: Annotated[int, int32("as in PROGRESS")]
     reached: Annotated[int, _REACHED]
@@ -336,8 +349,11 @@ SPEED = MessageType("SPEED", 1305, SpeedRequest, _CLIENT, (Port.CONTROL,), 2, (_
 
 
 class HeartbeatRequest(NamedTuple):
-    """A sign of life of the client. When the next one is late, or the connection breaks while one
-    is awaited, the robot is stopped (CLIENT_LOST)."""
+    """A sign of life of the client.
+
+    When the next one is late, or the connection breaks while one is awaited, the robot is stopped
+    (CLIENT_LOST).
+    """
 
     timeout: Annotated[
         float, float32("s", "until the next one must come; 0: none is awaited any more")
@@ -389,7 +405,10 @@ SIGNAL = MessageType(
 
 
 class EventReport(NamedTuple):
-    """An event of the controller's log. Only on connections that asked for it in HELLO."""
+    """An event of the controller's log.
+
+    Only on connections that asked for it in HELLO.
+    """
 
     domain: Annotated[int, int32("of the event's number: 1 to 14; 0: so many were not told")]
     number: Annotated[int, int32("within the domain")]
@@ -403,7 +422,10 @@ EVENT = MessageType("EVENT", 1308, EventReport, _CONTROLLER, (Port.STATE,), sinc
 
 
 class Instructions(NamedTuple):
-    """Instructions of a program: moves to joints and to poses. As a topic it is not answered."""
+    """Instructions of a program: moves to joints and to poses.
+
+    As a topic it is not answered.
+    """
 
     # `instructions` makes the words of one, `bulk` the frames.
     program: Annotated[int, int32("the client's number of the program, 1 to 2^23 - 1")]

@@ -1,4 +1,7 @@
-"""Trajectories to bytes by numpy: a million points a second. Import it where it is needed."""
+"""Trajectories to bytes by numpy: a million points a second.
+
+Import it where it is needed.
+"""
 
 from collections.abc import Sequence as Rows
 from itertools import groupby

@@ -12,7 +12,10 @@ _CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s", Wire.FIXED: "i"}
 
 
 def steps_of(value: float) -> int:
-    """A FIXED as the number of the wire. Raises ContentError beyond FIXED_LIMIT, and for NaN."""
+    """A FIXED as the number of the wire.
+
+    Raises ContentError beyond FIXED_LIMIT, and for NaN.
+    """
     if not -FIXED_LIMIT <= value <= FIXED_LIMIT:
         raise ContentError(f"{value} does not fit: at most {FIXED_LIMIT} in magnitude")
     return round(value * FIXED_SCALE)
@@ -43,7 +46,10 @@ class Packing:
         return tuple(places)
 
     def pack(self, values: Sequence[Value]) -> bytes:
-        """The values as bytes. Raises ContentError when one does not fit its field."""
+        """The values as bytes.
+
+        Raises ContentError when one does not fit its field.
+        """
         flat: list[object] = []
         for field, value in zip(self.fields, values, strict=True):
             if field.type is Wire.CHAR:
@@ -96,7 +102,10 @@ class OpenPacking:
         return size >= self.size and (size - self.size) % Wire.FIXED.size == 0
 
     def pack(self, values: Sequence[Value]) -> bytes:
-        """The values as bytes. Raises ContentError when one does not fit its field."""
+        """The values as bytes.
+
+        Raises ContentError when one does not fit its field.
+        """
         numbers = values[self._place]
         if not isinstance(numbers, tuple):
             raise ContentError(f"{self._name}: a tuple of numbers is needed")

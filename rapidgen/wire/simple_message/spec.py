@@ -9,7 +9,10 @@ ROS-Industrial nodes for what they really send.
 from enum import IntEnum, IntFlag
 
 PROTOCOL_VERSION = 4
-"""Version of the messages in ABB's range. The standard messages have none: `since` 0."""
+"""Version of the messages in ABB's range.
+
+The standard messages have none: `since` 0.
+"""
 
 PREFIX_BYTES = 4
 HEADER_BYTES = 12
@@ -40,7 +43,10 @@ FEEDBACK_WRAP = 1000.0
 
 
 class Port(IntEnum):
-    """Standard TCP ports of the first motion group. CONTROL is 11001, simple_message's SYSTEM."""
+    """Standard TCP ports of the first motion group.
+
+    CONTROL is 11001, simple_message's SYSTEM.
+    """
 
     MOTION = 11000
     CONTROL = 11001
@@ -57,7 +63,10 @@ class Comm(IntEnum):
 
 
 class ReplyCode(IntEnum):
-    """reply_code. Anything but NONE in a topic makes a ROS-Industrial node drop the link."""
+    """reply_code.
+
+    Anything but NONE in a topic makes a ROS-Industrial node drop the link.
+    """
 
     NONE = 0
     SUCCESS = 1
