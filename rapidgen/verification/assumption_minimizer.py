@@ -1,14 +1,15 @@
-"""Which assumptions make a case break: the smallest part of a row's that does it alone."""
+"""Find the smallest set of assumptions that makes a case fail."""
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 
 
 def smallest(suspects: Sequence[str], breaks: Callable[[Sequence[str]], bool]) -> tuple[str, ...]:
-    """Those of `suspects`, which break together, without which nothing would.
+    """Return a minimal subset of `suspects` that still fails.
 
-    Delta debugging (A. Zeller, R. Hildebrandt, IEEE Trans. Software Eng. 28, 2002): halves first,
-    then smaller parts and what is left without them.
+    All of `suspects` together fail; without any one element of the result the case passes. Delta
+    debugging (A. Zeller, R. Hildebrandt, IEEE Trans. Software Eng. 28, 2002): try halves first,
+    then smaller parts and their complements.
     """
     left, parts = list(suspects), 2
     while len(left) > 1:
@@ -16,7 +17,7 @@ def smallest(suspects: Sequence[str], breaks: Callable[[Sequence[str]], bool]) -
         chunks = [left[a:b] for a, b in pairwise(cuts)]
         rests = [[s for s in left if s not in chunk] for chunk in chunks]
         smaller = next((chunk for chunk in chunks if breaks(chunk)), None)
-        # Of two parts each is the other's rest.
+        # With two parts, each is the complement of the other.
         fewer = (
             None
             if parts == 2
@@ -36,9 +37,9 @@ def smallest(suspects: Sequence[str], breaks: Callable[[Sequence[str]], bool]) -
 def minimal_assumptions(
     rows: Mapping[str, Sequence[str]], breaks: Callable[[Sequence[str]], bool]
 ) -> dict[str, tuple[str, ...]]:
-    """By row in which a case broke: the smallest part of its assumptions that breaks it.
+    """Return the smallest failing set of assumptions for each failing row.
 
-    What has been found for one row explains every other one that assumes it, too.
+    A set found for one row also explains every other row that contains it.
     """
     result: dict[str, tuple[str, ...]] = {}
     for name, suspects in rows.items():

@@ -1,4 +1,4 @@
-"""Batches of points and of instructions as the proof speaks them, with their checksums."""
+"""Batches of points and instructions as bytes, with checksums."""
 
 import struct
 from collections.abc import Sequence
@@ -10,26 +10,26 @@ _MODULUS = 2**31 - 19
 
 
 def batch_points(joint_count: int) -> int:
-    """Points that fit into one POINTS: 35 for six axes."""
+    """Return the number of points that fit into one POINTS: 35 for six axes."""
     return (LONGEST - 12 - 20) // (4 * (1 + joint_count))
 
 
 def points_frame(
     stream: int, first: int, points: Sequence[Point], flags: int = 0, comm: int = RawComm.REQUEST
 ) -> bytes:
-    """A batch of a stream."""
+    """Return one batch of a stream as a message."""
     values = [word for point in points for word in words_of(point)]
     return words_frame(stream, first % INDEX_WRAP, len(points), values, flags, comm)
 
 
 def words_of(point: Point) -> list[int]:
-    """The words of a point: s, rad and m in millionths."""
+    """Return the words of a point: s, rad and m in millionths."""
     joints, duration = point
     return millionths((duration, *joints))
 
 
 def millionths(values: Sequence[float]) -> list[int]:
-    """Words for s, rad, m and numbers without a unit."""
+    """Return words for values in s, rad, m or without a unit."""
     numbers = [round(value * 1e6) for value in values]
     if not all(abs(number) < 2**31 for number in numbers):
         raise ValueError(f"{values} does not fit into a batch")
@@ -45,7 +45,10 @@ def words_frame(
     comm: int = RawComm.REQUEST,
     number: int = POINTS,
 ) -> bytes:
-    """A batch of any words, that says to have `count` points; its checksum is right."""
+    """Return a batch with any words that claims `count` points.
+
+    The checksum is correct.
+    """
     complete = [stream, flags, first, count, *values]
     return framed(
         number, struct.pack(f"<{len(complete) + 1}i", *complete, checksum(complete)), comm
@@ -53,7 +56,7 @@ def words_frame(
 
 
 def checksum(values: Sequence[int]) -> int:
-    """What stands behind these words of a batch, of its head and of all that follows."""
+    """Return the checksum of a batch's words, head included."""
     result = 0
     for word in values:
         result = (2 * result + word + 2**31) % _MODULUS
@@ -61,6 +64,6 @@ def checksum(values: Sequence[int]) -> int:
 
 
 def words_to(expected: int, values: Sequence[int], count: int) -> list[int]:
-    """`count` words behind which the checksum is the one that is wanted."""
+    """Return `count` words after which the checksum equals `expected`."""
     zeros = [0] * (count - 1)
     return [*zeros, (expected - checksum([*values, *zeros, 0])) % _MODULUS]

@@ -1,8 +1,9 @@
-"""Controllers before their first moment: booted and compiled once, begun many times in copies.
+"""Pool of booted controllers that have not executed anything yet.
 
-Nothing has been executed on such a controller, no chance was drawn and no client was there. So a
-copy of the process that takes it, with chances and a network of its own, does what a controller
-does that boots with these.
+A controller is booted and compiled once, and copies of it start many times. A pooled controller has
+executed nothing, has drawn no random number and has had no client. A copy of the process that takes
+it sets a random generator and a network of its own. The copy then behaves like a controller that
+boots with these.
 """
 
 from collections.abc import Callable
@@ -15,27 +16,27 @@ from rapidgen.verification.settings import Setting
 from rapidgen.verification.testbench import Bench
 
 Boot: TypeAlias = Callable[[RobotConfig, System, Setting], Bench]
-"""Gives a controller of which nothing has run yet; `Bench` is one."""
+"""Return a controller that has executed nothing yet; `Bench` is one."""
 
 
 class BenchPool:
-    """Those of a worker, by what is decided at boot."""
+    """The pooled controllers of a worker, keyed by what is decided at boot."""
 
     def __init__(self) -> None:
         self._kept: dict[tuple[System, Setting], Bench] = {}
 
     def keep(self, config: RobotConfig, system: System, setting: Setting) -> None:
-        """Have one there that can begin under a setting: for copies of this process."""
+        """Boot a controller for a setting, for copies of this process."""
         key = system, _at_boot(setting)
-        # While a robot settles something is executed already.
+        # While a robot settles, tasks execute already.
         if key not in self._kept and setting.early() == setting:
             self._kept[key] = bench = Bench(config, *key)
             bench.compile()
 
     def take(self, config: RobotConfig, system: System, setting: Setting) -> Bench:
-        """The one for a setting, or one that boots.
+        """Return the pooled controller for a setting, or boot one.
 
-        It can be taken once: by a copy.
+        Each copy of the process can take it once.
         """
         bench = self._kept.pop((system, _at_boot(setting)), None)
         if bench is None:
@@ -45,5 +46,5 @@ class BenchPool:
 
 
 def _at_boot(setting: Setting) -> Setting:
-    """The same without what can still be chosen when it is booted."""
+    """Return the setting without the options that can change after boot."""
     return replace(setting, seed=0, faults=replace(setting.faults, network=()))

@@ -1,8 +1,8 @@
-"""Messages with boundary values in their fields, made from the declarations of the wire.
+"""Messages with boundary values, generated from the wire declarations.
 
-Every field of every message, those of the header too, takes every boundary value of its type, on
-every port of the driver, in every state. A copy of a prepared controller gets one message; then
-no task may have ended, a good client is served on every port, and STOP stops a motion.
+Every field of every message, including the header, takes every boundary value of its type, on every
+port of the driver, in every state. A copy of a prepared controller gets one message. Then no task
+may have ended, the driver serves a well-behaved client on every port, and STOP stops a motion.
 """
 
 import random
@@ -34,14 +34,14 @@ INT32 = (
     *(2**22 - 1, 2**22, 2**23 - 1, 2**23, 2**23 + 1, 2**24 - 1, 2**24, 2**24 + 1),
     *(2**31 - 129, 2**31 - 128, *range(2**31 - 65, 2**31 - 62), 2**31 - 2, 2**31 - 1),
 )
-"""Where a num stops counting by ones, where it rounds up to 2^31, and the ends of the type."""
+"""Values where a num loses integer precision, where it rounds up to 2^31, and the type's ends."""
 FLOAT32_BITS = (
     *(0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007FFFFF, 0x00800000, 0x80800000),
     *(0x7F7FFFFF, 0xFF7FFFFF, 0x7F800000, 0xFF800000, 0x7FC00000, 0xFFC00001, 0x7F800001),
 )
 """Zeros, smallest and largest subnormal and normal numbers, infinities, both kinds of NaN."""
 LENGTHS = (0, 1, 4, 8, 11, 12, 13, 16, 1019, 1020, 1021, 1024, 65_536)
-"""Values of the length field beside those next to the right one."""
+"""Values of the length field, besides those next to the right one."""
 HEADER = ("length", "msg_type", "comm_type", "reply_code")
 STATES = (
     *("idle", "receiving", "moving", "streaming", "program", "paused"),
@@ -52,7 +52,7 @@ _PLAIN = {Wire.INT32: 1, Wire.FIXED: 1, Wire.FLOAT32: 0, Wire.CHAR: 0}
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """One message to a port in a state; `second`: from a client of its own."""
+    """One message to a port in a state; `second`: from a second client."""
 
     state: str
     port: Port
@@ -67,7 +67,10 @@ class Trial:
 
 
 def floats(config: RobotConfig) -> tuple[int, ...]:
-    """Bits of every boundary value of a float32: those of the type, and the configured limits."""
+    """Return the bits of every boundary value of a float32.
+
+    These are the values of the type and the configured limits.
+    """
     limits = [0.0, 1.0, 100.0, 3600.0, config.trajectory.min_segment]
     for joint in config.groups[0].joints:
         limits += [joint.lower, joint.upper, joint.speed]
@@ -80,7 +83,7 @@ def floats(config: RobotConfig) -> tuple[int, ...]:
 
 
 def messages_of(config: RobotConfig) -> Iterator[tuple[str, bytes]]:
-    """Every message with one field at each of its boundary values; what it is, and its bytes."""
+    """Yield messages with one field at each boundary value: label and bytes."""
     numbers = floats(config)
     for kind in MESSAGES:
         base, places = _plain(kind)
@@ -98,7 +101,7 @@ def messages_of(config: RobotConfig) -> Iterator[tuple[str, bytes]]:
 
 
 def pairs_of(config: RobotConfig, chance: random.Random, count: int) -> Iterator[tuple[str, bytes]]:
-    """Random messages with two fields at boundary values."""
+    """Yield random messages with two fields at boundary values."""
     numbers = floats(config)
     for _ in range(count):
         kind = chance.choice(MESSAGES)
@@ -113,7 +116,7 @@ def pairs_of(config: RobotConfig, chance: random.Random, count: int) -> Iterator
 
 
 def drawn(config: RobotConfig, chance: random.Random) -> bytes:
-    """A random message of which half of the fields have boundary values, the others any."""
+    """Return a random message; half of its fields have boundary values."""
     base, places = _plain(chance.choice(MESSAGES))
     numbers, data = floats(config), base
     for offset, wire in [(4 * n, Wire.INT32) for n in range(4)] + [(o, w) for _, o, w in places]:
@@ -123,7 +126,7 @@ def drawn(config: RobotConfig, chance: random.Random) -> bytes:
         elif offset >= len(messages.framed(0, b"")):
             value = chance.randrange(2**32)
         else:
-            # Any header would end nearly every message at its first word.
+            # With a random header, the driver would drop nearly every message at its first word.
             continue
         if offset == 0 and chance.random() < 0.9:
             continue
@@ -132,7 +135,10 @@ def drawn(config: RobotConfig, chance: random.Random) -> bytes:
 
 
 def _plain(kind: MessageType) -> tuple[bytes, list[tuple[str, int, Wire]]]:
-    """A request with plain values, and its fields: name, offset and type of each word."""
+    """Return a request with plain values, and its fields.
+
+    A field is the name, offset and type of each word.
+    """
     places, data = [], b""
     for field in kind.fields:
         count = field.count or 7
@@ -151,7 +157,7 @@ def _checked(data: bytes) -> bytes:
 
 
 def _with(data: bytes, offset: int, value: int) -> bytes:
-    """The message with one word replaced, and its checksum right again where it has one."""
+    """Return the message with one word replaced and the checksum updated."""
     changed = data[:offset] + struct.pack("<I", value & 0xFFFFFFFF) + data[offset + 4 :]
     number = int.from_bytes(changed[4:8], "little", signed=True)
     last = offset + 4 == len(data)
@@ -163,7 +169,7 @@ def _with(data: bytes, offset: int, value: int) -> bytes:
 def trials(
     config: RobotConfig, states: Sequence[str] = STATES, pairs: int = 300, seed: int = 0
 ) -> Iterator[Trial]:
-    """All trials: states, ports, one client or two, and messages."""
+    """Yield all trials: states, ports, one client or two, and messages."""
     own = [*messages_of(config), *pairs_of(config, random.Random(f"{seed} pairs"), pairs)]
     ports: tuple[Port, ...] = ("motion", "control", "state")
     for state, port, second in product(states, ports, (False, True)):
@@ -171,7 +177,7 @@ def trials(
             yield Trial(state, port, second, what, data)
 
 
-# -- a controller in a state ---------------------------------------------------------------------
+# -- prepared controllers -----------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,7 +255,7 @@ def _e_stop(bench: Bench, motion: RawLink, control: RawLink) -> None:
 
 
 def _nothing(bench: Bench, motion: RawLink, control: RawLink) -> None:
-    """It is in this state already."""
+    """Do nothing: the driver is in this state already."""
 
 
 _INTO: dict[str, Callable[[Bench, RawLink, RawLink], None]] = {
@@ -265,15 +271,15 @@ _INTO: dict[str, Callable[[Bench, RawLink, RawLink], None]] = {
 }
 
 
-# -- one message, and what must hold -------------------------------------------------------------
+# -- one message and the invariants --------------------------------------------------------------
 
 
 def failing(prepared: Prepared, trials: Sequence[Trial]) -> list[tuple[Trial, str]]:
-    """Trials of one state that fail, and why.
+    """Return the trials of one state that fail, with the reasons.
 
-    Trials share a copy of the controller as long as each finds it in its state. Where a good client
-    is not served after several, they are cut in halves; what fails only together is told of the
-    first one.
+    Trials share a copy of the controller as long as each finds it in its state. If the driver does
+    not serve a client after several trials, the batch is split in halves. A failure that needs
+    several trials together is reported for the first one.
     """
     result, remaining = [], list(trials)
     while remaining:
@@ -293,7 +299,7 @@ def _blamed(prepared: Prepared, batch: Sequence[Trial], fault: str) -> list[tupl
 
 
 def _outcome(prepared: Prepared, batch: Sequence[Trial]) -> tuple[str, int]:
-    """What went wrong, and how many messages the controller got while it was in its state."""
+    """Return the failure, and how many messages arrived in the state."""
     bench, at_rest, done = prepared.bench, prepared.bench.standing, 0
     try:
         for trial in batch:
@@ -310,12 +316,12 @@ def _outcome(prepared: Prepared, batch: Sequence[Trial]) -> tuple[str, int]:
 
 
 def _sent(prepared: Prepared, trial: Trial) -> None:
-    """The message goes out, over the client that is there already or over one of its own."""
+    """Send the message over the existing client or over a new one."""
     bench, link = prepared.bench, prepared.links[trial.port]
     if trial.second or link.lost:
         link = _connect(bench, trial.port)
     link.send(trial.data)
-    # What it does shows soon: servers look for clients five times a second.
+    # The effect shows soon: servers look for clients five times a second.
     bench.run(0.25)
     if link is not prepared.links[trial.port]:
         if trial.second:
@@ -331,7 +337,7 @@ def _connect(bench: Bench, port: Port) -> RawLink:
 
 
 def served(prepared: Prepared) -> None:
-    """A good client is served on every port, and STOP on either port stops a motion."""
+    """Check that every port serves a client and STOP stops a motion."""
     bench = prepared.bench
     for link in prepared.links.values():
         if not link.lost:
@@ -362,6 +368,9 @@ def served(prepared: Prepared) -> None:
 
 
 def ended(port: Port) -> Trial:
-    """The message that ends a task of a driver that packs an unknown type back into its reply."""
+    """Return a message that ends a task of a faulty driver.
+
+    The faulty driver packs an unknown message type into its reply.
+    """
     data = struct.pack("<iiii", 12, 2**31 - 1, RawComm.REQUEST, 0)
     return Trial("idle", port, False, "PING.msg_type=2147483647", data)

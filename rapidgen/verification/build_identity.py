@@ -1,4 +1,7 @@
-"""Which rapidgen this is: results count together only when the same one found them."""
+"""Identity of this rapidgen build.
+
+Results are combined only if the same build produced them.
+"""
 
 import hashlib
 import platform
@@ -15,7 +18,7 @@ LEFT_OUT = ("__pycache__", "_data")
 
 @cache
 def identity() -> str:
-    """16 hexadecimal digits over the program's text, its data, and what it computes with."""
+    """Return 16 hexadecimal digits over program text, data and dependencies."""
     digest = hashlib.sha256(f"{platform.python_version()} {np.__version__}".encode())
     package = Path(rapidgen.__file__).parent
     for folder in (package, data_folder("templates"), data_folder("robots")):

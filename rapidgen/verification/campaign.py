@@ -1,4 +1,7 @@
-"""Work that goes on for hours: kept as it comes, within limits, with what is known left out."""
+"""Long-running work: results are saved as they arrive, within limits.
+
+Items with a known result are skipped.
+"""
 
 import math
 import time
@@ -14,25 +17,25 @@ from rapidgen.verification.worker_pool import CachedResult, Call, WorkerPool, in
 T = TypeVar("T")
 R = TypeVar("R")
 MEASURED = {"elapsed"}
-"""What of a result is not the same when it is found again; it is not kept."""
+"""Fields of a result that differ between runs; they are not saved."""
 Progress: TypeAlias = Callable[[str, int, int], None]
-"""Called with what is done, how many of it are, and of how many."""
+"""Arguments: kind of work, number done, total."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """When a campaign ends before its end."""
+    """Limits at which a campaign stops early."""
 
     budget: float = math.inf
-    """s after which nothing more is begun."""
+    """s after which no new item starts."""
     stop_on_failure: bool = False
 
 
 @dataclass(frozen=True)
 class Workload(Generic[T, R]):
-    """Pieces of one kind.
+    """Work items of one kind.
 
-    `item(number)` is asked for in order, once the first `needs(number)` results have been taken.
+    `item(number)` is called in order, after the first `needs(number)` results are available.
     """
 
     what: str
@@ -40,23 +43,26 @@ class Workload(Generic[T, R]):
     function: Callable[..., R]
     item: Callable[[int], T]
     key: Callable[[T], str]
-    """The same for the same item; results are kept under it."""
+    """Return the same key for the same item; results are saved under it."""
     kept_as: TypeAdapter[R]
     failed: Callable[[R], bool]
     needs: Callable[[int], int] = lambda number: 0
     take: Callable[[R], R] = lambda result: result
-    """Hears each result in its order, and returns what is kept of it."""
+    """Process each result in order, and return the part to save."""
 
 
 class Campaign:
-    """Results of work, in its order, whoever does it and however often it is broken off."""
+    """Results of work items, in order.
+
+    The order does not depend on the workers or on interruptions.
+    """
 
     def __init__(
         self, workers: WorkerPool, results: Results, limits: Limits, progress: Progress | None
     ) -> None:
         self.workers = workers
         self.left = 0
-        """Pieces that were not done, for the limits."""
+        """Items not done because of the limits."""
         self._results = results
         self._limits = limits
         self._progress = progress
@@ -67,7 +73,7 @@ class Campaign:
         return self._failed or time.monotonic() - self._started > self._limits.budget
 
     def run(self, work: Workload[T, R]) -> Iterator[R]:
-        """The results that come within the limits."""
+        """Yield the results that arrive within the limits."""
         keys: list[str] = []
 
         def make(number: int) -> Call | CachedResult:

@@ -1,4 +1,4 @@
-"""A case of the suite: what it is called, and what proves it on a bench."""
+"""A case of the suite: its name and the function that checks it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,16 +9,16 @@ from rapidgen.verification.testbench import Bench
 
 Proving: TypeAlias = Callable[[Bench], None]
 Part: TypeAlias = Literal["control", "stream", "feedback", "events"]
-"""What a driver may be built without: by its profile, or without a control port."""
+"""Parts that a driver may lack, by its profile or without a control port."""
 
 
 @dataclass(frozen=True, slots=True)
 class SuiteCase:
     """One behaviour of the driver: a case of the suite.
 
-    `answers` names what upstream gets wrong here, if anything.
+    `answers` names the fault of the upstream driver, if any.
 
-    `once`: it takes too long for every setting, and runs under the default ones alone.
+    `once`: the case is slow and runs under the default setting alone.
     """
 
     name: str
@@ -30,10 +30,10 @@ class SuiteCase:
 
 
 class SuiteGroup:
-    """The cases of one file, in the order of its text: a decorator that says a case's own facts.
+    """The cases of one file in text order; a decorator adds them.
 
-    Where the driver lacks what a case `needs`, or all of them, there is nothing to prove; nor is
-    there, while it is being commissioned, of tasks in the `background` that outlive the program.
+    A case does not apply if the driver lacks the part that it `needs`. During commissioning, cases
+    about `background` tasks that outlive the program do not apply either.
     """
 
     def __init__(self, group: str, *, needs: Part | None = None) -> None:
@@ -51,7 +51,7 @@ class SuiteGroup:
         background: bool = False,
         needs: Part | None = None,
     ) -> Callable[[Proving], Proving]:
-        """Make a function the case of that name; it stays what it is."""
+        """Register a function as the case of that name and return it unchanged."""
 
         def made(prove: Proving) -> Proving:
             own = _in_the_background(prove) if background else prove

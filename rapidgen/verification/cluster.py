@@ -1,7 +1,7 @@
-"""Workers of a Dask scheduler, on any number of machines (extra `rapidgen[cluster]`).
+"""Workers of a Dask scheduler on any number of machines.
 
-Each has to be of the same build: it says so when it is seen first, and gets the context then. A
-worker that is gone takes nothing along: what it was at is given to another one.
+Needs the extra `rapidgen[cluster]`. Each worker must have the same build: it reports its build at
+first contact and gets the context then. If a worker is lost, another worker gets its items.
 """
 
 import hashlib
@@ -24,13 +24,13 @@ from rapidgen.verification.worker_pool import Call, WorkersLost, reraise
 from rapidgen.verification.worker_process import WorkerProcess, WorkerProcessLost
 
 CONNECTS = 10
-"""s in which the scheduler answers."""
+"""s within which the scheduler must answer."""
 EVERY = 1.0
-"""s between two looks at who is there."""
+"""s between two checks of the list of workers."""
 NOBODY = 60.0
-"""s without a worker after which there will be none."""
+"""s without a worker after which the campaign stops."""
 AHEAD = 1
-"""Pieces that a worker has besides those that it is at."""
+"""Items queued at a worker besides those in progress."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,10 +41,10 @@ class _Given:
 
 
 class Cluster:
-    """The workers of a scheduler that are of this build."""
+    """The workers of a scheduler that have this build."""
 
     def __init__(self, address: str, context: object, tell: Callable[[str], None]) -> None:
-        """Connect; `tell` hears of workers that come, go and are refused.
+        """Connect; report workers that join, leave or are rejected to `tell`.
 
         DiagnosticError RG808.
         """
@@ -79,12 +79,12 @@ class Cluster:
         self.close()
 
     def room(self) -> bool:
-        """Whether a worker would begin a further piece soon."""
+        """True if a worker could start another item soon."""
         slots = sum(threads + AHEAD for threads in self._workers.values())
         return len(self._given) + len(self._waiting) < slots
 
     def give(self, piece: Call) -> None:
-        """Have a piece done by the worker that has the least to do."""
+        """Submit an item to the worker with the least work."""
         if not self._workers:
             self._waiting.append(piece)
             return
@@ -103,7 +103,7 @@ class Cluster:
         future.add_done_callback(self._come.put)
 
     def come(self, seconds: float) -> list[tuple[int, object]]:
-        """Results that have come; what a lost worker was at is given to another one."""
+        """Return finished results; resubmit the items of lost workers."""
         result: list[tuple[int, object]] = []
         with suppress(queue.Empty):
             done = [self._come.get(timeout=min(seconds, EVERY))]
@@ -119,7 +119,7 @@ class Cluster:
         return result
 
     def close(self) -> None:
-        """Take back what was given, and leave the scheduler; its workers stay."""
+        """Cancel the submitted items and disconnect; the workers stay."""
         self._client.cancel([given.future for given in self._given.values()])
         with suppress(OSError):
             self._client.run(dismiss, self._key, workers=list(self._workers))
@@ -137,11 +137,11 @@ class Cluster:
         return [(given.piece.number, result)]
 
     def _fetched(self, given: _Given) -> tuple[bool, object]:
-        """What a worker has made of a piece.
+        """Return the result of an item.
 
         Raises WorkerProcessLost, KilledWorker, FutureCancelledError.
 
-        A worker may be lost between its answer and this: Dask then waits for it to come back.
+        If a worker is lost between its answer and this call, Dask waits until it returns.
         """
         while True:
             try:
@@ -160,7 +160,10 @@ class Cluster:
         self.give(given.piece.again())
 
     def _look(self) -> None:
-        """Who is there; new ones are asked for their build, and given the context."""
+        """Update the list of workers.
+
+        New workers are asked for their build and get the context.
+        """
         target = self._client.nthreads()
         self._looked = time.monotonic()
         new = [worker for worker in target if worker not in {*self._workers, *self._refused}]
@@ -170,7 +173,7 @@ class Cluster:
         for worker in new:
             answer = answers.get(worker)
             if answer is None or isinstance(answer, OSError):
-                continue  # it is gone, or will answer next time
+                continue  # the worker has left, or answers next time
             if answer == "":
                 self._workers[worker] = target[worker]
                 continue
@@ -199,7 +202,7 @@ def _none(address: str, what: str, help: str) -> DiagnosticError:
     return refusal("RG808", None, f"{address}: {what}", help)
 
 
-# -- in the process of a Dask worker --------------------------------------------------------------
+# -- in the process of a Dask worker ------------------------------------------------------------
 
 _contexts: dict[str, bytes] = {}
 _idle: dict[str, list[WorkerProcess]] = {}
@@ -207,7 +210,10 @@ _lock = threading.Lock()
 
 
 def rejection_reason(build: str, key: str, context: bytes) -> str:
-    """Why this worker cannot be used; empty: it can, and has the context now."""
+    """Return why this worker cannot be used, or an empty string.
+
+    If it can, it has the context afterwards.
+    """
     if identity() != build:
         return f"its rapidgen is {identity()}, not {build}"
     with _lock:
@@ -216,7 +222,7 @@ def rejection_reason(build: str, key: str, context: bytes) -> str:
 
 
 def perform(key: str, function: Callable[..., object], item: object) -> tuple[bool, object]:
-    """A piece of work, by an engine that has nothing to do.
+    """Do a work item in an idle worker process.
 
     Raises WorkerProcessLost.
     """
@@ -231,7 +237,7 @@ def perform(key: str, function: Callable[..., object], item: object) -> tuple[bo
 
 
 def dismiss(key: str) -> None:
-    """The campaign is over."""
+    """End the worker processes of a finished campaign."""
     with _lock:
         _contexts.pop(key, None)
         engines = _idle.pop(key, [])

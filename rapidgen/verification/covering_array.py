@@ -1,9 +1,9 @@
-"""Few rows in which the values of any two factors (or three, ...) meet: a covering array.
+"""Covering arrays: few rows that contain all pairs (or triples) of values.
 
-Rows are made one after the other. Each begins with a combination that no row has yet, and every
-further factor gets the value that brings most new ones; the best of some such rows is taken. (D.
-Cohen et al., "The AETG system", IEEE Trans. Software Eng. 23, 1997: the array grows with the
-logarithm of the number of factors.)
+Rows are generated one after the other. Each starts with a combination that no row has yet, and
+every further factor gets the value that adds most new combinations. The best of some such rows is
+used. (D. Cohen et al., "The AETG system", IEEE Trans. Software Eng. 23, 1997: the array grows with
+the logarithm of the number of factors.)
 """
 
 import random
@@ -14,15 +14,15 @@ from typing import TypeVar
 V = TypeVar("V")
 
 TRIED = 40
-"""Rows of which the best is taken."""
+"""Candidate rows, of which the best is used."""
 
 
 def covering(factors: Mapping[str, Sequence[V]], strength: int = 2) -> list[dict[str, V]]:
-    """Rows that have all combinations of values of any `strength` factors; always the same ones.
+    """Return rows with all combinations of values of any `strength` factors.
 
-    The first row is the first value of every factor.
+    The result is deterministic. The first row is the first value of every factor.
     """
-    # A value is a bit of its own, a combination the bits of its values.
+    # Each value is one bit; a combination is the union of its values' bits.
     bits: list[list[int]] = []
     for values in factors.values():
         used = sum(len(own) for own in bits)
@@ -61,9 +61,12 @@ def _row(
     missing: Mapping[int, Mapping[int, int]],
     chance: random.Random,
 ) -> tuple[int, dict[int, int]]:
-    """How many missing combinations a row has, and the row: a value's bit by factor."""
+    """Return a row and the number of missing combinations in it.
+
+    The row holds a value's bit by factor.
+    """
     row = dict(next(iter(missing.values())))
-    # Combinations within the row, by how many values they have.
+    # Combinations within the row, by number of assigned values.
     parts: list[list[int]] = [[0]] + [[] for _ in range(strength - 1)]
 
     def take(bit: int) -> None:

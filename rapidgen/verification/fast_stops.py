@@ -1,11 +1,12 @@
-"""An emergency stop or a power failure while an axis runs at four fifths of its speed or more.
+"""Emergency stops and power failures at 80 % of an axis' speed or more.
 
-The brakes stop each axis by itself, so that the robot comes to rest off its path, which a
-controller may refuse to go on with (ERR_PATHDIST). One seed decides where the robot begins, which
-way it is sent, when it is stopped, and which task runs when. What must hold:
+The brakes stop each axis independently, so that the robot comes to rest off its path. A controller
+may refuse to continue then (ERR_PATHDIST). One seed decides where the robot starts, which way it
+moves, when it is stopped, and which task runs when. Invariants:
 
-- a robot that has come to rest stays there, also when the program is started again;
-- then a new trajectory from where it stands is taken and executed to its last point.
+- a robot at rest stays at rest, also when the program is started again;
+- then the driver accepts a new trajectory from the current position and executes it to the last
+  point.
 """
 
 import random
@@ -20,31 +21,31 @@ from rapidgen.verification.testbench import FAILURES, Bench
 FAST = 0.8
 """Share of an axis' speed limit."""
 STEP = 0.004
-"""s between two looks at the axes' speeds."""
+"""s between two samples of the axes' speeds."""
 BRAKES = (0.5, 1.0, 2.0)
-"""What the brakes may do, in units of the axes' acceleration: no figure is public."""
+"""Braking decelerations, in units of the axes' acceleration: no figure is public."""
 ATTEMPTS = 20
 """Trajectories until one runs as fast as that."""
 
 
 @dataclass(frozen=True, slots=True)
 class FastStop:
-    """What became of one stop at speed."""
+    """The result of one stop at speed."""
 
     seed: int
     action: str
     share: float
-    """Of the fastest axis' speed limit, when it was stopped."""
+    """Share of the fastest axis' speed limit at the moment of the stop."""
     off_path: float
-    """m from the rest position to where the path goes on, as the controller sees it."""
+    """m from the rest position to the point where the path continues, as the controller sees it."""
     from_main: bool
-    """The program had to be started from main: so far off was it, or the driver asked for it."""
+    """The operator had to start from main, as the robot was too far off or the driver asked."""
     finding: str
     log: tuple[str, ...] = ()
 
 
 def fast_stop(bench: Bench, seed: int) -> FastStop:
-    """One stop at speed, on a bench on which nothing has moved yet; it draws from `seed`."""
+    """Run one stop at speed on a new bench, with random choices from `seed`."""
     bench.controller.scheduler.draw_from(seed)
     chance = random.Random(f"{seed} fast stop")
     action = chance.choice(("e-stop", "power-loss"))
@@ -67,7 +68,7 @@ def fast_stop(bench: Bench, seed: int) -> FastStop:
 
 
 def _at_speed(bench: Bench, chance: random.Random) -> tuple[RawLink, float]:
-    """The robot on a way on which an axis runs fast, and how fast."""
+    """Return the client of a fast motion, and the share of its axis' speed."""
     link = bench.motion()
     for _ in range(ATTEMPTS):
         bench.motion_group.jump(_anywhere(bench, chance))
@@ -93,7 +94,10 @@ def _anywhere(bench: Bench, chance: random.Random) -> Position:
 
 
 def _way(bench: Bench, chance: random.Random) -> list[Point]:
-    """Points from here, each as far as its quickest axis takes it at nearly its whole speed."""
+    """Return points from here, each as far as its fastest axis allows.
+
+    The axis runs at nearly full speed.
+    """
     points = [(bench.position, 10.0)]
     for _ in range(chance.randrange(1, 4)):
         current, target = points[-1][0], _anywhere(bench, chance)
@@ -106,20 +110,20 @@ def _way(bench: Bench, chance: random.Random) -> list[Point]:
 
 
 def _share(bench: Bench, before: Sequence[float], after: Sequence[float]) -> float:
-    """How fast the fastest axis is, of its limit."""
+    """Return the speed of the fastest axis as a share of its limit."""
     joints = zip(bench.group.joints, before, after, strict=True)
     return max(abs(b - a) / STEP / joint.speed for joint, a, b in joints)
 
 
 def _start_again(bench: Bench, chance: random.Random) -> bool:
-    """What an operator does; whether it took PP to main."""
+    """Restart as an operator does; True if that needed PP to main."""
     last = bench.last_event
     bench.run(chance.uniform(0.2, 4))
     bench.start_again()
     refused = bench.controller.task(bench.group.task).state != "running"
     why = "the program was started, and nobody has asked for motion"
     if not refused:
-        # The supervisor says so 2 s behind the start.
+        # The supervisor reports it 2 s after the start.
         bench.assert_at_rest(chance.uniform(2.2, 4), why)
         refused = any("from main" in str(event) for event in bench.controller.log.since(last))
     if refused:
@@ -131,7 +135,10 @@ def _start_again(bench: Bench, chance: random.Random) -> bool:
 
 
 def _goes_on(bench: Bench, chance: random.Random, link: RawLink | None) -> None:
-    """A new trajectory from here is executed, over the old connection or a new one."""
+    """Check that a new trajectory from here is executed.
+
+    It uses the old connection or a new one.
+    """
     if link is not None and (link.lost or chance.random() < 0.5):
         link.close(then=1.5)
         link = None

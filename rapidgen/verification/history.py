@@ -1,4 +1,19 @@
-"""One random history of clients, network and controller, and what must hold in each step of it."""
+"""One random history of clients, network and controller.
+
+A history is a sequence of random steps with an invariant that is checked in each. A step sends a
+trajectory, a stream or a command, and disturbs it at a random time or at a random statement of the
+driver. After the steps the history checks that the driver serves a well-behaved client.
+
+Rules:
+
+- All random choices come from the history's generator, so that a seed replays it.
+- Each step has a seed of its own. Removing earlier steps does not change its choices, and the
+  minimizer relies on that.
+- A step judges the robot's recorded track, the messages and the orders of the motion task; it never
+  reads variables of the driver.
+- A step that leaves a client silently sets `left_silently`, because the driver may serve the next
+  client late.
+"""
 
 import random
 from collections.abc import Callable, Sequence
@@ -16,9 +31,9 @@ from rapidgen.verification.stream import BEGIN, END, NONE, Streamer
 from rapidgen.verification.testbench import Bench
 
 PREEMPTIONS = 4
-"""In a step, under priorities."""
+"""Preemptions in a step, under priorities."""
 CORNER = 0.08
-"""rad or m by which zones and a change of trajectory may lead off the straight way."""
+"""rad or m by which zones and a change of trajectory may leave the straight path."""
 
 
 class History:
@@ -41,11 +56,11 @@ class History:
         self.streams = 0
         self.link: RawLink | None = None
         self.left_silently = False
-        """A client is gone without a word: the next one may have to wait until it is served."""
+        """A client left without closing: the driver may serve the next one late."""
         self.orders: list[Order] = []
 
     def go(self) -> None:
-        """Some steps, then the question whether a good client is served."""
+        """Run some steps, then check that the driver serves a new client."""
         self.orders = watched_orders(self.bench)
         self.bench.run(1)
         rules = self.bench.setting.faults.network
@@ -53,14 +68,14 @@ class History:
             self._say(f"the network: {rules[0].do} {rules[0].direction}")
         for step in self.schedule.steps:
             self.step = step
-            # What a step does is the same whatever is done before it.
+            # The random choices of a step do not depend on the steps before it.
             self.chance = random.Random(f"{step.seed} step")
             self._preempt()
             STEPS[step.name](self)
         self.good_client()
 
     def _preempt(self) -> None:
-        """Under priorities: a few accesses to a PERS, most of them soon, at which one is lost."""
+        """Schedule preemptions at accesses to a PERS, most of them soon."""
         if self.schedule.order == "priorities":
             chance = random.Random(f"{self.schedule.seed} {self.step.seed} preemptions")
             scheduler = self.bench.controller.scheduler
@@ -71,7 +86,7 @@ class History:
         if self.trace is not None:
             self.trace.write(f"{self.plan[-1]}\n")
 
-    # -- what steps are made of -------------------------------------------------------------------
+    # -- parts of steps --------------------------------------------------------------------------
 
     def _connect(self) -> RawLink:
         if self.link is None or self.link.lost:
@@ -86,7 +101,7 @@ class History:
         return self.bench.wave(count, duration=duration, size=size)
 
     def _send(self, link: RawLink, data: bytes) -> None:
-        """In pieces of any size, with pauses now and then."""
+        """Send in pieces of random size, with pauses now and then."""
         while data:
             size = self.chance.choice((len(data), self.chance.randrange(1, 200)))
             link.send(data[:size])
@@ -97,9 +112,9 @@ class History:
     def _disturbed(
         self, link: RawLink, data: bytes, act: Callable[[], None], what: str, *, after: bool
     ) -> None:
-        """Send `data` and, at some time or at some statement of the driver, `act`.
+        """Send `data` and call `act` at a random time or driver statement.
 
-        `after`: not before all of `data` was sent.
+        `after`: not before all of `data` is sent.
         """
         if self.step.where is None:
             wait = self.chance.choice(
@@ -129,7 +144,7 @@ class History:
         once()
 
     def _at_a_statement(self, act: Callable[[], None], what: str) -> None:
-        """Do something before some statement of the driver, which then may take its time."""
+        """Call `act` before a random statement of the driver, which may then last."""
         assert self.step.where is not None
         place, count, busy = self.step.where.place, self.step.where.count, self.step.where.busy
         where = f"{place.module}:{place.line} in {place.task}"
@@ -138,15 +153,16 @@ class History:
         def reached() -> None:
             act()
             for _ in range(busy):
-                # The task gets on slowly while the others go on.
+                # The task continues slowly while the others go on.
                 self.bench.controller.rapid_tasks[place.task].charge(1_000_000)
 
         self.bench.controller.before_statement(place.task, place.module, place.line, count, reached)
 
     def _comes_to(self, place: Position, seconds: float) -> None:
-        """Let time pass until the robot stands there and then for a second more, or for `seconds`.
+        """Wait until the robot is at `place` for a second, or for `seconds`.
 
-        Where nothing is asked of it any more, nothing can come between."""
+        If no command is pending, nothing can interrupt the motion.
+        """
         end = self.bench.now + seconds
         self.bench.run(1)
         while self.bench.now < end:
@@ -161,7 +177,7 @@ class History:
     # -- steps ----------------------------------------------------------------------------------
 
     def whole(self) -> None:
-        """A trajectory that nothing disturbs."""
+        """Send an undisturbed trajectory."""
         link = self._connect()
         points = self._points(self.chance.randrange(3, 15))
         self._say(f"send {len(points)} points")
@@ -170,7 +186,7 @@ class History:
         self._executed_or_refused(link, points)
 
     def over_capacity(self) -> None:
-        """More points than the driver takes, where that is not too many."""
+        """Send more points than the driver's capacity, where it has one."""
         capacity = self.bench.config.trajectory.capacity
         if capacity > 300:
             return
@@ -180,7 +196,7 @@ class History:
         self._executed_or_refused(link, points)
 
     def _executed_or_refused(self, link: RawLink, points: Sequence[Point]) -> None:
-        """Nothing disturbs it: it reaches its last point, or nothing moves."""
+        """Check that the robot reaches the last point, or does not move."""
         start, since = self.bench.position, self.bench.now
         self._send(link, self.bench.download(points))
         self._comes_to(points[-1][0], 15 + 1.5 * sum(d for _, d in points[1:]))
@@ -194,7 +210,7 @@ class History:
         self._on_the_way([start, *(p for p, _ in points)], since)
 
     def stopped(self) -> None:
-        """STOP, at any moment; now and then a new trajectory lies in the same packet."""
+        """Send STOP at any moment, sometimes with a new trajectory in one packet."""
         link = self._connect()
         points = self._points(self.chance.randrange(4, 15))
         self._say(f"send {len(points)} points")
@@ -216,10 +232,10 @@ class History:
         self.bench.assert_at_rest(self.chance.uniform(0.5, 2), "it was stopped")
 
     def interrupted(self) -> None:
-        """The program is stopped, or loses its motors, and is started again."""
+        """Stop the program or the motors, and start it again."""
         link = self._connect()
         if self.left_silently:
-            # For all that a driver knows what it reads after Start was sent after Start.
+            # The driver can only know that data it reads after Start was sent after Start.
             self.bench.run(self.silence)
             self.left_silently = False
         points = self._points(self.chance.randrange(4, 15))
@@ -242,7 +258,7 @@ class History:
         )
 
     def superseded(self) -> None:
-        """A new trajectory while the old one is under way."""
+        """Send a new trajectory while the old one is executed."""
         link = self._connect()
         first = self._points(self.chance.randrange(6, 15))
         self._say(f"send {len(first)} points and, on the way, others")
@@ -265,7 +281,7 @@ class History:
                 raise CheckFailed(f"at {when:.3f} s the robot was on the way to nowhere")
 
     def vanishes(self) -> None:
-        """The client is gone: with a word, without one, or in the middle of a download."""
+        """Leave with or without closing, or in the middle of a download."""
         link = self._connect()
         how = self.chance.choice(("silent", "fin", "reset", "download"))
         self.left_silently |= how == "silent"
@@ -281,7 +297,7 @@ class History:
         self.bench.assert_at_rest(self.chance.uniform(0, 1), f"its client is gone ({how})")
 
     def streamed(self) -> None:
-        """A stream with pauses of any length, ended well, or by STOP on its control port."""
+        """Stream with random pauses, and end normally or by STOP on the control port."""
         link = self._connect()
         self.streams += 1
         stream = Streamer(self.bench, link, number=self.streams)
@@ -315,7 +331,7 @@ class History:
     def _end_stream(
         self, ending: str, stream: Streamer, more: Sequence[Point], last: Position
     ) -> None:
-        """What ends a stream, or disturbs it on its way to the `last` point taken."""
+        """End a stream, or disturb it before the `last` accepted point."""
         control = self.bench.control()
         if ending == "STOP":
             control.stop(5)
@@ -344,7 +360,7 @@ class History:
         control.close()
 
     def controlled(self) -> None:
-        """A download, and STOP over the control port at any time or statement."""
+        """Download, and send STOP on the control port at any time or statement."""
         link, control = self._connect(), self.bench.control()
         points = self._points(self.chance.randrange(4, 15))
         self._say(f"send {len(points)} points")
@@ -352,8 +368,8 @@ class History:
         data = self.bench.download(points)
         self._disturbed(link, data, lambda: control.at_once(STOP), self.step.act, after=False)
         self.bench.until(lambda: bool(control.frames) or control.lost, 5, "STOP is answered")
-        # What had not been received to its end by then is not stopped by that. Replies to STOPs of
-        # earlier steps are none to this one.
+        # STOP does not apply to data that arrives completely after it. Replies to STOPs of earlier
+        # steps do not count for this one.
         link.read()
         link.stop(5)
         self.bench.wait_until_standing(10)
@@ -362,7 +378,7 @@ class History:
         control.close()
 
     def good_client(self) -> None:
-        """Whatever happened: a client that comes now is served, and moves the robot."""
+        """Check that the driver serves a new client, which moves the robot."""
         old, self.link = self.link, None
         if old is not None and not old.lost and self.chance.random() < 0.5:
             old.close()
@@ -376,13 +392,13 @@ class History:
             if distance(self.bench.position, points[-1][0]) < 1e-3:
                 return
             if attempt == 0:
-                # What was under way may have been in its way; now nothing is.
+                # The previous step may have blocked the client; now nothing does.
                 self.bench.wait_until_standing(30)
         raise CheckFailed("in the end a good client's trajectory does not move the robot")
 
 
 def assert_no_move_follows(orders: Sequence[Order], sent: float, answered: float) -> None:
-    """Broken where a free robot got a move once it was stopped for a STOP."""
+    """Check that a free robot gets no move after a stop for a STOP."""
     stops = [
         order.time
         for order in orders
@@ -411,6 +427,6 @@ STEPS: dict[str, Callable[[History], None]] = {
     "streamed": History.streamed,
     "controlled": History.controlled,
 }
-"""What a history is made of."""
+"""The steps of a history, by name."""
 PAIRED = ("streamed", "controlled")
 """Steps of a paired client, for drivers that stream."""

@@ -1,6 +1,6 @@
-"""RAPID instructions of the driver's tasks, watched or made to fail: what a controller may report.
+"""Watch RAPID instructions of the driver's tasks, or make them fail.
 
-Whatever it does, the driver has to live with it.
+The driver must handle every error that a controller may report.
 """
 
 from collections.abc import Callable
@@ -12,12 +12,12 @@ from rapidgen.runtime.task.task import Task
 from rapidgen.verification.testbench import Bench
 
 Instruction: TypeAlias = Callable[..., Any]
-"""It takes and returns whatever the instruction does."""
+"""Same arguments and result as the wrapped instruction."""
 
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """An instruction to the robot; `free`: no StopMove held it."""
+    """An instruction to the robot; `free`: no StopMove held the robot."""
 
     time: float
     instruction: str
@@ -25,7 +25,7 @@ class Order:
 
 
 def wrapped(task: Task, name: str, wrap: Callable[[Instruction], Instruction]) -> None:
-    """Put something around an instruction, for one task; `wrap` gets what it was before."""
+    """Wrap an instruction for one task; `wrap` gets the previous function."""
     routine = task.program.find_routine(None, name.casefold())
     assert routine is not None
     space = task.program.space
@@ -35,9 +35,9 @@ def wrapped(task: Task, name: str, wrap: Callable[[Instruction], Instruction]) -
 def fails(
     bench: Bench, module: str, name: str, error: str, times: int = 1, *, after: int = 0
 ) -> Callable[[], None]:
-    """The next `times` calls of an instruction in a module's task raise an error.
+    """Make the next `times` calls of an instruction raise an error.
 
-    `after`: so many calls are left as they are before. What is returned ends it.
+    `after`: number of calls that still succeed before. Returns a function that removes the hook.
     """
     left, before = times, after
 
@@ -61,9 +61,9 @@ def fails(
 
 
 def at_call(bench: Bench, module: str, name: str, number: int, act: Callable[[], None]) -> None:
-    """Call `act` once, when a module's task is just about to execute an instruction.
+    """Call `act` once, just before a module's task executes an instruction.
 
-    `number`: how many times from now, this one included.
+    `number`: counts from now, the next call is 1.
     """
     task, left = bench.rapid_task(module), number
 
@@ -82,7 +82,7 @@ def at_call(bench: Bench, module: str, name: str, number: int, act: Callable[[],
 
 
 def watched_orders(bench: Bench) -> list[Order]:
-    """From now on, when which task orders a move or a stop."""
+    """Record from now on when a task orders a move or a stop."""
     orders: list[Order] = []
     group = bench.motion_group
 

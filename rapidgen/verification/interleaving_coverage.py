@@ -1,8 +1,7 @@
-"""Where tasks meet: statements that name what they share, and which of them followed which.
+"""Coverage of task interleavings: which shared statements follow which.
 
-Two tasks meet where both name a persistent, or order something of the robot. A pair is such a
-statement of one task and the next such statement, of another: all that a schedule can decide is
-which pairs there are.
+Two tasks meet where both name a persistent, or command the robot. A pair is such a statement of one
+task and the next such statement, of another task. The pairs are all that a schedule can decide.
 """
 
 from dataclasses import dataclass
@@ -15,7 +14,7 @@ from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.system.model import System
 
 Spot: TypeAlias = tuple[str, int]
-"""A module file's path and a line."""
+"""Path of a module file, and line."""
 Pair: TypeAlias = tuple[int, int]
 """Numbers of two spots, the earlier one first."""
 
@@ -25,15 +24,17 @@ ROBOT = ("stopmove", "startmove", "clearpath", "moveabsj", "movej", "movel", "mo
 
 @dataclass(frozen=True, slots=True)
 class RacePoints:
-    """Lines where tasks meet, numbered; and by module file's path those of its tokens, -1 where
-    tasks do not meet."""
+    """Lines where tasks meet, numbered; and the tokens of each module file.
+
+    A token is -1 where tasks do not meet.
+    """
 
     lines: dict[Spot, int]
     tokens: dict[str, list[int]]
 
 
 def spots(system: System) -> RacePoints:
-    """Where tasks of a driver meet."""
+    """Return the lines where tasks of a driver meet."""
     texts = {module.path: module.data for task in system.tasks for module in task.modules}
     trees = {path: parse(data, path=path) for path, data in texts.items()}
     names = {
@@ -60,7 +61,7 @@ def spots(system: System) -> RacePoints:
 
 
 class RacePairs:
-    """The pairs of one controller, from now on."""
+    """The pairs of one controller, recorded from now on."""
 
     def __init__(self, controller: VirtualController, spots: RacePoints) -> None:
         self._tokens = spots.tokens
@@ -71,7 +72,7 @@ class RacePairs:
         controller.statements.listen(self._statement)
 
     def found(self) -> tuple[Pair, ...]:
-        """The pairs so far, in order."""
+        """Return the pairs so far, in order."""
         return tuple(sorted(self._found))
 
     def _statement(self, task: str, routine: Routine, node: n.Statement) -> bool:
@@ -91,6 +92,6 @@ class RacePairs:
         assert module is not None
         tokens = self._tokens.get(module.file.path)
         number = self._numbers[id(node)] = tokens[node.first] if tokens is not None else -1
-        # As long as it is kept nothing else has its id.
+        # While the reference is held, no other object has its id.
         self._nodes.append(node)
         return number

@@ -1,7 +1,8 @@
-"""simple_message as the proof speaks it: layouts by hand, from docs/develop/protocol.md.
+"""Independent simple_message codec with hand-written layouts.
 
-Nothing of the codec in `wire` is used here: the driver's constants come from there, and a number
-that was wrong in both would prove itself. Little endian; rad, m and s.
+Source: docs/develop/protocol.md. This module uses nothing of the codec in `wire`: the driver's
+constants come from there, and a wrong number in both would go unnoticed. Little endian; rad, m and
+s.
 """
 
 import struct
@@ -17,17 +18,17 @@ MAX_JOINTS = 10
 SHORTEST, LONGEST = 12, 1020
 """Values of the length field: a header without data, and the largest message."""
 INDEX_WRAP = 2**23
-"""Points of a stream count modulo this."""
+"""Point numbers of a stream wrap at this value."""
 
 PING, JOINT_POSITION, JOINT_TRAJ_PT, STATUS, JOINT_FEEDBACK = 1, 10, 11, 13, 15
 HELLO, PROGRESS, POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT = range(1300, 1309)
 PROGRAM, RESULT, DATA, TARGET = range(1309, 1313)
 POINT_BYTES, STATE_BYTES = 68, 60 + 44
-"""Bytes of a JOINT_TRAJ_PT, and of what every state client gets: JOINT and STATUS."""
+"""Bytes of a JOINT_TRAJ_PT, and of the messages to every state client: JOINT and STATUS."""
 
 
 class RawComm(IntEnum):
-    """What a message asks of its receiver."""
+    """Communication type of a message."""
 
     TOPIC = 1
     REQUEST = 2
@@ -35,7 +36,7 @@ class RawComm(IntEnum):
 
 
 class RawReplyCode(IntEnum):
-    """How a request went."""
+    """Result of a request."""
 
     NONE = 0
     SUCCESS = 1
@@ -43,7 +44,7 @@ class RawReplyCode(IntEnum):
 
 
 class RawSpecial(IntEnum):
-    """Numbers of points that are none: where a trajectory begins, where it ends, and STOP."""
+    """Special point numbers: start and end of a trajectory, and STOP."""
 
     BEGIN = -1
     END = -3
@@ -51,7 +52,7 @@ class RawSpecial(IntEnum):
 
 
 class RawTriState(IntEnum):
-    """A yes or no that the controller may not know."""
+    """A boolean that the controller may not know."""
 
     UNKNOWN = -1
     FALSE = 0
@@ -66,7 +67,7 @@ class RawMode(IntEnum):
 
 
 class RawFeature(IntFlag):
-    """What a driver can do, told in HELLO, and what a client asks for in it."""
+    """Features of a driver in HELLO; a client requests them there."""
 
     PROGRESS = 1
     CONTROL = 2
@@ -78,7 +79,7 @@ class RawFeature(IntFlag):
 
 
 class RawStreamFlag(IntFlag):
-    """What a batch of points says about its stream."""
+    """Flags of a batch of points."""
 
     BEGIN = 1
     END = 2
@@ -87,7 +88,7 @@ class RawStreamFlag(IntFlag):
 
 
 class RawInstruction(IntEnum):
-    """What an instruction of a program does."""
+    """Kinds of program instructions."""
 
     MOVE_ABSJ = 1
     MOVE_J = 2
@@ -103,7 +104,7 @@ class RawInstruction(IntEnum):
 
 
 class RawModal(IntFlag):
-    """What stands before its operands."""
+    """Flags that precede an instruction's operands."""
 
     SPEED = 256
     ZONE = 512
@@ -112,7 +113,7 @@ class RawModal(IntFlag):
 
 
 class RawTrajectoryState(IntEnum):
-    """State of the newest trajectory, told in PROGRESS."""
+    """State of the newest trajectory, reported in PROGRESS."""
 
     NONE = 0
     RECEIVING = 1
@@ -126,7 +127,7 @@ class RawTrajectoryState(IntEnum):
 
 
 class RawReason(IntEnum):
-    """Why a trajectory was refused, or ended early."""
+    """Reasons of a rejected trajectory, or of an early end."""
 
     NONE = 0
     CAPACITY = 1
@@ -181,12 +182,12 @@ class RawReason(IntEnum):
 
 
 def text_of(reason: RawReason) -> str:
-    """What the operator reads of it."""
+    """Return the operator's text for a reason."""
     return spec.Reason(reason).text
 
 
 def split_error_code(code: int) -> tuple[int, int]:
-    """Reason and joint (0: none) of STATUS.error_code."""
+    """Split STATUS.error_code into reason and joint (0: none)."""
     joint, reason = divmod(code, 100)
     return reason, joint
 
@@ -239,7 +240,7 @@ class RawJointFeedback(NamedTuple):
 
 
 class RawHello(NamedTuple):
-    """HELLO as a client asks it."""
+    """HELLO request of a client."""
 
     protocol: int
     client: tuple[int, int, int]
@@ -247,7 +248,7 @@ class RawHello(NamedTuple):
 
 
 class RawHelloReply(NamedTuple):
-    """HELLO as the driver answers it."""
+    """HELLO reply of the driver."""
 
     protocol: int
     driver: tuple[int, int, int]
@@ -272,7 +273,7 @@ class RawHelloReply(NamedTuple):
 
 
 class RawHelloRefusal(NamedTuple):
-    """HELLO of a version that does not fit."""
+    """HELLO reply to an unsupported version."""
 
     protocol: int
 
@@ -291,7 +292,7 @@ class RawProgress(NamedTuple):
 
 
 class RawStopped(NamedTuple):
-    """STOPPED: where the robot stands after a halt."""
+    """STOPPED: position of the robot after a halt."""
 
     trajectory: int
     reached: int
@@ -300,7 +301,7 @@ class RawStopped(NamedTuple):
 
 
 class RawPause(NamedTuple):
-    """PAUSE: 1 hold, 0 go on."""
+    """PAUSE: 1 pause, 0 resume."""
 
     paused: int
 
@@ -312,7 +313,7 @@ class RawSpeed(NamedTuple):
 
 
 class RawHeartbeat(NamedTuple):
-    """HEARTBEAT: s until the next one must come; 0 ends the watch."""
+    """HEARTBEAT: s until the next one must arrive; 0 ends the monitoring."""
 
     timeout: float
 
@@ -335,7 +336,7 @@ class RawDatum(NamedTuple):
 
 
 class RawDatumReply(NamedTuple):
-    """Reply to DATA: the value as it was read, after any writing."""
+    """Reply to DATA: the value after any write."""
 
     datum: int
     value: float
@@ -354,7 +355,7 @@ class RawEvent(NamedTuple):
 
 
 class RawPointsAccepted(NamedTuple):
-    """Reply to POINTS: all of them are in."""
+    """Reply to POINTS: all points accepted."""
 
     stream: int
     trajectory: int
@@ -366,7 +367,7 @@ class RawPointsAccepted(NamedTuple):
 
 
 class RawPointsRefused(NamedTuple):
-    """Reply to POINTS: those from `accepted` on are not executed."""
+    """Reply to POINTS: points from `accepted` on are not executed."""
 
     stream: int
     trajectory: int
@@ -377,7 +378,7 @@ class RawPointsRefused(NamedTuple):
 
 
 class RawNotDone(NamedTuple):
-    """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL."""
+    """Failure reply to PAUSE, SPEED, HEARTBEAT and SIGNAL."""
 
     reason: int
 
@@ -390,20 +391,20 @@ class RawHeartbeatReply(NamedTuple):
 
 
 class RawSignalReply(NamedTuple):
-    """Reply to SIGNAL: the value as it was read, after any writing."""
+    """Reply to SIGNAL: the value after any write."""
 
     signal: int
     value: float
 
 
 class RawResult(NamedTuple):
-    """RESULT of the routine that a program called last, with the text of a parameter."""
+    """RESULT: a text parameter of the routine that was called last."""
 
     parameter: int
 
 
 class RawResultReply(NamedTuple):
-    """What it left in its parameters, or its error."""
+    """Reply to RESULT: the routine's output parameters, or its error."""
 
     trajectory: int
     error: int
@@ -412,7 +413,7 @@ class RawResultReply(NamedTuple):
 
 
 class RawTarget(NamedTuple):
-    """TARGET: what that routine left in a jointtarget (1) or robtarget (0)."""
+    """TARGET: a jointtarget (1) or robtarget (0) of that routine."""
 
     joints: int
     parameter: int
@@ -429,13 +430,13 @@ class RawTargetReply(NamedTuple):
 
 
 class RawAccepted(NamedTuple):
-    """Reply to an end frame: the trajectory was taken under this number."""
+    """Reply to an end frame: number of the accepted trajectory."""
 
     trajectory: int
 
 
 class RawRefused(NamedTuple):
-    """Reply to a point: nothing moves."""
+    """Reply to a rejected point: the robot does not move."""
 
     reason: int
     point: int
@@ -476,7 +477,7 @@ RawContent: TypeAlias = (
     _Told | _Asked | _Done | _Refused | RawEvent | RawPing | RawAccepted | RawAcknowledged
 )
 _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
-    # Number, reply code (0: a topic or a request), and for each field a code of struct.
+    # Number, reply code (0: a topic or a request), and a struct code for each field.
     (PING, 0, RawPing, ""),
     (JOINT_POSITION, 0, RawJointPosition, "i 10f"),
     (JOINT_TRAJ_PT, 0, RawTrajectoryPoint, "i 10f f f"),
@@ -521,7 +522,7 @@ _HEAD = struct.Struct("<4i")
 
 
 class RawFrame(NamedTuple):
-    """One message: the header's three numbers and the data behind them."""
+    """One message: the header's three numbers and the data."""
 
     number: int
     comm: int
@@ -530,15 +531,15 @@ class RawFrame(NamedTuple):
 
 
 class Splitter:
-    """How a stream of bytes falls into messages, whatever TCP has split or merged."""
+    """Split a byte stream into messages, however TCP divides it."""
 
     def __init__(self) -> None:
         self._rest = b""
 
     def feed(self, data: bytes) -> list[RawFrame]:
-        """Add bytes; the messages that they complete.
+        """Add bytes; return the completed messages.
 
-        Broken for a length that none has.
+        Raises CheckFailed for an invalid length.
         """
         self._rest += data
         failures = []
@@ -555,12 +556,12 @@ class Splitter:
 
 
 def framed(number: int, data: bytes, comm: int = RawComm.REQUEST, *, more: int = 0) -> bytes:
-    """Any data as a message; its length field says `more` bytes than there are."""
+    """Frame any data as a message whose length field is `more` bytes too large."""
     return _HEAD.pack(12 + len(data) + more, number, comm, 0) + data
 
 
 def encode(content: RawContent, comm: RawComm = RawComm.TOPIC) -> bytes:
-    """A topic or request."""
+    """Encode a topic or request."""
     number, layout = _ASKED[type(content)]
     flat: list[object] = []
     for value in content:
@@ -570,9 +571,9 @@ def encode(content: RawContent, comm: RawComm = RawComm.TOPIC) -> bytes:
 
 
 def decode(frame: RawFrame) -> RawContent:
-    """What a message says.
+    """Decode a message.
 
-    Broken for one that docs/develop/protocol.md does not know.
+    Raises CheckFailed for a message that docs/develop/protocol.md does not contain.
     """
     number, comm, code, data = frame
     good = code in (1, 2) if comm == RawComm.REPLY else (comm in (1, 2) and code == 0)

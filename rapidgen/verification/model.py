@@ -1,33 +1,39 @@
-"""What came out of a proof: of one case, and of the whole suite."""
+"""Results of the suite: of one case, and of a whole run."""
 
 import re
 from dataclasses import dataclass, field
 
 
 def is_program(name: str) -> bool:
-    """Whether a name is that of a random motion program (`program/17`), and of no schedule."""
+    """True if a name is a random motion program (`program/17`)."""
     return re.fullmatch(r"program/\d{1,12}", name, re.ASCII) is not None
 
 
 def title(name: str) -> str:
-    """What a report calls a schedule or a program: `schedule 17~4`, `program/17`."""
+    """Return the title of a schedule or program in reports.
+
+    Examples: `schedule 17~4`, `program/17`.
+    """
     return name if is_program(name) else f"schedule {name}"
 
 
 class CheckFailed(Exception):
-    """A demand that did not hold.
+    """A check failed.
 
-    The text says what was wanted and what was seen.
+    The text gives the expected and the observed value.
     """
 
 
 class NotApplicable(Exception):
-    """Raised by a case that is about what the driver or the controller does not have; says what."""
+    """A case needs a feature that the driver or controller lacks; with reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """Joint values over time for a plot: seconds, and one row of joints (rad, m) each."""
+    """Joint values over time for a plot.
+
+    Seconds, and one row of joints (rad, m) each.
+    """
 
     label: str
     times: tuple[float, ...]
@@ -36,7 +42,7 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class CaseResult:
-    """What came out of one case, by name, under one setting of the assumptions."""
+    """The result of one case, by name, under one setting of assumptions."""
 
     case: str
     group: str
@@ -46,22 +52,24 @@ class CaseResult:
     detail: str = ""
     setting: str = ""
     blamed: tuple[str, ...] = ()
-    """The smallest part of what the setting assumes that breaks the case."""
+    """The smallest set of the setting's assumptions that makes the case fail."""
     untried: str = ""
-    """Why there was nothing to prove, if so; it has passed then."""
+    """Why the case does not apply, if so; it counts as passed."""
     simulated: float = 0.0
     elapsed: float = 0.0
     """s of CPU."""
     log: tuple[str, ...] = ()
     series: tuple[Series, ...] = ()
     lines: dict[str, dict[int, int]] = field(default_factory=dict)
-    """How often lines of RAPID were reached, by file; where coverage was asked for."""
+    """Execution counts of RAPID lines, by file, if coverage is enabled."""
 
 
 @dataclass(frozen=True, slots=True)
 class Counterexample:
-    """A schedule that broke the invariant, or a program that moved otherwise than in RAPID; its
-    name replays it exactly."""
+    """A schedule or random program that failed; its name replays it exactly.
+
+    A schedule violates the invariant. A program moves differently than in RAPID.
+    """
 
     schedule: str
     detail: str
@@ -70,7 +78,7 @@ class Counterexample:
 
     @property
     def title(self) -> str:
-        """What a report calls it."""
+        """Return its title in reports."""
         return title(self.schedule)
 
 
@@ -82,33 +90,33 @@ class SuiteResult:
     build_id: str
     outcomes: list[CaseResult] = field(default_factory=list)
     rows: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """What the settings assume other than by default, by name."""
+    """Non-default assumptions of the settings, by name."""
     findings: list[Counterexample] = field(default_factory=list)
     schedules: int = 0
     programs: int = 0
-    """Random motion programs that were tried."""
+    """Number of random motion programs."""
     curve: list[tuple[int, int]] = field(default_factory=list)
-    """How many schedules had met how many pairs of statements, where there was a new one."""
+    """(schedules, pairs of statements seen), one entry for each new pair."""
     elapsed: float = 0.0
     broken_off: bool = False
-    """Whether somebody ended the run before it had seen everything."""
+    """True if the run was interrupted."""
     left: int = 0
-    """Pieces of work that were not begun, for a budget or after a failure."""
+    """Work items that did not start because of a budget or a failure."""
     lines: dict[str, dict[int, int]] = field(default_factory=dict)
-    """Lines of RAPID by file, and how often the cases reached them; empty: not the whole suite."""
+    """Execution counts of RAPID lines, by file; empty: not the whole suite."""
 
     @property
     def tried(self) -> list[CaseResult]:
-        """Outcomes of the cases that had something to prove."""
+        """Return the outcomes of the cases that apply."""
         return [outcome for outcome in self.outcomes if not outcome.untried]
 
     @property
     def covered(self) -> tuple[int, int]:
-        """Lines that were reached, and all lines with a statement."""
+        """Return the number of reached lines and of lines with a statement."""
         hits = [hit for lines in self.lines.values() for hit in lines.values()]
         return sum(1 for hit in hits if hit), len(hits)
 
     @property
     def passed(self) -> bool:
-        """Whether everything held."""
+        """True if all checks passed."""
         return not self.broken_off and not self.findings and all(o.passed for o in self.outcomes)

@@ -1,6 +1,6 @@
-"""How far a robot was from the way through other places, looked at for all places together.
+"""Deviation of a robot's track from a path, computed for all samples.
 
-The TCP is found along the URDF's chain, not by the formulas with which the controller moves.
+The TCP comes from the URDF's kinematic chain, not from the formulas of the controller.
 """
 
 import math
@@ -17,22 +17,21 @@ from rapidgen.verification.position_checks import Position, Track
 from rapidgen.verification.testbench import Bench
 
 Points: TypeAlias = NDArray[np.float64]
-"""A row for each place: its TCP (m), or its axes where the robot's geometry is not known."""
+"""A row for each sample: its TCP (m), or its axes if the geometry is unknown."""
 _AT_ONCE = 16
-"""Places that are compared together."""
+"""Samples compared in one step."""
 _BACK, _AHEAD, _FASTER = 3, 40, 4
-"""The way is followed from piece to piece, not left out: so many further at most, and from place to
-place so many more."""
+"""Search window along the path: pieces back, pieces ahead, and growth of the window per sample."""
 
 
 def movement(track: Track) -> tuple[float, list[Position]]:
-    """s from the first movement to the last, and where the robot was meanwhile."""
+    """Return s from first to last movement, and the positions between."""
     moving = [later for earlier, later in pairwise(track) if earlier[1] != later[1]]
     return (moving[-1][0] - moving[0][0], [place for _, place in moving]) if moving else (0.0, [])
 
 
 def points(bench: Bench, places: Sequence[Position]) -> Points:
-    """What is compared of some places."""
+    """Return the compared coordinates of some positions."""
     geometry = bench.motion_group.kinematics
     if geometry is None or not places:
         return np.array(places, float)
@@ -62,7 +61,7 @@ _UNITS = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def farthest(seen: Points, path: Points) -> float:
-    """The largest distance of a point from the way through others, in their order."""
+    """Return the largest distance of a point from the path, in order."""
     if not len(seen) or len(path) < 2:
         return math.inf if len(seen) else 0.0
     start, along = path[:-1], np.diff(path, axis=0)

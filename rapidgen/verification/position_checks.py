@@ -1,8 +1,8 @@
-"""Where the robot was, and what is judged by that alone.
+"""Checks on recorded positions of the robot.
 
-A position is that of the controller's axes, rad and m, in wire order; a track holds when (simulated
-s) each was first seen. These are the oracles of motion: tests/verification/test_oracles.py holds
-them.
+A position holds the controller's axes, rad and m, in wire order. A track maps each position to the
+simulated time (s) of its first sample. These functions are the test oracles of motion;
+tests/verification/test_oracles.py tests them.
 """
 
 import math
@@ -14,11 +14,11 @@ from rapidgen.verification.model import CheckFailed
 
 Position: TypeAlias = tuple[float, ...]
 Point: TypeAlias = tuple[Position, float]
-"""Joints and the seconds from the point before."""
+"""Joints and the seconds from the previous point."""
 Track: TypeAlias = Sequence[tuple[float, Position]]
 
 SETTLED = 1e-4
-"""rad or m: as far as a standing robot may be from a point that it has reached."""
+"""rad or m: tolerance of a robot at rest at a reached point."""
 
 
 def distance(one: Position, other: Position) -> float:
@@ -27,7 +27,7 @@ def distance(one: Position, other: Position) -> float:
 
 
 def off(seen: Position, start: Position, end: Position) -> float:
-    """Distance of a position from the straight way between two (largest axis)."""
+    """Return the distance of a position from a straight path (largest axis)."""
     along = [e - s for s, e in zip(start, end, strict=True)]
     length = sum(a * a for a in along)
     share = 0.0
@@ -38,29 +38,29 @@ def off(seen: Position, start: Position, end: Position) -> float:
 
 
 def changed(position: Position, axis: int, value: float) -> Position:
-    """The position with another value for one axis."""
+    """Return the position with another value for one axis."""
     return (*position[:axis], value, *position[axis + 1 :])
 
 
 def inward(joint: Joint, current: float, step: float) -> float:
-    """`step` from where a joint stands, to the side where there is more room."""
+    """Return `step` with the sign of the larger distance to a limit."""
     return current + step if joint.upper - current >= current - joint.lower else current - step
 
 
 def small_unit(joint: Joint) -> float:
-    """One degree or one millimetre."""
+    """Return one degree or one millimetre."""
     return 1e-3 if joint.kind == "prismatic" else math.radians(1)
 
 
 def still(track: Track, place: Position, why: str) -> None:
-    """Broken where the robot was anywhere but at `place`."""
+    """Check that the robot was never anywhere but at `place`."""
     for when, seen in track:
         if distance(seen, place) > SETTLED:
             raise CheckFailed(f"the robot moved at {when:.3f} s: {why}")
 
 
 def on_path(track: Track, path: Sequence[Position], corner: float = 0.05) -> None:
-    """Broken unless every sample lies on a prefix of `path`, in order.
+    """Check that every sample lies on a prefix of `path`, in order.
 
     `corner` (rad, m) is how far a zone may cut a corner.
     """

@@ -1,6 +1,6 @@
-"""Random motion programs: each moves as the same one does that is written in RAPID.
+"""Random motion programs, compared with the same program in RAPID.
 
-A name, `program/17`, decides everything: how many moves, which, how fast, through which zones.
+A name, `program/17`, determines the number of moves, their kinds, speeds and zones.
 """
 
 import random
@@ -20,23 +20,29 @@ from rapidgen.verification.suite.programs import MotionDiffers, program_matches_
 from rapidgen.verification.testbench import FAILURES, Bench
 
 LONGEST = 12
-"""Moves of a program at most; two at least."""
+"""Maximum number of moves in a program; the minimum is two."""
 PROGRAMS = Setting()
-"""Under which they run."""
+"""The setting of the controllers."""
 _MS = 1_000_000
 LOOKS = ((20 * _MS, 0), (_MS, 0), (_MS, 1), (_MS, 2), (_MS, 3))
-"""(ns between two positions, how rotations are rounded): a program that seems to go another way is
-looked at again, until it holds. Chords of 20 ms cut corners by up to 0.5 mm; and where the robot's
-law could as well begin to brake 0.1 s earlier, 1e-8 in a rotation makes two of one program."""
+"""Sampling in ns and rounding of rotations, for each attempt.
+
+If a program seems to deviate, the comparison is repeated with the next entry. Chords of 20 ms cut
+corners by up to 0.5 mm. If the motion law could equally begin to brake 0.1 s earlier, 1e-8 in a
+rotation changes the motion.
+"""
 
 
 def name_of(seed: int) -> str:
-    """What the program of a seed is called."""
+    """Return the program name of a seed."""
     return f"program/{seed}"
 
 
 def require_programs(config: RobotConfig) -> None:
-    """Refuse a driver that takes none. Raises DiagnosticError RG810."""
+    """Require a driver that accepts programs.
+
+    Raises DiagnosticError RG810.
+    """
     if config.profile != "full":
         help = "take --programs away, or build it with `profile: full`"
         raise refusal("RG810", None, f"the driver of {config.name} takes no programs", help)
@@ -50,9 +56,10 @@ def compare_program(
     record: Recording | None = None,
     boot: Boot = Bench,
 ) -> ScheduleResult:
-    """Run a random program, and the same one in RAPID: path within 0.01 mm, time within 0.5 %.
+    """Compare a random program with the same program in RAPID.
 
-    The story is the program in RAPID. `trace` and `record` as for `explore`: of the last look.
+    The path must agree within 0.01 mm, the time within 0.5 %. The log of the result is the program
+    in RAPID. `trace` and `record` as for `explore`: of the last attempt.
     """
     seen = trace is not None or record is not None
     tried = ScheduleResult(name, "", None)
@@ -73,7 +80,7 @@ def _look(
     record: Recording | None,
     boot: Boot,
 ) -> tuple[ScheduleResult, bool]:
-    """The same, once, and whether it is the likeness that did not hold."""
+    """Compare once; also return True if only the comparison failed."""
     chance = random.Random(name)
     finding, unlike = None, False
     setting = replace(PROGRAMS, tracing=trace is not None)
@@ -100,7 +107,10 @@ def _look(
 
 
 def _rounded(order: RawMove, rounding: int) -> RawMove:
-    """The same move: a rotation's parts may be multiplied by anything."""
+    """Return the same move with the rotation rescaled.
+
+    A quaternion may be multiplied by any factor.
+    """
     if order.pose is None or not rounding:
         return order
     place, rotation = order.pose

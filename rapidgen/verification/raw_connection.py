@@ -1,4 +1,4 @@
-"""Client connections to a bench's controller: bytes out, bytes in."""
+"""Client connections to a bench's controller, as bytes."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeVar
@@ -28,7 +28,7 @@ C = TypeVar("C")
 class RawLink:
     """One client connection, as bytes and frames.
 
-    Frames are taken, with their time, as they come.
+    Frames are read as they arrive, with their time.
 
     `reading` False: a client that never reads.
     """
@@ -51,17 +51,17 @@ class RawLink:
         bench.until(lambda: self.endpoint.connected, 5, f"port {port} accepts a connection")
 
     def read_on(self) -> None:
-        """Read from now on, what has come so far first."""
+        """Start to read, including all bytes that arrived so far."""
         self.endpoint.changed.add(self._receive)
         if self.endpoint.connected:
             self._receive()
 
     def stop_reading(self) -> None:
-        """Leave what comes from now on where it is."""
+        """Stop reading; later bytes stay in the network."""
         self.endpoint.changed.remove(self._receive)
 
     def send(self, data: bytes) -> None:
-        """Write all of `data`, letting time pass while the controller has no room."""
+        """Write all of `data`; wait while the controller's buffer is full."""
         while data and not self.lost:
             try:
                 accepted = self._network.send(self.endpoint, data)
@@ -75,7 +75,10 @@ class RawLink:
                 self._bench.run(0.01)
 
     def at_once(self, data: bytes) -> None:
-        """Write a few bytes without letting time pass, as at a statement of the driver."""
+        """Write a few bytes without advancing time.
+
+        For use at a statement of the driver.
+        """
         if not self.lost:
             try:
                 self.sent += self._network.send(self.endpoint, data)
@@ -83,7 +86,7 @@ class RawLink:
                 self.lost = True
 
     def _listen(self, data: bytes) -> None:
-        """Keep what a well-formed download asks for, for the plots."""
+        """Record a well-formed download for the plots."""
         if self._said is None:
             return
         try:
@@ -105,13 +108,13 @@ class RawLink:
             self._trajectory = []
 
     def read(self) -> list[RawFrame]:
-        """Frames that have arrived since the last call."""
+        """Return the frames since the last call."""
         result = [frame for _, frame in self.frames[self._taken :]]
         self._taken = len(self.frames)
         return result
 
     def forget(self) -> None:
-        """Drop the frames so far."""
+        """Discard the frames so far."""
         self.frames.clear()
         self._taken = 0
 
@@ -131,13 +134,13 @@ class RawLink:
             self.frames += [(now, frame) for frame in self._splitter.feed(data)]
 
     def expect_reply(self, seconds: float, what: str) -> RawFrame:
-        """The next frame that was not read yet, within `seconds`."""
+        """Return the next unread frame within `seconds`."""
         self._bench.until(lambda: len(self.frames) > self._taken, seconds, what)
         self._taken += 1
         return self.frames[self._taken - 1][1]
 
     def expect(self, kind: type[C], seconds: float, what: str) -> C:
-        """The next message of a kind that was not read yet; others before it are passed over."""
+        """Return the next unread message of a type; skip others before it."""
         failures: list[C] = []
 
         def arrived() -> bool:
@@ -152,19 +155,19 @@ class RawLink:
         return failures[0]
 
     def told(self, kind: type[C], since: float = 0.0) -> list[tuple[float, C]]:
-        """All messages of a kind that came from `since` on, and when."""
+        """Return all messages of a type since `since`, with times."""
         result = [(when, decode(frame)) for when, frame in self.frames if when >= since]
         return [(when, content) for when, content in result if isinstance(content, kind)]
 
     def ask(self, content: RawContent, seconds: float = 2) -> RawContent:
-        """Send a request; the reply to it."""
+        """Send a request and return the reply."""
         data = encode(content, RawComm.REQUEST)
         self.send(data)
         number = int.from_bytes(data[4:8], "little")
         return self.reply(number, seconds)
 
     def reply(self, number: int, seconds: float = 2, what: str = "") -> RawContent:
-        """The next reply of a type; what comes before it is passed over."""
+        """Return the next reply of a type; skip what comes before it."""
         failures: list[RawFrame] = []
 
         def arrived() -> bool:
@@ -179,7 +182,7 @@ class RawLink:
         return decode(failures[0])
 
     def stop(self, seconds: float = 2, what: str = "STOP is answered") -> RawContent:
-        """Send STOP; the reply to it."""
+        """Send STOP and return the reply."""
         self.send(STOP)
         return self.reply(JOINT_TRAJ_PT, seconds, what)
 
@@ -188,7 +191,7 @@ class RawLink:
         self._bench.until(lambda: self.lost, seconds, what)
 
     def close(self, *, abort: bool = False, then: float | None = None) -> None:
-        """End the connection (FIN), or reset it (RST), and let `then` s pass."""
+        """Close the connection (FIN), or reset it (RST), and wait `then` s."""
         self._network.close(self.endpoint, abort=abort)
         self.lost = True
         if then is not None:
@@ -198,7 +201,10 @@ class RawLink:
 def point_frame(
     number: int, count: int, joints: Position, duration: float, comm: RawComm = RawComm.TOPIC
 ) -> bytes:
-    """Point `number` (from 0) of `count`, numbered as the ROS-Industrial node does."""
+    """Return point `number` (from 0) of `count`.
+
+    Sequence numbers as in the ROS-Industrial node.
+    """
     if number == 0:
         sequence = int(RawSpecial.BEGIN)
     elif number == count - 1:
@@ -211,7 +217,7 @@ def point_frame(
 def raw_point(
     sequence: int, joints: Sequence[float], duration: float, comm: RawComm = RawComm.TOPIC
 ) -> bytes:
-    """A point with any sequence number."""
+    """Return a point with any sequence number."""
     padded = (*joints, *[0.0] * (MAX_JOINTS - len(joints)))
     return encode(RawTrajectoryPoint(sequence, padded, 0.0, duration), comm)
 

@@ -1,4 +1,4 @@
-"""A raw client that sends programs, and the same programs written in RAPID by hand."""
+"""A raw client that sends programs, and equivalent RAPID programs."""
 
 import random
 from collections.abc import Sequence
@@ -32,9 +32,9 @@ BEGIN, END, WHOLE = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.WHOLE
 ALL = BEGIN | END | WHOLE
 _KINDS = (RawInstruction.MOVE_J, RawInstruction.MOVE_L, RawInstruction.MOVE_ABSJ)
 HAND = "hand", "hand.mod"
-"""The module that makes the same moves: its name, its file."""
+"""Module with the same moves: name and file."""
 _WORDS = 245
-"""Words of instructions that fit into one message."""
+"""Maximum number of instruction words in one message."""
 _NAMES = {
     RawInstruction.MOVE_ABSJ: "MoveAbsJ",
     RawInstruction.MOVE_J: "MoveJ",
@@ -45,10 +45,13 @@ _NAMES = {
 
 @dataclass(frozen=True, slots=True)
 class RawMove:
-    """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
-    (m/s), `turn` of the tool and of rotary external axes (rad/s), `linear` of the other ones (m/s)
-    and `zone` (m, rad; None: a stop point) stand in every instruction; `frames` are
-    the numbers of tool and work object, `marks` signals on the way: number, value, kind, place."""
+    """A move: joints at its end (rad, m), their pose, and `via` on a circle.
+
+    Every instruction contains `speed` (m/s), `turn` of the tool and of rotary external axes
+    (rad/s), `linear` of linear external axes (m/s) and `zone` (m, rad; None: a stop point).
+    `frames` are the numbers of tool and work object; `marks` are signals on the path: number,
+    value, kind, place.
+    """
 
     kind: RawInstruction
     joints: Position
@@ -63,18 +66,18 @@ class RawMove:
 
     @property
     def speeds(self) -> tuple[float, ...]:
-        """speeddata: TCP, orientation, linear and rotary external axes."""
+        """Return speeddata: TCP, orientation, linear and rotary external axes."""
         return self.speed, self.turn, self.linear, self.turn
 
     @property
     def zones(self) -> tuple[float, ...]:
-        """zonedata behind finep."""
+        """Return zonedata after finep."""
         size = self.zone or 0.0
         return size, 1.5 * size, 1.5 * size, 3 * size, 1.5 * size, 3 * size
 
     @property
     def words(self) -> list[int]:
-        """As they go onto the wire."""
+        """Return the words on the wire."""
         first = self.kind | RawModal.SPEED | RawModal.ZONE
         values = [*self.speeds, float(self.zone is None), *self.zones]
         if self.frames is not None:
@@ -90,7 +93,7 @@ class RawMove:
 
 
 class Programmer:
-    """One program after the other over one connection to the motion server."""
+    """Send programs one after the other to the motion server."""
 
     def __init__(self, bench: Bench, link: RawLink | None = None) -> None:
         self.bench = bench
@@ -100,7 +103,10 @@ class Programmer:
     def send(
         self, orders: Sequence[RawMove], flags: RawStreamFlag = ALL, start: Position | None = None
     ) -> messages.RawContent:
-        """A program in messages of some instructions; the last reply, or the first refusal."""
+        """Send a program in several messages.
+
+        Returns the last reply, or the first rejection.
+        """
         self.number += 1
         values, own, at = millionths(self.bench.position if start is None else start), flags, 0
         for number, order in enumerate(orders, 1):
@@ -117,14 +123,14 @@ class Programmer:
     def say(
         self, values: Sequence[int], count: int, flags: RawStreamFlag, first: int = 0
     ) -> messages.RawContent:
-        """A batch of any words; its reply."""
+        """Send a batch of any words and return the reply."""
         self.link.send(words_frame(self.number, first, count, values, flags, number=PROGRAM))
         return self.link.reply(PROGRAM, 5)
 
     def takes(self, what: str, orders: Sequence[RawMove], flags: RawStreamFlag = ALL) -> int:
-        """Send a program; Broken unless it is taken.
+        """Send a program, check that it is accepted, and return its number.
 
-        Its number among the trajectories.
+        The number is that of its trajectory.
         """
         reply = self.send(orders, flags)
         if not isinstance(reply, messages.RawPointsAccepted) or reply.accepted != len(orders):
@@ -132,7 +138,7 @@ class Programmer:
         return reply.trajectory
 
     def refused(self, reply: messages.RawContent, reason: RawReason, index: int, what: str) -> None:
-        """Broken unless a reply is a refusal for that reason, at that instruction."""
+        """Check that a reply rejects that instruction for that reason."""
         if not isinstance(reply, messages.RawPointsRefused):
             raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {reply}")
         if (reply.reason, reply.point) != (reason, index):
@@ -140,7 +146,7 @@ class Programmer:
 
 
 def orders(bench: Bench, count: int, chance: random.Random) -> list[RawMove]:
-    """Moves in the neighbourhood of a place that no robot finds singular, the last a stop point."""
+    """Return moves near a pose without singularity, the last a stop point."""
     middle = bent(bench)
     failures = [RawMove(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
     poses = computes(bench)
@@ -154,20 +160,23 @@ def orders(bench: Bench, count: int, chance: random.Random) -> list[RawMove]:
 
 
 def computes(bench: Bench) -> bool:
-    """Whether the controller tells the motion server what pose joints reach."""
+    """True if the controller gives the motion server the pose of joints."""
     known = bench.motion_group.kinematics is not None
     return known and bench.setting.dialect.calc_in_background
 
 
 def kinds_with_marks(bench: Bench) -> tuple[RawInstruction, ...]:
-    """On the way of which moves signals may be set; a SCARA's joint moves are made to joints."""
+    """Return the moves on whose path signals may be set.
+
+    For a SCARA, joint moves go to joint targets.
+    """
     joint_moves = (RawInstruction.MOVE_J, RawInstruction.MOVE_ABSJ)
     lines = (RawInstruction.MOVE_L, RawInstruction.MOVE_C)
     return lines if bench.motion_group.map.two_sided else (*joint_moves, *lines)
 
 
 def bent(bench: Bench) -> Position:
-    """A place with every turning axis somewhat off its zero, within its limits."""
+    """Return a position with every rotary axis off zero, within limits."""
     return tuple(
         (joint.lower + joint.upper) / 2
         if joint.kind == "prismatic"
@@ -177,7 +186,7 @@ def bent(bench: Bench) -> Position:
 
 
 def near(bench: Bench, middle: Position, chance: random.Random) -> Position:
-    """A place some centimetres away."""
+    """Return a position some centimetres away."""
     joints = zip(bench.group.joints, middle, strict=True)
     return tuple(
         round(
@@ -189,7 +198,7 @@ def near(bench: Bench, middle: Position, chance: random.Random) -> Position:
 
 
 def target_of(bench: Bench, joints: Position) -> Value:
-    """The robtarget of joints, as the controller has it."""
+    """Return the robtarget of joints, computed by the controller."""
     group, tool, wobj = bench.motion_group, bench.group.tool.frame, bench.group.work_object
     assert group.kinematics is not None
     carrier = MoveFrames(
@@ -200,7 +209,7 @@ def target_of(bench: Bench, joints: Position) -> Value:
 
 
 def reached(bench: Bench, joints: Position) -> Pose:
-    """The pose of joints, in m, as the wire has it."""
+    """Return the pose of joints in m, as on the wire."""
     target = target_of(bench, joints)
     t, q = target.trans, target.rot
     return (
@@ -211,7 +220,10 @@ def reached(bench: Bench, joints: Position) -> Pose:
 
 @lru_cache(maxsize=4)
 def called(config: RobotConfig, name: str) -> System:
-    """The controller of a driver within a program of the user's, which does nothing in a task."""
+    """Return a system in which a user program calls the driver.
+
+    The program of one task does nothing.
+    """
     config = replace(config, call_main=False)
     system = make_system(config, build(config))
     hand = ModuleFile(*HAND, _hand("").encode())
@@ -223,15 +235,15 @@ def called(config: RobotConfig, name: str) -> System:
 
 
 def by_hand(bench: Bench, program: Sequence[RawMove]) -> None:
-    """Let the program of a controller that is `called` make these moves, in RAPID's own words."""
+    """Execute these moves as RAPID on a controller from `called`."""
     module = ModuleFile(*HAND, in_rapid(bench, program).encode())
     bench.replace_module(bench.group.task, module)
 
 
 def in_rapid(bench: Bench, program: Sequence[RawMove]) -> str:
-    """A module whose `main` makes these moves."""
+    """Return a module whose `main` makes these moves."""
     moves = (_statement(bench, order) for order in program)
-    # Time to put the robot where it begins.
+    # Time to bring the robot to the start position.
     return _hand("".join(f"        {line}\n" for line in ("WaitTime 1;", *moves, "Stop;")))
 
 

@@ -1,4 +1,4 @@
-"""A report as JSON, as JUnit XML and as one self-contained HTML page."""
+"""Reports as JSON, JUnit XML and one self-contained HTML page."""
 
 import html
 import platform
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rapidgen.verification.testbench import Bench
 
 PLOTTED = 200
-"""Samples of one series in a plot, about."""
+"""Approximate number of samples of a series in a plot."""
 
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999")
 _STYLE = """
@@ -49,7 +49,10 @@ document.getElementById("search").addEventListener("input", event => {
 
 
 def as_json(report: SuiteResult) -> dict[str, Json]:
-    """The report as data: every outcome, and what its setting assumes other than by default."""
+    """Return the report as JSON data.
+
+    It holds every outcome, and the non-default assumptions of its setting.
+    """
     reached, of = report.covered
     return {
         "name": report.name,
@@ -82,7 +85,10 @@ def as_json(report: SuiteResult) -> dict[str, Json]:
 
 
 def write_junit(report: SuiteResult, path: Path) -> None:
-    """JUnit XML: one test case an outcome, one for each schedule that broke the invariant."""
+    """Write JUnit XML.
+
+    It has one test case for each outcome, and one for each schedule that violates the invariant.
+    """
     failures = sum(not o.passed for o in report.outcomes) + len(report.findings)
     suite = ElementTree.Element(
         "testsuite",
@@ -126,8 +132,11 @@ def write_junit(report: SuiteResult, path: Path) -> None:
 
 
 def write_html(report: SuiteResult, path: Path) -> None:
-    """One page: verdict, versions, a table for each group with a search over all of them, plots of
-    commanded and executed joints, logs of failures."""
+    """Write one HTML page with all results.
+
+    It holds verdict, versions, a searchable table for each group, plots of commanded and executed
+    joints, and logs of failures.
+    """
     verdict = "everything held" if report.passed else "something did not hold"
     groups = dict.fromkeys(outcome.group for outcome in report.outcomes)
     tables = "".join(
@@ -167,7 +176,7 @@ def _versions() -> str:
 
 
 def _group(name: str, outcomes: Sequence[CaseResult]) -> str:
-    """Its cases, open where one did not hold."""
+    """Return the cases of a group, expanded if one failed."""
     tried = [outcome for outcome in outcomes if not outcome.untried]
     held = sum(outcome.passed for outcome in tried)
     marker, state = ("ok", "") if held == len(tried) else ("bad", " open")
@@ -182,7 +191,7 @@ def _group(name: str, outcomes: Sequence[CaseResult]) -> str:
 
 
 def slowest(report: SuiteResult, count: int) -> list[tuple[str, float, int]]:
-    """Cases that took most: name, s of CPU in all settings together, and in how many."""
+    """Return the slowest cases: name, CPU s over all settings, settings."""
     accepted: dict[str, list[float]] = {}
     for outcome in report.outcomes:
         accepted.setdefault(outcome.case, []).append(outcome.elapsed)
@@ -191,7 +200,7 @@ def slowest(report: SuiteResult, count: int) -> list[tuple[str, float, int]]:
 
 
 def untried(report: SuiteResult) -> str:
-    """Of how many cases nothing was proven, and why; an empty text where all had something."""
+    """Return how many cases do not apply and why, or an empty text."""
     cases = {outcome.case for outcome in report.tried}
     why = {o.case: o.untried for o in report.outcomes if o.case not in cases}
     reasons = Counter(why.values()).most_common()
@@ -209,7 +218,10 @@ def _coverage(report: SuiteResult) -> str:
 
 
 def met(report: SuiteResult) -> str:
-    """How many pairs of statements the schedules met, and whether there still were new ones."""
+    """Describe how many statement pairs the schedules covered.
+
+    The text says if the last schedules still found new pairs.
+    """
     if not report.curve:
         return ""
     late = sum(1 for number, _ in report.curve if number > 0.9 * report.schedules)
@@ -221,7 +233,7 @@ def met(report: SuiteResult) -> str:
 
 
 def _pairs(report: SuiteResult) -> str:
-    """The curve of pairs over schedules."""
+    """Draw covered pairs over schedules."""
     if len(report.curve) < 2:
         return ""
     times = tuple(float(number) for number, _ in report.curve)
@@ -230,10 +242,10 @@ def _pairs(report: SuiteResult) -> str:
 
 
 def missed(report: SuiteResult) -> list[tuple[str, str]]:
-    """By file, the lines that no case reached, as `12, 15-17`."""
+    """Return the unreached lines by file, as `12, 15-17`."""
     failures = []
     for path, lines in report.lines.items():
-        # Lines without a statement do not part a range.
+        # Lines without a statement do not split a range.
         ranges: list[list[int]] = []
         open_range = False
         for line in sorted(lines):
@@ -255,7 +267,7 @@ def _name(outcome: CaseResult) -> str:
 
 
 def complaint(outcome: CaseResult) -> str:
-    """What did not hold, and the smallest part of the assumptions that makes it so."""
+    """Return the failure and the smallest set of assumptions that causes it."""
     reply = f", that is {' and '.join(outcome.blamed)}" if outcome.blamed else ""
     setting = f" [{outcome.setting}{reply}]" if outcome.setting else ""
     return f"{outcome.case}{setting}: {outcome.detail}"
@@ -285,9 +297,9 @@ def _details(outcome: CaseResult) -> str:
 
 
 def series(bench: "Bench") -> tuple[Series, ...]:
-    """Executed and commanded joints, for a plot; none when nothing moved.
+    """Return executed and commanded joints for a plot.
 
-    A download is drawn from the moment in which the robot began to move for it.
+    The result is empty if the robot did not move. A download is drawn from the start of its motion.
     """
     track, commanded = bench.track, bench.commanded
     if len(track) < 2:

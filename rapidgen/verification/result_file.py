@@ -1,4 +1,7 @@
-"""Results of a campaign in a file, JSON lines in the order of the work: it can go on there."""
+"""Results of a campaign in a JSON lines file, which a run can resume.
+
+The lines are in the order of the work.
+"""
 
 import json
 from pathlib import Path
@@ -9,18 +12,21 @@ from rapidgen.diagnostics import DiagnosticError, refusal
 
 
 class Results:
-    """What is known already, by key; what is added is in the file at once.
+    """Known results by key; each new one is written immediately.
 
-    The first line says what the results are of. Without a path everything is forgotten.
+    The first line identifies the work. Without a path, results are not saved.
     """
 
     def __init__(self, path: Path | None, of: str, *, resume: bool = False) -> None:
-        """Begin a file, or go on with it. Raises DiagnosticError RG805, OSError."""
+        """Create a file, or resume one.
+
+        Raises DiagnosticError RG805, OSError.
+        """
         self._known: dict[str, Json] = {}
         self._file = None
         if path is None:
             return
-        # A line that was not written to its end is as good as none.
+        # An incomplete last line does not count.
         data = path.read_bytes() if path.exists() else b""
         complete = data[: data.rfind(b"\n") + 1]
         if complete and not resume:
@@ -46,11 +52,11 @@ class Results:
             raise _refused(path, what, "name another file, or one that does not exist") from fault
 
     def known(self, key: str) -> Json:
-        """A result that is there already; None: it is not."""
+        """Return a known result, or None."""
         return self._known.get(key)
 
     def add(self, key: str, result: Json) -> None:
-        """Keep a result, unless it is there."""
+        """Save a result unless its key is known."""
         if key not in self._known:
             self._write({"key": key, "result": result})
 

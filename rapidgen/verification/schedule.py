@@ -1,8 +1,16 @@
-"""What a schedule is made of: steps and where they disturb, which task runs when, the network.
+"""Schedules: steps and their disturbances, task order and network.
 
-A schedule has a name, from which all of it is drawn: a seed, or a seed and what was changed since,
-as `17`, `17~4`, `17~4~2` (what was drawn from 17, changed by 4, then by 2). What is taken away to
-make it smaller follows behind slashes: `17~4/steps=1,3/turns/calm`.
+A schedule has a name, and all of the schedule is drawn from the name. The name is a seed, or a seed
+and later changes, as `17`, `17~4`, `17~4~2` (drawn from 17, changed by 4, then by 2). Slashes
+follow with the parts removed by the minimizer: `17~4/steps=1,3/turns/calm`.
+
+Design: a schedule is a pure value. `drawn(name, ground)` maps a name to the same plan on every
+machine, as long as the driver's RAPID text is the same. Task order is one of three policies:
+
+- `random`: any ready task runs for any time;
+- `pers`: at each access to a PERS another task may run;
+- `priorities`: the task of the highest priority runs and loses its priority a few times
+  (probabilistic concurrency testing).
 """
 
 import random
@@ -14,8 +22,7 @@ from typing import Literal, TypeAlias, get_args
 from rapidgen.diagnostics import DiagnosticError, refusal
 
 Order: TypeAlias = Literal["random", "pers", "priorities"]
-"""Which task runs when: any, for any time; at each access to a PERS another, perhaps; the one of
-the highest priority, which it loses a few times."""
+"""Task order policy: `random`, `pers` or `priorities`; see above."""
 Network: TypeAlias = Literal["good", "delay", "split", "merge"]
 
 ACTS: Mapping[str, tuple[str, ...]] = {
@@ -24,14 +31,14 @@ ACTS: Mapping[str, tuple[str, ...]] = {
     "interrupted": ("stop", "stop pp-to-main", "stop pp-to-main", "e-stop", "motors-off"),
     "controlled": ("STOP over the control port",),
 }
-"""How a step disturbs the driver; what is not here does not."""
+"""Disturbances of each step; other steps have none."""
 WEIGHTS = {"stopped": 2, "interrupted": 2, "controlled": 2}
-"""How often a step is drawn, for others' once."""
+"""Relative weights of steps; the others have 1."""
 BUSY = (0, 5, 40)
-"""ms that a statement may take before which something happens."""
+"""ms that the statement before a disturbance may take."""
 PASSES = (1, 1, 1, 1, 1, 2, 3, 8)
 BY_TIME = 0.2
-"""Share of disturbances that come at some time, not at a statement."""
+"""Share of disturbances at a time instead of at a statement."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +53,7 @@ class DriverLine:
 
 @dataclass(frozen=True, slots=True)
 class StatementHit:
-    """The `count`-th time that a statement is reached, which then takes `busy` ms."""
+    """The `count`-th execution of a statement, which then takes `busy` ms."""
 
     place: DriverLine
     count: int
@@ -55,7 +62,7 @@ class StatementHit:
 
 @dataclass(frozen=True, slots=True)
 class Disturbance:
-    """One step; its other chances are drawn from `seed`.
+    """One step; its other random choices are drawn from `seed`.
 
     `where`: None, at some time.
     """
@@ -74,35 +81,35 @@ class TaskSchedule:
     order: Order | Literal["turns"]
     network: Network
     seed: str
-    """Of which task runs when, and of the network."""
+    """Seed of the task order and of the network."""
 
 
 @dataclass(frozen=True, slots=True)
 class ScheduleSpace:
-    """What schedules are drawn from: steps that a driver knows, statements that it executes.
+    """The set of schedules: a driver's steps and executed statements.
 
-    `fault`: what is wrong with it while nothing disturbs it.
+    `fault`: the driver's failure without any disturbance.
     """
 
     steps: tuple[str, ...]
     places: tuple[DriverLine, ...] = ()
     task: str = ""
-    """The task that moves the robot."""
+    """Name of the motion task."""
     fault: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class ScheduleName:
-    """What a plan is drawn from."""
+    """A parsed schedule name."""
 
     seed: int
     changes: tuple[int, ...] = ()
     steps: tuple[int, ...] | None = None
-    """Those that are left, by number; None: all."""
+    """Numbers of the remaining steps; None: all."""
     turns: bool = False
-    """Tasks run in turns, each for a whole slice."""
+    """Tasks run in turn, each for a whole time slice."""
     calm: bool = False
-    """The network is good."""
+    """The network has no faults."""
 
     def __str__(self) -> str:
         parts = ["~".join(str(number) for number in (self.seed, *self.changes))]
@@ -115,7 +122,10 @@ _NAME = re.compile(r"(\d+)((?:~\d+)*)(?:/steps=(\d+(?:,\d+)*)?)?(/turns)?(/calm)
 
 
 def named(text: str) -> ScheduleName:
-    """The name that a text is. Raises DiagnosticError RG807."""
+    """Parse a schedule name.
+
+    Raises DiagnosticError RG807.
+    """
     match = _NAME.fullmatch(text)
     if match is None:
         raise _no_name(text)
@@ -136,7 +146,7 @@ def _no_name(text: str) -> DiagnosticError:
 
 
 def drawn(name: ScheduleName, ground: ScheduleSpace) -> TaskSchedule:
-    """The plan of that name: the same for the same driver."""
+    """Return the plan of a name: the same for the same driver."""
     plan = _fresh(name.seed, ground)
     for change in name.changes:
         plan = _changed(plan, change, ground)
@@ -168,7 +178,7 @@ def _step(name: str, seed: str, chance: random.Random, ground: ScheduleSpace) ->
 
 
 def _where(chance: random.Random, ground: ScheduleSpace) -> StatementHit:
-    """Mostly where the task that moves meets others: races are there."""
+    """Choose a statement, mostly one where the motion task meets others."""
     moving = [place for place in ground.places if place.task == ground.task]
     meeting = [place for place in moving if place.meets] or moving
     chosen = chance.choice((meeting, meeting, meeting, moving, ground.places)) or ground.places
@@ -176,7 +186,7 @@ def _where(chance: random.Random, ground: ScheduleSpace) -> StatementHit:
 
 
 def _changed(plan: TaskSchedule, change: int, ground: ScheduleSpace) -> TaskSchedule:
-    """The same with another order of tasks, or with one step that disturbs elsewhere."""
+    """Return the plan with another task order, or one disturbance moved."""
     chance = random.Random(f"{plan.seed} {change}")
     seed = f"{plan.seed}~{change}"
     disturbing = [n for n, step in enumerate(plan.steps) if step.where is not None]
@@ -187,7 +197,7 @@ def _changed(plan: TaskSchedule, change: int, ground: ScheduleSpace) -> TaskSche
     assert step.where is not None
     moved = _where(chance, ground)
     if chance.random() < 0.6:
-        # Near to where something new has happened there may be more of it.
+        # New coverage is likely near places with new coverage.
         near = [p for p in ground.places if _near(p, step.where.place)]
         moved = replace(moved, place=chance.choice(near))
     steps = (*plan.steps[:number], replace(step, where=moved), *plan.steps[number + 1 :])

@@ -1,14 +1,21 @@
-"""Schedules x stops x faults: does what was executed stay a prefix of what was asked?
+"""Explore schedules, stops and faults: only a prefix of commands executes.
 
-One seed decides everything: which task runs when, what the clients do and when, what happens
-to the network and to the controller. The oracle looks at the robot alone, so it judges any driver
-that speaks simple_message on the group's motion port:
+One seed decides everything: which task runs when, what the clients do and when, what happens to the
+network and to the controller. The oracle observes the robot alone, so it judges any driver that
+speaks simple_message on the group's motion port. Invariants:
 
-- a robot that stands moves only after a whole trajectory has been sent to it;
-- while it moves, it is on the way through the points of the newest trajectories;
-- once STOP has stopped it, it gets no move of the old trajectory any more;
-- a trajectory that nothing disturbed is executed to its last point, or not at all;
-- afterwards, whatever happened, a good client moves the robot.
+- a robot at rest moves only after a client has sent it a whole trajectory;
+- while it moves, it is on the path through the points of the newest trajectories;
+- after STOP has stopped it, it gets no further move of the old trajectory;
+- an undisturbed trajectory is executed to its last point, or not at all;
+- afterwards, in all cases, a well-behaved client moves the robot.
+
+How a schedule runs: `schedule.drawn` turns a name into a plan, `setting_of` boots a controller with
+the plan's task order and network, and `History` executes the steps. Random choices of the plan, the
+network and the history come from separate generators. A tracer or a recording draws no random
+number, so a replay with `trace` gives the same history. The pairs of statements of different tasks
+(`interleaving_coverage.py`) tell the selection (`schedule_selection.py`) which schedules are new,
+and the minimizer (`schedule_minimizer.py`) removes steps from one that fails.
 """
 
 import random
@@ -33,20 +40,20 @@ from rapidgen.verification.settings import Setting
 from rapidgen.verification.testbench import FAILURES, Bench
 
 Recording = Callable[[VirtualController], Callable[[], None]]
-"""Begins a recording of a controller; what it returns ends it."""
+"""Starts a recording of a controller, and returns the function that ends it."""
 SAMPLE = 20_000_000
-"""ns between two looks at a robot that moves: it is judged by centimetres."""
+"""ns between two samples of a moving robot: the tolerance is centimetres."""
 
 
 @dataclass(frozen=True, slots=True)
 class ScheduleResult:
-    """What one schedule did; `finding` when it broke the invariant."""
+    """The result of one schedule; `finding` if it violates the invariant."""
 
     schedule: str
     plan: str
     finding: Counterexample | None
     pairs: tuple[Pair, ...] = ()
-    """Which statements of tasks followed which (`encounters.py`)."""
+    """Pairs of statements of different tasks (`interleaving_coverage.py`)."""
 
 
 def explore(
@@ -60,12 +67,12 @@ def explore(
     record: Recording | None = None,
     boot: Boot = Bench,
 ) -> ScheduleResult:
-    """Run one schedule; the same one gives the same history.
+    """Run one schedule; the same schedule gives the same history.
 
-    `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
-    after which a new client may expect to be served. `trace` gets a line for each statement
-    of RAPID and for each step of the history; `record` begins a recording of the controller and
-    gives what ends it. Neither changes what happens. Raises DiagnosticError RG807.
+    `only` names the possible steps of a history (default: all of STEPS). `silence`: s after which
+    the driver must serve a new client. `trace` gets a line for each statement of RAPID and for each
+    step of the history; `record` starts a recording of the controller and returns the function that
+    ends it. Neither changes the history. Raises DiagnosticError RG807.
     """
     name = named(schedule)
     ground = ground_of(config, system)
@@ -97,7 +104,7 @@ def explore(
 
 
 def setting_of(config: RobotConfig, plan: TaskSchedule) -> Setting:
-    """What a schedule's controller is booted with."""
+    """Return the boot setting of a schedule's controller."""
     chance = random.Random(f"{plan.seed} network")
     return Setting(
         seed=chance.randrange(1 << 30),
@@ -111,7 +118,10 @@ def setting_of(config: RobotConfig, plan: TaskSchedule) -> Setting:
 def _weather(
     config: RobotConfig, plan: TaskSchedule, chance: random.Random
 ) -> tuple[NetworkRule, ...]:
-    """How the network is: mostly good, else late, in pieces, or in lumps, in one direction."""
+    """Return network rules: mostly none, else delays or splits.
+
+    A rule delays, splits or merges data in one direction.
+    """
     directions: tuple[Direction, ...] = ("in", "out")
     direction = chance.choice(directions)
     port = config.groups[0].ports.motion
@@ -127,13 +137,13 @@ def _weather(
 
 @lru_cache(maxsize=4)
 def spots_of(system: System) -> RacePoints:
-    """Where a driver's tasks meet."""
+    """Return the lines where a driver's tasks meet."""
     return spots(system)
 
 
 @lru_cache(maxsize=4)
 def ground_of(config: RobotConfig, system: System) -> ScheduleSpace:
-    """The steps of histories with a driver, and what it executes while it works and is stopped."""
+    """Return a driver's steps, and its statements while working and stopped."""
     group = config.groups[0]
     bench = Bench(config, system, Setting(coverage=True))
     try:

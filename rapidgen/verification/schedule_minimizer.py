@@ -1,4 +1,4 @@
-"""The smallest schedule that still breaks the same thing."""
+"""Find the smallest schedule with the same failure."""
 
 import re
 from collections.abc import Callable
@@ -15,10 +15,10 @@ def smaller(
     finding: Counterexample,
     run: Callable[[ScheduleName], Counterexample | None],
 ) -> Counterexample:
-    """What `run` finds in the least that is left of a schedule of so many `steps`.
+    """Return the finding of the smallest schedule that still fails.
 
-    Network, order of tasks and steps are taken away, as long as the same demand does not hold:
-    in the same words, whatever their figures.
+    The minimizer removes network faults, task order and steps as long as the same check fails: the
+    same text, ignoring numbers.
     """
     result = finding
 

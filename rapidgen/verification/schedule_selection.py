@@ -1,7 +1,8 @@
-"""Which schedule comes next: one that does what none has done, or a change of one that met news.
+"""Select the next schedule by expected new coverage.
 
-The choice for a number depends on that and on the results of schedules some way before it, which
-are the same whatever the workers: as many may be under way as lie between.
+It is either a new schedule with most new combinations, or a change of a schedule that found new
+pairs. The choice for a number depends on results of schedules some numbers before it. These results
+do not depend on the workers, so that as many schedules as the gap can run at the same time.
 """
 
 import random
@@ -19,17 +20,17 @@ from rapidgen.verification.schedule import (
 from rapidgen.verification.schedule_exploration import ScheduleResult
 
 CANDIDATES = 12
-"""Of which the one is taken that does most what none before has done."""
+"""Candidates, of which the one with most new combinations is selected."""
 CHANGED = 0.25
-"""Share of schedules that are changed from one which brought new pairs."""
+"""Share of schedules that are changes of one with new pairs."""
 FEWEST_UNDER_WAY = 8
 DEEPEST = 6
-"""How often a schedule is changed."""
+"""Maximum number of changes of a schedule."""
 
 
 @dataclass(frozen=True, slots=True)
 class Parent:
-    """A schedule that brought new pairs: its number, its name, how many."""
+    """A schedule that found new pairs: number, name, count."""
 
     number: int
     name: ScheduleName
@@ -37,7 +38,7 @@ class Parent:
 
 
 class ScheduleSelector:
-    """Names schedules, the first one `first`; hears what came of them, in order."""
+    """Select schedules from number `first` on, using results in order."""
 
     def __init__(self, ground: ScheduleSpace, first: int = 0) -> None:
         self._ground = ground
@@ -49,19 +50,19 @@ class ScheduleSelector:
         self._pairs: set[Pair] = set()
         self._taken = 0
         self.curve: list[tuple[int, int]] = []
-        """Schedules, and the pairs that they have met; where there was a new one."""
+        """(schedules, pairs seen), one entry for each new pair."""
 
     @staticmethod
     def needs(number: int) -> int:
-        """How many results must have been heard before a schedule is named."""
+        """Return how many results a schedule's name depends on."""
         return number - max(FEWEST_UNDER_WAY, number // 4)
 
     def name(self, number: int) -> str:
-        """The schedule of that number; asked for in order."""
+        """Return the schedule of a number; called in order."""
         chance = random.Random(f"{self._first} {number} guide")
         parents = [parent for parent in self._parents if parent.number < self.needs(number)]
         if parents and chance.random() < CHANGED:
-            # What has brought much lately is likely to bring more.
+            # A schedule that found many pairs recently is likely to lead to more.
             weights = [(1 + p.gain) * (1 + at) for at, p in enumerate(parents)]
             made = self._best(_changes(chance.choices(parents, weights)[0].name, chance))
         else:
@@ -74,7 +75,7 @@ class ScheduleSelector:
         return str(made)
 
     def take(self, explored: ScheduleResult) -> ScheduleResult:
-        """Hear a result, the next one; what is new of its pairs is left of it."""
+        """Add the next result, and return it with the new pairs only."""
         new = set(explored.pairs) - self._pairs
         self._pairs |= new
         if new:
@@ -87,13 +88,13 @@ class ScheduleSelector:
         return max(names, key=lambda name: self._news(_doings(drawn(name, self._ground))))
 
     def _news(self, doings: set[tuple[str, DriverLine, int]]) -> float:
-        """What is done somewhere for the first time counts more than what only takes longer."""
+        """Rate new actions; a new place counts more than a new duration."""
         first = {(act, place) for act, place, _ in doings} - self._acted
         return len(first) + 0.3 * len(doings - self._done)
 
 
 def _doings(plan: TaskSchedule) -> set[tuple[str, DriverLine, int]]:
-    """What is done where, and for how many ms."""
+    """Return the actions of a plan: step, place, ms."""
     return {(s.act, s.where.place, s.where.busy) for s in plan.steps if s.where is not None}
 
 

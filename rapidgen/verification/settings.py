@@ -1,4 +1,4 @@
-"""How the controller under the driver behaves: the settings under which every case runs."""
+"""Settings: behaviour of the controller, under which every case runs."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
@@ -18,7 +18,7 @@ T = TypeVar("T", Switches, MotionSettings)
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """How the controller under the driver behaves, and which of its groups is driven."""
+    """Behaviour of the controller, and the motion group that is driven."""
 
     seed: int = 0
     group: int = 0
@@ -30,54 +30,54 @@ class Setting:
     faults: FaultPlan = field(default_factory=FaultPlan)
     coverage: bool = False
     tracing: bool = False
-    """Tracers hear of every statement; with `coverage` they do anyway."""
+    """Tracers get every statement; `coverage` implies it."""
 
     @property
     def slowness(self) -> float:
-        """How much longer than by default the driver's work takes, at least 1.
+        """Return how much slower than by default the driver works, at least 1.
 
-        What a case allows for work, not for waiting, goes with it.
+        Time limits of a case for work, not for waiting, scale with it.
         """
         return max(1.0, self.costs.builtin_scale)
 
     @property
     def corners_in_time(self) -> bool:
-        """Whether the motion task has its turn between a move's release and its corner.
+        """True if the motion task runs between a move's release and its corner.
 
-        Tasks that run by lot may keep it waiting for a dozen calls on sockets in a row, 25 ms of
-        a slow controller with two clients: no driver is in time there for a `planning_lead` of
-        20 ms, nor need it be (docs/develop/assumptions.md, 35). In turns it is 13 ms.
+        With random task order it may wait for a dozen socket calls in a row, 25 ms of a slow
+        controller with two clients. No driver meets a `planning_lead` of 20 ms then, and it need
+        not (docs/develop/assumptions.md, 35). With tasks in turn it is 13 ms.
         """
         return not self.random_schedule or self.motion.planning_lead > _TURN * self.slowness
 
     @property
     def latest_interrupt(self) -> float:
-        """s from an event to its trap, at most."""
+        """Return the maximum s from an event to its trap."""
         return self.costs.interrupt_delay[1] * 1e-9
 
     def early(self) -> "Setting":
-        """The same on a controller of which no task has run yet: no robot that settles first."""
+        """Return the same setting before any task or robot settling has run."""
         return replace(self, motion=replace(self.motion, settle=0.0))
 
 
-# What the driver cannot do without. Where it is otherwise a task ends at its start or every link
-# breaks, and nothing moves: tests/verification/test_variants.py.
+# Behaviour that the driver requires. Otherwise a task ends at its start or every connection breaks,
+# and the robot does not move: tests/verification/test_variants.py.
 NEEDED = frozenset({"alias_by_name"})
-# Where the TCP has a ceiling of its own every trajectory is refused with it.
+# With a TCP speed limit, the driver rejects every trajectory.
 NOT_WITH_CEILINGS = "calc_in_background=false"
 _CEILING = 5.0
-# s that the other tasks may take together before the motion task has its turn, by lot.
+# s that other tasks may take together before the motion task runs, with random order.
 _TURN = 0.01
-# Figures of the motion that no source gives, and another one for each.
+# Motion parameters without a source, each with an alternative value.
 FIGURES = {"planning_lead": 0.02, "servo_lag": 0.05, "settle": 0.2, "quick_factor": 1.0}
 COSTS = (1.0, 0.25, 4.0)
 SCHEDULES = ("round-robin", "random", "pers")
 STRENGTHS = ("default", "alone", "pairs", "triples")
-"""How many assumptions meet in a row of settings, by number."""
+"""Number of assumptions combined in a row of settings, by index."""
 
 
 def assumption_choices(switches: Switches | MotionSettings) -> dict[str, tuple[Answer, ...]]:
-    """Every switch that is a choice, with what may be chosen; as it is set comes first."""
+    """Return every switch with its choices; the current value comes first."""
     result: dict[str, tuple[Answer, ...]] = {}
     for switch in fields(switches):
         chosen = getattr(switches, switch.name)
@@ -91,7 +91,7 @@ def assumption_choices(switches: Switches | MotionSettings) -> dict[str, tuple[A
 
 
 def questions() -> dict[str, tuple[Answer, ...]]:
-    """What a driver can notice of its controller, with the answers to it; the default first."""
+    """Return open questions about controllers and answers, default first."""
     switches = assumption_choices(Switches()) | assumption_choices(MotionSettings())
     left_out = NEEDED | NOT_THE_DRIVERS
     requested = {name: own for name, own in switches.items() if name not in left_out}
@@ -99,12 +99,12 @@ def questions() -> dict[str, tuple[Answer, ...]]:
 
 
 def said(name: str, answer: Answer) -> str:
-    """An assumption in words, as `--assume` takes it."""
+    """Return an assumption as `--assume` takes it."""
     return f"{name}={str(answer).lower()}" if isinstance(answer, bool) else f"{name}={answer}"
 
 
 def assumed(texts: Sequence[str]) -> Setting:
-    """The setting in which these assumptions hold, and else the defaults; `seed=N` may be one.
+    """Return the setting with these assumptions; `seed=N` may be one.
 
     Raises DiagnosticError RG804.
     """
@@ -131,7 +131,7 @@ def assumed(texts: Sequence[str]) -> Setting:
 
 
 def _answered(switches: T, answers: Mapping[str, Answer]) -> T:
-    """The switches with those of the answers that are to them."""
+    """Return the switches with the answers that concern them."""
     own = {switch.name for switch in fields(switches)}
     chosen = {name: answer for name, answer in answers.items() if name in own}
     return replace(switches, **chosen)  # type: ignore[arg-type]
@@ -148,10 +148,11 @@ def _unknown(text: str) -> Exception:
 
 
 def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
-    """What is assumed other than by default, by name: the default alone, and hostile settings.
+    """Return the non-default assumptions of each row, by name.
 
-    The answers to any `strength` questions meet in some row. A controller's behaviour that is only
-    remembered must not decide whether the driver works, nor may two of them together.
+    The first row is the default alone. The answers to any `strength` questions meet in some row:
+    the driver must not depend on a controller behaviour that is only remembered, nor on two of them
+    together.
     """
     result: dict[str, tuple[str, ...]] = {"": ()}
     if not strength:
@@ -160,13 +161,13 @@ def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
     array = covering(requested, strength)
     for number, row in enumerate(array[1:], 1):
         others = [said(n, answer) for n, answer in row.items() if answer != requested[n][0]]
-        # Its chances are a row's own.
+        # Each row has random numbers of its own.
         result[f"{STRENGTHS[strength]} {number}"] = (*others, f"seed={number}")
     return result
 
 
 def possible(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, ...]]:
-    """The rows without what this configuration's driver cannot do without."""
+    """Return the rows without assumptions that contradict the driver's needs."""
     ceiling = any(group.tcp_speed_limit < _CEILING for group in config.groups)
     return {
         name: tuple(text for text in texts if not (ceiling and text == NOT_WITH_CEILINGS))
@@ -175,7 +176,7 @@ def possible(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str
 
 
 def settings(config: RobotConfig, rows: Mapping[str, Sequence[str]]) -> dict[str, Setting]:
-    """A setting for each row, and the default for each further motion group."""
+    """Return a setting for each row, and one for each further motion group."""
     result = {name: assumed(texts) for name, texts in rows.items()}
     if "" in result:
         result[""] = replace(result[""], coverage=True)

@@ -1,4 +1,4 @@
-"""A raw client that streams: batches with credits, as bytes, and what it may do wrong."""
+"""A raw client that streams batches with credits, valid or invalid."""
 
 from collections.abc import Sequence
 
@@ -35,7 +35,7 @@ class Streamer:
         return points_frame(self.number, at, points, flags)
 
     def put(self, points: Sequence[Point], flags: RawStreamFlag = NONE) -> messages.RawContent:
-        """Send one batch, in several messages where it does not fit into one; the last reply."""
+        """Send one batch, split over messages if needed; return the last reply."""
         most = batch_points(len(self.bench.position))
         parts = [points[at : at + most] for at in range(0, len(points), most)] or [points]
         for number, part in enumerate(parts):
@@ -47,25 +47,25 @@ class Streamer:
         return told
 
     def say(self, frame: bytes) -> messages.RawContent:
-        """Send a batch as bytes, right or wrong; the reply to it."""
+        """Send a batch as bytes, valid or not; return the reply."""
         self.link.send(frame)
         return self.reply()
 
     def reply(self) -> messages.RawContent:
-        """The next reply to a batch."""
+        """Return the next reply to a batch."""
         self.last = self.link.reply(POINTS, 5)
         if isinstance(self.last, messages.RawPointsAccepted):
             self.room = self.last.room
         return self.last
 
     def accepted(self, what: str) -> messages.RawPointsAccepted:
-        """The last reply; Broken unless it is a success."""
+        """Return the last reply; check that it is a success."""
         if not isinstance(self.last, messages.RawPointsAccepted):
             raise CheckFailed(f"{what}: the reply is {self.last}")
         return self.last
 
     def refused(self, reason: RawReason, what: str) -> messages.RawPointsRefused:
-        """The last reply; Broken unless it is a refusal for that reason."""
+        """Return the last reply; check that it is a rejection for that reason."""
         if not isinstance(self.last, messages.RawPointsRefused) or self.last.reason != reason:
             raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {self.last}")
         return self.last
@@ -73,19 +73,19 @@ class Streamer:
     def takes(
         self, what: str, points: Sequence[Point], flags: RawStreamFlag = NONE
     ) -> messages.RawPointsAccepted:
-        """Send a batch; Broken unless the reply is a success."""
+        """Send a batch and check that the reply is a success."""
         self.put(points, flags)
         return self.accepted(what)
 
     def refuses(
         self, reason: RawReason, what: str, points: Sequence[Point], flags: RawStreamFlag = NONE
     ) -> messages.RawPointsRefused:
-        """Send a batch; Broken unless the reply is a refusal for that reason."""
+        """Send a batch and check that the reply is a rejection for that reason."""
         self.put(points, flags)
         return self.refused(reason, what)
 
     def all(self, points: Sequence[Point], *, end: bool = True, size: int = 10) -> None:
-        """A whole stream, never more points than there is room for."""
+        """Send a whole stream, never more points than the driver has space for."""
         at = 0
         while at < len(points):
             batch = points[at : at + max(1, min(size, self.room))]

@@ -1,4 +1,7 @@
-"""The whole suite for one robot: every case under every setting, and schedules, as a campaign."""
+"""Run the whole suite for one robot as a campaign.
+
+Every case runs under every setting; schedules follow.
+"""
 
 import logging
 import time
@@ -52,14 +55,14 @@ from rapidgen.verification.worker_pool import LocalPool, WorkerPool, each, run_i
 _LOG = logging.getLogger("rapidgen.verification")
 
 EXPLAINED = 20
-"""Cases of which the smallest pair is looked for; of a driver that breaks more they tell enough."""
+"""Maximum number of failing cases that are explained; more would add nothing."""
 VERDICTS = TypeAdapter(CaseResult)
 EXPLORED = TypeAdapter(ScheduleResult)
 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """A case under a setting, which assumes some things."""
+    """A case under a setting, with its assumptions."""
 
     case: int
     name: str
@@ -68,13 +71,13 @@ class Attempt:
 
     @property
     def key(self) -> str:
-        """The same for the same case under the same setting."""
+        """Return the same key for the same case under the same setting."""
         return f"{CASES[self.case].name} [{self.name}] {','.join(self.assumes)}"
 
 
 @dataclass(frozen=True, slots=True)
 class FailedAssumptions:
-    """A case, and what was assumed where it broke, by setting."""
+    """A case, and the assumptions under which it failed, by setting."""
 
     case: int
     rows: Mapping[str, Sequence[str]]
@@ -82,18 +85,21 @@ class FailedAssumptions:
 
 @dataclass(frozen=True, slots=True)
 class DriverUnderTest:
-    """What every worker has: a configuration and its generated system."""
+    """Context of every worker: a configuration and its generated system."""
 
     config: RobotConfig
     system: System
     booted: "dict[str, Starter]" = field(default_factory=dict)
-    """The controller that a worker keeps, by what its setting assumes."""
+    """The worker's current controller, by its setting's assumptions."""
     fresh: BenchPool = field(default_factory=BenchPool)
-    """Those that it keeps for schedules and programs."""
+    """The worker's controllers for schedules and programs."""
 
     @classmethod
     def of(cls, config: RobotConfig) -> "DriverUnderTest":
-        """The driver of a configuration, in its cell. Raises DiagnosticError."""
+        """Return the driver of a configuration.
+
+        Raises DiagnosticError.
+        """
         system = make_system(config, build(config), open_words=True)
         return cls(config, in_its_cell(system, config))
 
@@ -114,15 +120,16 @@ def run_suite(
     results: Path | None = None,
     resume: bool = False,
 ) -> SuiteResult:
-    """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration of
-    `seeds` schedules and so many random motion `programs`, each beside the same one in RAPID.
+    """Run the suite and return its result.
+
+    Runs `cases`, or `only` those named. Without `only` it also explores `seeds` schedules, and
+    compares so many random motion `programs` with the same programs in RAPID.
 
     The answers to any `strength` open questions meet in some setting (0: the default alone);
-    `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
-    `hire`: who works, by default `jobs` processes of this machine.
-    Results are kept in a file, in which `resume` finds those that are known already.
-    A KeyboardInterrupt ends the run; the report has what it had seen, and says so. Raises
-    DiagnosticError RG805, RG810, WorkersLost.
+    `assuming`: in that one only. `progress(what, done, total)` is called for every item. `hire`
+    returns the workers, by default `jobs` processes of this machine. Results are saved in a file;
+    `resume` continues it. A KeyboardInterrupt ends the run; the report has the results so far, and
+    says so. Raises DiagnosticError RG805, RG810, WorkersLost.
     """
     if programs:
         require_programs(config)
@@ -162,7 +169,7 @@ def _explored(
 ) -> None:
     (result,) = each(campaign.workers, range(1), ground)
     guide = ScheduleSelector(result)
-    # Of a run that is broken off, too.
+    # Also for an interrupted run.
     report.curve = guide.curve
     for explored in campaign.run(schedules(seeds, guide)):
         report.schedules += 1
@@ -178,7 +185,7 @@ def _explored(
 def _attempts(
     config: RobotConfig, rows: Mapping[str, tuple[str, ...]], only: Sequence[str]
 ) -> list[Attempt]:
-    """Setting by setting, so that a worker seldom boots."""
+    """Return attempts ordered by setting, so that a worker seldom boots."""
     return [
         Attempt(number, name, rows.get(name, ()), setting)
         for name, setting in settings(config, rows).items()
@@ -200,7 +207,7 @@ def _suite(attempts: Sequence[Attempt]) -> Workload[Attempt, CaseResult]:
 
 
 def schedules(seeds: int, guide: ScheduleSelector) -> Workload[str, ScheduleResult]:
-    """Schedules that a guide names."""
+    """Return schedules that a selector names, as a workload."""
     return Workload(
         "schedules",
         seeds,
@@ -215,7 +222,7 @@ def schedules(seeds: int, guide: ScheduleSelector) -> Workload[str, ScheduleResu
 
 
 def program_results(programs: int) -> Workload[str, ScheduleResult]:
-    """Random programs by number."""
+    """Return random programs by number, as a workload."""
     return Workload(
         "programs",
         programs,
@@ -230,7 +237,10 @@ def program_results(programs: int) -> Workload[str, ScheduleResult]:
 def _explained(
     report: SuiteResult, workers: WorkerPool, progress: Progress | None
 ) -> list[CaseResult]:
-    """The outcomes; those that broke under a hostile setting alone name what is to blame."""
+    """Return the outcomes with the assumptions that explain failures.
+
+    Only cases that fail under a non-default setting alone are explained.
+    """
     broken = [verdict for verdict in report.outcomes if not verdict.passed]
     anyhow = {verdict.case for verdict in broken if not report.rows.get(verdict.setting)}
     work = [
@@ -249,23 +259,23 @@ def _explained(
     return [replace(v, blamed=blame.get((v.case, v.setting), ())) for v in report.outcomes]
 
 
-# -- pieces of work -----------------------------------------------------------------------------
+# -- work items ----------------------------------------------------------------------------------
 
 
 def explain(driver: DriverUnderTest, broken: FailedAssumptions) -> dict[str, tuple[str, ...]]:
-    """By setting, the smallest part of what it assumes that breaks a case."""
+    """Return the smallest failing set of assumptions of a case, by setting."""
 
     def breaks(texts: Sequence[str]) -> bool:
         with Bench(driver.config, driver.system, assumed(texts)) as bench:
             return not _verdict(CASES[broken.case], bench).passed
 
-    # A controller leaves things behind in its process.
+    # A controller leaves state in its process.
     return minimal_assumptions(broken.rows, lambda texts: run_in_fork(lambda: breaks(texts)))
 
 
 def attempt(driver: DriverUnderTest, job: Attempt) -> CaseResult:
-    """A case under a setting."""
-    # Jobs come setting by setting, so one controller is kept.
+    """Run a case under a setting."""
+    # Jobs are ordered by setting, so one controller is kept.
     if job.name not in driver.booted:
         for starter in driver.booted.values():
             starter.close()
@@ -275,12 +285,12 @@ def attempt(driver: DriverUnderTest, job: Attempt) -> CaseResult:
 
 
 def ground(driver: DriverUnderTest, _item: object) -> ScheduleSpace:
-    """What schedules are drawn from."""
+    """Return the set of schedules of a driver."""
     return ground_of(driver.config, driver.system)
 
 
 def schedule(driver: DriverUnderTest, name: str) -> ScheduleResult:
-    """One schedule. Of one in which all held no story is kept."""
+    """Run one schedule; keep its log only if it fails."""
     config, system, fresh = driver.config, driver.system, driver.fresh
     result = ground_of(config, system)
     if not result.fault:
@@ -289,7 +299,7 @@ def schedule(driver: DriverUnderTest, name: str) -> ScheduleResult:
 
 
 def program(driver: DriverUnderTest, name: str) -> ScheduleResult:
-    """One random program. Of one that moved as in RAPID no story is kept."""
+    """Run one random program; keep its log only if it fails."""
     config, system, fresh = driver.config, driver.system, driver.fresh
     for one in (system, called(config, config.groups[0].task)):
         fresh.keep(config, one, PROGRAMS)
@@ -301,25 +311,28 @@ def _kept(tried: ScheduleResult) -> ScheduleResult:
 
 
 def minimised(driver: DriverUnderTest, finding: Counterexample) -> Counterexample:
-    """The same finding in the smallest schedule that has it."""
+    """Return the finding in the smallest schedule that has it."""
     name = named(finding.schedule)
     steps = len(drawn(name, ground_of(driver.config, driver.system)).steps)
     return smaller(name, steps, finding, lambda tried: schedule(driver, str(tried)).finding)
 
 
 class Starter:
-    """A booted controller from which each case starts anew, in a process of its own."""
+    """A booted controller; each case starts from a copy, in a process."""
 
     def __init__(self, config: RobotConfig, system: System, setting: Setting) -> None:
         self._bench = Bench(config, system, setting)
         self._bench.compile()
 
     def attempt(self, case: SuiteCase) -> CaseResult:
-        """One case; faults of the driver are outcomes, faults of ours fly."""
+        """Run one case.
+
+        Faults of the driver are outcomes; faults of this program raise.
+        """
         return run_in_fork(lambda: _verdict(case, self._bench))
 
     def close(self) -> None:
-        """Give the controller back."""
+        """Release the controller."""
         self._bench.close()
 
 
@@ -333,7 +346,7 @@ def _verdict(case: SuiteCase, bench: Bench) -> CaseResult:
         untried = str(why)
     except FAILURES as error:
         detail = str(error) or type(error).__name__
-    # The case's function may be none that can be sent from process to process.
+    # The case's function may not be picklable.
     return CaseResult(
         case=case.name,
         group=case.group,
@@ -356,7 +369,10 @@ def replay(
     trace: TextIO | None = None,
     record: Recording | None = None,
 ) -> ScheduleResult:
-    """One schedule or random program again, exactly; every statement of RAPID goes to `trace`."""
+    """Repeat one schedule or random program exactly.
+
+    Every statement of RAPID is written to `trace`.
+    """
     driver = DriverUnderTest.of(config)
     if is_program(name):
         return compare_program(driver.config, driver.system, name, trace, record)

@@ -1,7 +1,23 @@
-"""A virtual controller with the driver on it, raw clients, and a record of what the robot did.
+"""Test bench: virtual controller with the driver, clients and a record.
 
-The clients speak bytes and know nothing of the modules, so that what they prove holds for any
+The clients send bytes and share no code with the Python client, so that results hold for any
 client. Positions are the controller's axes, rad and m, in wire order.
+
+Rules of the bench:
+
+- Time is simulated. It passes only in `run`, `until` and the `wait_...` methods, and in a RawLink
+  that waits. A check between two of them sees one moment.
+- The record holds the robot's position with the time of its first sample. It is sampled every 4 ms
+  while the robot moves and every 100 ms while it stands. Sampling never executes a task.
+- All random choices of the controller come from the setting's seed, so that a case gives the same
+  result on each run. Tracing does not change them.
+- `assert_...` methods and the functions in `position_checks` raise CheckFailed with the expected
+  and the observed value. The runner reports CheckFailed, Deadlock, FatalError and NetworkFault as
+  failures of the driver. Any other exception is a fault of the suite.
+- `beside` boots another controller, which has a clock of its own; its caller closes it.
+  `of_group` returns a bench of another motion group on the same controller.
+- The motion task drops data that arrives before the robot has settled. The constructor therefore
+  waits for that, unless the setting is `early`.
 """
 
 import math
@@ -40,33 +56,33 @@ from rapidgen.verification.raw_connection import RawLink, point_frame
 from rapidgen.verification.settings import Setting
 
 Lines: TypeAlias = dict[str, dict[int, int]]
-"""How often each line of RAPID with a statement was reached, by module file."""
+"""Execution counts of RAPID lines with a statement, by module file."""
 
 HELLO = RawHello(PROTOCOL_VERSION, (0, 0, 0), 1)
-"""As a client says it that wants PROGRESS."""
+"""HELLO of a client that requests PROGRESS."""
 
 FAILURES = (CheckFailed, Deadlock, FatalError, NetworkFault)
-"""What a driver's fault looks like from here; anything else is a fault of ours."""
+"""Exceptions that mean a fault of the driver; all others are faults of the suite."""
 
 SAMPLE = 4_000_000
 """ns between two samples of the record while the robot moves, by default ..."""
 SAMPLE_STANDING = 100_000_000
-"""... and while it stands and says so."""
+"""... and while it stands and reports so."""
 CEILING = 5.0
-"""m/s: below it the TCP of a group has a ceiling that its driver looks at."""
+"""m/s: below it, the driver checks the TCP speed of a group."""
 _PIECES = 60
-"""Of a way, to see how fast the TCP is on it."""
+"""Pieces of a path, to find the fastest TCP speed on it."""
 LATE = 59_901
-"""Event of the virtual controller: moves took longer than told.
+"""Event of the virtual controller: moves took longer than programmed.
 
-That they do not take much longer is measured.
+The excess itself is measured elsewhere.
 """
 CORNER_FAILURE = 50_024
 """Event: a move with a zone ended as a stop point, because the next one came too late."""
 
 
 class Bench:
-    """A booted driver, ready to be asked for things."""
+    """A virtual controller running the driver, with raw test clients."""
 
     def __init__(
         self,
@@ -78,7 +94,7 @@ class Bench:
     ) -> None:
         """Boot.
 
-        `robots`: the controller's, where they are not the configuration's.
+        `robots`: the controller's robots, if they differ from the configuration's.
         """
         self.config = config
         self._robots = robots or config.groups
@@ -93,7 +109,7 @@ class Bench:
         """ns between two samples while the robot moves."""
         self.track: list[tuple[float, Position]] = []
         self.commanded: list[tuple[float, list[Point]]] = []
-        """Downloads that were sent to their end, and when."""
+        """Complete downloads, with times."""
         self._next = self.controller.scheduler.after(0, self._sample)
         self.motion_group.changed.add(self._sample)
 
@@ -107,19 +123,21 @@ class Bench:
             dialect=self.setting.dialect,
             costs=self.setting.costs,
             faults=self.setting.faults,
-            # A schedule must be the same when it is traced, which is done by statement.
+            # A schedule must not change when it is traced, and tracing works by statement.
             accounting="statement" if self.setting.random_schedule else "block",
             tracing=self.setting.coverage or self.setting.tracing,
         )
         controller.motion.settings = self.setting.motion
         if self.setting.motion.settle > 0:
-            # The motion task begins when the robot has settled, and drops what came before.
+            # The motion task starts when the robot has settled, and drops data received before.
             controller.run_for(2 * self.setting.motion.settle)
         return controller
 
     def begin(self, setting: Setting) -> None:
-        """Let a controller of which nothing has run yet go on as if booted with these chances and
-        this network."""
+        """Start a new controller as if booted with this setting's seed and network.
+
+        No task of the controller may have run yet.
+        """
         network = self.controller.network
         assert isinstance(network, FaultyNetwork)
         self.setting = setting
@@ -127,7 +145,7 @@ class Bench:
         network.obey(setting.faults.network)
 
     def replace_module(self, task: str, module: ModuleFile) -> None:
-        """Load another module instead of the one of its name, while nothing of it runs."""
+        """Replace a module of the same name while none of its code runs."""
         program = self.controller.rapid_tasks[task].program
         program.unload(module.name)
         program.load([(self.controller.parse_module(module), module)])
@@ -138,16 +156,16 @@ class Bench:
         robots: Sequence[GroupConfig] = (),
         setting: Setting | None = None,
     ) -> "Bench":
-        """Another controller with another system, other robots or another setting.
+        """Boot another controller with another system, robots or setting.
 
-        Whoever asks for it closes it.
+        The caller closes it.
         """
         other = Bench(self.config, system, setting or self.setting, robots)
         self._beside.append(other)
         return other
 
     def of_group(self, number: int) -> "Bench":
-        """Another motion group of the same controller; it is closed with this one."""
+        """Return the bench of another motion group; it closes with this one."""
         return Bench(
             self.config,
             self.system,
@@ -158,24 +176,24 @@ class Bench:
 
     @property
     def motion_group(self) -> MotionGroup:
-        """This group on the controller."""
+        """Return this group on the controller."""
         return self.controller.motion.group(self.group.name)
 
     @property
     def mechanical_unit(self) -> str:
-        """Mechanical unit group of this group's tasks."""
+        """Return the mechanical unit group of this group's tasks."""
         tasks = {task.name: task for task in self.system.tasks}
         return tasks[self.group.task].mechanical_unit_group
 
     def lines(self) -> Lines:
-        """Lines of RAPID that were reached here and beside; empty without `coverage`."""
+        """Return reached RAPID lines of all benches; empty without `coverage`."""
         result = self._coverage.lines() if self._coverage is not None else {}
         for other in self._beside:
             add_lines(result, other.lines())
         return result
 
     def _sample(self) -> None:
-        """Keep the position when it has changed; look less often while the robot stands."""
+        """Record a changed position; sample less often while the robot stands."""
         current = self.position
         if not self.track or current != self.track[-1][1]:
             self.track.append((self.now, current))
@@ -184,7 +202,7 @@ class Bench:
         self._next = self.controller.scheduler.after(wait, self._sample)
 
     def close(self) -> None:
-        """Give the controller back."""
+        """Release the controller."""
         self.controller.close()
 
     def __enter__(self) -> Self:
@@ -197,7 +215,7 @@ class Bench:
 
     @property
     def now(self) -> float:
-        """Simulated seconds."""
+        """Return the simulated seconds."""
         return self.controller.now
 
     def run(self, seconds: float) -> None:
@@ -205,7 +223,7 @@ class Bench:
         self.controller.run_for(seconds)
 
     def until(self, condition: Callable[[], bool], seconds: float, what: str) -> None:
-        """Let time pass until `condition`; Broken when it did not come within `seconds`."""
+        """Let time pass until `condition`; fail after `seconds`."""
         if not self.controller.run_until(condition, timeout=seconds):
             raise CheckFailed(f"{what}: not within {seconds:g} s")
 
@@ -213,16 +231,16 @@ class Bench:
 
     @property
     def position(self) -> Position:
-        """Where the axes of the first group are."""
+        """Return the axes of the first group."""
         return tuple(self.motion_group.positions())
 
     @property
     def standing(self) -> bool:
-        """Whether the first group stands."""
+        """True if the first group stands."""
         return self.motion_group.is_standing
 
     def wait_until_moving(self, seconds: float = 5) -> None:
-        """Wait for the robot to begin to move."""
+        """Wait for the robot to start moving."""
         self.until(lambda: not self.standing, seconds, "the robot begins to move")
 
     def wait_until_standing(self, seconds: float = 60) -> None:
@@ -245,43 +263,46 @@ class Bench:
         )
 
     def start_again(self) -> None:
-        """What an operator does after a stop of any kind: automatic mode, motors on, Start."""
+        """Restart as an operator does after a stop.
+
+        Automatic mode, motors on, Start.
+        """
         for action in ("reset-e-stop", "auto", "motors-on", "start"):
             self.controller.perform(action)
 
     def assert_at_rest(self, seconds: float, why: str) -> None:
-        """Let time pass; Broken when the robot moved meanwhile."""
+        """Let time pass; check that the robot does not move."""
         before, start = self.position, len(self.track)
         self.run(seconds)
         still(self.track[start:], before, why)
 
     def wait_until_at_rest(self, within: float, then: float, why: str) -> None:
-        """Wait until the robot has come to rest; Broken when it moves in the s `then`."""
+        """Wait until the robot rests; check that it stays so for `then` s."""
         self.wait_until_standing(within)
         self.assert_at_rest(then, why)
 
     def followed(self, path: Sequence[Position], *, since: float, corner: float = 0.05) -> None:
-        """Broken unless the robot was on a prefix of `path` since then (`on_path`)."""
+        """Check that the robot followed a prefix of `path` since then (`on_path`)."""
         on_path([sample for sample in self.track if sample[0] >= since], path, corner)
 
     def arrives(self, points: Sequence[Point], since: float, seconds: float) -> None:
-        """Wait until the robot stands at the last point; Broken unless it was on the way to it."""
+        """Wait until the robot is at the last point; check its path."""
         self.wait_until_at(points[-1][0], seconds)
         self.executed(points, since)
 
     def executed(self, points: Sequence[Point], since: float) -> None:
-        """Broken unless the robot was on the way through these points since then."""
+        """Check that the robot followed these points since then."""
         self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
 
     def forget(self) -> None:
-        """Drop the record so far, for campaigns that would not end in the memory there is."""
+        """Discard the record so far, to limit the memory of long campaigns."""
         del self.track[:-1]
         self.commanded.clear()
 
     # -- the program ----------------------------------------------------------------------------
 
     def task(self, module: str) -> str:
-        """Name of this group's task that runs a module."""
+        """Return the name of this group's task that runs a module."""
         for task in self.system.tasks:
             names = [m.name.casefold() for m in task.modules]
             if task.mechanical_unit_group == self.mechanical_unit and module.casefold() in names:
@@ -289,27 +310,27 @@ class Bench:
         raise KeyError(module)
 
     def rapid_task(self, module: str) -> Task:
-        """The running task of this group that has a module."""
+        """Return the running task of this group that has a module."""
         return self.controller.rapid_tasks[self.task(module)]
 
     def compile(self) -> None:
-        """Compile all RAPID now, not on first call: copies of this bench then need not."""
+        """Compile all RAPID now, so that copies of this bench need not."""
         for task in self.controller.rapid_tasks.values():
             with suppress(CannotCompile):
                 task.program.find_initial_values()
             for module in task.program.modules.values():
                 for routine in module.routines.values():
-                    # What cannot be linked ends its task when it is called, not here.
+                    # A link error ends its task when it is called, not here.
                     with suppress(FatalError):
                         task.program.function(routine)
 
     def waits_in(self, module: str, instruction: str) -> bool:
-        """Whether a module's task is at that instruction now."""
+        """True if a module's task is at that instruction now."""
         stack = self.controller.task(self.task(module)).stack
         return bool(stack) and instruction in self._statement(stack[-1].span)
 
     def _statement(self, span: Span) -> str:
-        """The line of RAPID at a place."""
+        """Return the line of RAPID at a place."""
         data = next(
             (m.data for t in self.system.tasks for m in t.modules if m.path == span.path), b""
         )
@@ -319,15 +340,15 @@ class Bench:
     # -- clients --------------------------------------------------------------------------------
 
     def motion(self) -> RawLink:
-        """A new connection to the motion server."""
+        """Open a connection to the motion server."""
         return self._link(self.group.ports.motion)
 
     def state(self, *, reading: bool = True) -> RawLink:
-        """A new connection to the state server."""
+        """Open a connection to the state server."""
         return self._link(self.group.ports.state, reading=reading)
 
     def control(self) -> RawLink:
-        """A new connection to the control server, where the configuration has one."""
+        """Open a connection to the control server, if configured."""
         return self._link(self.group.ports.control)
 
     def _link(self, port: int, *, reading: bool = True, address: str = "") -> RawLink:
@@ -337,38 +358,38 @@ class Bench:
 
     @property
     def address(self) -> str:
-        """Where a client of ours comes from: an address that the configuration allows."""
+        """Return a client address that the configuration allows."""
         return next(iter(self.config.allowed_clients), "127.0.0.1")
 
     def connect_unlisted(self, port: int) -> RawLink:
-        """A connection from an address that no configuration allows."""
+        """Connect from an address that no configuration allows."""
         return self._link(port, address="203.0.113.77")
 
     def status(self, link: RawLink, seconds: float = 2) -> RawStatus:
-        """The next STATUS on a state connection."""
+        """Return the next STATUS on a state connection."""
         link.read()
         return link.expect(RawStatus, seconds, "a STATUS arrives")
 
     def watcher(self) -> RawLink:
-        """A new connection to the state server that asked for PROGRESS."""
+        """Open a connection to the state server that requests PROGRESS."""
         link = self.state()
         self.send_hello(link)
         return link
 
     def send_hello(self, link: RawLink, subscribe: int = 1) -> RawHelloReply:
-        """HELLO on a state connection, and its answer."""
+        """Send HELLO on a state connection and return the reply."""
         link.send(encode(HELLO._replace(subscribe=subscribe), RawComm.REQUEST))
         return link.expect(RawHelloReply, 2, "HELLO is answered")
 
     def progress(self, link: RawLink, seconds: float = 2) -> RawProgress:
-        """The next PROGRESS on a connection that asked for it."""
+        """Return the next PROGRESS on a connection that requested it."""
         link.read()
         return link.expect(RawProgress, seconds, "a PROGRESS arrives")
 
     # -- trajectories ---------------------------------------------------------------------------
 
     def wave(self, count: int, *, duration: float = 0.4, size: float = 0.06) -> list[Point]:
-        """`count` points from where the robot stands, back and forth within limits and speeds."""
+        """Return `count` points from here, back and forth within limits."""
         current = self.position
         steps = [self._step(axis, current, duration, size) for axis in range(len(current))]
         shares = [
@@ -392,33 +413,33 @@ class Bench:
 
     @property
     def last_event(self) -> int:
-        """Sequence number of the newest event in the log; 0: there is none."""
+        """Return the number of the newest event in the log; 0: none."""
         return max((event.sequence for event in self.controller.log), default=0)
 
     def start_tolerance(self, joint: Joint) -> float:
-        """rad or m that the first point of a trajectory may be away from the robot."""
+        """Return the start tolerance of a joint, rad or m."""
         policy = self.config.trajectory
         linear = joint.kind == "prismatic"
         return policy.start_tolerance_linear if linear else policy.start_tolerance
 
     def seconds_to(self, target: Position) -> float:
-        """s to a point from here: half of each axis' speed is enough, and the TCP's ceiling."""
+        """Return s to a point: half speed, below the TCP speed limit."""
         current = self.position
         joints = zip(self.group.joints, current, target, strict=True)
         needed = [2 * abs(there - value) / joint.speed for joint, value, there in joints]
         return max(0.5, 1.1 * self.tcp_seconds(current, target), *needed)
 
     def tcp(self, place: Position) -> tuple[float, ...]:
-        """Where the TCP is (m) when the axes are at a place."""
+        """Return the TCP (m) of an axis position."""
         geometry = self.motion_group.kinematics
         assert geometry is not None
         tool = (self.group.tool.frame.position, self.group.tool.frame.orientation)
         return frames.compose(geometry.forward(place), tool)[0]
 
     def tcp_seconds(self, start: Position, end: Position) -> float:
-        """s from one point to another, the TCP at its ceiling where it is fastest.
+        """Return s between two points with the TCP at its speed limit.
 
-        0 where there is none below what every robot may do.
+        0 if the configuration sets no limit below the standard one.
         """
         limit = self.group.tcp_speed_limit
         if limit >= CEILING or self.motion_group.kinematics is None:
@@ -438,7 +459,7 @@ class Bench:
         return step if room_up >= room_down else -step
 
     def download(self, points: Sequence[Point], comm: RawComm = RawComm.TOPIC) -> bytes:
-        """The frames of a trajectory as the ROS-Industrial node sends them."""
+        """Return a trajectory's frames as the ROS-Industrial node sends them."""
         return b"".join(
             point_frame(number, len(points), joints, duration, comm)
             for number, (joints, duration) in enumerate(points)
@@ -446,27 +467,28 @@ class Bench:
 
     @property
     def streams(self) -> bool:
-        """Whether the driver takes points while it executes those before."""
+        """True if the driver accepts points while it executes earlier ones."""
         return self.config.profile == "full"
 
     def way_to(self, place: Position) -> list[Point]:
-        """A trajectory from where the robot stands."""
+        """Return a trajectory from the current position."""
         return [(self.position, 1.0), (place, self.seconds_to(place))]
 
     def start_motion(
         self, link: RawLink, points: Sequence[Point], then: float | None = None
     ) -> None:
-        """Send a trajectory, wait for the robot to move, and let it move for `then` s."""
+        """Send a trajectory, wait for motion, and let it move for `then` s."""
         link.send(self.download(points))
         self.wait_until_moving()
         if then is not None:
             self.run(then)
 
     def assert_moves_through(self, link: RawLink, points: Sequence[Point]) -> None:
-        """Send a trajectory and see it executed whole, in order, in time and without a complaint.
+        """Send a trajectory; check that it is executed completely and in time.
 
-        With full speed in automatic mode, that is. Where no task is sure of its turn a corner may
-        be a stop point (`Setting.corners_in_time`); the way and its time are the same there.
+        This needs full speed in automatic mode, and no warning may be logged. If no task is sure of
+        its turn, a corner may be a stop point (`Setting.corners_in_time`); path and time are the
+        same there.
         """
         since, requested = self.now, sum(d for _, d in points[1:])
         last = self.last_event
@@ -487,20 +509,20 @@ class Bench:
             raise CheckFailed(f"the controller complains of the motion: {complaints[0]}")
 
     def track_at(self, when: float) -> Position:
-        """Where the robot was at a time."""
+        """Return the robot's position at a time."""
         for time, seen in reversed(self.track):
             if time <= when:
                 return seen
         return self.track[0][1] if self.track else self.position
 
     def assert_healthy(self) -> None:
-        """Broken when a task has ended with an error: nothing that happens may do that."""
+        """Check that no task has ended with an error."""
         for name, task in self.controller.tasks.items():
             if task.state == "error":
                 raise CheckFailed(f"task {name} ended with an error: {task.fault}")
 
     def log(self) -> tuple[str, ...]:
-        """Event log and program positions with their statements, for a failure's report."""
+        """Return event log and program positions, for a failure's report."""
         events = [str(event) for event in self.controller.log]
         places = []
         for name, task in self.controller.tasks.items():
@@ -514,7 +536,7 @@ class Bench:
 
 
 def add_lines(to: Lines, more: Lines) -> None:
-    """Add up how often lines were reached."""
+    """Add execution counts of lines."""
     for path, lines in more.items():
         own = to.setdefault(path, {})
         for line, hits in lines.items():
@@ -522,7 +544,7 @@ def add_lines(to: Lines, more: Lines) -> None:
 
 
 def with_module(system: System, path: str, data: bytes) -> System:
-    """The system with the text of one module file replaced, in every task that loads it."""
+    """Return the system with one module file replaced in every task."""
     return replace(
         system,
         tasks=tuple(

@@ -1,11 +1,10 @@
-"""Work on several processes of this machine, and a function in a copy of this one.
+"""Process pool of this machine, and a function call in a fork.
 
-A piece of work is a module's function of a context, which every worker has from the start, and of
-an item. Its result depends on nothing else, so it does not matter who does it, nor how often: a
-piece whose worker was lost is given to another one. `cluster.py` has workers of other machines.
+A work item is a module's function of a context, which every worker has from the start, and of an
+argument. Its result depends on nothing else, so any worker may do it, more than once: the item of a
+lost worker is given to another one. `cluster.py` has workers of other machines.
 
-A booted controller is copied by a fork in a few milliseconds; whatever is done to the copy ends
-with it.
+A fork copies a booted controller in a few milliseconds; changes to the copy end with it.
 """
 
 import gc
@@ -28,24 +27,24 @@ from rapidgen.machine.files import remove_scratch_folders
 R = TypeVar("R")
 
 TRIES = 3
-"""Workers that may be lost with a piece before it is taken for what ends them."""
+"""Workers that an item may end before it counts as the cause."""
 LOOK = 0.5
-"""s between two looks at the clock while results are awaited."""
+"""s between two looks at the clock while waiting for results."""
 
 
 class ForkFailed(Exception):
-    """The copy ended without a result: killed, or by a fault of the interpreter."""
+    """The fork ended without a result: killed, or an interpreter fault."""
 
 
 class RaisedElsewhere(Exception):
-    """Why another process raised something: its text is the traceback from there."""
+    """Reason of an exception in another process: its traceback as text."""
 
     def __str__(self) -> str:
         return f"\n{self.args[0]}"
 
 
 class WorkersLost(Exception):
-    """A piece ended every worker that it was given to, or there is none left."""
+    """An item ended every worker that it was given to, or none is left."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +58,7 @@ class Call:
     """Workers that ended with it."""
 
     def again(self) -> "Call":
-        """The same for another worker.
+        """Return the same call for another worker.
 
         Raises WorkersLost when it has ended too many.
         """
@@ -70,31 +69,31 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class CachedResult:
-    """A result that is there already."""
+    """A known result."""
 
     result: object
 
 
 class WorkerPool(Protocol):
-    """Who does pieces of work; on this machine or on others."""
+    """Workers on this machine or on others."""
 
     def room(self) -> bool:
-        """Whether a further piece would be begun now, or soon."""
+        """True if the pool could start another item now, or soon."""
 
     def give(self, piece: Call) -> None:
-        """Have a piece done."""
+        """Submit an item."""
 
     def come(self, seconds: float) -> list[tuple[int, object]]:
-        """Results that have come, by number; waits for one, but not longer than that.
+        """Return finished results by number; wait at most `seconds` for one.
 
-        Raises what a piece has raised, and WorkersLost.
+        Raises the exception of an item, and WorkersLost.
         """
 
     def __enter__(self) -> Self:
-        """They are there."""
+        """Start the workers."""
 
     def __exit__(self, *_: object) -> None:
-        """They end what they are at, and go."""
+        """Finish current items and stop the workers."""
 
 
 def in_order(
@@ -104,10 +103,10 @@ def in_order(
     needs: Callable[[int], int] = lambda number: 0,
     over: Callable[[], bool] = lambda: False,
 ) -> Iterator[object]:
-    """Results of `total` pieces, in their order.
+    """Yield results of `total` items in order.
 
-    A piece is made once the results of the first `needs(number)` ones have been taken, so it may
-    depend on them. Once `over()` none is begun any more; those under way still come.
+    An item is created once the first `needs(number)` results are available, so it may depend on
+    them. After `over()` is true no new item starts; those in progress still finish.
     """
     given = accepted = 0
     results: dict[int, object] = {}
@@ -129,13 +128,13 @@ def in_order(
 
 
 def each(workers: WorkerPool, work: Sequence[object], function: Callable[..., R]) -> Iterator[R]:
-    """Results of a function for each piece of work, in order."""
+    """Yield results of a function for each item, in order."""
     for result in in_order(workers, len(work), lambda n: Call(n, function, work[n])):
         yield cast(R, result)
 
 
 class LocalPool:
-    """Processes of this machine, copies of this one: they have the context by that."""
+    """Processes of this machine; forks of this one inherit the context."""
 
     def __init__(self, context: object, jobs: int | None = None) -> None:
         self._context = context
@@ -151,23 +150,23 @@ class LocalPool:
         self.close()
 
     def processes(self) -> list[int]:
-        """Process ids of the workers."""
+        """Return process ids of the workers."""
         return [process.pid for process in self._processes.values() if process.pid is not None]
 
     def room(self) -> bool:
-        """Whether a worker has nothing to do."""
+        """True if a worker is idle."""
         return None in self._pieces.values()
 
     def give(self, piece: Call) -> None:
-        """Have a piece done by a worker that has nothing to do."""
+        """Submit an item to an idle worker."""
         idle = next(one for one, busy in self._pieces.items() if busy is None)
         self._pieces[idle] = piece
-        # Of a worker that is gone `come` hears, too.
+        # `come` also handles a worker that has ended.
         with suppress(BrokenPipeError, ConnectionResetError):
             idle.send((piece.function, piece.item))
 
     def come(self, seconds: float) -> list[tuple[int, object]]:
-        """Results that have come; a worker that was lost is replaced."""
+        """Return finished results; replace a lost worker."""
         failures: list[tuple[int, object]] = []
         for connection in wait([one for one, busy in self._pieces.items() if busy], seconds):
             assert isinstance(connection, Connection)
@@ -187,13 +186,13 @@ class LocalPool:
         return failures
 
     def close(self) -> None:
-        """Let the workers end what they are at, and go."""
+        """Let the workers finish their items, and stop them."""
         for connection in list(self._processes):
             self._dismiss(connection)
 
     def _hire(self) -> None:
         ours, theirs = get_context("fork").Pipe()
-        # Whoever holds another worker's end keeps that one from seeing that this process is gone.
+        # A copy of another worker's connection end would hide the end of this process.
         others = (*self._processes, ours)
         process = get_context("fork").Process(
             target=_work, args=(theirs, others, self._context), daemon=True
@@ -217,8 +216,8 @@ def _work(connection: Connection, others: Sequence[Connection], context: object)
 
 
 def serve(connection: Connection, context: object) -> None:
-    """What a worker does: calls that come are done, until nobody is there any more."""
-    # An interruption is for whoever gives the work.
+    """Do calls of a connection until it closes."""
+    # The parent process handles interruptions.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for number in (signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
@@ -233,7 +232,7 @@ def serve(connection: Connection, context: object) -> None:
 
 
 def run_in_fork(function: Callable[[], R]) -> R:
-    """The result of `function`, or what it raised.
+    """Return the result of `function` in a fork, or raise its exception.
 
     Raises ForkFailed when there is neither.
     """
@@ -242,7 +241,7 @@ def run_in_fork(function: Callable[[], R]) -> R:
         child = os.fork()
     if child == 0:
         os.close(reading)
-        # What is there stays there: nobody looks whether it is garbage.
+        # Objects of the parent stay: the collector does not examine them.
         gc.freeze()
         _answer(function, writing)
     os.close(writing)
@@ -260,14 +259,14 @@ def run_in_fork(function: Callable[[], R]) -> R:
 
 @contextmanager
 def _no_matter_of_threads() -> Iterator[None]:
-    """Threads of a test runner do not matter: the copy uses none of their locks."""
+    """Ignore warnings about threads: the fork uses none of their locks."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DeprecationWarning)
         yield
 
 
 def _outcome(function: Callable[[], object]) -> tuple[bool, object]:
-    """Whether a call returned, and what it returned or raised."""
+    """Return success, and the result or exception of a call."""
     try:
         return True, function()
     except Exception as error:  # noqa: BLE001 - handed to whoever asked, who raises it
@@ -275,7 +274,7 @@ def _outcome(function: Callable[[], object]) -> tuple[bool, object]:
 
 
 def reraise(outcome: object) -> NoReturn:
-    """Raise what another process has raised, with where that was."""
+    """Raise an exception of another process, with its traceback."""
     error, where = cast(tuple[Exception, str], outcome)
     raise error from RaisedElsewhere(where)
 

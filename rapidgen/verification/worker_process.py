@@ -1,8 +1,8 @@
-"""A process of a Dask worker that does its work: `python -m rapidgen.verification.worker_process`.
-rapidgen.verification.worker_process`.
+"""Worker process of a Dask worker.
 
-A Dask worker has threads; a controller that is copied by a fork wants none. What is written to the
-engine is what a local worker gets, behind the context.
+Run by `python -m rapidgen.verification.worker_process`. A Dask worker has threads; a controller
+that is copied by a fork must have none. The process gets the same input as a local worker, after
+the context.
 """
 
 import socket
@@ -15,14 +15,14 @@ from rapidgen.verification.worker_pool import serve
 
 
 class WorkerProcessLost(Exception):
-    """The engine ended with a piece of work."""
+    """The process ended during an item."""
 
 
 class WorkerProcess:
-    """The process, from the side of its worker."""
+    """The process, seen from its Dask worker."""
 
     def __init__(self, context: bytes) -> None:
-        """Start it with a pickled context."""
+        """Start the process with a pickled context."""
         ours, theirs = socket.socketpair()
         with theirs:
             values = [
@@ -36,7 +36,7 @@ class WorkerProcess:
         self._connection.send_bytes(context)
 
     def work(self, function: Callable[..., object], item: object) -> tuple[bool, object]:
-        """Whether a call returned, and what it returned or raised.
+        """Return success, and the result or exception of a call.
 
         Raises WorkerProcessLost.
         """
@@ -49,13 +49,13 @@ class WorkerProcess:
         return outcome
 
     def close(self) -> None:
-        """Let it end what it is at, and go."""
+        """Let it finish its item, and stop it."""
         self._connection.close()
         self._process.wait()
 
 
 def main() -> None:
-    """Serve whoever has the other end of the socket."""
+    """Serve the other end of the socket."""
     connection = Connection(int(sys.argv[1]))
     serve(connection, connection.recv())
 
