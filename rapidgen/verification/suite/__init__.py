@@ -1,4 +1,4 @@
-"""The behaviours that a generated driver must have: one file a theme."""
+"""Required behaviours of a generated driver: one file for each topic."""
 
 from rapidgen.verification.case import SuiteCase, SuiteGroup
 from rapidgen.verification.suite import (

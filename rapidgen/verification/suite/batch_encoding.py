@@ -1,4 +1,4 @@
-"""Batches as bytes: in pieces, as topics, just in time, damaged, and of a shape that none has."""
+"""Batches as bytes: in pieces, as topics, late, damaged or malformed."""
 
 import random
 import struct
@@ -17,7 +17,7 @@ case = SuiteGroup("streaming", needs="stream")
 
 @case("batch-pieces", "a stream in pieces of every size", "R2")
 def _in_pieces(bench: Bench) -> None:
-    """Two batches and a PING behind them; TCP cuts where it likes."""
+    """Send two batches and a PING, with TCP segments of any size."""
     link = bench.motion()
     for number, size in enumerate((1, 3, 7, 15, 16, 17, 31, 500, 1000, 1020, 100_000), 1):
         points, since = way(bench, 24, 0.12), bench.now
@@ -57,7 +57,10 @@ def _as_topics(bench: Bench) -> None:
 
 @case("batch-in-time", "a batch that comes while the last point is approached", "R9")
 def _just_in_time(bench: Bench) -> None:
-    """Whenever it comes all points are passed, in order, and no corner is without a successor."""
+    """Send each batch just in time.
+
+    The robot passes all points in order, and every corner has a successor.
+    """
     link = bench.motion()
     seconds = max(0.2, 1.05 * bench.config.trajectory.min_segment)
     for number in range(1, 13):
@@ -73,7 +76,7 @@ def _just_in_time(bench: Bench) -> None:
 
 @case("batch-damage", "random damage of a batch moves nothing but what was sent", "R3")
 def _damage(bench: Bench) -> None:
-    """Any bytes changed or cut: what is executed is a prefix of the way."""
+    """Change or cut random bytes: only a prefix of the path is executed."""
     chance = random.Random(bench.setting.seed)
     for _ in range(20):
         points, since = way(bench, 24, 0.12), bench.now
@@ -92,7 +95,7 @@ def _damage(bench: Bench) -> None:
 
 @case("batch-shapes", "batches of a shape that none has", "R2")
 def _shapes(bench: Bench) -> None:
-    """Comm types, no head, words in another order, counts and lengths that do not fit."""
+    """Send wrong comm types, heads, word orders, counts and lengths."""
     points = way(bench, 10)
     for comm in (0, 3, 7):
         link = bench.motion()

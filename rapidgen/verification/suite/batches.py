@@ -1,4 +1,4 @@
-"""Batches of points one by one: what each reply says, and each way to spoil one."""
+"""Single batches of points: contents of each reply, and invalid batches."""
 
 import random
 
@@ -23,7 +23,7 @@ _LARGEST = 2**23 - 1
 
 @case("batch-replies", "replies to batches: counts, room, state")
 def _replies(bench: Bench) -> None:
-    """Each reply has the stream, its trajectory, the points taken, room and progress."""
+    """Check stream, trajectory, accepted points, space and progress of replies."""
     watcher, ring = bench.watcher(), bench.config.trajectory.ring
     stream = Streamer(bench, number=_LARGEST)
     points = way(bench, 40)
@@ -37,8 +37,8 @@ def _replies(bench: Bench) -> None:
             )
         if not reply.reached <= reply.planned <= reply.accepted:
             raise CheckFailed(f"counts of a reply do not fit each other: {reply}")
-        # Points may be taken out between the two readings, of planned and then of room: the first
-        # ones, which are short, as fast as they come, if the tasks' turns fall so.
+        # The motion task may take points between the two readings, of planned and then of space:
+        # the first points are short, and random task order decides how many.
         setting = bench.setting
         otherwise = setting.seed or setting.group or setting.random_schedule
         between = 4 if otherwise or setting.slowness > 1 else 0
@@ -72,7 +72,7 @@ def _replies(bench: Bench) -> None:
 
 @case("batch-strange", "batches of no stream", "C4")
 def _strange(bench: Bench) -> None:
-    """A batch of no stream is refused for itself, and nothing is told of any trajectory."""
+    """Send a batch of no stream: the reply does not concern a trajectory."""
     stream = Streamer(bench, number=7)
     points = way(bench, 4)
     for number, flags in ((7, _NONE), (7, END), (0, BEGIN), (0, _NONE), (_LARGEST + 1, BEGIN)):
@@ -99,7 +99,7 @@ def _spoilt(frame: bytes, place: int) -> bytes:
 
 @case("batch-no-number", "numbers that no batch has", "R2")
 def _no_number(bench: Bench) -> None:
-    """Eight bytes of ones, two numbers that nobody sends, anywhere in a batch."""
+    """Send eight bytes of ones (two invalid numbers) anywhere in a batch."""
     last = len(Streamer(bench, number=3).frame(way(bench, 4), BEGIN)) - 8
     for place, whose in ((16, 0), (24, 3), (32, 3), (40, 3), (last - 8, 3), (last, 3)):
         stream = Streamer(bench, number=3)
@@ -119,7 +119,10 @@ def _no_number(bench: Bench) -> None:
 
 @case("batch-beginning", "a damaged beginning while a stream moves")
 def _damaged_beginning(bench: Bench) -> None:
-    """A damaged beginning of another stream ends nothing; of the same one it cuts that."""
+    """Damage the start of a stream.
+
+    The start of another stream ends nothing; the start of the current one cuts it.
+    """
     for number in (4, 3):
         stream, since = Streamer(bench, number=3), bench.now
         points = way(bench, 24)
@@ -145,7 +148,7 @@ def _damaged_beginning(bench: Bench) -> None:
 
 @case("batch-enough", "just enough points to begin with")
 def _enough(bench: Bench) -> None:
-    """Just as many seconds as are to wait in the ring are enough; without the last they are not."""
+    """Preload exactly the required seconds, and then one point less."""
     preload = bench.config.trajectory.preload
     duration = preload / 4
     if duration < 1.05 * bench.config.trajectory.min_segment:
@@ -165,7 +168,7 @@ def _enough(bench: Bench) -> None:
 
 @case("batch-not-now", "a stream while no motion is possible", "R7a", background=True)
 def _not_now(bench: Bench) -> None:
-    """A stream that begins while no motion is possible is refused, like a download."""
+    """Start a stream while no motion is possible: rejected, like a download."""
     for action, reasons in (
         ("stop", (RawReason.NOT_EXECUTING,)),
         ("e-stop", (RawReason.EMERGENCY_STOP, RawReason.MOTORS_OFF)),
@@ -191,10 +194,10 @@ def _not_now(bench: Bench) -> None:
 
 @case("batch-ends-early", "streams that end before they move", "R5")
 def _ends_before_it_moves(bench: Bench) -> None:
-    """A stream without points that is stopped, left, or taken the place of, never moves."""
+    """Stop, leave or replace a stream without points: it never moves."""
     watcher = bench.watcher()
     stream = Streamer(bench)
-    # A refusal of before is none of the next stream's.
+    # A rejection of the previous stream does not count for the next one.
     stream.put([(p, 0.0) for p, _ in way(bench, 2)], BEGIN | END)
     stream.refused(RawReason.BAD_DURATION, "a second point without a duration")
     stream.number, stream.sent = 5, 0
@@ -230,7 +233,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
 
 @case("batch-stay", "a stay in a stream", "R8")
 def _stays(bench: Bench) -> None:
-    """The same place again is a stay, in a stream too."""
+    """Send the same position again in a stream: a stay."""
     first, second, third = way(bench, 3, 0.4)
     stay = 1.5
     points: list[Point] = [first, second, (second[0], stay), third]
@@ -243,7 +246,7 @@ def _stays(bench: Bench) -> None:
     still = [t for t, p in bench.track if t > since and distance(p, second[0]) < 1e-4]
     if not still:
         raise CheckFailed("the robot was not where it had to stay")
-    # That it is a stay comes in the next batch.
+    # The next batch shows that it is a stay.
     first, second, third = way(bench, 3, 0.6)
     stream, since = Streamer(bench, stream.link, number=2), bench.now
     stream.put([first, second], BEGIN | FLUSH)
@@ -255,7 +258,7 @@ def _stays(bench: Bench) -> None:
 
 @case("batch-short-last", "a short last segment of a stream", "R9")
 def _short_last(bench: Bench) -> None:
-    """The last segment may be short: it has no successor."""
+    """Send a short last segment, which needs no successor."""
     policy = bench.config.trajectory
     if policy.too_fast != "refuse" or policy.min_segment < 0.005:
         raise NotApplicable("`min_segment` refuses no segment")
@@ -268,7 +271,7 @@ def _short_last(bench: Bench) -> None:
 
 @case("batch-silent", "a stream that is silent for seconds", "R12")
 def _silent(bench: Bench) -> None:
-    """A stream may be silent for some seconds; once it has ended, a newer client is served."""
+    """Pause a stream for seconds; after its end serve a newer client."""
     stream = Streamer(bench)
     points = way(bench, 60)
     stream.put(points[:25], BEGIN)
@@ -282,7 +285,7 @@ def _silent(bench: Bench) -> None:
 
 @case("batch-index-wraps", "more points than numbers")
 def _index_wraps(bench: Bench) -> None:
-    """Points are counted anew behind the last number that a controller counts exactly."""
+    """Let point numbers wrap after the last exact integer."""
     last = messages.INDEX_WRAP
     stream, since = Streamer(bench), bench.now
     points = way(bench, 40)
@@ -304,7 +307,10 @@ def _index_wraps(bench: Bench) -> None:
 
 @case("batch-unreadable", "bytes of a batch that cannot be read", "R3")
 def _unreadable(bench: Bench) -> None:
-    """Bytes that cannot be read, anywhere in a batch: it is refused, or its client dropped."""
+    """Make the bytes of a batch unreadable.
+
+    The driver rejects the batch or drops its client.
+    """
     # The frame's own, four of the head, those of two points, the checksum.
     for after in range(4 + 4 + 2 * (1 + len(bench.position)) + 1):
         stream, since = Streamer(bench), bench.now
@@ -331,7 +337,10 @@ def _unreadable(bench: Bench) -> None:
     "batch-fits-unread", "words that cannot be read, where the checksum is right without them", "R3"
 )
 def _fits_unread(bench: Bench) -> None:
-    """By a chance of one in 2^31: that they were not read must tell."""
+    """Send unreadable bytes whose checksum would match.
+
+    The probability is 1 in 2^31, so that the read error must decide.
+    """
     values = 1 + len(bench.position)
     for number, unread in enumerate(("a point", "the checksum"), 1):
         stream, since, points = Streamer(bench, number=number), bench.now, way(bench, 9)
@@ -340,7 +349,7 @@ def _fits_unread(bench: Bench) -> None:
         head = [number, 0, 8, 2]
         expected = checksum([*head, *sent]) if unread == "a point" else 0
         sent += words_to(expected, [*head, *sent], values)
-        # The frame's own words, and the head's.
+        # The words of the frame and of the head.
         after = 4 + 4 + values * number
         fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         reply = stream.say(words_frame(number, 8, 2, sent))
@@ -353,7 +362,7 @@ def _fits_unread(bench: Bench) -> None:
 
 @case("batch-behind-end", "points behind the end")
 def _behind_the_end(bench: Bench) -> None:
-    """What comes behind the end is refused, and what came before it is done."""
+    """Send points after the end: rejected, and earlier points are executed."""
     watcher = bench.watcher()
     stream = Streamer(bench)
     stream.all(way(bench, 12))
@@ -369,7 +378,7 @@ def _behind_the_end(bench: Bench) -> None:
 
 @case("batch-full-ring", "a full ring begins with less than it likes to have", "R1")
 def _full_ring(bench: Bench) -> None:
-    """Else client and driver would wait for each other."""
+    """Fill the ring exactly: client and driver must not wait for each other."""
     policy = bench.config.trajectory
     count, seconds = policy.ring - 1, max(0.12, 1.05 * policy.min_segment)
     if count * seconds > policy.preload:

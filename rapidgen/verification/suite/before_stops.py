@@ -1,4 +1,4 @@
-"""What was received before a stop, in whole or in part, does not move the robot after Start."""
+"""Data received before a stop does not move the robot after Start."""
 
 from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawTrajectoryState
@@ -11,14 +11,14 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("controller")
 
 _SHORT = 0.002
-"""s of a stop that is over before a task that looks ten times a second has seen it."""
+"""s of a stop that ends before a task that looks ten times a second has seen it."""
 
 _BRAKING = 0.02
-"""rad or m that an axis may go on until it stands; the whole order takes it farther."""
+"""rad or m that an axis may move while it brakes; the whole trajectory is longer."""
 
 
 def _order(bench: Bench, path: str, link: RawLink) -> bytes:
-    """A whole trajectory, in one piece or as a stream."""
+    """Return a whole trajectory, as a download or as a stream."""
     points = bench.wave(6)
     if path == "stream":
         return Streamer(bench, link).frame(points, BEGIN | END)
@@ -37,9 +37,9 @@ def _ways(bench: Bench) -> tuple[str, ...]:
 
 @case("order-before-stop", "an order on the wire just before a short stop", "R7a")
 def _order_before_stop(bench: Bench) -> None:
-    """It is over before the supervisor has looked; a motion that has begun ends where it is.
+    """Stop before the supervisor looks; a started motion ends where it is.
 
-    Start may set a path in motion for the moment that an event routine needs to drop it.
+    Start may set a path in motion for the moment that an event routine needs to clear it.
     """
     for path in _ways(bench):
         for action in ("stop", "e-stop", "motors-off"):
@@ -68,7 +68,7 @@ def _order_before_stop(bench: Bench) -> None:
     background=True,
 )
 def _part_before_stop(bench: Bench) -> None:
-    """Wherever it is cut, also inside a message; the next order is executed."""
+    """Cut the data anywhere, also inside a message; then a trajectory works."""
     for path in _ways(bench):
         watcher = bench.watcher()
         for share in (0.0, 0.01, 0.4, 0.99):
@@ -93,7 +93,7 @@ def _part_before_stop(bench: Bench) -> None:
 
 @case("waiting-before-stop", "an order that waits behind a silent client", "R7a, R12")
 def _waiting_before_stop(bench: Bench) -> None:
-    """It has been received, but not read, when the stop comes."""
+    """Stop while the data is received but not read."""
     for path in _ways(bench):
         for action in ("stop", "e-stop"):
             for stopped in (_SHORT, 1.0):

@@ -1,4 +1,4 @@
-"""The last value that is taken and the first that is not; times that were asked for."""
+"""Last accepted and first rejected values; requested durations."""
 
 import math
 from itertools import pairwise
@@ -32,12 +32,12 @@ _LONGEST = 3600.0
 
 
 def _inward(bench: Bench, axis: int, step: float) -> float:
-    """`step` from where the axis stands, to the side where there is more room."""
+    """Return `step` with the sign of the larger distance to a limit."""
     return inward(bench.group.joints[axis], bench.position[axis], step)
 
 
 def _taken(bench: Bench, points: list[Point], why: str) -> None:
-    """Broken unless the trajectory begins; it is stopped then."""
+    """Check that the trajectory starts, and stop it."""
     link = bench.motion()
     frames = [point_frame(n, len(points), *p) for n, p in enumerate(points[:-1])]
     link.send(b"".join(frames))
@@ -82,7 +82,7 @@ def _shortest_segment(bench: Bench) -> None:
         points = bench.wave(4, size=0.001)
         points[index] = (points[index][0], shortest * 0.99)
         refused(bench, bench.download(points), [RawReason.SEGMENT_TOO_SHORT], 0, index)
-    # The last one has no successor that would have to be planned in time.
+    # The last segment has no successor that must be planned in time.
     points = bench.wave(4, size=0.001)
     points[3] = (points[3][0], shortest / 2)
     _taken(bench, points, "a short last segment")
@@ -112,7 +112,7 @@ def _fastest(bench: Bench) -> None:
 
 @case("rounding", "limits as rounding leaves them, and farther")
 def _limits_by_rounding(bench: Bench) -> None:
-    """What lies outside a limit by rounding is the limit; what lies farther is refused."""
+    """Accept values outside a limit by rounding; reject values farther off."""
     link = bench.motion()
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
@@ -139,8 +139,8 @@ def _start_tolerance(bench: Bench) -> None:
             continue
         start = changed(bench.position, axis, _inward(bench, axis, 0.97 * near))
         end = changed(start, axis, _inward(bench, axis, 0.97 * near + 0.02 * joint.speed))
-        # Its duration is not the client's business: a stamp behind the last one of the trajectory
-        # before makes it a short one.
+        # The driver ignores the first point's duration: after the previous trajectory's last point,
+        # a stamp gives a short one.
         link, since = bench.motion(), bench.now
         link.send(bench.download([(start, 10.0 if axis % 2 else 1e-3), (end, 0.5), (end, 0.5)]))
         bench.wait_until_at(end, 30)
@@ -153,7 +153,7 @@ def _start_tolerance(bench: Bench) -> None:
 
 
 def _slow_to(bench: Bench, start: Position, since: float, speed: float) -> None:
-    """Broken when the robot came to its first point faster than at approach speed."""
+    """Check that the robot reached its first point at approach speed at most."""
     for (t1, one), (t2, two) in pairwise([(t, p) for t, p in bench.track if t >= since]):
         if distance(one, two) > 1.5 * speed * (t2 - t1) + 1e-4:
             raise CheckFailed(
@@ -165,7 +165,7 @@ def _slow_to(bench: Bench, start: Position, since: float, speed: float) -> None:
 
 
 def _moved(bench: Bench, since: float) -> tuple[float, float]:
-    """When the robot began to move and when it moved last."""
+    """Return the times of the first and the last movement."""
     start = bench.track_at(since)
     times = [t for t, p in bench.track if t > since and distance(p, start) > SETTLED]
     changes = [t for t, _ in bench.track if t > since]
@@ -176,7 +176,7 @@ def _moved(bench: Bench, since: float) -> tuple[float, float]:
 
 @case("takes-its-time", "motion and stays last as long as asked", "R8, R10")
 def _takes_its_time(bench: Bench) -> None:
-    """A trajectory takes the sum of its durations, and stays where it is told to stay."""
+    """Check that a trajectory takes the sum of its durations, with stays."""
     first, second, third, fourth = bench.wave(4, duration=0.5)
     for points, stands in (
         ([first, second, third, fourth], ()),
@@ -209,7 +209,10 @@ def _takes_its_time(bench: Bench) -> None:
 
 
 def _stood_at(bench: Bench, place: Position, since: float, seconds: float) -> bool:
-    """Whether the record has a stay at a place: positions are kept when they change."""
+    """True if the record has a stay at a place.
+
+    The record holds a position when it changes.
+    """
     seen = [(t, p) for t, p in bench.track if t > since]
     arrived = [i for i, (_, p) in enumerate(seen) if distance(p, place) < SETTLED]
     return any(i + 1 < len(seen) and seen[i + 1][0] - seen[i][0] >= seconds - 0.2 for i in arrived)
@@ -229,7 +232,7 @@ def _stop_in_a_stay(bench: Bench) -> None:
 
 @case("approach", "a single point is approached slowly, or as slowly as asked", "R8")
 def _approach(bench: Bench) -> None:
-    """One point, sent twice: at approach speed, or slower where more time is given."""
+    """Send one point twice: approach speed, or the given time if longer."""
     link, policy = bench.motion(), bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
         step = 0.9 * bench.start_tolerance(joint)
@@ -274,7 +277,7 @@ def _pieces_of_all_sizes(bench: Bench) -> None:
 
 @case("in-one-chunk", "messages across the driver's calls", "R2")
 def _in_one_chunk(bench: Bench) -> None:
-    """More than a call of the driver can take at once, and points that lie across two calls."""
+    """Send more than one read call of the driver, with points across calls."""
     link = bench.motion()
     for count in (14, 15, 16, 30, 46):
         bench.assert_moves_through(link, bench.wave(count, duration=0.15, size=0.02))
@@ -293,7 +296,7 @@ def _rest_is_skipped(bench: Bench) -> None:
     link.send(frames[4])
     bench.assert_at_rest(0.5, "a refused trajectory goes on")
     _blames(bench, state, number, RawReason.JOINT_LIMIT)
-    # A new start ends the skipping; so does the end of the refused one.
+    # A new start ends the skipping, and the rejected trajectory's end does too.
     good = bench.wave(4)
     bench.assert_moves_through(link, good)
     link.send(b"".join(frames))
@@ -327,7 +330,7 @@ def _blames(bench: Bench, state: RawLink, number: int, reason: RawReason) -> Non
 
 @case("replies-of-refused", "replies tell what became of the trajectory so far")
 def _replies_of_a_refused_one(bench: Bench) -> None:
-    """Each request is answered by what has become of the trajectory so far."""
+    """Reply to each request with the state of the trajectory so far."""
     link = bench.motion()
     points = [(p, 30.0) for p, _ in bench.wave(6)]
     points[3] = (changed(points[3][0], 1, bench.group.joints[1].upper + 1), 30.0)
@@ -338,7 +341,7 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
             raise CheckFailed(f"point {number} is right, the reply is {content}")
         if number >= 3 and content != messages.RawRefused(RawReason.JOINT_LIMIT, 3, 2):
             raise CheckFailed(f"point 3 was wrong, the reply to point {number} is {content}")
-    # Behind a refusal at the end nothing is left to be skipped.
+    # After a rejection at the end, the driver has nothing to skip.
     axis, current = 0, bench.position
     far = changed(current, axis, _inward(bench, axis, 0.3))
     link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, current, 9.0))

@@ -1,4 +1,4 @@
-"""What a configuration can ask for: slower rather than refused, a slow TCP, some clients alone."""
+"""Configuration options: scaling, slow TCP, allowed clients."""
 
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
@@ -14,7 +14,7 @@ reading = SuiteGroup("reading")
 
 
 def _quick(bench: Bench) -> list[Point]:
-    """To a place, and back, in less time than the first axis needs."""
+    """Return a motion to a place and back, too fast for the first axis."""
     joint, current = bench.group.joints[0], bench.position
     step = min(1.0, 0.5 * max(joint.upper - current[0], current[0] - joint.lower))
     if joint.upper - current[0] < current[0] - joint.lower:
@@ -43,7 +43,7 @@ def _slowed_down(bench: Bench) -> None:
 
 @links("strangers", "addresses that the configuration does not name are not served")
 def _strangers(bench: Bench) -> None:
-    """Nor do they take anybody's place."""
+    """Connect from other addresses, which must not replace clients either."""
     if not bench.config.allowed_clients:
         raise NotApplicable("`allowed_clients` names none")
     ports, known = bench.group.ports, [bench.state() for _ in range(3)]
@@ -111,7 +111,7 @@ def _braking(bench: Bench) -> None:
 
 @reading("there-and-back", "a movement back and forth between two STATUS is in one of them", "R16")
 def _there_and_back(bench: Bench) -> None:
-    """It ends where it began: no axis has moved since the message before."""
+    """Move out and back between two messages: no axis has moved since the last."""
     state, link = bench.state(), bench.motion()
     bench.run(2 * bench.config.state_period)
     for _ in range(3):

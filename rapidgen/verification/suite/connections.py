@@ -1,4 +1,4 @@
-"""Connections that come, go, hang and take each other's place."""
+"""Connections that open, close, hang and replace each other."""
 
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
@@ -32,7 +32,7 @@ def _leaves_in_a_download(bench: Bench) -> None:
 
 
 def _has_no_start(bench: Bench) -> None:
-    """Nothing of what one client has sent counts for the next."""
+    """Data of one client does not count for the next one."""
     link = bench.motion()
     link.send(raw_point(5, bench.position, 1.0, RawComm.REQUEST))
     reply = decode(link.expect_reply(2, "a point without a start is answered"))
@@ -81,7 +81,7 @@ def _newest_takes_over(bench: Bench) -> None:
 def _dead_peer(bench: Bench) -> None:
     old = bench.motion()
     bench.assert_moves_through(old, bench.wave(3))
-    # It never says another word, not even an end: the old link stays half-open.
+    # It sends nothing more, not even a FIN: the old connection stays half-open.
     for _ in range(3):
         fresh = bench.motion()
         bench.run(5)
@@ -108,7 +108,7 @@ def _many_come_and_go(bench: Bench) -> None:
 
 
 def _pings(bench: Bench, link: RawLink, seconds: float = 0.1, *, slowly: bool = False) -> None:
-    """PING and its reply; `slowly`: in single bytes."""
+    """Send PING and read its reply; `slowly`: in single bytes."""
     data = encode(messages.RawPing(), RawComm.REQUEST)
     for byte in data[:-1] if slowly else b"":
         link.send(bytes([byte]))
@@ -119,7 +119,7 @@ def _pings(bench: Bench, link: RawLink, seconds: float = 0.1, *, slowly: bool = 
 
 
 def _gives_way(bench: Bench, old: RawLink, new: RawLink, what: str) -> None:
-    """A newer client waits until the one before has been silent for a second."""
+    """Let a newer client wait until the old one is silent for a second."""
     for slowly in (True, False):
         bench.run(0.75)
         _pings(bench, old, slowly=slowly)
@@ -143,10 +143,10 @@ def _silent_at_rest(bench: Bench) -> None:
 
 
 def _sets_off(bench: Bench, link: RawLink, what: str) -> list[Point]:
-    """Something long is under way; its points."""
+    """Start a long trajectory and return its points."""
     policy = bench.config.trajectory
     if what == "fed":
-        # Slow points: the last few do not find room in the ring for a while.
+        # Slow points: the last few do not fit into the ring for a while.
         points = bench.wave(min(policy.ring + 5, policy.capacity), duration=1.0, size=0.1)
     else:
         points = bench.wave(9, duration=0.6)
@@ -160,7 +160,10 @@ def _sets_off(bench: Bench, link: RawLink, what: str) -> list[Point]:
 
 @case("silent-while-moving", "whoever connects stops nobody", "R12")
 def _silent_while_moving(bench: Bench) -> None:
-    """A trajectory whose client is silent goes on, whoever connects and whatever nonsense comes."""
+    """Keep a trajectory with a silent client running.
+
+    Other connections and invalid messages do not stop it.
+    """
     for what in ("download", "stream") if bench.streams else ("download",):
         old, since = bench.motion(), bench.now
         points = _sets_off(bench, old, what)
@@ -182,7 +185,7 @@ def _silent_while_moving(bench: Bench) -> None:
                 )
             new.close()
         bench.arrives(points, since, 30)
-        # To the driver it is over when the controller says so: the axes follow late.
+        # For the driver the motion ends when the controller says so: the axes follow late.
         bench.run(0.2 - bench.setting.motion.servo_lag)
         _gives_way(bench, old, new, what)
         new.close(then=1.3)
@@ -193,7 +196,10 @@ _PING = encode(messages.RawPing(), RawComm.REQUEST)
 
 @case("second-stops", "a second client's STOP stops, and its trajectory takes over", "R5, R12")
 def _second_stops(bench: Bench) -> None:
-    """Also byte by byte, and behind something else; whatever the first client does."""
+    """Send STOP from a second client, byte by byte and after other data.
+
+    The first client may do anything meanwhile.
+    """
     old, watcher = bench.motion(), bench.watcher()
     paths = ("download", "stream", "fed") if bench.streams else ("download", "download", "fed")
     for number, what in enumerate(paths):
@@ -222,7 +228,7 @@ def _second_stops(bench: Bench) -> None:
             raise CheckFailed(f"{what}: a second client has said STOP, PROGRESS says {told}")
         bench.assert_moves_through(new, bench.wave(3))
         old = new
-    # Its own trajectory takes the place of what is under way, and begins where that has stopped.
+    # Its own trajectory replaces the current one, and starts where that has stopped.
     _sets_off(bench, old, "download")
     new, far = bench.motion(), changed(bench.position, 0, bench.position[0] + 0.5)
     new.send(point_frame(0, 2, far, 3.0) + point_frame(1, 2, far, 3.0))
@@ -233,7 +239,7 @@ def _second_stops(bench: Bench) -> None:
 
 @case("server-breaks", "a server socket that breaks is opened again")
 def _server_breaks(bench: Bench) -> None:
-    """A server socket that breaks is opened again."""
+    """Break a server socket: the driver opens it again."""
     network, ports = bench.controller.network, bench.group.ports
     bench.run(1)
     for module, port in (

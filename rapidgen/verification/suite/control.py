@@ -1,4 +1,4 @@
-"""The control connection: stop, pause, speed and heartbeats, which no point delays."""
+"""Control connection: STOP, PAUSE, SPEED, HEARTBEAT, without delay by points."""
 
 import math
 from collections.abc import Callable
@@ -22,32 +22,32 @@ _TRAJ = messages.JOINT_TRAJ_PT
 
 
 def stop(link: RawLink, seconds: float = 1) -> None:
-    """STOP over this connection; Broken unless it is confirmed in time."""
+    """Send STOP over this connection; check that it is confirmed in time."""
     if not isinstance(link.stop(seconds), messages.RawAcknowledged):
         raise CheckFailed("STOP on the control port is not confirmed")
 
 
 def stopped(link: RawLink, trajectory: int) -> None:
-    """Wait for STOPPED of this trajectory; that of one before may come first."""
+    """Wait for STOPPED of this trajectory; skip one of an earlier one."""
     while link.expect(messages.RawStopped, 3, "STOPPED arrives").trajectory != trajectory:
         pass
 
 
 def not_done(reply: object, reason: RawReason, what: str) -> None:
-    """Broken unless a reply says that it was not done, for that reason."""
+    """Check that a reply is a failure for that reason."""
     if reply != messages.RawNotDone(reason):
         raise CheckFailed(f"{what}: wanted {reason.name}, the reply is {reply}")
 
 
 def done(reply: object, what: str) -> None:
-    """Broken unless a reply is a plain success."""
+    """Check that a reply is a plain success."""
     if not isinstance(reply, messages.RawAcknowledged):
         raise CheckFailed(f"{what}: the reply is {reply}")
 
 
 @case("control-stop", "STOP over the control port, and where the robot stands", "R5")
 def _stops(bench: Bench) -> None:
-    """STOP there ends a download that is executed, and says where the robot then stands."""
+    """Send STOP during a download; STOPPED gives the robot's position."""
     control, watcher = bench.control(), bench.watcher()
     stop(control)
     for delay in (0.0, 0.02, 0.7):
@@ -63,7 +63,7 @@ def _stops(bench: Bench) -> None:
         reply = control.expect(messages.RawStopped, 2, "STOPPED arrives")
         progress = bench.progress(watcher)
         current = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
-        # Axes that follow late are measured on their last millimetres.
+        # If axes follow late, their last millimetres still change.
         near = 5e-3 if bench.setting.motion.servo_lag else 1e-4
         if max(abs(a - b) for a, b in zip(reply.joints, current, strict=True)) > near:
             raise CheckFailed(f"the robot stands at {current}, STOPPED says {reply.joints}")
@@ -80,15 +80,15 @@ def _stops(bench: Bench) -> None:
 
 @case("stop-under-load", "STOP is answered whatever lies before the motion server", "R5")
 def _stop_under_load(bench: Bench) -> None:
-    """However much lies before the motion server, STOP is answered at once."""
+    """Send STOP while the motion server is busy: the reply is immediate."""
     control = bench.control()
-    # Others that have to be told everything, and a client that beats.
+    # Other clients that receive all messages, and one with heartbeats.
     for _ in range(3):
         bench.state().send(messages.encode(HELLO._replace(subscribe=49), RawComm.REQUEST))
     control.ask(messages.RawHeartbeat(5))
     orders = watched_orders(bench)
     costs = bench.controller.costs
-    # What lies between the request and the trap is the controller's; what is left the driver's.
+    # The delay from request to trap is the controller's; the remainder is the driver's.
     for delay in (0.002, 0.01, 0.02, 0.03):
         trap = round(delay * 10**9)
         bench.controller.costs = replace(costs, interrupt_delay=(trap, trap))
@@ -96,12 +96,12 @@ def _stop_under_load(bench: Bench) -> None:
         points = way(bench, 200)
         stream.put(points[:20], BEGIN)
         bench.wait_until_moving()
-        # Questions without points: each is read, checked and answered.
+        # Requests without points: the driver reads, checks and answers each.
         question = stream.frame((), RawStreamFlag(0))
         stream.link.send(question * 400)
         requested = bench.now
         stop(control)
-        # Some controllers let a program go on behind StopMove only when the robot has settled.
+        # Some controllers continue a program after StopMove only when the robot has settled.
         settled = bench.setting.motion.settle if bench.setting.motion.stop_waits else 0
         if bench.now - requested > 0.3 + settled:
             raise CheckFailed(f"under load STOP is answered after {bench.now - requested:.2f} s")
@@ -119,7 +119,7 @@ def _stop_under_load(bench: Bench) -> None:
 
 @case("control-any-moment", "STOP over the control port at every moment", "R7b")
 def _stop_at_any_moment(bench: Bench) -> None:
-    """From before the hand-over until well into the motion, over both ports."""
+    """Send STOP at times from the hand-over into the motion, over both ports."""
     control, link = bench.control(), bench.motion()
     for step in range(30):
         points = bench.wave(6, duration=0.2)
@@ -137,7 +137,7 @@ def _stop_at_any_moment(bench: Bench) -> None:
 
 @case("pause", "a pause on the path")
 def _pauses(bench: Bench) -> None:
-    """It stands on its path, and goes on from there to the end, in order."""
+    """Pause on the path, and resume to the end, in order."""
     control, watcher = bench.control(), bench.watcher()
     not_done(control.ask(messages.RawPause(1)), RawReason.IDLE, "a pause of nothing")
     not_done(control.ask(messages.RawPause(0)), RawReason.IDLE, "an end of no pause")
@@ -164,7 +164,7 @@ def _pauses(bench: Bench) -> None:
 
 @case("pause-ends", "what halts a motion halts a paused one", "R6", background=True)
 def _pause_ends(bench: Bench) -> None:
-    """What halts a motion halts a paused one; nothing of it goes on."""
+    """End a paused motion: every event that halts a motion halts it too."""
     for action in ("STOP", "control STOP", "e-stop", "motors-off", "stop", "leaves", "another"):
         control, link = bench.control(), bench.motion()
         bench.start_motion(link, bench.wave(14), 0.5)
@@ -196,7 +196,7 @@ def _pause_ends(bench: Bench) -> None:
 
 @case("nobody-answers", "a motion task that does not answer", background=True)
 def _nobody_answers(bench: Bench) -> None:
-    """Whoever asks something of a motion task that does not run is told so, soon."""
+    """Send requests while the motion task is stopped: failure replies, soon."""
     control, link = bench.control(), bench.motion()
     bench.start_motion(link, bench.wave(12))
     bench.controller.perform("stop")
@@ -208,7 +208,7 @@ def _nobody_answers(bench: Bench) -> None:
     bench.controller.perform("start")
     bench.assert_at_rest(3, "the program was stopped and started")
     bench.assert_moves_through(link, bench.wave(3))
-    # In a long move: short ones get their time for the speed, and need no SpeedRefresh.
+    # In a long move; short moves get their time for the speed, without SpeedRefresh.
     bench.start_motion(link, bench.wave(12, duration=1.0), 0.3)
     ends = fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM", 1000)
     not_done(control.ask(messages.RawSpeed(50)), RawReason.INTERNAL, "SPEED that is not set")
@@ -218,7 +218,10 @@ def _nobody_answers(bench: Bench) -> None:
 
 @case("one-stops", "one background task alone stops and starts the robot", "R7b")
 def _one_stops(bench: Bench) -> None:
-    """ABB's manual is remembered to allow StopMove and StartMove from one background task only."""
+    """Let only one background task stop and start the robot.
+
+    ABB's manual is remembered to allow StopMove and StartMove from one background task only.
+    """
     control, link = bench.control(), bench.motion()
     used: set[str] = set()
 
@@ -253,7 +256,7 @@ def _one_stops(bench: Bench) -> None:
 
 @case("heartbeats", "a missing heartbeat stops the robot", "R12")
 def _heartbeats(bench: Bench) -> None:
-    """While they come nothing happens; when one is missing the robot stops."""
+    """Send heartbeats, then omit one: the robot stops."""
     watcher = bench.watcher()
     for before in (False, True):
         control, link = bench.control(), bench.motion()
@@ -278,11 +281,11 @@ def _heartbeats(bench: Bench) -> None:
         if not 0.45 < bench.now - last < 2.5 or told_stop.reason != RawReason.CLIENT_LOST:
             raise CheckFailed(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
         bench.assert_at_rest(3, "a heartbeat is missing")
-        # It is missed once.
+        # The first missing heartbeat.
         bench.assert_moves_through(link, bench.wave(6))
         bench.start_motion(link, bench.wave(30))
         control.ask(beat)
-        # Some controllers let the supervisor go on only when the robot has settled.
+        # Some controllers continue the supervisor only when the robot has settled.
         stopped(control, bench.progress(watcher).trajectory)
         reply = control.ask(messages.RawHeartbeat(0))
         if (
@@ -301,7 +304,7 @@ def _heartbeats(bench: Bench) -> None:
 
 @case("heartbeat-in-time", "the stop for a missing heartbeat comes in time", "R12")
 def _heartbeat_in_time(bench: Bench) -> None:
-    """The stop for a missing heartbeat comes when it was due, not when somebody looks next."""
+    """Stop for a missing heartbeat when it is due, not at the next look."""
     control, link = bench.control(), bench.motion()
     orders = watched_orders(bench)
     for seconds in (0.25, 0.53):
@@ -320,7 +323,7 @@ def _heartbeat_in_time(bench: Bench) -> None:
 
 @case("awaits-heartbeat", "a server that awaits a heartbeat leaves the other tasks their time")
 def _awaits(bench: Bench) -> None:
-    """It looks for bytes ten times a second, and once more where the heartbeat is due."""
+    """Look for bytes ten times a second, and when the heartbeat is due."""
     control, looks = bench.control(), []
 
     def counted(as_before: Instruction) -> Instruction:
@@ -344,7 +347,10 @@ def _awaits(bench: Bench) -> None:
 
 @case("control-fails", "instructions of the control server that report errors", "R3")
 def _instructions_fail(bench: Bench) -> None:
-    """Whatever the control server's instructions report, the next client can stop the robot."""
+    """Make the control server's instructions fail.
+
+    The next client can stop the robot each time.
+    """
     for instruction, error in (
         ("SocketReceive", "ERR_SOCK_CLOSED"),
         ("SocketSend", "ERR_SOCK_CLOSED"),
@@ -373,7 +379,7 @@ def _instructions_fail(bench: Bench) -> None:
         link.close(then=1.3)
     for content in _REQUESTS:
         control = bench.control()
-        # What is read behind length, type and kind is the request's own.
+        # The data read after length, type and kind belongs to the request.
         recovers = fails(bench, "ROS_control", "UnpackRawBytes", "ERR_OUTOFBND", after=3)
         control.send(content)
         control.wait_disconnected(2, "a request that cannot be read drops its client")
@@ -393,7 +399,7 @@ _REQUESTS = (
 
 @case("first-start", "a driver that starts for the first time orders nothing", background=True)
 def _first_start(bench: Bench) -> None:
-    """Its persistents say 0 then, also where 0 would mean a pause or a trajectory."""
+    """Start for the first time: persistents are 0, even as codes of commands."""
     received = watched_orders(bench)
     bench.run(2)
     if received:
@@ -402,7 +408,7 @@ def _first_start(bench: Bench) -> None:
 
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
 def _supervisor_is_gone(bench: Bench) -> None:
-    """Should the supervisor not answer nothing moves, and nobody is told that it was done."""
+    """End the supervisor: nothing moves, and no reply claims success."""
     with bench.beside(bench.system) as other:
         control, link, state = other.control(), other.motion(), other.state()
         other.run(1)
@@ -432,7 +438,10 @@ def _supervisor_is_gone(bench: Bench) -> None:
 
 @case("old-end", "STOPPED tells what ends, not what has ended")
 def _old_end(bench: Bench) -> None:
-    """A client that comes later is not told of what ended before; a cut tells joint and place."""
+    """Do not report earlier trajectories to a later client.
+
+    A cut stream gives joint and position.
+    """
     link = bench.motion()
     bench.start_motion(link, bench.wave(12))
     link.stop()
@@ -454,7 +463,7 @@ def _old_end(bench: Bench) -> None:
     reply = control.expect(messages.RawStopped, 10, "STOPPED arrives")
     if (reply.reached, reply.reason) != (20, RawReason.JOINT_LIMIT):
         raise CheckFailed(f"a stream was cut behind 20 points, STOPPED says {reply}")
-    # Axes that follow late are not quite there yet.
+    # Axes that follow late are not at their target yet.
     near = 1e-3 + 0.2 * bench.setting.motion.servo_lag
     if distance(reply.joints[: len(current)], current) > near or any(reply.joints[len(current) :]):
         raise CheckFailed(f"the stream ended at {current}, STOPPED says {reply.joints}")
@@ -462,7 +471,7 @@ def _old_end(bench: Bench) -> None:
 
 @case("stream-control", "pause, speed and STOP of a stream")
 def _stream_over_control(bench: Bench) -> None:
-    """Pause, speed and STOP of a stream."""
+    """Send PAUSE, SPEED and STOP for a stream."""
     control = bench.control()
     stream, since = Streamer(bench), bench.now
     points = way(bench, 90)

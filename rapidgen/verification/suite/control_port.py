@@ -1,4 +1,4 @@
-"""The control port's clients and their requests: HELLO, PING, SIGNAL, junk, and who is served."""
+"""Control port clients and requests: HELLO, PING, SIGNAL, invalid data."""
 
 import math
 import struct
@@ -19,7 +19,7 @@ _TRAJ = messages.JOINT_TRAJ_PT
 
 @case("control-leaves", "a control client leaves")
 def _control_client_leaves(bench: Bench) -> None:
-    """Without heartbeats it is no loss; with them it is."""
+    """Disconnect a control client: only one with heartbeats stops the robot."""
     for heartbeats in (True, False, True):
         control, link = bench.control(), bench.motion()
         points = bench.wave(12)
@@ -40,7 +40,10 @@ def _control_client_leaves(bench: Bench) -> None:
 
 @case("newest-control", "the newest control client is served", "R12")
 def _newest_control_client(bench: Bench) -> None:
-    """Whoever comes can stop the robot, whatever hangs on the port."""
+    """Connect a new control client: it can stop the robot.
+
+    Other connections may hang on the port.
+    """
     old = bench.control()
     for _ in range(2):
         control = bench.control()
@@ -70,14 +73,14 @@ def _control_hello(bench: Bench) -> None:
         control.send(bytes([byte]))
         bench.run(0.003)
     control.reply(messages.HEARTBEAT)
-    # All at once, each answered in turn.
+    # All at once; the driver answers each in order.
     control.send(STOP + messages.encode(messages.RawSpeed(5), RawComm.REQUEST) + STOP)
     for number in (_TRAJ, messages.SPEED, _TRAJ):
         control.reply(number)
 
 
 def _failure(link: RawLink) -> object:
-    """What a failure reply of a type without content says."""
+    """Return the content of a failure reply to a type without content."""
     frame = link.expect_reply(2, "a request of an unknown type is answered")
     if (frame.comm, frame.reply, frame.data) == (RawComm.REPLY, RawReplyCode.FAILURE, b""):
         return messages.RawFailure()
@@ -86,7 +89,7 @@ def _failure(link: RawLink) -> object:
 
 @case("control-junk", "junk drops its client and stops nothing", "R3")
 def _control_junk(bench: Bench) -> None:
-    """What is no request of this port drops its client, stops nothing and harms nobody."""
+    """Send invalid requests: the driver drops the client and stops nothing."""
     topic = bytearray(STOP)
     topic[8] = 1
     wrong = [
@@ -116,7 +119,7 @@ def _control_junk(bench: Bench) -> None:
 
 @case("signals", "signals that the configuration exposes")
 def _signals(bench: Bench) -> None:
-    """Signals as the configuration exposes them: read, written, refused."""
+    """Read and write the configured signals; reject the others."""
     control = bench.control()
     exposed = bench.config.signals
     count = len(exposed)

@@ -1,4 +1,4 @@
-"""The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
+"""Control server: its own stop, heartbeat deadlines, lost clients."""
 
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
@@ -20,7 +20,10 @@ _PING = messages.encode(messages.RawPing(), RawComm.REQUEST)
 
 @case("stops-alone", "STOP while the supervisor hangs", "R7b")
 def _alone(bench: Bench) -> None:
-    """Whoever asks the supervisor in vain stops the robot itself, and nobody says it is done."""
+    """Stop without the supervisor: the control server stops the robot itself.
+
+    No reply claims success.
+    """
     for port in ("control", "motion", "heartbeat", "leaves"):
         with bench.beside(bench.system) as other:
             _stops_alone(other, port)
@@ -48,7 +51,7 @@ def _stops_alone(bench: Bench, port: str) -> None:
             raise CheckFailed(f"STOP is answered by {told} after {bench.now - requested:.2f} s")
     if not any(o.instruction == "StopMove" and o.free for o in orders):
         raise CheckFailed(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
-    # Some controllers let a program go on behind StopMove, and tell of it, only then.
+    # Some controllers continue a program after StopMove, and report it, only then.
     bench.run(2 * motion.settle if motion.stop_waits else 0)
     log_entries = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
     if "ROS: the supervisor does not answer" not in log_entries:
@@ -65,7 +68,7 @@ def _stops_alone(bench: Bench, port: str) -> None:
     if bench.setting.motion.stop_owner == "kind":
         bench.assert_moves_through(link, bench.wave(3))
         return
-    # There the supervisor cannot take back what a server has done.
+    # Here the supervisor cannot reset the stop of a server.
     log_entries = [e.title for e in bench.controller.log.since(last)]
     if "ROS: the robot stays stopped" not in log_entries:
         raise CheckFailed(f"a server's stop cannot be taken back, the event log says {log_entries}")
@@ -75,7 +78,10 @@ def _stops_alone(bench: Bench, port: str) -> None:
 
 @case("cannot-stop-alone", "a server that cannot stop the robot, either")
 def _cannot(bench: Bench) -> None:
-    """Where its StopMove is refused the event log says so, and another task stops the robot."""
+    """Reject the server's StopMove.
+
+    The event log reports it, and another task stops the robot.
+    """
     control, link = bench.control(), bench.motion()
     supervisor = bench.controller.task(bench.task("ROS_supervisor"))
     bench.start_motion(link, bench.wave(12), 0.5)
@@ -84,7 +90,7 @@ def _cannot(bench: Bench) -> None:
     supervisor.stop()
     control.send(STOP)
     told = control.reply(_TRAJ, 2)
-    # Where the motion server came first, this one has not tried.
+    # If the motion server was first, this one has not tried.
     texts = " ".join(str(event) for event in bench.controller.log.since(last))
     known = "could not stop the robot" in texts or "The robot was stopped by" in texts
     if not isinstance(told, messages.RawFailure) or not known:
@@ -93,14 +99,14 @@ def _cannot(bench: Bench) -> None:
     supervisor.start()
     bench.wait_until_at_rest(3, 1, "the supervisor goes on, and was asked to stop")
     if bench.setting.motion.stop_owner != "kind":
-        # There the supervisor cannot take back the stop of a server.
+        # Here the supervisor cannot reset the stop of a server.
         return
     bench.assert_moves_through(link, bench.wave(3))
 
 
 @case("beats", "heartbeats to the moment", "R12")
 def _beats(bench: Bench) -> None:
-    """To the moment, and missed once; none is awaited behind a HEARTBEAT of 0."""
+    """Check heartbeat deadlines exactly; HEARTBEAT of 0 ends them."""
     control, link = bench.control(), bench.motion()
     reply = control.ask(messages.RawHeartbeat(0))
     if not isinstance(reply, messages.RawHeartbeatReply) or reply.state != RawTrajectoryState.NONE:
@@ -129,7 +135,7 @@ def _beats(bench: Bench) -> None:
         if seconds > 1:
             if not isinstance(beating, messages.RawHeartbeatReply):
                 raise CheckFailed(f"HEARTBEAT is answered by {beating}")
-            # Some controllers let the supervisor go on only when the robot has settled.
+            # Some controllers continue the supervisor only when the robot has settled.
             stopped(control, beating.trajectory)
             reply = control.ask(messages.RawHeartbeat(0.2))
             if not isinstance(reply, messages.RawHeartbeatReply) or reply.state != _FAILED:
@@ -140,7 +146,7 @@ def _beats(bench: Bench) -> None:
 
 @case("beating-clients", "clients that beat, and are lost in each way", "R12")
 def _leave(bench: Bench) -> None:
-    """Each of several clients that beat leaves, is replaced, or is dropped: the robot stops."""
+    """Lose each of several clients with heartbeats: the robot stops."""
     link, control = bench.motion(), bench.control()
     for how in ("leaves", "is replaced", "is reset", "has not beaten", "is dropped", "leaves"):
         points = bench.wave(6, duration=0.25)
@@ -152,7 +158,7 @@ def _leave(bench: Bench) -> None:
         if how == "is replaced":
             next_one = bench.control()
         elif how == "is dropped":
-            # By an error in serving it.
+            # By an error while the server serves it.
             fails(bench, "ROS_control", "CopyRawBytes", "ERR_OUTOFBND")
             control.send(_PING)
         else:
@@ -166,13 +172,13 @@ def _leave(bench: Bench) -> None:
         if not control.lost:
             raise CheckFailed(f"a control client that {how} keeps its connection")
         control = next_one if next_one is not None else bench.control()
-        # Whoever comes next has asked for no heartbeats.
+        # The next client has requested no heartbeats.
         bench.assert_moves_through(link, bench.wave(6, duration=0.25))
 
 
 @case("stops-before", "STOP before a stream moves")
 def _not_begun(bench: Bench) -> None:
-    """A stream that has points but did not begin to move is stopped: no point was reached."""
+    """Stop a stream before its motion: no point was reached."""
     if bench.config.trajectory.preload <= 0:
         raise NotApplicable("streams begin at once, `preload` is 0")
     control, watcher = bench.control(), bench.watcher()

@@ -1,4 +1,4 @@
-"""What happens to the controller: stops, modes, power, missing signals, mixed builds."""
+"""Controller events: stops, modes, power, missing signals, mixed builds."""
 
 from dataclasses import replace
 from functools import partial
@@ -21,7 +21,7 @@ def _back_to_work(bench: Bench) -> None:
 
 
 def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None:
-    """After `action` nothing of the old path resumes, and a new trajectory moves."""
+    """Check that after `action` the old path is gone and a new one works."""
     for delay in (0.05, 0.7):
         state, link = bench.state(), bench.motion()
         points = bench.wave(10)
@@ -130,9 +130,9 @@ def _without_signals(bench: Bench) -> None:
 
 @case("open-files", "signals that the controller refused, or that nothing drives")
 def _open_files(bench: Bench) -> None:
-    """Status signals that no controller's file was seen to have, absent and without an output."""
+    """Remove status signals of unconfirmed names, or their outputs."""
     opened = open_signals(bench.config) | {_name(bench, "standing")}
-    # What is open on RobotWare 7 the driver does without on every other, too.
+    # Signals that are unconfirmed on RobotWare 7 are optional for the driver on all versions.
     absent = opened | {_name(bench, function) for function in ("executing", "emergency_stop")}
     for without, undriven in ((absent, absent), (frozenset(), opened)):
         signals = tuple(s for s in bench.system.signals if s.name not in without)
@@ -142,7 +142,7 @@ def _open_files(bench: Bench) -> None:
 
 
 def _serves_and_stops(bench: Bench) -> None:
-    """A trajectory arrives, STOP ends one, and STATUS says of both when they are over."""
+    """Execute a trajectory, stop another one; STATUS reports both ends."""
     state, link, period = bench.state(), bench.motion(), bench.config.state_period
     bench.run(2 * period)
     bench.assert_moves_through(link, bench.wave(4))
@@ -165,7 +165,7 @@ def _serves_and_stops(bench: Bench) -> None:
 
 
 def _stopped_meanwhile(bench: Bench, link: RawLink) -> None:
-    """What two clients send while the program is stopped is nothing, also when it starts."""
+    """Send from two clients while the program is stopped: no effect later."""
     if bench.config.commissioning:
         return
     bench.controller.perform("stop")
@@ -189,7 +189,10 @@ def _is_over(bench: Bench, state: RawLink, what: str) -> None:
 
 @case("standing-forgotten", "a signal that says for ever that the robot moves")
 def _standing_forgotten(bench: Bench) -> None:
-    """Nothing drives it any more: STATUS believes it for ten seconds, or five messages."""
+    """Hold the standstill signal: STATUS believes it for a limited time.
+
+    The limit is ten seconds or five messages.
+    """
     state, period = bench.state(), bench.config.state_period
     bench.run(2 * period)
     bench.controller.signals[_name(bench, "standing")] = 0
@@ -266,7 +269,10 @@ case("power-loss", "nothing resumes after a power failure")(
 
 @case("power-loss-after-stop", "Start works after a power failure behind another stop", "R7a")
 def _power_loss_after_stop(bench: Bench) -> None:
-    """A halt that the failure has interrupted ends after Start, without PP to main."""
+    """Interrupt a halt by a power failure: it ends after Start.
+
+    PP to main is not needed.
+    """
     for action in ("stop", "manual", "e-stop", "power-loss"):
         bench.start_motion(bench.motion(), bench.wave(8), 0.6)
         bench.controller.perform(action)

@@ -1,7 +1,7 @@
-"""The zones that the path planner is given: found as docs/develop/driver-design.md ("Motion") says.
+"""Zones of moves, computed as in docs/develop/driver-design.md.
 
-What a zone is: S4 datasys 1-zonedata; one radius on both sides, angles and external axes where
-the TCP rests.
+Definition of a zone: S4 datasys 1-zonedata; one radius on both sides, angles and external axes
+where the TCP is at rest.
 """
 
 import math
@@ -25,7 +25,7 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("moving")
 
 _SHARE = 0.3
-"""Of an axis' acceleration."""
+"""Share of an axis' acceleration."""
 _SHORTEST = 0.025
 """s"""
 _SMALLEST = 0.0003
@@ -35,14 +35,14 @@ _RESTING = 0.0001
 
 
 class _Leg(NamedTuple):
-    """A way between two points: speeds of the axes and of the TCP."""
+    """A segment between two points: speeds of the axes and of the TCP."""
 
     speeds: tuple[float, ...]
     tcp: float
 
 
 def _named(name: str) -> Zone:
-    """A zone that RAPID has a name for."""
+    """Return the zone of a RAPID name."""
     known = signatures.constant(name)
     assert known is not None
     fine, *sizes = cast("tuple[float, ...]", known.value)
@@ -70,7 +70,7 @@ def _legs(bench: Bench, points: Sequence[Point]) -> list[_Leg]:
 
 
 def _corner(bench: Bench, arriving: _Leg, leaving: _Leg) -> Zone:
-    """The zone between two ways, neither of which is a stay."""
+    """Return the zone between two segments, neither of which is a stay."""
     largest, joints = _named(bench.config.trajectory.zone), bench.group.joints
     if largest.fine or bench.config.trajectory.corners == "zone" or not bench.group.chain:
         return largest
@@ -107,16 +107,16 @@ def _corner(bench: Bench, arriving: _Leg, leaving: _Leg) -> Zone:
 
 
 def _part(joint: Joint) -> str:
-    """What of a zone its axis has, where the TCP rests."""
+    """Return the zone component of an axis where the TCP is at rest."""
     if joint.kind == "prismatic":
         return "linear"
     return "angle" if joint.axis.startswith("rax") else "rotary"
 
 
 def _check(bench: Bench, points: Sequence[Point], what: str, percent: float = 100) -> None:
-    """Send a trajectory that begins where the robot stands; each of its points has its zone.
+    """Send a trajectory from here; check the zone of each point.
 
-    `percent`: SPEED, as it begins.
+    `percent`: SPEED at its start.
     """
     moves: list[Move] = []
     group = bench.motion_group
@@ -135,7 +135,7 @@ def _check(bench: Bench, points: Sequence[Point], what: str, percent: float = 10
     legs = _legs(bench, points)
     expected = [_corner(bench, *two) for two in pairwise(legs)]
     seen = [m.zone for m in moves if isinstance(m, JointMove)]
-    # The first point is where the robot stands.
+    # The first point is the robot's position.
     if len(seen) != len(expected) + 1 or not seen[-1].fine:
         raise CheckFailed(f"{what}: {len(points)} points, but {len(seen)} moves")
     for number, (zone, one) in enumerate(zip(seen, expected, strict=False), 1):
@@ -144,7 +144,7 @@ def _check(bench: Bench, points: Sequence[Point], what: str, percent: float = 10
 
 
 def _alike(zone: Zone, expected: Zone) -> bool:
-    """Equal, to what a num holds of positions and durations."""
+    """True if zones are equal within the rounding of a num."""
     if zone.fine or expected.fine:
         return zone.fine == expected.fine
     names = ("tcp", "orientation", "external", "angle", "linear", "rotary")
@@ -155,7 +155,7 @@ def _alike(zone: Zone, expected: Zone) -> bool:
 
 
 class _Walk:
-    """Points one leg after another, each with a speed for some axes, away from the limits."""
+    """Points one segment after another, with given speeds, within limits."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
@@ -176,7 +176,10 @@ class _Walk:
 
 
 def _usual(bench: Bench) -> list[float]:
-    """Speed of each axis of which the reversal takes its share of acceleration for 0.08 s."""
+    """Return the speed of each axis that reverses within 0.08 s.
+
+    The reversal uses the given share of the axis' acceleration.
+    """
     return [
         min(0.04 * _SHARE * joint.acceleration, 0.2 * joint.speed) for joint in bench.group.joints
     ]
@@ -184,12 +187,12 @@ def _usual(bench: Bench) -> list[float]:
 
 @case("corners", "each point's zone is as small as its axes follow", "R9")
 def _moving(bench: Bench) -> None:
-    """One axis after another decides; slow ones, quick ones; ways that take unequal times."""
+    """Move axes one by one, slow and fast, with unequal segment times."""
     usual, count = _usual(bench), len(bench.group.joints)
     least = max(0.2, bench.config.trajectory.min_segment)
     walk = _Walk(bench)
     for axis in range(count):
-        # Up, further on, back: the TCP is quicker before the point, then behind it.
+        # Up, further on, back: the TCP is faster before the point, then after it.
         for part, seconds in ((0.6, 1.3), (1.0, 1.0), (-0.9, 1.1), (0.1, 1.0), (-0.08, 1.5)):
             walk.go([part * usual[n] * (n == axis) for n in range(count)], seconds * least)
     for part, seconds in ((0.5, 1.0), (0.52, 1.2), (0.3, 1.0), (-0.8, 1.0), (0.4, 2.0)):
@@ -199,7 +202,7 @@ def _moving(bench: Bench) -> None:
 
 @case("corners-slowed", "zones of points that SPEED gives more time", "R9", needs="control")
 def _slowed(bench: Bench) -> None:
-    """The ways on both sides of a point are slower: its zone is that of slow ways."""
+    """Slow down the segments of a point: its zone is that of slow segments."""
     usual, least = _usual(bench), max(0.2, bench.config.trajectory.min_segment)
     walk = _Walk(bench)
     for part, seconds in ((1.0, 1.3), (0.9, 1.0), (-0.8, 1.1), (0.6, 1.0), (-1.0, 1.2)):
@@ -209,7 +212,7 @@ def _slowed(bench: Bench) -> None:
 
 @case("largest-corner", "no zone is larger than the configured one", "R9")
 def _largest(bench: Bench) -> None:
-    """A quick TCP that turns round: no corner is larger than the zone of the configuration."""
+    """Turn round with a fast TCP: no zone exceeds the configured one."""
     if bench.group.tcp_speed_limit < 5:
         raise NotApplicable("the TCP's ceiling is too low for large corners")
     least = max(0.2, bench.config.trajectory.min_segment)
@@ -224,7 +227,7 @@ def _largest(bench: Bench) -> None:
 
 @case("resting-corner", "zones of axes that do not move the TCP", "R9")
 def _resting(bench: Bench) -> None:
-    """Axes that do not move the TCP, where there are any: the last one, and some external ones."""
+    """Move only axes that leave the TCP at rest: last axis, external axes."""
     usual, count = _usual(bench), len(bench.group.joints)
     least = max(0.2, bench.config.trajectory.min_segment)
     for axis in range(count):
@@ -238,7 +241,7 @@ def _resting(bench: Bench) -> None:
 
 @case("unknown-corner", "a corner of unknown speed is as large as it may be", "R9")
 def _unknown(bench: Bench) -> None:
-    """The TCP's speed cannot be told: the largest corner, and the trajectory goes on."""
+    """Hide the TCP's speed: the largest zone applies, and motion continues."""
     policy = bench.config.trajectory
     if policy.zone == "fine" or policy.corners == "zone" or not bench.group.chain:
         raise NotApplicable("the driver computes no sizes of corners")

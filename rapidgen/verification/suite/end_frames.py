@@ -1,4 +1,4 @@
-"""The end frame: what is handed over, when, and what then moves in which time."""
+"""End frame: hand-over of a trajectory, and the timing of its motion."""
 
 import math
 from itertools import pairwise
@@ -26,7 +26,7 @@ _NO_START = messages.RawRefused(RawReason.NO_START, 0, 0)
 
 
 def _inward(bench: Bench, steps: Position) -> Position:
-    """Each axis by its step, to the side where there is more room."""
+    """Return each axis' step with the sign of the larger distance to a limit."""
     return tuple(
         inward(joint, current, step)
         for joint, current, step in zip(bench.group.joints, bench.position, steps, strict=True)
@@ -34,26 +34,26 @@ def _inward(bench: Bench, steps: Position) -> Position:
 
 
 def _approach(bench: Bench, steps: Position) -> float:
-    """s that the way to a first point gets at approach speed."""
+    """Return s of the motion to a first point at approach speed."""
     policy, joints = bench.config.trajectory, bench.group.joints
     by_axis = (s / (policy.approach_speed * j.speed) for s, j in zip(steps, joints, strict=True))
     return max(policy.min_segment, *by_axis)
 
 
 def _from_rest(bench: Bench, steps: Position) -> float:
-    """s that the axes take from rest to rest whatever they are given: half the way each ramp."""
+    """Return the minimum s from rest to rest: half the distance each ramp."""
     joints = zip(steps, bench.group.joints, strict=True)
     ramps = (2 * math.sqrt(step / joint.acceleration) for step, joint in joints)
     return max(ramps) + bench.setting.motion.ramp_time
 
 
 def _slack(bench: Bench) -> float:
-    """s that a motion may begin later, or last longer, than it was asked to."""
+    """Return s by which a motion may start later or last longer."""
     return 0.03 + 0.02 * bench.setting.slowness
 
 
 def _in_time(bench: Bench, what: str, seen: float, expected: float, possible: float = 0.0) -> None:
-    """Broken unless something took as long as wanted, or as is possible where that is longer."""
+    """Check that a duration is as requested, or as possible if longer."""
     motion = bench.setting.motion
     late = _slack(bench) + motion.settle + motion.servo_lag
     if not 0.95 * expected - 0.02 <= seen <= max(expected, possible) + late:
@@ -61,7 +61,7 @@ def _in_time(bench: Bench, what: str, seen: float, expected: float, possible: fl
 
 
 def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
-    """When the robot first came to a place, and when it left it (now: it has not)."""
+    """Return when the robot came to a place and left it (now: not yet)."""
     track = [(t, p) for t, p in bench.track if t >= since]
     arrived = next((i for i, (_, p) in enumerate(track) if distance(p, place) < SETTLED), None)
     if arrived is None:
@@ -73,7 +73,7 @@ def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
 
 
 def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
-    """Broken unless PROGRESS says within that time that all points are executed."""
+    """Check that PROGRESS reports all points as executed within that time."""
     expected = (table.number, RawTrajectoryState.DONE, count, count, count, 0, -1, 0)
     table.watcher.read()
     more = 2.5 * bench.config.state_period + 2 * bench.setting.motion.settle
@@ -87,13 +87,13 @@ def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
 
 @case("one-place", "one point, sent twice, in its time", "R8")
 def _one_place(bench: Bench) -> None:
-    """One point, sent twice: in the time given, or at approach speed, whichever takes longer."""
+    """Send one point twice: given time or approach speed, whichever is longer."""
     table, joints = Table(bench), bench.group.joints
     for part, given in ((0.9, 0.05), (0.9, 0.8), (0.5, 0.05), (0.0, 0.4)):
         steps = tuple(part * bench.start_tolerance(joint) for joint in joints)
         target = _inward(bench, steps)
         needed = _approach(bench, steps) if any(steps) else 0.0
-        # From rest to rest, and the TCP below its ceiling.
+        # From rest to rest, and below the TCP's speed limit.
         needed = max(needed, 2 * bench.tcp_seconds(bench.position, target))
         table.row(_BEGIN, target, given, _TAKEN)
         table.accepted(target, given)
@@ -106,16 +106,19 @@ def _one_place(bench: Bench) -> None:
             took = bench.now - since
             possible = _from_rest(bench, steps)
             _in_time(bench, "a point that was sent twice", took, max(needed, given), possible)
-        # It is a place to go to, not one to stay at.
+        # The point is a target, not a stay.
         _done(bench, table, 2, 0.1 if needed else given + 0.1)
 
 
 @case("start-and-ways", "where a trajectory may begin; ways and stays in their time", "R8, R10")
 def _start(bench: Bench) -> None:
-    """How far from the robot a first point may be; the ways and stays behind it in their time."""
+    """Start off the first point, within its tolerance.
+
+    Later segments and stays keep their times.
+    """
     table, joints = Table(bench), bench.group.joints
     near = tuple(map(bench.start_tolerance, joints))
-    # Where no axis is at zero.
+    # A position without an axis at zero.
     target = _inward(bench, tuple(4 * n for n in near))
     table.row(_BEGIN, bench.position, 0.1, _TAKEN)
     table.accepted(target, bench.seconds_to(target))
@@ -158,8 +161,8 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
         _done(bench, table, len(points), 0.4 if last else 0.0)
         finished = bench.now
         if bench.setting.motion.servo_lag or bench.group.tcp_speed_limit < CEILING:
-            # A robot that follows late does not quite get to a place where it does not stay; below
-            # a ceiling of the TCP ways from and to rest may take longer.
+            # An axis that follows late does not quite reach a place without a stay. With a TCP
+            # speed limit, segments from and to rest may take longer.
             continue
         started = _times(bench, since, current)[1]
         at_start = _times(bench, since, start)[0]
@@ -177,7 +180,7 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
 
 @case("not-now", "an end frame while no motion is possible, or another one moves", "R7a")
 def _not_now(bench: Bench) -> None:
-    """What has stopped or stops the robot meanwhile is the reason; a halt is waited for."""
+    """Reject with the event that stops the robot; wait for a halt."""
     table, current = Table(bench), bench.position
 
     def refused(reason: RawReason) -> None:
@@ -195,12 +198,12 @@ def _not_now(bench: Bench) -> None:
             table.stop(control)
             refused(RawReason.STOPPED)
     stops = (("stop", RawReason.NOT_EXECUTING), ("e-stop", RawReason.EMERGENCY_STOP))
-    # While commissioning the driver stops with the program, and nobody answers.
+    # While commissioning the driver stops with the program, and sends no reply.
     for action, reason in () if bench.config.commissioning else stops:
         table.row(_BEGIN, current, 9.0, _TAKEN)
         table.ask()
         bench.controller.perform(action)
-        # Sooner than anybody looks by himself.
+        # Sooner than the next periodic look.
         bench.run(0.01)
         refused(reason)
         bench.start_again()
@@ -210,11 +213,11 @@ def _not_now(bench: Bench) -> None:
 
 
 def _while_moving(bench: Bench, table: Table) -> None:
-    """The one under way ends; its halt is waited for, no longer than it takes."""
+    """Replace a trajectory: wait for its halt, no longer than needed."""
     joint, current = bench.group.joints[0], bench.position
     step = 0.8 * max(joint.upper - current[0], current[0] - joint.lower)
     away = _inward(bench, (step, *[0.0] * (len(current) - 1)))
-    # A TCP with a ceiling of its own is slower than the axis.
+    # A TCP with its own speed limit is slower than the axis.
     slower = 1.1 if bench.group.tcp_speed_limit >= 5 else 14
     seconds = slower * step / joint.speed
     table.row(_BEGIN, current, 9.0, _TAKEN)
@@ -222,7 +225,7 @@ def _while_moving(bench: Bench, table: Table) -> None:
     table.ask()
     bench.wait_until_moving()
     bench.run(0.6 * seconds)
-    # The new one begins elsewhere.
+    # The new trajectory starts elsewhere.
     far = messages.RawRefused(RawReason.START_TOO_FAR, 0, 1)
     for number, expected in ((_BEGIN, _TAKEN), (_END, far)):
         table.row(number, current, 0.2, expected)
@@ -237,14 +240,17 @@ def _while_moving(bench: Bench, table: Table) -> None:
 
 
 def _long(bench: Bench, count: int) -> list[Point]:
-    """`count` points in little time; more of them than the ring takes at once."""
+    """Return `count` points in little time; more than the ring holds."""
     seconds = max(0.1, 1.02 * bench.config.trajectory.min_segment)
     return [(p, seconds) for p, _ in bench.wave(count, duration=seconds, size=0.02)]
 
 
 @case("fed", "more points than the ring takes", "R1")
 def _fed(bench: Bench) -> None:
-    """More points than the ring takes are all executed, in time, and the server goes on reading."""
+    """Execute more points than the ring holds, in time.
+
+    The server keeps reading.
+    """
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 25:
         raise NotApplicable("a whole trajectory has room in the ring")
@@ -269,7 +275,7 @@ def _fed(bench: Bench) -> None:
 
 @case("ends-while-fed", "the end of a trajectory that is still fed", "R5", background=True)
 def _ends_while_fed(bench: Bench) -> None:
-    """Nothing of what had not found room yet is ever executed."""
+    """End a trajectory while it is fed: waiting points never execute."""
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 60:
         raise NotApplicable("a whole trajectory has room in the ring")
@@ -277,7 +283,7 @@ def _ends_while_fed(bench: Bench) -> None:
     link, data = table.link, bench.download(points)
     for action in ("STOP", "stop", "another"):
         since, start = bench.now, bench.position
-        # From wherever it stood to where the way begins.
+        # From the stop position to the start of the path.
         table.number += 2
         link.send(bench.download(bench.way_to(points[0][0])))
         bench.wait_until_at(points[0][0], 5)

@@ -1,4 +1,4 @@
-"""No value of a message ends a task, and without one of the driver's tasks nothing moves."""
+"""Tasks that end: no message ends one, and the robot then stops."""
 
 import struct
 from collections.abc import Callable
@@ -19,7 +19,7 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("halting")
 
 DETECTED = 0.5
-"""s from the end of a task to the stop of the robot and the event, at most."""
+"""Maximum s from the end of a task to the robot's stop and the event."""
 _SERVERS = ("ROS_motionServer", "ROS_supervisor", "ROS_control", "ROS_stateServer")
 _WHOLE = (0, 1, -1, 2**23 - 1, 2**23 + 1, 2**24 + 1, 2**31 - 1, -(2**31), 65_535, 65_536)
 _REAL = (float("nan"), float("inf"), -float("inf"), 3.4e38, -3.4e38, 1e-45, -0.0, 2.0**31)
@@ -36,11 +36,11 @@ _SIZES = {
     messages.DATA: 23,
     messages.TARGET: 2,
 }
-"""Words of the data of what a client may send."""
+"""Data words of client messages."""
 
 
 def _boundary_frames() -> list[bytes]:
-    """Messages with one field at a boundary, the others zero or one."""
+    """Return messages with one boundary field, the others zero or one."""
     frames = [
         struct.pack("<iiii", length, number, comm, code)
         for number in _WHOLE
@@ -59,7 +59,7 @@ def _boundary_frames() -> list[bytes]:
 
 @case("boundary-values", "a field at the end of its range ends no task", "R3")
 def _boundaries(bench: Bench) -> None:
-    """Each field of each message at the ends of its type, on every port."""
+    """Send each field of each message at its type's limits, on every port."""
     ports = [bench.motion, bench.state]
     if bench.group.ports.control:
         ports.append(bench.control)
@@ -67,7 +67,7 @@ def _boundaries(bench: Bench) -> None:
         link = connect()
         for frame in _boundary_frames():
             link.send(frame)
-            # The server drops the link where it cannot trust what follows.
+            # The server drops the connection if it cannot trust what follows.
             bench.run(0.004 * bench.setting.slowness)
             if link.lost:
                 link = connect()
@@ -82,7 +82,7 @@ def _modules(bench: Bench) -> list[str]:
 
 
 def _halts(bench: Bench, module: str, situation: str) -> None:
-    """End a task while the robot stands or moves; see that all that must follows does."""
+    """End a task while the robot stands or moves; check the reactions."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     what = f"{bench.task(module)} ended, the robot was {situation}"
     bench.run(0.5)
@@ -122,7 +122,7 @@ def _halts(bench: Bench, module: str, situation: str) -> None:
     task.start()
     bench.run(2 + patience(bench))
     if module == "ROS_supervisor" and bench.setting.motion.stop_owner != "kind":
-        # There the supervisor cannot take back what a server has done.
+        # Here the supervisor cannot reset the stop of a server.
         return
     bench.assert_moves_through(link if not link.lost else bench.motion(), bench.wave(3))
 
@@ -162,8 +162,10 @@ def _streaming(bench: Bench) -> None:
 
 @case("task-fails", "a server task ends with an error, and the program is started again")
 def _fails(bench: Bench) -> None:
-    """What a controller does with a task that an error has ended: it stops the program. After
-    Start nothing moves, with tasks in the background and with NORMAL ones."""
+    """End a task with an error: the controller stops the program.
+
+    After Start nothing moves, with tasks in the background and with NORMAL ones.
+    """
     for module in _modules(bench):
         with bench.beside(bench.system) as other:
             _ends_with_an_error(other, module)
@@ -207,13 +209,13 @@ def _ends_with_an_error(bench: Bench, module: str) -> None:
 
 
 def _pings(bench: Bench) -> None:
-    """STOP is answered wherever its server runs: by success or failure, never by silence."""
+    """Check that STOP gets a reply wherever its server runs."""
     for task, connect in (("ROS_motionServer", bench.motion), ("ROS_control", bench.control)):
         if task == "ROS_control" and not bench.group.ports.control:
             continue
         if bench.rapid_task(task).state == "running":
             other = connect()
-            # On the motion port a newer client is served when the one before is silent.
+            # On the motion port, the driver serves a newer client when the old one is silent.
             bench.run(1.5)
             other.send(messages.encode(messages.RawPing(), RawComm.REQUEST))
             other.reply(messages.PING, 3)

@@ -1,4 +1,4 @@
-"""What goes wrong in cells: stops at any statement, stale data, half files, two robots at once."""
+"""Faults of cells: stops at statements, stale data, files, two robots."""
 
 import random
 from dataclasses import replace
@@ -24,7 +24,7 @@ def _stop_and_more_in_one_packet(bench: Bench) -> None:
         first, second = bench.wave(8), bench.wave(5)
         link.send(bench.download(first))
         bench.run(delay)
-        # It begins where the robot stands before it has moved at all.
+        # The trajectory starts at the robot's initial position.
         link.send(STOP + bench.download(second))
         link.expect_reply(3, "STOP with a trajectory behind it is answered")
         bench.run(6)
@@ -38,14 +38,14 @@ def _stop_and_more_in_one_packet(bench: Bench) -> None:
 
 @case("loop", "a way through its own end", "C6")
 def _loop(bench: Bench) -> None:
-    """A way that passes its own end is not over there."""
+    """Pass the end point of a loop: the trajectory is not done there."""
     watcher, link = bench.watcher(), bench.motion()
     out = bench.wave(5)
     points: list[Point] = [*out, *((p, 0.4) for p, _ in reversed(out[:-1]))]
     points += [(p, 0.4) for p, _ in out[1:3]]
     since = bench.now
     bench.start_motion(link, points)
-    # The first move may be under way before anybody could tell.
+    # The first move may start before a check could see it.
     while bench.progress(watcher).state in (
         RawTrajectoryState.RECEIVING,
         RawTrajectoryState.MOVING,
@@ -63,7 +63,7 @@ def _loop(bench: Bench) -> None:
 
 @case("close-points", "zones wider than segments, points at no distance", "R9")
 def _close_points(bench: Bench) -> None:
-    """Zones wider than segments, and points at no distance worth a move."""
+    """Send zones wider than segments, and points at negligible distances."""
     link = bench.motion()
     shortest = max(0.15, 1.05 * bench.config.trajectory.min_segment)
     for size in (2e-3, 1e-4, 1e-6):
@@ -89,7 +89,7 @@ def _close_points(bench: Bench) -> None:
 
 @case("override", "a speed override of 50 %")
 def _override(bench: Bench) -> None:
-    """Half the speed: the same way, in twice the time."""
+    """Set half the speed override: the same path, in twice the time."""
     group = bench.motion_group
     link = bench.motion()
     accepted = []
@@ -105,7 +105,7 @@ def _override(bench: Bench) -> None:
 
 @case("manual-speed", "a trajectory in manual mode", background=True)
 def _manual_mode(bench: Bench) -> None:
-    """In manual mode, with the program started by hand, a trajectory is followed more slowly."""
+    """Start in manual mode by hand: the trajectory runs more slowly."""
     bench.run(0.5)
     bench.controller.perform("manual")
     for action in ("motors-on", "start"):
@@ -127,7 +127,7 @@ def _garbled(value: object, chance: random.Random) -> object:
 
 @case("stale-data", "whatever persistent data hold at the start", "R7a", once=True)
 def _stale_data(bench: Bench) -> None:
-    """Whatever PERS hold at the start, of a lock, a ring or a counter: nothing moves by itself."""
+    """Start with any lock, ring or counter data in PERS: no motion."""
     chance = random.Random(bench.setting.seed)
     for _ in range(6):
         with bench.beside(bench.system) as other:
@@ -160,7 +160,7 @@ def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:
 
 @case("half-files", "a module that was cut on its way", once=True)
 def _half_files(bench: Bench) -> None:
-    """A module that was cut on its way: its task does not load, or nothing moves."""
+    """Truncate a module: its task does not load, or nothing moves."""
     for share in (0.3, 0.7, 0.95):
         for path, data in sorted(_files(bench).items()):
             half = data[: int(share * len(data))]
@@ -169,7 +169,7 @@ def _half_files(bench: Bench) -> None:
 
 @case("second-main", "another module with a main")
 def _second_main(bench: Bench) -> None:
-    """A module with a main of its own before ours: that one runs, and nothing is taken."""
+    """Load a second main first: that one runs, and no trajectory is accepted."""
     text = b"MODULE other\n    PROC main()\n        WaitTime 1;\n    ENDPROC\nENDMODULE\n"
     extra = ModuleFile("other", "HOME/other.mod", text, "HOME:/other.mod")
     tasks = tuple(
@@ -207,7 +207,7 @@ def _moves_nothing(bench: Bench, system: System, what: str) -> None:
 
 @case("two-groups", "several groups at the same time", "R20")
 def _two_groups(bench: Bench) -> None:
-    """Groups move at the same time, and a STOP for one stops no other."""
+    """Move groups at the same time; STOP for one does not stop another."""
     if len(bench.config.groups) < 2:
         raise NotApplicable("there is one group")
     other = bench.of_group((bench.setting.group + 1) % len(bench.config.groups))
@@ -232,7 +232,7 @@ def _two_groups(bench: Bench) -> None:
 
 @case("even-speed", "no slowing down at points of a straight way", "R9")
 def _even(bench: Bench) -> None:
-    """A robot that moves at one speed is not slowed down at its points."""
+    """Move at constant speed: points do not slow down the robot."""
     points = bench.wave(2)
     start, end = points[0][0], points[1][0]
     count, seconds = 12, max(0.25, 1.1 * bench.config.trajectory.min_segment)

@@ -1,4 +1,4 @@
-"""Bytes that no honest client sends."""
+"""Malformed messages."""
 
 import random
 
@@ -11,7 +11,7 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("framing")
 
 ROUNDS = 60
-"""Malformed openings of one run; `campaign` has more."""
+"""Malformed messages in one run; `campaign` allows more."""
 
 
 def _word(value: int) -> bytes:
@@ -94,7 +94,7 @@ def _half_header_and_end(bench: Bench) -> None:
 
 @case("damage", "random damage moves nothing and stops no task", "R3")
 def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
-    """Malformed frames in all ways; each time a good client is served afterwards."""
+    """Send malformed frames, each followed by a well-behaved client."""
     chance = random.Random(bench.setting.seed)
     for _ in range(rounds):
         data = malformed(bench, chance)
@@ -107,7 +107,7 @@ def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
 
 
 def malformed(bench: Bench, chance: random.Random) -> bytes:
-    """A damaged download without its end, a header with wrong fields, or plain noise."""
+    """Return a damaged download without end, a wrong header, or noise."""
     kind = chance.randrange(4)
     if kind == 0:
         return chance.randbytes(chance.randrange(1, 300))
@@ -118,7 +118,7 @@ def malformed(bench: Bench, chance: random.Random) -> bytes:
         fields += [chance.choice((0, 1, 2, chance.randrange(-9, 99)))]
         return b"".join(map(_word, fields)) + chance.randbytes(chance.randrange(0, 70))
     data = bytearray(bench.download(bench.wave(4)))
-    # The end frame is always lost, so nothing may move whatever is left.
+    # The end frame is always lost, so the robot must not move in any case.
     del data[-(POINT_BYTES - 4) - 4 :]
     for _ in range(chance.randrange(1, 5)):
         at = chance.randrange(len(data))

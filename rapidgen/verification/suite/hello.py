@@ -1,4 +1,4 @@
-"""What the paired client is told on the state port: HELLO and PROGRESS."""
+"""Messages to a paired client on the state port: HELLO and PROGRESS."""
 
 import struct
 from itertools import pairwise
@@ -66,7 +66,7 @@ def _hello_tells_all(bench: Bench) -> None:
 
 
 def _same(reply: object, expected: object) -> bool:
-    """Equal, but for the last digits of what RAPID's text of a number can hold."""
+    """True if equal within the last digits of RAPID's number texts."""
     if isinstance(reply, tuple) and isinstance(expected, tuple):
         return len(reply) == len(expected) and all(map(_same, reply, expected))
     if isinstance(reply, float) and isinstance(expected, float):
@@ -136,7 +136,7 @@ def _state_port_takes_nothing_else(bench: Bench) -> None:
 
 
 def _straight(bench: Bench, count: int, duration: float = 0.3) -> list[Point]:
-    """Points at equal distances on one straight line from where the robot stands."""
+    """Return points at equal distances on a straight line from here."""
     points = bench.wave(2, duration=0.3)
     start, end = points[0][0], points[1][0]
     return [
@@ -149,7 +149,7 @@ def _straight(bench: Bench, count: int, duration: float = 0.3) -> list[Point]:
 
 
 def _passed(bench: Bench, points: list[Point]) -> float:
-    """How many of the points on a straight line the robot has passed, with fractions."""
+    """Return how many points on a straight line the robot has passed."""
     start, end = points[0][0], points[-1][0]
     axis = max(range(len(start)), key=lambda i: abs(end[i] - start[i]))
     share = (bench.position[axis] - start[axis]) / (end[axis] - start[axis])
@@ -173,7 +173,7 @@ def _progress_tells_the_way(bench: Bench) -> None:
             reply.append(bench.progress(link))
             _is_consistent(reply[-1], before + number, len(points))
             passed = _passed(bench, points)
-            # A point counts when its successor was given to the planner: late, never early.
+            # A point counts when its successor is planned: late, never early.
             if reply[-1].state == RawTrajectoryState.MOVING and not (
                 passed - 4 <= reply[-1].reached <= passed + 0.5
             ):
@@ -249,11 +249,11 @@ def _progress_of_a_refusal(bench: Bench) -> None:
     background=True,
 )
 def _progress_of_an_early_end(bench: Bench) -> None:
-    """Each event that ends a trajectory is told by its own reason, and where it ended."""
+    """Report each early end by its own reason and position."""
     stopped = (RawReason.MOTORS_OFF, RawReason.PROGRAM_STOPPED)
     for action, state, reasons in (
         ("STOP", RawTrajectoryState.STOPPED, (RawReason.STOPPED,)),
-        # One stop comes with the next: whichever is seen first.
+        # One stop comes with the next: the first one seen counts.
         ("e-stop", RawTrajectoryState.FAILED, (RawReason.EMERGENCY_STOP, *stopped)),
         ("motors-off", RawTrajectoryState.FAILED, stopped),
         ("stop", RawTrajectoryState.FAILED, (RawReason.PROGRAM_STOPPED,)),
@@ -309,7 +309,10 @@ def _progress_of_a_successor(bench: Bench) -> None:
 
 @case("progress-in-between", "PROGRESS while another task writes what it tells")
 def _progress_in_between(bench: Bench) -> None:
-    """What another task has written of two numbers is told as one: of nothing, or of the newer."""
+    """Report two numbers of another task together.
+
+    PROGRESS reports the newer trajectory or none.
+    """
     link, motion = bench.watcher(), bench.motion()
     points = [(p, 30.0) for p, _ in bench.wave(4)]
     far = (bench.group.joints[0].upper + 0.5, *points[2][0][1:])
@@ -319,7 +322,7 @@ def _progress_in_between(bench: Bench) -> None:
     refusal = (RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
     if reply[1:] != refusal:
         raise CheckFailed(f"point 2 was refused for joint 1, PROGRESS says {reply}")
-    # A trajectory begins: nothing is known of it but its number.
+    # A trajectory starts: only its number is known.
     task = bench.controller.task(bench.task("ROS_motionServer"))
     declared = task.rapid.program.modules["ros_common"].declarations
     names = {key.rstrip("_0123456789"): f"ROS_common:{key}" for key in declared}
@@ -328,7 +331,7 @@ def _progress_in_between(bench: Bench) -> None:
     if between != (reply.trajectory + 1, RawTrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
         raise CheckFailed(f"a trajectory begins after {reply}, PROGRESS says {between}")
     task[names["ros_trajectory"]] = reply.trajectory
-    # A STOP takes back the refusal: its code is written before its state.
+    # STOP resets the rejection: its code is written before its state.
     task[names["ros_refusal"]] = RawReason.STOPPED
     between = _newest(bench, link)
     if between[1:] != (RawTrajectoryState.STOPPED, 2, 0, 0, RawReason.STOPPED, -1, 0):
@@ -341,7 +344,7 @@ def _progress_in_between(bench: Bench) -> None:
 
 @case("other-hellos", "a HELLO of later versions, and one that cannot be read")
 def _other_hellos(bench: Bench) -> None:
-    """Of a newer client, with wishes that nobody knows, and one that cannot be read."""
+    """Send HELLO of a newer client, with unknown features, and a bad one."""
     link, later = bench.state(), 1 << 20
     newer = HELLO._replace(protocol=messages.PROTOCOL_VERSION + 1, subscribe=later | 1)
     link.send(messages.encode(newer, RawComm.REQUEST))

@@ -1,4 +1,4 @@
-"""Openings of those who want no robot, on every port: the next client is served each time."""
+"""Invalid first messages on every port: the next client is served."""
 
 import random
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("framing")
 
 ROUNDS = 40
-"""Random openings of one run; `campaign` has more."""
+"""Random first messages in one run; `campaign` allows more."""
 _FOREIGN = (
     b"GET / HTTP/1.1\r\nHost: 192.168.125.1:11000\r\n\r\n",
     b"SSH-2.0-OpenSSH_9.6\r\n",
@@ -32,12 +32,12 @@ _Serve = Callable[[Bench], None]
 
 
 def _replying(bench: Bench) -> bytes:
-    """A point with the reply code -1."""
+    """Return a point with the reply code -1."""
     return raw_point(-1, bench.position, 1.0)[:12] + b"\xff" * 4 + bytes(52)
 
 
 def _headed(chance: random.Random) -> bytes:
-    """A message of a type that somebody takes, with any data, often of its own length."""
+    """Return a known message type with random data, often of valid length."""
     number = chance.choice(_KINDS)
     size = chance.choice((0, 4, 12, 20, 24, 52, chance.randrange(0, 200)))
     data = b"".join(chance.choice((bytes(4), b"\xff" * 4, chance.randbytes(4))) for _ in range(50))
@@ -64,7 +64,7 @@ def _control(bench: Bench) -> None:
 
 
 def _doors(bench: Bench) -> dict[str, tuple[Callable[[], RawLink], _Serve]]:
-    """The ports of the driver: who connects there, and how a good client is served."""
+    """Return the driver's ports, with connect and check functions."""
     result: dict[str, tuple[Callable[[], RawLink], _Serve]] = {
         "motion": (bench.motion, _motion),
         "state": (bench.state, _state),
@@ -98,7 +98,7 @@ def _others(bench: Bench) -> None:
 
 @case("hostile-openings", "random messages on every port end no task", "R3")
 def campaign(bench: Bench, rounds: int = ROUNDS, boundary: float = 0.0) -> None:
-    """Messages with any data, malformed ones and noise, each followed by a good client.
+    """Send random, malformed and noise messages, each followed by a check.
 
     `boundary`: share of messages of which half of the fields have boundary values.
     """

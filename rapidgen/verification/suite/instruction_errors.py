@@ -1,4 +1,4 @@
-"""Instructions that report errors, ports that are taken, counters and clocks at their ends."""
+"""Failing instructions, ports in use, and wrap of counters and clocks."""
 
 import re
 from dataclasses import replace
@@ -36,12 +36,14 @@ _COUNTERS = (
     ("interrupts", "interrupts_seen"),
     ("dead", "halted"),
 )
-"""PERS of ROS_common that count; those of one row stand at the same value in an idle driver,
-the last row at a trajectory of long ago."""
+"""Counters in ROS_common.
+
+Those of one row have the same value in an idle driver, the last row that of an old trajectory.
+"""
 
 
 def _serves(bench: Bench) -> None:
-    """A trajectory, a STOP in the next one, and another trajectory."""
+    """Check a trajectory, STOP in the next one, and another trajectory."""
     link = bench.motion()
     bench.assert_moves_through(link, bench.wave(3, duration=0.2))
     bench.start_motion(link, bench.wave(8), 0.3)
@@ -54,7 +56,7 @@ def _serves(bench: Bench) -> None:
 
 @case("instructions-fail", "an instruction that reports an error ends no task", "R3")
 def _instructions_fail(bench: Bench) -> None:
-    """Each instruction that a controller may refuse does so twice, at a standstill and moving."""
+    """Make each instruction that may fail do so twice, at rest and moving."""
     for module, instruction, error in (
         ("ROS_motionServer", "SocketReceive", "ERR_SOCK_CLOSED"),
         ("ROS_motionServer", "SocketPeek", "ERR_SOCK_CLOSED"),
@@ -131,7 +133,7 @@ def _errors(bench: Bench) -> list[str]:
 
 @case("path-stays", "a path that cannot be cleared is not executed")
 def _path_stays(bench: Bench) -> None:
-    """Should a path not be cleared at once, or nobody know whether the robot stands: it does."""
+    """Fail to clear a path, or to read the standstill: the robot stays at rest."""
     for instruction, times in (
         ("ClearPath", 1),
         ("ClearPath", 3),
@@ -139,7 +141,7 @@ def _path_stays(bench: Bench) -> None:
         ("WaitRob", 3),
     ):
         link = bench.motion()
-        # What is ordered already would take for longer than a stop does.
+        # A move that is already ordered would take longer than a stop.
         bench.start_motion(link, bench.wave(6, duration=2.0), 0.5)
         fails(bench, "ROS_motion", instruction, "ERR_PATH_STOP", times)
         link.stop(2, "STOP is answered, whatever becomes of the path")
@@ -150,7 +152,7 @@ def _path_stays(bench: Bench) -> None:
 
 @case("far-off-once", "a stop far off the path makes no later one so", "R7b")
 def _far_off_once(bench: Bench) -> None:
-    """StopMoveReset is for a robot that stands too far from its path, and for no later stop."""
+    """Use StopMoveReset only if the robot is too far from its path."""
     link = bench.motion()
     for error, why in (
         ("ERR_PATHDIST", "It stands too far from the path that it left."),
@@ -197,7 +199,7 @@ def _port_taken(bench: Bench) -> None:
 
 @case("counters-wrap", "counters begin anew behind their last value", once=True)
 def _counters_wrap(bench: Bench) -> None:
-    """The counters' last values come after years; here they are set before the start."""
+    """Set counters to their last values, which take years to reach."""
     for before in (1, 3, 5):
         with bench.beside(bench.system) as other:
             set_counters(other, WRAP - before)
@@ -218,7 +220,7 @@ def _counters_wrap(bench: Bench) -> None:
 
 @case("number-again", "a trajectory with the number of a program of years ago", needs="stream")
 def _number_again(bench: Bench) -> None:
-    """Numbers begin anew: its points are no instructions, although a program was called so."""
+    """Restart the numbers after a program: the points are no instructions."""
     watcher, link = bench.watcher(), bench.motion()
     task = bench.controller.task(bench.task("ROS_motion"))
     task[datum(bench, "ros_program")] = bench.progress(watcher).trajectory + 1
@@ -226,11 +228,11 @@ def _number_again(bench: Bench) -> None:
 
 
 def set_counters(bench: Bench, value: int) -> None:
-    """Give all counters a value, before anything is asked of the driver."""
+    """Set all counters, before the first request."""
     task = bench.controller.task(bench.task("ROS_motion"))
     declared = task.rapid.program.modules["ros_common"].declarations
     for name in [name for row in _COUNTERS for name in row]:
-        # With several groups the names end in the group's number.
+        # With several groups, the names end in the group's number.
         full = [key for key in declared if re.fullmatch(rf"ros_{name}(_\d+)?", key)]
         for one in full:
             task[f"ROS_common:{one}"] = value
@@ -247,7 +249,7 @@ def _serves_stop(bench: Bench) -> None:
 
 @case("clocks-end", "a clock at the end of its 49 days")
 def _clocks_at_their_end(bench: Bench) -> None:
-    """49 days without a refusal: the clock that rations warnings has ended."""
+    """Wait 49 days without a rejection: the warning clock has overflowed."""
     link = bench.motion()
     link.send(bench.download(bench.wave(4))[68:])
     bench.run(2)
@@ -263,7 +265,10 @@ def _clocks_at_their_end(bench: Bench) -> None:
 
 @case("state-for-hours", "the state schedule over the ends of its clock", once=True)
 def _state_for_hours(bench: Bench) -> None:
-    """Messages keep their schedule while clocks and counters of the server start anew."""
+    """Send state for hours: messages keep their schedule.
+
+    Clocks and counters of the server restart meanwhile.
+    """
     link = bench.state()
     bench.run(1050)
     stamps = [when for when, f in link.frames if f.number == STATUS]
@@ -277,7 +282,7 @@ def _state_for_hours(bench: Bench) -> None:
 
 @case("nobody-costs", "a driver that nobody talks to takes little of the processor", "R19")
 def _nobody_costs(bench: Bench) -> None:
-    """Each of its tasks waits for somebody."""
+    """Measure processor time without clients: each task waits."""
     bench.run(0.1)
     meter = CpuMeter(bench)
     bench.run(0.5)
@@ -286,7 +291,7 @@ def _nobody_costs(bench: Bench) -> None:
 
 @case("idle-costs", "a driver that waits takes little of the processor", "R19")
 def _idle_costs_nothing(bench: Bench) -> None:
-    """A driver that waits leaves the controller's processor to others."""
+    """Measure processor time of an idle driver: other tasks get it."""
     link, state = bench.motion(), bench.state()
     if bench.group.ports.control:
         bench.control()
@@ -300,7 +305,7 @@ def _idle_costs_nothing(bench: Bench) -> None:
 
 @case("signals-fail", "signals that cannot be read are unknown", "R15")
 def _signal_units_fail(bench: Bench) -> None:
-    """A signal whose unit is gone is unknown, not off."""
+    """Lose a signal's I/O unit: the signal is unknown, not off."""
     state = bench.state()
     fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
     bench.run(1)
@@ -314,7 +319,7 @@ def _signal_units_fail(bench: Bench) -> None:
 
 @case("stopped-unseen", "a program stop that no signal shows", "R15", background=True)
 def _stopped_without_signals(bench: Bench) -> None:
-    """The supervisor cannot see that the program was stopped: the robot stays stopped."""
+    """Stop the program without signals: the robot stays stopped."""
     with bench.beside(replace(bench.system, signals=(), outputs=(), cross=(), events=())) as other:
         link = other.motion()
         other.start_motion(link, other.wave(10))

@@ -1,4 +1,4 @@
-"""Stops at the worst moments, and a driver that lacks parts of what it usually has."""
+"""Stops at critical moments, and drivers without signals or routines."""
 
 from dataclasses import replace
 from functools import partial
@@ -32,13 +32,13 @@ _TRAJ = JOINT_TRAJ_PT
 
 
 def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> messages.RawProgress:
-    """PROGRESS; Broken unless the newest trajectory has ended early for that reason."""
+    """Return PROGRESS; check that the newest trajectory ended for that reason."""
     reply = bench.progress(watcher)
     stopped = reason is RawReason.STOPPED
     state = RawTrajectoryState.STOPPED if stopped else RawTrajectoryState.FAILED
     reasons = [reason]
     if bench.setting.switch_at_pers and reason is RawReason.MOTORS_OFF:
-        # Motors that are off stop the program, too, which may be read first.
+        # Motors off also stop the program, which the driver may read first.
         reasons.append(RawReason.PROGRAM_STOPPED)
     if reply.state != state or reply.reason not in reasons:
         raise CheckFailed(f"{what}: {reason.name} is wanted, PROGRESS says {reply}")
@@ -46,7 +46,7 @@ def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> mess
 
 
 def _works(bench: Bench, link: RawLink) -> None:
-    """A trajectory begins soon, and comes to its end in time."""
+    """Check that a trajectory starts soon and ends in time."""
     unit = unit_of(bench)
     points = bench.wave(2, duration=unit)
     begins(bench, link, points)
@@ -56,7 +56,7 @@ def _works(bench: Bench, link: RawLink) -> None:
 
 @case("before-a-move", "a stop of the program just before a move", "R7a", background=True)
 def _before_a_move(bench: Bench) -> None:
-    """Stop and Start while the motion task stands just before a move: it does not begin."""
+    """Stop and Start just before a move: the move does not start."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     task = bench.controller.task(bench.task("ROS_motion"))
     for number, pause in ((1, 0.001), (2, 0.03), (3, 0.07), (3, 0.001)):
@@ -79,7 +79,7 @@ def _before_a_move(bench: Bench) -> None:
 
 @case("first-reason", "the first of two reasons counts", background=True)
 def _first_reason(bench: Bench) -> None:
-    """Of two that come together the first one counts, and the trajectory ends once."""
+    """Combine two stop reasons: the first counts, and one end is reported."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     last = bench.last_event
     begins(bench, link, bench.wave(5, duration=unit))
@@ -90,7 +90,7 @@ def _first_reason(bench: Bench) -> None:
     _ended(bench, watcher, RawReason.STOPPED, "STOP, then a stop of the program")
     bench.controller.perform("start")
     bench.run(patience(bench))
-    # A move that fails just when the supervisor has asked for a halt.
+    # A move fails just when the supervisor has requested a halt.
     in_progress = _fails_with_a_halt(bench, "ERR_COLL_STOP")
     link.send(bench.download(bench.wave(5, duration=unit)))
     bench.until(lambda: bool(in_progress), 2 * unit, "the second move begins")
@@ -107,9 +107,9 @@ def _first_reason(bench: Bench) -> None:
 
 
 def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
-    """The second move from now fails, as soon as the motion task is asked to drop its path.
+    """Fail the second move from now, during a halt request.
 
-    The time when it is under way is put into the list.
+    The time of the failure is appended to the result list.
     """
     view = bench.controller.task(bench.task("ROS_motion"))
     requested, done = datum(bench, "ros_abort"), datum(bench, "ros_abort_done")
@@ -135,7 +135,7 @@ def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
 
 @case("late-point", "a point of a stopped trajectory that comes late", "R5")
 def _late_point(bench: Bench) -> None:
-    """A point of a stopped trajectory that is announced late is dropped."""
+    """Announce a point of a stopped trajectory late: it is dropped."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     task = bench.controller.task(bench.task("ROS_motion"))
     ring, head = datum(bench, "ros_ring"), datum(bench, "ros_head")
@@ -157,18 +157,18 @@ def _late_point(bench: Bench) -> None:
 
 
 def _beside(bench: Bench, system: System, *, early: bool = False) -> Bench:
-    """Another controller; `early`: none of its tasks has run yet."""
+    """Boot another controller; `early`: none of its tasks has run yet."""
     return bench.beside(system, setting=bench.setting.early() if early else None)
 
 
 def _bare(system: System, *events: str) -> System:
-    """Without signals, and with the event routines of these events alone."""
+    """Return the system without signals and with these event routines only."""
     saved = tuple(e for e in system.events if e.event in events)
     return replace(system, signals=(), outputs=(), cross=(), events=saved)
 
 
 def _moves(bench: Bench, link: RawLink) -> None:
-    """A trajectory is on its way from its point 1 to 2."""
+    """Check that a trajectory moves from its point 1 to 2."""
     unit = unit_of(bench)
     begins(bench, link, bench.wave(6, duration=unit))
     bench.run(1.6 * unit)
@@ -176,7 +176,10 @@ def _moves(bench: Bench, link: RawLink) -> None:
 
 @case("unseen", "stops that neither a signal nor an event routine shows", "R15", background=True)
 def _unseen(bench: Bench) -> None:
-    """No signals and no event routines: a stop is seen by the mode, or when main begins anew."""
+    """Stop without signals or event routines.
+
+    The driver sees a stop by the mode, or when main starts again.
+    """
     with _beside(bench, _bare(bench.system)) as other:
         watcher, link = other.watcher(), other.motion()
         for action, reason, restarts in (
@@ -215,7 +218,7 @@ def _unseen(bench: Bench) -> None:
 
 @case("stopped-alone", "event routines alone tell that the program is stopped", background=True)
 def _stopped_alone(bench: Bench) -> None:
-    """No signals: what comes before Start is refused, and nothing of it is done then."""
+    """Stop without signals: data before Start is rejected and has no effect."""
     with _beside(bench, _bare(bench.system, *(e.event for e in bench.system.events))) as other:
         for action in ("stop", "e-stop", "power-loss"):
             other.controller.perform(action)
@@ -223,7 +226,7 @@ def _stopped_alone(bench: Bench) -> None:
             link = other.motion()
             link.send(end_as_request(other, 3, unit_of(other)))
             reply = messages.decode(link.expect_reply(3, "the end frame is answered"))
-            # Nobody tells of an emergency stop where it calls no event routine.
+            # Without its event routine, an emergency stop is not reported.
             unseen = action == "e-stop" and not other.setting.dialect.e_stop_routines
             if reply != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0) and not unseen:
                 raise CheckFailed(f"{action} of a driver without signals, a trajectory: {reply}")
@@ -237,7 +240,10 @@ def _stopped_alone(bench: Bench) -> None:
 
 @case("motion-task-cannot", "the motion task cannot drop its path, or not take back its own stop")
 def _cannot(bench: Bench) -> None:
-    """The robot stays stopped, which is said once, and why; as soon as it can, all is well."""
+    """Reject the restart of motion: reported once, with the reason.
+
+    The driver recovers as soon as the restart is possible.
+    """
     link = bench.motion()
     for instruction, title in (
         ("ClearPath", "ROS: the motion task does not answer"),
@@ -269,11 +275,11 @@ def _cannot(bench: Bench) -> None:
 
 
 def _crept(bench: Bench, current: Position, wait: float, when: str) -> None:
-    """Broken where Start let the robot move further than it must.
+    """Check that Start moved the robot no further than unavoidable.
 
-    Start sets the path in motion, and chance decides which task is first to go on. In a `wait` of
-    the event routine an axis accelerates, and brakes as long: a t^2 at most, less with its ramps.
-    That it stops first of all is seen where no chance decides: there nothing moves.
+    Start sets the path in motion, and random order decides which task continues first. During a
+    `wait` of the event routine an axis accelerates, and brakes as long: at most a t^2, less with
+    its ramps. With a fixed order the driver stops first, and nothing moves.
     """
     if wait > soon(bench):
         raise CheckFailed(f"{when}: the robot is stopped after {wait:.3f} s")
@@ -288,7 +294,7 @@ def _crept(bench: Bench, current: Position, wait: float, when: str) -> None:
 
 @case("start-alone", "event routines drop the path by themselves", "R7a", background=True)
 def _start_alone(bench: Bench) -> None:
-    """Start runs an event routine, and an emergency stop does: both drop the path by themselves."""
+    """Check that the Start and emergency stop routines each clear the path."""
     with _beside(bench, _bare(bench.system, "START", "RESTART", "QSTOP")) as other:
         watcher, link, orders = other.watcher(), other.motion(), watched_orders(other)
         for action in ("stop", "e-stop", "stop of the supervisor"):
@@ -296,7 +302,7 @@ def _start_alone(bench: Bench) -> None:
             if action in ("stop", "e-stop"):
                 other.controller.perform(action)
             else:
-                # It ends, and with it the program stops.
+                # It ends, and the program stops with it.
                 fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
             other.wait_until_standing(1)
             other.run(patience(other))
@@ -316,14 +322,14 @@ def _start_alone(bench: Bench) -> None:
 
 @case("without-routines", "no event routine, and counters that begin anew", "R7a", background=True)
 def _without_routines(bench: Bench) -> None:
-    """Signals, and no event routines: the supervisor alone ends all.
+    """Remove event routines but keep signals: the supervisor ends all.
 
-    Counters begin anew.
+    Counters restart.
     """
     with _beside(bench, replace(bench.system, events=()), early=True) as other:
         view = other.controller.task(other.task("ROS_supervisor"))
         set_counters(other, WRAP - 2)
-        # Requests of long ago, and a ring in the middle of which its counters begin anew.
+        # Old requests, and a ring whose counters restart in the middle.
         view[datum(other, "ros_stop_done")] = WRAP - 4
         for name in ("ros_head", "ros_tail"):
             view[datum(other, name)] = WRAP - 64
@@ -345,7 +351,7 @@ def _without_routines(bench: Bench) -> None:
             other.controller.perform(action)
             if control is not None:
                 reply = control.ask(messages.RawPause(0))
-                # Where a task's turn ends at a PERS, the supervisor may have ended it all by then.
+                # If a task's turn ends at a PERS, the supervisor may have ended it already.
                 reasons = (reason, RawReason.IDLE) if other.setting.switch_at_pers else (reason,)
                 if reply not in [messages.RawNotDone(reason) for reason in reasons]:
                     raise CheckFailed(f"{action}, and right behind it the end of a pause: {reply}")
@@ -380,7 +386,7 @@ def _pause(bench: Bench, control: RawLink, paused: int) -> None:
 def _pauses_at_its_end(
     bench: Bench, watcher: RawLink, link: RawLink, control: RawLink | None
 ) -> None:
-    """A trajectory that is paused on its way, and in the stay at its end."""
+    """Pause a trajectory on its path, and in the stay at its end."""
     unit = unit_of(bench)
     path = bench.wave(2, duration=unit)
     begins(bench, link, [*path, (path[1][0], 2 * unit)])
@@ -402,7 +408,7 @@ def _pauses_at_its_end(
 
 
 def _refills(bench: Bench, link: RawLink) -> None:
-    """A trajectory that does not fit into the ring goes on behind the first points."""
+    """Execute more points than the ring holds, after a pause."""
     count = bench.config.trajectory.ring + 12
     if count > bench.config.trajectory.capacity:
         return
@@ -417,7 +423,7 @@ def _refills(bench: Bench, link: RawLink) -> None:
 
 @case("stale-build", "a module was exchanged, and its task shows what it did")
 def _stale_build(bench: Bench) -> None:
-    """A module of another build, in a task that has shown the right one before."""
+    """Load a module of another build into a task with the right one before."""
     build = bench.system.build_id.encode()
     path, data = next(
         (m.path, m.data)

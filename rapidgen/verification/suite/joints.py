@@ -1,4 +1,4 @@
-"""Each joint by itself, in streams and away from zero; each signal by itself."""
+"""Single joints, in streams and away from zero; single signals."""
 
 from rapidgen.generate.layout import signal_name
 from rapidgen.generate.status import STATUS_SIGNALS
@@ -19,7 +19,7 @@ _BEYOND = 0.01
 
 
 class _RejectedJoint:
-    """Streams of one batch that are refused for one joint of one point."""
+    """One-batch streams, rejected for one joint of one point."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
@@ -42,7 +42,7 @@ class _RejectedJoint:
         self._bench.assert_at_rest(0.2, f"joint {axis + 1} is refused: {reason.name}")
 
     def limits(self) -> None:
-        """Each joint beyond each of its limits."""
+        """Check each joint beyond each of its limits."""
         current = self._bench.position
         for axis, joint in enumerate(self._bench.group.joints):
             for value in (joint.lower - _BEYOND, joint.upper + _BEYOND):
@@ -50,7 +50,7 @@ class _RejectedJoint:
                 self(points, RawReason.JOINT_LIMIT, 1, axis)
 
     def close(self) -> None:
-        """Leave."""
+        """Close the connection."""
         self._stream.link.close()
 
 
@@ -74,7 +74,7 @@ def _joints_of_a_stream(bench: Bench) -> None:
             blame([(current, 1.0), (target, seconds), (current, 9.0)], RawReason.TOO_FAST, 1, axis)
     blame.close()
     bench.run(1.2)
-    # The first point's duration is not the client's business, nor how far the start is off.
+    # The driver ignores the first point's duration, and the start offset.
     stream = Streamer(bench)
     away = changed(
         current, 0, inward(bench.group.joints[0], current[0], 0.5 * policy.start_tolerance)
@@ -90,7 +90,7 @@ def _joints_of_a_stream(bench: Bench) -> None:
 
 @case("away-from-zero", "short ways where no joint is near zero", needs="stream")
 def _away_from_zero(bench: Bench) -> None:
-    """Where no joint is near zero, short ways are short, and nothing else is changed."""
+    """Move from positions without a joint near zero."""
     link = bench.motion()
     target = tuple(0.4 * (j.upper if j.upper > -j.lower else j.lower) for j in bench.group.joints)
     bench.assert_moves_through(link, bench.way_to(target))
@@ -103,10 +103,10 @@ def _away_from_zero(bench: Bench) -> None:
 
 @case("controller-error", "an error of the controller is in STATUS")
 def _controller_error(bench: Bench) -> None:
-    """What the controller calls an error, a movement or an emergency stop is one, for so long."""
+    """Report controller errors, motions and emergency stops while they last."""
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
     state = bench.state()
-    # A movement is believed that follows a standstill.
+    # The driver believes a movement that follows a standstill.
     bench.run(patience(bench))
     for function, field, on, values in (
         ("standing", "in_motion", 0, (0, 1)),
@@ -127,7 +127,7 @@ def _controller_error(bench: Bench) -> None:
 
 @case("one-signal-missing", "each signal missing alone", "R15", background=True)
 def _one_signal_missing(bench: Bench) -> None:
-    """A signal that is not there at a start is unknown; all the others are as they were."""
+    """Remove one signal at a start: it is unknown, the others unchanged."""
     signals, off, on = bench.controller.io.signals, RawTriState.FALSE, RawTriState.TRUE
     bench.run(0.2)
     for missing in STATUS_SIGNALS:
@@ -143,7 +143,7 @@ def _one_signal_missing(bench: Bench) -> None:
         bench.run(0.5)
         bench.controller.perform("stop")
         bench.run(0.5)
-        # Without the signal of the program its event routines tell that it was stopped.
+        # Without the program signal, the event routines report the stop.
         _shown(bench, state, "stopped", missing.function, on, off, 0)
         bench.controller.perform("e-stop")
         bench.run(0.5)
@@ -155,7 +155,7 @@ def _one_signal_missing(bench: Bench) -> None:
 
 
 def _is_seen(bench: Bench, state: RawLink, function: str, value: int, *, seen: bool) -> None:
-    """Broken unless STATUS shows what another signal says, and what it no longer says."""
+    """Check that STATUS shows a signal's value, and its later change."""
     name = next(
         signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS if s.function == function
     )
@@ -170,7 +170,7 @@ def _is_seen(bench: Bench, state: RawLink, function: str, value: int, *, seen: b
 
 
 def _power_again(bench: Bench) -> None:
-    """What the tasks look for at their start they look for again."""
+    """Cycle power: tasks repeat the checks of their start."""
     for action in ("power-loss", "pp-to-main"):
         bench.controller.perform(action)
     bench.start_again()

@@ -1,4 +1,4 @@
-"""What a controller says of its axes' limits: narrower, wider, the same, nothing, nonsense."""
+"""Axis limits from the controller: narrower, wider, missing, invalid."""
 
 import re
 from collections.abc import Sequence
@@ -25,16 +25,16 @@ _SAID = {
 _NEAR = 0.002
 """rad or m inside and outside of a limit: more than rounding, less than any difference here."""
 _ROUNDING = 5e-6
-"""rad or m outside of a limit that its rounding may have done: then the limit is meant."""
+"""rad or m outside of a limit by rounding: the driver uses the limit."""
 _FAR = 1e6
-"""rad or m: no axis gets there."""
+"""rad or m that no axis reaches."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Told:
-    """What the controller says of a joint, rad or m; None: it says nothing.
+    """The controller's limits of a joint, rad or m; None: not available.
 
-    `said`: what the driver calls that in the event log, empty where there is nothing to say.
+    `said`: the driver's text in the event log, empty if there is none.
     """
 
     lower: float | None
@@ -42,14 +42,17 @@ class _Told:
     said: str = ""
 
     def left(self, joint: Joint) -> tuple[float, float]:
-        """The limits in force."""
+        """Return the limits in force."""
         if self.lower is None or self.upper is None:
             return joint.lower, joint.upper
         return max(self.lower, joint.lower), min(self.upper, joint.upper)
 
 
 def _differences(joint: Joint) -> list[_Told]:
-    """A hundredth is a difference, less than a thousandth is none."""
+    """Return limits that differ.
+
+    A hundredth is a difference, less than a thousandth is none.
+    """
     low, high, more, less = joint.lower, joint.upper, 0.01, 0.0004
     return [
         _Told(low + more, high, "are narrower"),
@@ -66,7 +69,10 @@ def _differences(joint: Joint) -> list[_Told]:
 
 
 def _nonsense(joint: Joint, lowest: float, highest: float) -> list[_Told]:
-    """Nothing is left: of the range itself, or of what it shares with `lowest` to `highest`."""
+    """Return invalid limits.
+
+    Either the range is empty, or its overlap with `lowest` to `highest` is.
+    """
     low, high, middle = joint.lower, joint.upper, (joint.lower + joint.upper) / 2
     return [
         _Told(*limits, "make no sense")
@@ -90,7 +96,7 @@ def _hello(link: RawLink) -> messages.RawHelloReply:
 
 
 class _Cell:
-    """A controller whose limits are set, and count from its next start on, as everywhere."""
+    """A controller with changed limits, effective from its next start."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
@@ -98,7 +104,7 @@ class _Cell:
         self.plain = _hello(bench.state())
 
     def start(self, reply: Sequence[_Told]) -> None:
-        """Start with other limits; Broken unless the event log tells just what is different."""
+        """Start with other limits; check that the event log names the differences."""
         bench = self._bench
         for joint, one in zip(bench.group.joints, reply, strict=True):
             path = f"/MOC/ARM/{arm_name(bench.group, joint)}"
@@ -130,7 +136,7 @@ class _Cell:
         _are(result[0].texts[2], "Controller", joint, reply.lower or 0.0, reply.upper or 0.0)
 
     def in_force(self) -> messages.RawHelloReply:
-        """What HELLO says, which must be the same on both ports."""
+        """Return HELLO; check that both ports report the same."""
         bench = self._bench
         reply = _hello(bench.state())
         if bench.group.ports.control:
@@ -143,7 +149,7 @@ class _Cell:
 
 
 def _answer(link: RawLink, others: Position, axis: int, value: float) -> messages.RawContent:
-    """The reply to a point with that value.
+    """Return the reply to a point with that value.
 
     Its trajectory gets no end, so nothing moves.
     """
@@ -152,7 +158,7 @@ def _answer(link: RawLink, others: Position, axis: int, value: float) -> message
 
 
 def _are(text: str, whose: str, joint: Joint, lower: float, upper: float) -> None:
-    """Broken unless a text of the event log holds these limits, to two digits."""
+    """Check that an event log text holds these limits, to two digits."""
     factor, unit = (57.29578, "deg") if joint.kind == "revolute" else (1000.0, "mm")
     reply = re.fullmatch(rf"{whose}: (-?\d+(?:\.\d\d?)?) to (-?\d+(?:\.\d\d?)?) {unit}", text)
     for number, limit in enumerate((factor * lower, factor * upper), 1):
@@ -162,7 +168,7 @@ def _are(text: str, whose: str, joint: Joint, lower: float, upper: float) -> Non
 
 @case("limits-as-told", "limits that the controller tells of each joint, or does not", "R11")
 def _limits_as_told(bench: Bench) -> None:
-    """Each joint with some kinds of difference, one after another, and at last with its own."""
+    """Change the limits of each joint in several ways, and restore them."""
     joints, cell = bench.group.joints, _Cell(bench)
     kinds = len(_differences(joints[0]))
     for first in range(0, kinds, len(joints)):
@@ -172,7 +178,7 @@ def _limits_as_told(bench: Bench) -> None:
 
 
 def _counts(bench: Bench, cell: _Cell, reply: Sequence[_Told]) -> None:
-    """Broken unless just the limits in force are told, and taken."""
+    """Check that the limits in force are reported and applied."""
     cell.start(reply)
     hello, link = cell.in_force(), bench.motion()
     silent = not bench.setting.dialect.axis_limits_told
@@ -180,7 +186,7 @@ def _counts(bench: Bench, cell: _Cell, reply: Sequence[_Told]) -> None:
         (joint.lower, joint.upper) if silent else one.left(joint)
         for joint, one in zip(bench.group.joints, reply, strict=True)
     ]
-    # An axis may stand at its end, where the controller lets it go no longer.
+    # An axis may be at its end, where the controller does not let it go further.
     current = tuple(
         min(max(p, low), high) for p, (low, high) in zip(bench.position, left, strict=True)
     )
@@ -203,7 +209,7 @@ def _counts(bench: Bench, cell: _Cell, reply: Sequence[_Told]) -> None:
 
 @case("limits-without-sense", "a joint of which no range is left")
 def _limits_without_sense(bench: Bench) -> None:
-    """Nobody knows where such a joint may be: no point is taken, wherever it is."""
+    """Make limits invalid: every point of such a joint is rejected."""
     if not bench.setting.dialect.axis_limits_told:
         raise NotApplicable("the controller does not tell limits of axes")
     joints, cell = bench.group.joints, _Cell(bench)

@@ -1,4 +1,4 @@
-"""What lasts long: clocks that run over, bells that nobody hears."""
+"""Long runs: clocks that overflow, and interrupts that are lost."""
 
 from rapidgen.runtime.builtins.system import StopWatch
 from rapidgen.runtime.errors import RapidError
@@ -11,11 +11,11 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("lasting")
 
 _DAYS = 10.0
-"""s that stand for the 49 days that a clock counts."""
+"""s that replace the 49 days of a clock."""
 
 
 def _short_clocks(bench: Bench) -> None:
-    """Every clock of the driver runs over after `_DAYS`."""
+    """Make every clock of the driver overflow after `_DAYS`."""
 
     def wrap(as_before: Instruction) -> Instruction:
         def read(*arguments: object) -> object:
@@ -32,7 +32,7 @@ def _short_clocks(bench: Bench) -> None:
 
 @case("days", "what has not happened for longer than a clock counts", "R3", background=True)
 def _days(bench: Bench) -> None:
-    """No client, no heartbeat, no refusal, no halt for 50 days; then they come."""
+    """Wait 50 days without client, heartbeat, rejection and halt; then check."""
     _short_clocks(bench)
     link = bench.motion()
     bench.run(_DAYS + 2)
@@ -65,7 +65,7 @@ def _days(bench: Bench) -> None:
 
 @case("unheard", "bells that a stopped program does not hear", "R7a", background=True)
 def _unheard(bench: Bench) -> None:
-    """Stop and PP to main in a motion, Start long after: the motion task goes on."""
+    """Stop and PP to main in a motion, Start much later: motion works."""
     link = bench.motion()
     for steps in (("stop", "pp-to-main"), ("stop",), ("e-stop", "pp-to-main")):
         bench.start_motion(link, bench.wave(8), 0.4)

@@ -1,4 +1,4 @@
-"""The motion task seen from outside: each step of a trajectory in its time, and how it ends."""
+"""The motion task from outside: steps of a trajectory, timing, ends."""
 
 import re
 from collections.abc import Sequence
@@ -19,14 +19,14 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("moving")
 
 _CLOSE = 0.06
-"""s between a change and the moment in which it can be read, at most."""
+"""Maximum s between a change and its visibility."""
 _EVER = 99.0
 
 
 def soon(bench: Bench) -> float:
-    """s in which the driver does what nothing hinders: it waits here and there, and works.
+    """Return s in which the driver reacts if nothing delays it.
 
-    Where chance decides which task is next, one may wait for the others.
+    With random task order one task may wait for the others.
     """
     waits = 0.15 if bench.setting.random_schedule else 0.1
     return waits + 0.06 * bench.setting.slowness
@@ -34,7 +34,7 @@ def soon(bench: Bench) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _Step:
-    """What is told from `since` to `until`, s behind the beginning of the motion."""
+    """State reported from `since` to `until`, s after the motion's start."""
 
     since: float
     until: float
@@ -44,7 +44,7 @@ class _Step:
 
 
 def unit_of(bench: Bench) -> float:
-    """s for a segment that is long for whoever looks once a state period."""
+    """Return s of a segment that is long for one reading per state period."""
     return max(0.5, 5 * bench.config.state_period, 1.1 * bench.config.trajectory.min_segment)
 
 
@@ -58,13 +58,13 @@ def _in_order(
     reply: Sequence[tuple[float, RawTrajectoryState | int, int, int]],
     steps: Sequence[_Step],
 ) -> None:
-    """Broken unless what was told, and when, is each step in its turn and in its time."""
-    # A robot may take a while to settle at each stop point.
+    """Check that reported states follow the steps in order and in time."""
+    # A robot may take time to settle at each stop point.
     late = _CLOSE + bench.setting.motion.settle * len(steps)
     seen, at = set(), 0
     each = [(step.state, step.planned, step.reached) for step in steps]
     for when, *log_entries in reply:
-        # Where a task's turn may end at a PERS, a reply may be put together between two steps.
+        # If a task's turn ends at a PERS, a reply may mix two steps.
         now, then = each[at], each[min(at + 1, len(each) - 1)]
         between = log_entries[0] in (now[0], then[0]) and all(
             a <= value <= b for value, a, b in zip(log_entries[1:], now[1:], then[1:], strict=True)
@@ -90,7 +90,7 @@ def _in_order(
 def watched(
     link: RawLink, since: float
 ) -> list[tuple[float, messages.RawProgress, messages.RawStatus]]:
-    """PROGRESS from `since` on, each with its time and the STATUS that came with it."""
+    """Return PROGRESS since `since`, with time and STATUS of the same round."""
     failures: list[tuple[float, messages.RawProgress, messages.RawStatus]] = []
     status: messages.RawStatus | None = None
     for when, frame in link.frames:
@@ -105,7 +105,7 @@ def watched(
 def _goes_by(
     bench: Bench, link: RawLink, started: float, trajectory: int, count: int, steps: Sequence[_Step]
 ) -> None:
-    """Broken unless PROGRESS and STATUS told each step of a good trajectory of `count` points."""
+    """Check PROGRESS and STATUS of each step of a good trajectory."""
     reply = watched(link, started + _CLOSE)
     _in_order(bench, started, [(t, p.state, p.planned, p.reached) for t, p, _ in reply], steps)
     over, lag = 0.0, 6 * bench.setting.motion.servo_lag
@@ -116,17 +116,17 @@ def _goes_by(
         moving = [int(progress.state == RawTrajectoryState.MOVING)]
         over = over if over or moving[0] else when
         if when <= over + lag:
-            # The first STATUS behind the end may tell of the motion before it.
+            # The first STATUS after the end may report the motion before it.
             moving.append(1)
         if bench.setting.switch_at_pers:
-            # STATUS is read behind PROGRESS: it may tell of what is true by then.
+            # The server reads STATUS after PROGRESS: it may report a later state.
             moving.append(int(then == RawTrajectoryState.MOVING))
         if status not in [messages.RawStatus(1, 0, 0, 0, m, RawMode.AUTO, 1) for m in moving]:
             raise CheckFailed(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
 
 def begins_soon(bench: Bench, sent: float) -> float:
-    """When the motion begins that was asked for at `sent`: soon."""
+    """Return the start of the motion requested at `sent`; check its delay."""
     bench.wait_until_moving(2)
     if bench.now - sent > soon(bench) + 2 * bench.setting.motion.settle:
         raise CheckFailed(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
@@ -134,26 +134,26 @@ def begins_soon(bench: Bench, sent: float) -> float:
 
 
 def begins(bench: Bench, link: RawLink, points: Sequence[Point]) -> float:
-    """Send a trajectory; when its motion begins: soon."""
+    """Send a trajectory and return when its motion starts; check its delay."""
     sent = bench.now
     link.send(bench.download(points))
     return begins_soon(bench, sent)
 
 
 class CpuMeter:
-    """What the driver takes of the controller's processor."""
+    """Processor time of the driver."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
         self.begin()
 
     def begin(self) -> None:
-        """Count from here."""
+        """Start to count."""
         scheduler = self._bench.controller.scheduler
         self._now, self._idle = scheduler.now, scheduler.idle
 
     def end(self, doing: str) -> None:
-        """Broken unless it was little, as it is for a driver that waits."""
+        """Check that the processor time is small, as for a waiting driver."""
         scheduler, config = self._bench.controller.scheduler, self._bench.config
         fraction = 1 - (scheduler.idle - self._idle) / (scheduler.now - self._now)
         # The state server has some 3 ms of work in each period.
@@ -165,7 +165,7 @@ class CpuMeter:
 
 @case("step-by-step", "PROGRESS tells each step of a trajectory in its time")
 def _step_by_step(bench: Bench) -> None:
-    """Zones, stop points and stays: what is planned, what is reached, and when it is over."""
+    """Check progress at zones, stop points and stays, and the end."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number, done = bench.progress(watcher).trajectory, RawTrajectoryState.DONE
     meter = CpuMeter(bench)
@@ -200,7 +200,7 @@ def _step_by_step(bench: Bench) -> None:
         _goes_by(bench, watcher, started, number, len(points), steps)
         bench.run(0.53)
         meter.end("when nothing is under way")
-        # One point, sent twice, near where the robot stands.
+        # One point, sent twice, near the robot's position.
         target = tuple(
             inward(joint, current, 0.9 * bench.start_tolerance(joint))
             for joint, current in zip(bench.group.joints, bench.position, strict=True)
@@ -214,7 +214,7 @@ def _step_by_step(bench: Bench) -> None:
 
 @case("stream-by-step", "each step of a stream in its time", "R9", needs="stream")
 def _stream_by_step(bench: Bench) -> None:
-    """A stream that starves twice, and one that is cut."""
+    """Check progress of a stream that starves twice, and of a cut one."""
     watcher, unit = bench.watcher(), unit_of(bench)
     stream, meter = Streamer(bench), CpuMeter(bench)
     starved, done = RawTrajectoryState.STARVED, RawTrajectoryState.DONE
@@ -256,7 +256,7 @@ def _stream_by_step(bench: Bench) -> None:
             _Step(over, _EVER, 4, 4, done),
         ],
     )
-    # It is cut: what was taken is executed, then it has failed.
+    # The stream is cut: accepted points are executed, then it has failed.
     number = bench.progress(watcher).trajectory + 1
     stream.number, stream.sent = 2, 0
     points = bench.wave(3, duration=unit)
@@ -274,7 +274,7 @@ def _stream_by_step(bench: Bench) -> None:
 
 
 def _cycles(bench: Bench) -> int:
-    """How often the program of the motion task has come to the end of its main."""
+    """Return how often the motion task's program has reached its end."""
     return bench.rapid_task("ROS_motion").cycles
 
 
@@ -284,7 +284,7 @@ def patience(bench: Bench) -> float:
 
 
 def _over_soon(bench: Bench, watcher: RawLink, since: float, what: str) -> messages.RawProgress:
-    """Broken unless PROGRESS and STATUS say soon that a trajectory was stopped."""
+    """Check that PROGRESS and STATUS soon report a stopped trajectory."""
     bench.until(
         lambda: any(
             p.state == RawTrajectoryState.STOPPED and s.motion_possible == 1
@@ -306,10 +306,10 @@ def _stop_is_told(bench: Bench, watcher: RawLink, since: float) -> None:
 
 @case("halts", "how soon a stop is over, and that main never begins anew", "R5, R6")
 def _halts(bench: Bench) -> None:
-    """Stops at a standstill, in a stay and in a zone; then of a path that cannot be cleared."""
+    """Stop at rest, in a stay and in a zone, and with a stuck path."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     cycles = _cycles(bench)
-    # Some controllers let a program go on behind StopMove only when the robot has settled.
+    # Some controllers continue a program after StopMove only when the robot has settled.
     latest = soon(bench)
     if bench.setting.motion.stop_waits:
         latest += 0.3 + bench.setting.motion.settle
@@ -348,7 +348,10 @@ def _halts(bench: Bench) -> None:
 
 @case("halted-twice", "another halt while main leaves a move", "R5, R7b")
 def _halted_twice(bench: Bench) -> None:
-    """Where the trap has left a move a bell rings again, before main does anything else."""
+    """Request a second halt while the trap leaves a move.
+
+    The interrupt is raised again before main does anything else.
+    """
     link, unit = bench.motion(), unit_of(bench)
     task = bench.rapid_task("ROS_motion")
 
@@ -368,7 +371,10 @@ def _halted_twice(bench: Bench) -> None:
 
 
 def datum(bench: Bench, name: str) -> str:
-    """Full name of a PERS of this group: with several groups they end in its number."""
+    """Return the full name of a group's PERS.
+
+    With several groups, names end in the group's number.
+    """
     task = bench.rapid_task("ROS_motion")
     declared = task.program.modules["ros_common"].declarations
     return next(f"ROS_common:{key}" for key in declared if re.fullmatch(rf"{name}(_\d+)?", key))
@@ -376,7 +382,7 @@ def datum(bench: Bench, name: str) -> str:
 
 @case("gives-up", "a fault on the way ends the trajectory there", "R11, R14")
 def _gives_up(bench: Bench) -> None:
-    """A move that fails, and a hole in the ring: the robot stops where it is, and says where."""
+    """Fail a move, or leave a gap in the ring: the robot stops and reports."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number = bench.progress(watcher).trajectory
     task = bench.controller.task(bench.task("ROS_motion"))
@@ -395,7 +401,7 @@ def _gives_up(bench: Bench) -> None:
             ring = task[datum(bench, "ros_ring")].values()
             next(p for p in ring if (p.session, p.index) == (number, 4)).index = 5.0
         bench.wait_until_standing(5)
-        # The axes come to rest behind what the controller plans.
+        # The axes come to rest after the controller's planned end.
         latest = 2 * unit + 0.1 + bench.setting.motion.servo_lag
         if bench.now - started > latest or distance(bench.position, points[2][0]) < 5e-4:
             raise CheckFailed(f"{reason.name} on the way to point 2, and the robot went on to it")
@@ -405,7 +411,7 @@ def _gives_up(bench: Bench) -> None:
         progress, status = bench.progress(watcher), bench.status(watcher)
         if progress != expected or status != (1, 0, reason, 1, 0, RawMode.AUTO, 1):
             raise CheckFailed(f"{reason.name}, wanted {expected}: {progress}, {status}")
-        # What has failed is over.
+        # The failed trajectory is over.
         points = bench.wave(2, duration=unit)
         link.send(bench.download(points))
         number += 1

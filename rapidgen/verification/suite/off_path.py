@@ -1,4 +1,4 @@
-"""Stops by the brakes at full speed: the robot comes to rest off its path, and works again."""
+"""Brake stops at full speed: the robot rests off its path, and recovers."""
 
 from dataclasses import replace
 from functools import partial
@@ -11,15 +11,15 @@ from rapidgen.verification.testbench import CEILING, Bench
 case = SuiteGroup("off the path")
 
 _FAST = 0.8
-"""Share of an axis' speed at which the stop comes."""
+"""Share of an axis' speed at which the stop occurs."""
 STAYS_STOPPED = "ROS: the robot stays stopped"
-"""Title of the event that says why."""
+"""Title of the event with the reason."""
 
 
 def _zigzag(bench: Bench, count: int, seconds: float) -> list[Point]:
-    """Points between which the axes run at nearly their speed, every other one against the rest.
+    """Return points with axes near full speed, every other one reversed.
 
-    In `seconds`, or in less where no axis has a way that long.
+    In `seconds`, or in less if no axis has such a long way.
     """
     ranges = [(joint.upper - joint.lower, joint.speed) for joint in bench.group.joints]
     seconds = min(seconds, max(0.7 * wide / (0.95 * speed) for wide, speed in ranges))
@@ -32,14 +32,15 @@ def _zigzag(bench: Bench, count: int, seconds: float) -> list[Point]:
             failures.append((joint.upper + joint.lower) / 2 + away)
         return tuple(failures)
 
-    # Both before `seconds` changes: a TCP below a ceiling takes longer, and goes no further for it.
+    # Both before `seconds` changes: with a TCP speed limit the motion takes longer, and goes no
+    # further.
     ends = corner(0), corner(1)
     seconds = max(seconds, 1.1 * bench.tcp_seconds(*ends))
     return [(ends[number % 2], seconds) for number in range(count)]
 
 
 def _speed(bench: Bench) -> float:
-    """The largest share of its speed that an axis runs at now."""
+    """Return the largest current axis speed as a share of its limit."""
     (since, before), (now, current) = bench.track[-2:]
     if now == since or bench.now - now > 0.01:
         return 0.0
@@ -48,7 +49,7 @@ def _speed(bench: Bench) -> float:
 
 
 def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -> float:
-    """A stop while an axis runs fast; how far (m) the robot then stands from its path."""
+    """Stop while an axis is fast; return the distance (m) from the path."""
     motion = replace(bench.setting.motion, quick_factor=quick)
     with bench.beside(bench.system, setting=replace(bench.setting, motion=motion)) as other:
         link = other.motion()
@@ -59,7 +60,7 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
         other.run(0.3 + 2 * motion.settle)
         other.start_motion(link, [(other.position, 10.0), *path[1:]])
         if path[0][1] > seconds:
-            # A ceiling of the TCP keeps the axes slower; in the middle they are fastest.
+            # A TCP speed limit slows down the axes; in the middle they are fastest.
             other.run(0.5 * path[0][1])
         else:
             other.until(lambda: _speed(other) >= _FAST, 5, f"an axis runs at {_FAST:.0%}")
@@ -70,7 +71,7 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
         off, _ = other.motion_group.off_path
         other.start_again()
         if other.controller.task(other.group.task).state != "running":
-            # Too far off for a start from where the program was.
+            # Too far off to start from the previous position of the program.
             if off <= motion.regain_distance:
                 raise CheckFailed(
                     f"{1000 * off:.0f} mm off its path after {action} no program starts"
@@ -86,7 +87,7 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
         if other.motion_group.stop_reasons:
             if not (held and log_entries):
                 raise CheckFailed(f"{reply}, the robot is held, and the event log does not say why")
-            # What the event tells to do.
+            # The action that the event asks for.
             for step in ("stop", "pp-to-main", "start"):
                 other.controller.perform(step)
         other.assert_at_rest(1, f"{reply}, nobody asked for motion")
@@ -98,15 +99,15 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
 
 
 def _at_speed(bench: Bench, action: str) -> None:
-    """Nothing resumes, and a new trajectory is executed from where the robot stands."""
+    """Check that the old path is gone, and a new trajectory works."""
     result = [
         _stopped_at_speed(bench, action, quick, seconds)
         for quick, seconds in ((2.0, 0.5), (0.2, 0.5), (0.04, 0.7))
     ]
     motion = bench.setting.motion
     by_brakes = action == "power-loss" or motion.emergency_stop == "brakes"
-    # Where a cleared path is forgotten nothing tells how far off it was; and below a ceiling of the
-    # TCP a robot may be too slow to get off it.
+    # If the controller forgets a cleared path, the distance is unknown. With a TCP speed limit, a
+    # robot may be too slow to leave its path.
     fast = bench.group.tcp_speed_limit >= CEILING
     reply = by_brakes and fast and motion.cleared_distance == "counts"
     if reply and bench.motion_group.kinematics is not None and max(result) < 0.05:

@@ -1,7 +1,7 @@
-"""What the operator reads: warnings in the event log, and never a line on the pendant.
+"""Messages to the operator: event log warnings, never pendant lines.
 
 A burst of TPWrite blocks the next one for more than 75 s (41617, a virtual controller of RobotWare
-6.15): no task that reads or carries out STOP may write there.
+6.15): no task that reads or executes STOP may write there.
 """
 
 from rapidgen.machine.event_log import Event, EventType
@@ -15,7 +15,7 @@ case = SuiteGroup("telling")
 
 
 class _Pendant:
-    """Warnings of the driver; Broken for a line on the pendant."""
+    """Warnings of the driver; a line on the pendant fails the check."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
@@ -24,7 +24,7 @@ class _Pendant:
         self._last = bench.last_event
 
     def take(self) -> list[Event]:
-        """What has come since the last call."""
+        """Return the events since the last call."""
         if self._lines:
             raise CheckFailed(f"the driver writes on the pendant: {self._lines}")
         events = [
@@ -36,7 +36,7 @@ class _Pendant:
         return events
 
     def says(self, reason: RawReason, point: int, joint: int, *, after: str) -> None:
-        """One warning with the reason's text, and the place where there is one."""
+        """Check one warning: reason text, and place if there is one."""
         events, text = self.take(), text_of(reason)
         place = f"Point {point}. " if point >= 0 else ""
         place += f"Joint {joint}. " if joint else ""
@@ -124,7 +124,7 @@ def _lines_are_rationed(bench: Bench) -> None:
 
 @case("quiet", "what is in order is not told", "R19")
 def _peace_is_quiet(bench: Bench) -> None:
-    """Neither work nor clients that come and go are news."""
+    """Check that work, and clients that come and go, log nothing."""
     pendant = _Pendant(bench)
     for _ in range(3):
         link, state = bench.motion(), bench.state()
@@ -133,7 +133,7 @@ def _peace_is_quiet(bench: Bench) -> None:
         link.send(STOP)
         bench.wait_until_standing(5)
         bench.run(0.5)
-        # It is at its end a while before it has settled there.
+        # The motion ends some time before the robot has settled there.
         bench.run(2 * bench.setting.motion.settle)
         link.close()
         state.close(abort=True, then=1.2)

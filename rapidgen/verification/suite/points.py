@@ -1,4 +1,4 @@
-"""Points one by one, each as a request: what becomes of the trajectory is in its reply."""
+"""Points as requests: each reply reports the state of the trajectory."""
 
 import math
 from collections.abc import Sequence
@@ -19,24 +19,24 @@ _BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
 _TAKEN = messages.RawAcknowledged()
 _LONGEST = 3600.0
 _SLOW = 60.0
-"""s for a segment that no axis is too slow for."""
+"""s of a segment that no axis is too slow for."""
 
 
 class Table:
-    """Points and the replies that they must get. They are sent in one piece."""
+    """Points and their expected replies, sent in one piece."""
 
     def __init__(self, bench: Bench) -> None:
         self.bench = bench
         self.link = bench.motion()
         self.watcher = bench.watcher()
         self.number = bench.progress(self.watcher).trajectory
-        """Of the newest trajectory, as far as the rows say."""
+        """Number of the newest trajectory according to the rows."""
         self._rows: list[tuple[bytes, messages.RawContent, str]] = []
 
     def row(
         self, sequence: int, joints: Sequence[float], seconds: float, expected: messages.RawContent
     ) -> None:
-        """One more point. A trajectory begins with -1."""
+        """Add a point. A trajectory starts with -1."""
         if sequence == _BEGIN:
             self.number += 1
         frame = raw_point(sequence, joints, seconds, RawComm.REQUEST)
@@ -44,11 +44,11 @@ class Table:
         self._rows.append((frame, expected, f"point {sequence} ({displayed}) in {seconds:.9g} s"))
 
     def accepted(self, joints: Sequence[float], seconds: float) -> None:
-        """An end frame with which the trajectory is handed over."""
+        """Add an end frame that hands over the trajectory."""
         self.row(_END, joints, seconds, messages.RawAccepted(self.number))
 
     def ask(self) -> None:
-        """Send the rows. Broken when a reply is another one."""
+        """Send the rows; check the replies."""
         self.link.send(b"".join(frame for frame, _, _ in self._rows))
         for _, expected, what in self._rows:
             reply = messages.decode(self.link.expect_reply(5, f"{what} is answered"))
@@ -57,13 +57,13 @@ class Table:
         self._rows.clear()
 
     def stop(self, link: RawLink | None = None) -> None:
-        """STOP, here or over another connection, and its reply."""
+        """Send STOP, here or over another connection, and check the reply."""
         reply = (link or self.link).stop()
         if not isinstance(reply, messages.RawAcknowledged):
             raise CheckFailed(f"STOP is answered by {reply}")
 
     def shows(self, state: RawTrajectoryState, received: int, reply: messages.RawRefused) -> None:
-        """Broken unless PROGRESS says so of the newest trajectory."""
+        """Check that PROGRESS reports this of the newest trajectory."""
         self.bench.run(2 * self.bench.config.state_period)
         seen = self.bench.progress(self.watcher)
         if (seen.trajectory, seen.state, seen.received, *seen[5:]) != (
@@ -79,11 +79,14 @@ class Table:
 
 
 _NOTHING = messages.RawRefused(0, -1, 0)
-"""As PROGRESS tells it of a trajectory that nothing is wrong with."""
+"""PROGRESS values of a trajectory without a fault."""
 
 
 def fast_ends(joint: Joint, seconds: float, share: float) -> tuple[float, float] | None:
-    """Two places of an axis that are `share` of what it can do in a time apart, about zero."""
+    """Return two places of an axis near zero for a share of its speed.
+
+    Their distance is `share` of what the axis can do in `seconds`.
+    """
     path = share * seconds * joint.speed
     margin = 2 * small_unit(joint)
     low = max(joint.lower + margin, min(-path / 2, joint.upper - margin - path))
@@ -92,7 +95,7 @@ def fast_ends(joint: Joint, seconds: float, share: float) -> tuple[float, float]
 
 @case("each-value", "each value of a point at its bounds and beyond", "R10, R11")
 def _each_value(bench: Bench) -> None:
-    """Limits, speeds and numbers that are none, of each joint alone; what is padding."""
+    """Check limits, speeds and NaN of each joint alone; ignore padding."""
     table, current = Table(bench), bench.position
     policy = bench.config.trajectory
     seconds = max(0.1, policy.min_segment)
@@ -113,7 +116,7 @@ def _each_value(bench: Bench) -> None:
         table.row(_BEGIN, changed(current, axis, joint.lower), _SLOW, _TAKEN)
         table.row(1, changed(current, axis, joint.upper), _SLOW, _TAKEN)
         table.row(2, changed(current, axis, joint.lower), _SLOW, _TAKEN)
-        # Where a first point lies nobody has to reach in its time.
+        # The robot need not reach a first point in its time.
         for value in (joint.upper, joint.lower):
             table.row(_BEGIN, changed(current, axis, value), 0.0, _TAKEN)
         for share in (0.999, 1.01):
@@ -151,7 +154,7 @@ def _each_value(bench: Bench) -> None:
 
 
 def _rounded(bench: Bench, table: Table) -> None:
-    """Two places that lie outside of all limits by rounding are the same one: the limits."""
+    """Round two places outside all limits to the same limits."""
     for side in (-1, 1):
         one, two = (
             tuple(
@@ -161,7 +164,7 @@ def _rounded(bench: Bench, table: Table) -> None:
             for off in (0.0002, 0.0001)
         )
         table.row(_BEGIN, one, _LONGEST, _TAKEN)
-        # Whose ways have no length, and so need no time.
+        # Segments without length need no time.
         table.row(1, two, bench.config.trajectory.min_segment or 0.001, _TAKEN)
         table.ask()
         bench.assert_at_rest(0.1, "no trajectory was sent whole")
@@ -169,7 +172,7 @@ def _rounded(bench: Bench, table: Table) -> None:
 
 @case("each-duration", "durations at their bounds and beyond", "R10")
 def _each_duration(bench: Bench) -> None:
-    """Of the first point, of one in between, and of the last one."""
+    """Check durations of the first, a middle and the last point."""
     table, current = Table(bench), bench.position
     policy = bench.config.trajectory
     wrong: tuple[tuple[float, RawReason], ...] = (
@@ -199,7 +202,7 @@ def _each_duration(bench: Bench) -> None:
     if policy.min_segment > 0.005:
         short = messages.RawRefused(RawReason.SEGMENT_TOO_SHORT, 5, 0)
         table.row(5, current, shorter, short if policy.too_fast == "refuse" else _TAKEN)
-        # The last one has no successor that would have to be planned in time.
+        # The last segment has no successor that must be planned in time.
         table.row(_BEGIN, current, shorter, _TAKEN)
         table.row(1, current, 1.0, _TAKEN)
         table.accepted(current, shorter / 2)
@@ -210,7 +213,7 @@ def _each_duration(bench: Bench) -> None:
 
 @case("each-number", "numbers of points, STOP among them, and what is skipped", "C4")
 def _each_number(bench: Bench) -> None:
-    """Numbers of points in order and out of it, STOP in between, and what follows a refusal."""
+    """Check sequence numbers: in and out of order, STOP, after a rejection."""
     table, current = Table(bench), bench.position
 
     def row(sequence: int, expected: messages.RawContent, joints: Position = current) -> None:
@@ -227,7 +230,7 @@ def _each_number(bench: Bench) -> None:
     without_a_start(5)
     for sequence in (6, 0, _END):
         row(sequence, alone)
-    # Behind the end of what was refused nothing is skipped any more.
+    # After the end of a rejected trajectory, the driver skips nothing more.
     without_a_start(_END)
     without_a_start(1)
     for taken in (1, 2, 3):
@@ -245,7 +248,7 @@ def _each_number(bench: Bench) -> None:
     row(_BEGIN, beyond, far)
     row(_END, beyond)
     without_a_start(1)
-    # A new beginning counts whatever was before it.
+    # A new start counts in every state.
     row(_BEGIN, beyond, far)
     row(_BEGIN, _TAKEN)
     row(_BEGIN, _TAKEN)
@@ -272,11 +275,11 @@ def _each_number(bench: Bench) -> None:
     for sequence in (_BEGIN, 1):
         row(sequence, _TAKEN)
     table.accepted(current, _SLOW)
-    # What was handed over has no next point.
+    # After the hand-over there is no next point.
     without_a_start(3)
     table.ask()
     table.stop()
-    # Nor is anything of one client's, refused or not, of the next one's.
+    # Points of one client, rejected or not, do not count for the next one.
     for joints, expected in ((current, _TAKEN), (far, beyond)):
         row(_BEGIN, expected, joints)
         table.ask()
@@ -289,12 +292,12 @@ def _each_number(bench: Bench) -> None:
 
 
 def _full(bench: Bench, table: Table) -> None:
-    """The last point that there is room for, and the first that there is none for."""
+    """Send exactly the capacity of points, and one more."""
     current, capacity = bench.position, bench.config.trajectory.capacity
     for last in (capacity, _END):
         table.row(_BEGIN, current, _SLOW, _TAKEN)
         table.ask()
-        # As if all the others had come: a thousand points that are like each other say nothing.
+        # Simulate the other points: sending a thousand equal points adds nothing.
         bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_count"] = (
             capacity - 1
         )
@@ -309,7 +312,10 @@ def _full(bench: Bench, table: Table) -> None:
 
 
 def _of_other_builds(bench: Bench, table: Table) -> None:
-    """While any task shows another build each beginning is refused, whatever is wrong with it."""
+    """Reject each start while any task shows another build.
+
+    The build comes before every other reason.
+    """
     task = bench.controller.task(bench.task("ROS_motionServer"))
     name = datum(bench, "ros_shown_state")
     mixed = messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0)
@@ -323,7 +329,7 @@ def _of_other_builds(bench: Bench, table: Table) -> None:
 
 @case("one-more", "lines for refusals that come at once", "R19")
 def _one_more(bench: Bench) -> None:
-    """A line for each second; the next one counts those in between, be it a single one."""
+    """Log at most one warning a second; the next one counts the others."""
     table, joints = Table(bench), bench.group.joints
     lines: list[str] = []
     bench.controller.operator.subscribe(lambda _task, text: lines.append(text))
@@ -340,7 +346,7 @@ def _one_more(bench: Bench) -> None:
             sequence, reason, joint = _BEGIN, RawReason.JOINT_LIMIT, axis + 1
             place = f"Joint {joint}."
             expected = changed(expected, axis, joints[axis].upper + 1)
-        # Nothing is left to be skipped.
+        # The driver has nothing to skip.
         table.stop()
         for _ in range(at_once):
             table.row(sequence, expected, _SLOW, messages.RawRefused(reason, 0, joint))

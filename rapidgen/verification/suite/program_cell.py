@@ -1,4 +1,4 @@
-"""What a program does beside moving: signals on the way and standing, settings."""
+"""Program instructions besides moves: signals, waits, settings."""
 
 import math
 import random
@@ -30,14 +30,14 @@ case = SuiteGroup("programs", needs="stream")
 SET, WAIT_SIGNAL, SETTINGS = RawInstruction.SET, RawInstruction.WAIT_SIGNAL, RawInstruction.SETTINGS
 MOVES = (RawInstruction.MOVE_L, RawInstruction.MOVE_J)
 START, END, TIME = 0.0, 1.0, 2.0
-"""Where a signal is set: m behind the beginning, m before the end, s before it."""
+"""Where a signal is set: m after the start, m before the end, s before it."""
 _AWAY = 0.003
-"""m and s by which a signal may come elsewhere on the way."""
+"""m and s by which a signal may be late or early."""
 
 
 @case("program-signals", "signals are set on the way of a move, at its distances and times")
 def _signals(bench: Bench) -> None:
-    """Each of those that may be written; on a line and on a joint move; all others are refused."""
+    """Set each writable signal on a line and a joint move; reject others."""
     exposed = bench.config.signals
     client = Programmer(bench)
     first, *_, last = orders(bench, 4, random.Random(21))
@@ -86,7 +86,7 @@ def _signals(bench: Bench) -> None:
 def _one_way(
     bench: Bench, client: Programmer, order: RawMove, start: Position, number: int
 ) -> None:
-    """One signal at three places of a move from `start`."""
+    """Set one signal at three places of a move from `start`."""
     signal = bench.controller.io[bench.config.signals[number].name]
     bench.controller.io.set(signal, 0)
     seen: list[tuple[float, float, Position]] = []
@@ -114,7 +114,7 @@ def _one_way(
 
 
 def _eight(bench: Bench, client: Programmer, order: RawMove, number: int) -> None:
-    """As many as one move has, and on four moves that follow each other."""
+    """Set as many signals as one move allows, on four moves in sequence."""
     signal = bench.controller.io[bench.config.signals[number].name]
     bench.controller.io.set(signal, 0)
     seen: list[float] = []
@@ -126,7 +126,7 @@ def _eight(bench: Bench, client: Programmer, order: RawMove, number: int) -> Non
     marks = tuple((float(number), float((n + 1) % 2), START, 0.001 + 0.002 * n) for n in range(8))
     start = bench.position
     back = replace(order, joints=start, pose=reached(bench, start))
-    # Of circles one message holds three.
+    # One message holds three circles.
     moves = (order, back) * (1 if order.via is not None else 2)
     client.takes("eight signals", [replace(o, marks=marks) for o in moves])
     watcher = bench.watcher()
@@ -139,7 +139,7 @@ def _eight(bench: Bench, client: Programmer, order: RawMove, number: int) -> Non
 
 
 def _wrong_marks(bench: Bench, client: Programmer, order: RawMove, number: int) -> None:
-    """What cannot be set, or there, is refused, and nothing is executed."""
+    """Reject invalid signals and places; execute nothing."""
     exposed, n = bench.config.signals, float(number)
     wrong: list[tuple[Sequence[tuple[float, ...]], RawReason]] = [
         (((len(exposed), 1.0, START, 0.01),), RawReason.NO_SIGNAL),
@@ -177,7 +177,7 @@ def _impossible(signal: ExposedSignal) -> tuple[float, ...]:
 
 @case("program-sets", "a program sets signals and waits for them where it stands")
 def _sets(bench: Bench) -> None:
-    """Behind a stop point; a signal that does not come ends the program; STOP ends the wait."""
+    """Set a signal after a stop point; wait; time-out; STOP ends the wait."""
     exposed, client, watcher = bench.config.signals, Programmer(bench), bench.watcher()
     target, *_ = orders(bench, 2, random.Random(22))
     target = replace(target, zone=0.01)
@@ -224,7 +224,7 @@ def _sets(bench: Bench) -> None:
 
 @case("program-without-signals", "a signal that the controller does not have ends its program")
 def _without(bench: Bench) -> None:
-    """Set, on the way and waited for; the others work."""
+    """Use signals that do not exist: failures; the others work."""
     exposed = bench.config.signals
     if not exposed:
         raise NotApplicable("no signal is exposed")
@@ -307,7 +307,7 @@ def _sends(
     before: RawMove | None = None,
     after: RawMove | None = None,
 ) -> messages.RawContent:
-    """A program of one instruction, and a move before or behind it; the reply."""
+    """Send one instruction with moves before and after; return the reply."""
     client.number += 1
     values = [*millionths(client.bench.position), *(before.words if before else ())]
     values += [int(kind), *millionths(operands), *(after.words if after else ())]
@@ -321,7 +321,10 @@ def _accepted(reply: messages.RawContent) -> None:
 
 @case("program-settings", "singularities and configurations are allowed on request alone")
 def _settings(bench: Bench) -> None:
-    """From the instruction on, and no longer than the program: it ends, or is stopped."""
+    """Apply settings from the instruction to the program's end.
+
+    The program ends normally, or by a stop.
+    """
     client, modal = Programmer(bench), bench.motion_group.modal
     if bench.motion_group.kinematics is None:
         client.refused(_sends(client, SETTINGS, [0.0]), RawReason.NO_INSTRUCTION, 0, "settings")
@@ -334,7 +337,7 @@ def _settings(bench: Bench) -> None:
         client.refused(reply, RawReason.BAD_VALUE, 0, f"settings {value}")
     for asks, bits in ((False, 0), *((True, bits) for bits in range(4))):
         start = replace(target, joints=bench.position)
-        # As a routine of the customer's may have left them.
+        # As a user routine may have left them.
         modal.check_joint = modal.check_linear = False
         modal.singularities = Singularities.WRIST
         if asks:

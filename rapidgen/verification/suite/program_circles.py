@@ -1,4 +1,4 @@
-"""Circles of a program: three points that make none, and one that turns too far, move nothing."""
+"""Circles of programs: degenerate points or too large angles are rejected."""
 
 import math
 import random
@@ -27,12 +27,15 @@ case = SuiteGroup("programs", needs="stream")
 _CHORD_BY_HEIGHT = {
     degrees: 2 * math.tan(math.radians((360 - degrees) / 4)) for degrees in (239, 241)
 }
-"""Of the circle that turns so far: its ends are seen from its middle under half of what is left."""
+"""Values for a circle that turns too far: its ends and midpoint are closer than allowed."""
 
 
 @case("program-circles", "three points that make no circle, or too much of one, are refused")
 def _circles(bench: Bench) -> None:
-    """From the start, behind a move, behind one of the batch before [REF MoveC, Limitations]."""
+    """Check circles from the start, after a move, and across batches.
+
+    Source: [REF MoveC, Limitations].
+    """
     if not computes(bench):
         raise NotApplicable("the driver computes no poses")
     client = Programmer(bench)
@@ -41,7 +44,7 @@ def _circles(bench: Bench) -> None:
     client.takes("a program", [replace(one, zone=None)])
     bench.wait_until_at(one.joints, 60)
     bench.run(0.5)
-    # Nothing moves where the circle is right: what is behind it is wrong.
+    # If the circle is valid nothing moves, because the next instruction is invalid.
     wrong = replace(two, speed=0.0)
     line = replace(one, kind=RawInstruction.MOVE_L, pose=reached(bench, one.joints))
     for before, start in (((), one), ((two, three), three), ((three, line), line)):
@@ -60,7 +63,7 @@ def _circles(bench: Bench) -> None:
 
 
 def _in_other_frames(bench: Bench, client: Programmer, start: RawMove, end: RawMove) -> None:
-    """The pose before a circle is another one in the circle's work object."""
+    """Change the work object: the pose before a circle changes with it."""
     given = object_of(0.1)
     frame, first = placement_of(given[1]), bench.group.work_object.user_frame
     origin = frames.compose(
@@ -80,7 +83,7 @@ def _in_other_frames(bench: Bench, client: Programmer, start: RawMove, end: RawM
 
 
 def _with_end(bench: Bench, start: RawMove, end: RawMove) -> Iterator[tuple[bool, str, RawMove]]:
-    """Whether they are right, what they are, and circles from the end of one move to another's."""
+    """Yield circles between two moves: valid or not, label, circle."""
     first, last = reached(bench, start.joints)[0], reached(bench, end.joints)[0]
     path = frames.subtract(last, first)
     chord = frames.norm(path)
@@ -97,7 +100,7 @@ def _with_end(bench: Bench, start: RawMove, end: RawMove) -> Iterator[tuple[bool
     yield True, "half a circle", at(0.5, chord / 2)
     for far in (0.09e-3, 0.11e-3):
         yield far > 1e-4, f"a point {far} m from the beginning", at(0.0, far)
-    # So close to the end a point is nearly in a line, too.
+    # A point so close to the end is nearly on a line, too.
     for far in (0.09e-3, 0.018 * chord):
         yield far > 1e-4, f"a point {far} m from the end", at(1.0, far)
     for angle in (0.98, 1.02):
@@ -114,7 +117,10 @@ def _with_end(bench: Bench, start: RawMove, end: RawMove) -> Iterator[tuple[bool
 
 
 def _circle(bench: Bench, start: RawMove, end: RawMove, via: Vector) -> RawMove:
-    """To where `end` goes; `via` is told from where `start` ends."""
+    """Return a circle to the end of `end`.
+
+    `via` is relative to the end of `start`.
+    """
     place, turned = reached(bench, start.joints)
     return replace(
         end,

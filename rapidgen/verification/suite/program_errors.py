@@ -1,4 +1,4 @@
-"""Programs on a controller that reports errors: as an instruction is read, and when it is due."""
+"""Programs on a controller with errors, while read and while executed."""
 
 import random
 from collections.abc import Iterator
@@ -29,14 +29,14 @@ case = SuiteGroup("programs", needs="stream")
 
 _READS = ("UnpackRawBytes", "DnumToNum", "NOrient", "ByteToStr", "VectMagn", "CalcRobT")
 _NO_GEOMETRY = ("VectMagn", "CalcRobT")
-"""What may fail while a pose is compared with what its joints reach."""
+"""Functions that may fail while a pose is compared with its joints."""
 _SETS = {"DO": "SetDO", "GO": "SetGO", "AO": "SetAO"}
 _WAITS = {"DI": "WaitDI", "DO": "WaitDO", "GI": "WaitGI", "GO": "WaitGO"}
 
 
 @case("program-reading-fails", "an instruction that cannot be read moves nothing", once=True)
 def _reading_fails(bench: Bench) -> None:
-    """Whatever fails, and at whichever word: nothing moves, and a program behind it is taken."""
+    """Fail at any word while reading: nothing moves, the next program works."""
     values, count = _everything(bench)
     for name in _READS:
         for after in range(_calls(bench, name, values, count)):
@@ -63,7 +63,7 @@ def _answered(link: RawLink) -> bool:
 
 
 def _everything(bench: Bench) -> tuple[list[int], int]:
-    """A program of all that this driver reads, the last of it wrong: it is never executed."""
+    """Return a program of every instruction, the last one invalid."""
     current = bench.position
     order = RawMove(RawInstruction.MOVE_ABSJ, current, None, frames=(0, 0))
     parts: list[list[int]] = [order.words, [RawInstruction.WAIT, *millionths([0.1])]]
@@ -90,7 +90,7 @@ def _everything(bench: Bench) -> tuple[list[int], int]:
     parts += [[RawInstruction.SET, *millionths([float(n), 1.0])] for n in written[:1]]
     parts += [[RawInstruction.WAIT_SIGNAL, *millionths([float(n), 1, 1])] for n in waited[:1]]
     if knows_these(bench):
-        # Its module is not there.
+        # The routine's module is missing.
         parts.append([RawInstruction.CALL, *millionths([0.0, 0.0]), *weld_words(1.0)])
     else:
         parts.append([99])
@@ -98,7 +98,7 @@ def _everything(bench: Bench) -> tuple[list[int], int]:
 
 
 def _calls(bench: Bench, name: str, values: list[int], count: int) -> int:
-    """How often the motion server calls something until it has read a program."""
+    """Return how often the motion server calls something for a program."""
     number = 0
 
     def counted(as_before: Instruction) -> Instruction:
@@ -128,7 +128,10 @@ _FAILING = {
 
 @case("program-instructions-fail", "an instruction that fails ends its program with its reason")
 def _instructions_fail(bench: Bench) -> None:
-    """With the one before it executed, and nothing behind it; a program behind it is taken."""
+    """Fail an instruction in execution.
+
+    The instruction before it is executed, none after it; the next program works.
+    """
     first, second, third = orders(bench, 4, random.Random(42))[1:]
     client, watcher = Programmer(bench), bench.watcher()
     for name, error, reason, values in _due(bench, first, second):
@@ -136,7 +139,7 @@ def _instructions_fail(bench: Bench) -> None:
         place = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, zone=None)
         client.number += 1
         then = replace(third, kind=RawInstruction.MOVE_ABSJ, pose=None)
-        # All of them begin with the same speed, zone and frames.
+        # All of them start with the same speed, zone and frames.
         own = [*millionths(bench.position), *place.words, *values, *then.words]
         reply = client.say(own, 3, ALL)
         if not isinstance(reply, messages.RawPointsAccepted):
@@ -158,7 +161,7 @@ def _instructions_fail(bench: Bench) -> None:
 def _due(
     bench: Bench, current: RawMove, target: RawMove
 ) -> Iterator[tuple[str, str, RawReason, list[int]]]:
-    """Which instruction fails with what, the reason of that, and the words for it."""
+    """Yield failing instruction, error, reason and words."""
     moved = replace(target, zone=None)
     joints = replace(moved, kind=RawInstruction.MOVE_ABSJ, pose=None)
     yield "MoveAbsJ", "ERR_COLL_STOP", RawReason.COLLISION, joints.words

@@ -1,4 +1,4 @@
-"""Tools and work objects of a program: by the configuration's names, and by values of its own."""
+"""Tools and work objects of programs: configured ones and own values."""
 
 import random
 from collections.abc import Sequence
@@ -22,16 +22,19 @@ case = SuiteGroup("programs", needs="stream")
 
 TOOL, WORK_OBJECT = RawInstruction.TOOL, RawInstruction.WORK_OBJECT
 Other: TypeAlias = tuple[RawInstruction, Sequence[float]]
-"""An instruction that is no move: its kind and its operands."""
+"""An instruction other than a move: kind and operands."""
 MOVES = (RawInstruction.MOVE_L, RawInstruction.MOVE_J)
 _NEAR = 1e-3
-"""mm, kg, and parts of a quaternion within which a value is the one that was sent."""
+"""Tolerance in mm, kg and quaternion parts for equal values."""
 
 
 @case("program-tools", "a program moves other tools in other work objects")
 def _tools(bench: Bench) -> None:
-    """Each of the configuration's: a pose of another tool is refused, the right one is reached,
-    with a stop point before the first move of it."""
+    """Use each configured tool.
+
+    A pose of another tool is rejected. The right pose is reached, with a stop point before its
+    first move.
+    """
     client = Programmer(bench)
     first, *more = orders(bench, 6, random.Random(24))
     client.takes("a program", [first])
@@ -62,7 +65,7 @@ def _tools(bench: Bench) -> None:
                 )
             start, since = bench.position, bench.now
             client.takes(f"tool {tool} in work object {wobj}", [*more[3:4], *own])
-            # It ends where it began.
+            # The motion ends where it started.
             bench.wait_until_moving()
             bench.wait_until_at(own[-1].joints, 60)
             joints = [start, more[3].joints, *(o.joints for o in own)]
@@ -72,14 +75,14 @@ def _tools(bench: Bench) -> None:
 
 
 def _stood_at(bench: Bench, joints: Position, since: float) -> None:
-    """Broken unless the robot was there, in no zone."""
+    """Check that the robot stopped there, without a zone."""
     track = [seen for when, seen in bench.track if when >= since]
     if not any(all(abs(a - b) < 1e-4 for a, b in zip(p, joints, strict=True)) for p in track):
         raise CheckFailed("the robot did not stop before another tool or work object")
 
 
 def _seen(bench: Bench, joints: Position, tool: Placement, wobj: Placement) -> Pose:
-    """The pose of joints, in m, with another tool in another work object."""
+    """Return the pose of joints, in m, with other frames."""
     geometry = bench.motion_group.kinematics
     assert geometry is not None
     flange = geometry.forward(joints)
@@ -96,7 +99,7 @@ def _seen(bench: Bench, joints: Position, tool: Placement, wobj: Placement) -> P
 
 @case("program-own-frames", "a program gives a tool and a work object by values")
 def _own(bench: Bench) -> None:
-    """For its own poses alone, and never while a move is under way with the values before."""
+    """Use own frames only for later poses, never during an earlier move."""
     client = Programmer(bench)
     tools = len((bench.group.tool, *bench.group.tools))
     objects = len((bench.group.work_object, *bench.group.work_objects))
@@ -135,7 +138,7 @@ def _own(bench: Bench) -> None:
     ]
     reply = says(client, (TOOL, after), (WORK_OBJECT, right[1]), path[0])
     client.refused(reply, RawReason.POSE_MISMATCH, 2, "a pose of another tool")
-    # To where the robot has no further way on a line.
+    # To where the robot cannot continue on a line.
     client.takes("a program", [replace(at_rest, joints=first.joints)])
     bench.wait_until_at(first.joints, 60)
     start, since = bench.position, bench.now
@@ -160,7 +163,7 @@ def _own(bench: Bench) -> None:
 
 
 def says(client: Programmer, *orders: RawMove | Other) -> messages.RawContent:
-    """A program of moves, and of instructions with their operands; the reply."""
+    """Send a program of moves and instructions; return the reply."""
     client.number += 1
     values = millionths(client.bench.position)
     for order in orders:
@@ -171,34 +174,37 @@ def says(client: Programmer, *orders: RawMove | Other) -> messages.RawContent:
 
 
 def tool_of(away: float, mass: float) -> Other:
-    """TOOL: as the frames of these cases have it."""
+    """Return TOOL with the values of these cases."""
     return TOOL, _tool(away, mass)
 
 
 def object_of(away: float) -> Other:
-    """WORK_OBJECT, likewise."""
+    """Return WORK_OBJECT with the values of these cases."""
     return WORK_OBJECT, _object(away)
 
 
 def _tool(away: float, mass: float) -> list[float]:
-    """Operands of TOOL: so far from the flange, turned by half a turn."""
+    """Return operands of TOOL at a distance, turned by half a turn."""
     return [0.01, 0.0, away, 0.0, 1.0, 0.0, 0.0, 0.0, 0.01, away, 0, 1, 0, 0, mass, 0.1, 0.2, 0.3]
 
 
 def _object(away: float) -> list[float]:
-    """Operands of WORK_OBJECT: its object frame is so far from its user frame, which is turned."""
+    """Return operands of WORK_OBJECT.
+
+    The object frame is at a distance from the turned user frame.
+    """
     return [away, 0.02, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, away, 1.0, 0.0, 0.0, 0.0]
 
 
 def _wrong() -> list[tuple[RawInstruction, list[float]]]:
-    """Operands with one value that is none."""
+    """Return operands with one invalid value."""
     tool, wobj = _tool(0.05, 2.0), _object(0.1)
     result = [(TOOL, [*tool[:at], value, *tool[at + 1 :]]) for at, value in _WRONG]
     return result + [(WORK_OBJECT, [*wobj[:at], 101.0, *wobj[at + 1 :]]) for at in (0, 7)]
 
 
 def _largest() -> list[tuple[RawInstruction, list[float]]]:
-    """Operands at the end of what is allowed."""
+    """Return operands at the allowed maximum."""
     turned = [1.0, 0.0, 0.0, 0.0]
     far, deep = [100.0, 0.0, 0.0, *turned], [0.0, -100.0, 0.0, *turned]
     return [
@@ -214,11 +220,11 @@ _WRONG = (
     *((14, mass) for mass in (0.0, -1.0, 2001.0)),
     *((at, value) for at in (15, 16, 17) for value in (-0.1, 2001.0)),
 )
-"""Which operand of TOOL cannot be what: frames too far, quaternions too long, masses, moments."""
+"""Invalid TOOL operands: frames too far, quaternions too long, masses, moments."""
 
 
 def placement_of(values: Sequence[float]) -> Placement:
-    """The frame of operands; of two frames the second in the first."""
+    """Return the frame of operands; two frames are multiplied."""
     (x, y, z, *turn), second = values[:7], values[7:]
     (a, b, c, d) = turn
     pose: Pose = (x, y, z), (a, b, c, d)
@@ -229,7 +235,7 @@ def placement_of(values: Sequence[float]) -> Placement:
 
 
 def _is(bench: Bench, values: Sequence[float], what: str) -> None:
-    """Broken unless the motion task has this tool."""
+    """Check that the motion task has this tool."""
     tool: Value = bench.controller.task(bench.group.task)["ROS_execution:ROS_own_tool"]
     frame, load = tool.tframe, tool.tload
     moments = load.ix, load.iy, load.iz

@@ -1,4 +1,4 @@
-"""What the motion task orders for the instructions of a program: zones, speeds, and where not."""
+"""Moves of programs as the motion task orders them: zones and speeds."""
 
 import math
 import random
@@ -29,7 +29,7 @@ _ABSJ = RawInstruction.MOVE_ABSJ
 
 @contextmanager
 def _ordered(bench: Bench) -> Iterator[list[Move]]:
-    """Each move of the first group, as it is ordered."""
+    """Yield the list of ordered moves of the first group."""
     moves: list[Move] = []
     listeners = bench.motion_group.listeners
     listeners.append(moves.append)
@@ -42,7 +42,7 @@ def _by_joints(order: RawMove, frames: tuple[int, int]) -> RawMove:
 
 
 def _stand_still(bench: Bench, client: Programmer) -> list[RawMove]:
-    """Moves in the neighbourhood; the robot stands at the first one."""
+    """Return moves nearby; move the robot to the first one."""
     result = orders(bench, 9, random.Random(61))
     client.takes("a program", result[:1])
     bench.wait_until_at(result[0].joints, 60)
@@ -51,7 +51,7 @@ def _stand_still(bench: Bench, client: Programmer) -> list[RawMove]:
 
 @case("program-zones", "a move is passed through its zone unless something needs a stop")
 def _zones(bench: Bench) -> None:
-    """Circles are passed like lines; a stop is at the end, before a wait and another tool."""
+    """Check zones of circles and lines, and stop points before waits and tools."""
     client = Programmer(bench)
     path = _stand_still(bench, client)
     one, two, *others = (_by_joints(order, (0, 0)) for order in path[1:])
@@ -73,14 +73,14 @@ def _zones(bench: Bench) -> None:
         _stop_at(client, [*given, one, two, *own, one], [0, 1, 1, 0, 1, 1])
         _stop_at(client, [*given, one, own[1]], [1, 1])
     if computes(bench):
-        # Frames are the usual ones again.
+        # The configured frames apply again.
         pose = replace(orders(bench, 1, random.Random(61))[0], kind=RawInstruction.MOVE_J)
         client.takes("a pose", [replace(pose, pose=reached(bench, pose.joints))])
         bench.wait_until_at(pose.joints, 60)
 
 
 def _stop_at(client: Programmer, program: Sequence[RawMove | Other], stops: list[int]) -> None:
-    """Send a program; Broken unless its moves are ordered as stop points where it says."""
+    """Send a program; check which of its moves are stop points."""
     bench = client.bench
     with _ordered(bench) as moves:
         reply = says(client, *program)
@@ -95,7 +95,7 @@ def _stop_at(client: Programmer, program: Sequence[RawMove | Other], stops: list
 
 @case("program-operands", "each speed and each radius of a zone is looked at by itself")
 def _operands(bench: Bench) -> None:
-    """What is wrong is refused with its reason and place; the smallest and the widest is right."""
+    """Reject invalid operands with reason and index; accept the extremes."""
     client, start = Programmer(bench), millionths(bench.position)
     order = RawMove(RawInstruction.MOVE_ABSJ, bench.position, None)
     speeds, zones = range(1, 5), range(6, 12)
@@ -110,7 +110,7 @@ def _operands(bench: Bench) -> None:
         client.number += 1
         reply = client.say([*start, *order.words, *values], 2, ALL)
         client.refused(reply, reason, 1, f"word {place} of a move is {wrong}")
-    # What is behind it is wrong.
+    # The next instruction is invalid.
     for places, value in ((speeds, slowest), (zones, [0]), (zones[:3], widest)):
         for place in places:
             values = order.words
@@ -123,7 +123,7 @@ def _operands(bench: Bench) -> None:
 
 @case("program-speeds", "a slower program is slower in each of its speeds", needs="control")
 def _speeds(bench: Bench) -> None:
-    """Of the TCP, of its turning, of external axes that shift and turn: all in the same share."""
+    """Scale all speeds by the same share: TCP, rotation, external axes."""
     client, control = Programmer(bench), bench.control()
     program = [_by_joints(order, (0, 0)) for order in _stand_still(bench, client)[1:4]]
     for percent in (100.0, 40.0):
@@ -151,12 +151,15 @@ _DISPLACED: tuple[Pose, ...] = (
     (IDENTITY[0], (_SLIGHTLY[1], 0.0, 0.0, _SLIGHTLY[0])),
     IDENTITY,
 )
-"""0.05 mm, a milliradian about each axis; the last one goes with an offset of external axes."""
+"""0.05 mm, a milliradian about each axis; the last one with an offset of external axes."""
 
 
 @case("program-displaced-late", "a displacement that nobody saw when the program was taken")
 def _displaced_late(bench: Bench) -> None:
-    """However small: the first pose ends the program, which has not moved; joints are no poses."""
+    """Displace the program late: the first pose ends it without motion.
+
+    Even a small displacement counts. Joint targets are not affected.
+    """
     if not computes(bench):
         raise NotApplicable("the driver computes no poses")
     client, watcher, modal = Programmer(bench), bench.watcher(), bench.motion_group.modal
@@ -171,7 +174,7 @@ def _displaced_late(bench: Bench) -> None:
             if to == IDENTITY:
                 data.external_offset = (0.0, 5.0, 0.0, 0.0, 0.0, 0.0)
 
-        # As the motion task prepares the program.
+        # While the motion task prepares the program.
         at_call(bench, "ROS_motion", "ConfJ", 1, displace)
         number = client.takes("a pose", [line])
         bench.assert_at_rest(patience(bench), f"poses are displaced by {displacement}")

@@ -1,4 +1,4 @@
-"""What ends a program, and a pause: a prefix of it was executed, with index and reason."""
+"""Events that end or pause a program: a prefix is executed and reported."""
 
 import random
 from dataclasses import replace
@@ -20,7 +20,7 @@ SET = RawInstruction.SET
 
 
 _ASIDE = 0.12
-"""rad and m: how far a zone cuts a corner, and a line bends between the joints at its ends."""
+"""rad and m by which a zone cuts a corner, and a line bends between the joints at its ends."""
 
 
 @case(
@@ -30,7 +30,7 @@ _ASIDE = 0.12
     needs="control",
 )
 def _prefix(bench: Bench) -> None:
-    """STOP on either port, a cut connection, an emergency stop, a stop of the program, a pause."""
+    """End a program by STOP, disconnection, emergency stop and program stop."""
     control, watcher = bench.control(), bench.watcher()
     chance = random.Random(5)
     for ending in _endings(bench):
@@ -55,7 +55,7 @@ def _prefix(bench: Bench) -> None:
     needs="control",
 )
 def _kinds(bench: Bench) -> None:
-    """Moves of each kind, settings, a tool and an object by values, waits, a signal."""
+    """End programs with all instruction kinds."""
     control, watcher, chance = bench.control(), bench.watcher(), random.Random(6)
     outputs = [s.name for s in bench.config.signals if (s.kind, s.access) == ("DO", "write")]
     for ending in _endings(bench):
@@ -84,7 +84,10 @@ def _kinds(bench: Bench) -> None:
 
 
 def _all_kinds(bench: Bench, chance: random.Random) -> tuple[list[list[int]], int]:
-    """Words of one instruction after the other, a move first and last; which one sets a signal."""
+    """Return words of one instruction each, and the one that sets a signal.
+
+    A move comes first and last.
+    """
     first, *some, last = orders(bench, 6, chance)
     exposed = bench.config.signals
     parts = [first.words, [RawInstruction.WAIT, *millionths([0.1])]]
@@ -109,7 +112,7 @@ def _all_kinds(bench: Bench, chance: random.Random) -> tuple[list[list[int]], in
 
 
 def _reaches(bench: Bench, watcher: RawLink, at: int) -> None:
-    """Let time pass until the robot is on its way behind so many instructions."""
+    """Let time pass until the robot is past so many instructions."""
     bench.wait_until_moving()
     for _ in range(600):
         if bench.progress(watcher).reached >= at:
@@ -128,7 +131,10 @@ _ENDINGS = {
 
 
 def _endings(bench: Bench) -> list[str]:
-    """Those of which anybody tells: servers of a driver in commissioning stop with the program."""
+    """Return the reported endings.
+
+    Servers of a driver in commissioning stop with the program.
+    """
     unheard = ("e-stop", "stop") if bench.config.commissioning else ()
     return [ending for ending in _ENDINGS if ending not in unheard]
 
@@ -136,7 +142,7 @@ def _endings(bench: Bench) -> list[str]:
 def _ended(
     client: Programmer, control: RawLink, watcher: RawLink, ending: str, at: int, length: int
 ) -> messages.RawProgress:
-    """End a program of some length behind an instruction; what PROGRESS says of it then."""
+    """End a program after an instruction; return the following PROGRESS."""
     bench = client.bench
     _reaches(bench, watcher, at)
     _end(bench, client, control, ending)
@@ -165,7 +171,7 @@ def _end(bench: Bench, client: Programmer, control: RawLink, ending: str) -> Non
 
 @case("program-paused", "a paused program goes on where it was", needs="control")
 def _paused(bench: Bench) -> None:
-    """To its end, on its path."""
+    """Pause a program and resume it to its end, on its path."""
     control, watcher, client = bench.control(), bench.watcher(), Programmer(bench)
     program, start, since = orders(bench, 4, random.Random(9)), bench.position, bench.now
     client.takes("a program", program)

@@ -1,4 +1,4 @@
-"""Instructions of a program in their turn: late ones, missing ones, and those that come later."""
+"""Order of program instructions: late, missing and delayed ones."""
 
 import random
 import re
@@ -28,7 +28,7 @@ case = SuiteGroup("programs", needs="stream")
 
 
 def _ring(bench: Bench) -> list[Value]:
-    """The instructions that the motion task finds in the ring, by place."""
+    """Return the instructions in the motion task's ring, by index."""
     task = bench.rapid_task("ROS_motion")
     declared = task.program.modules["ros_instructions"].declarations
     name = next(key for key in declared if re.fullmatch(r"ros_orders(_\d+)?", key))
@@ -39,7 +39,7 @@ def _ring(bench: Bench) -> list[Value]:
 def _told(
     bench: Bench, watcher: RawLink, trajectory: int, state: RawTrajectoryState, reason: RawReason
 ) -> messages.RawProgress:
-    """PROGRESS; Broken unless it says that of the trajectory."""
+    """Return PROGRESS; check state and reason of the trajectory."""
     reply = bench.progress(watcher)
     if (reply.trajectory, reply.state, reply.reason) != (trajectory, state, reason):
         raise CheckFailed(
@@ -50,7 +50,7 @@ def _told(
 
 @case("program-late", "an instruction that comes late is dropped, a hole ends the program", "R5")
 def _late(bench: Bench) -> None:
-    """Behind STOP an instruction of the same program is announced; then one has another number."""
+    """Announce an instruction after STOP; then one with a wrong number."""
     watcher, client = bench.watcher(), Programmer(bench)
     task, head = bench.controller.task(bench.group.task), datum(bench, "ros_head")
     program = [replace(order, zone=None) for order in orders(bench, 6, random.Random(51))]
@@ -85,7 +85,10 @@ def _late(bench: Bench) -> None:
 
 @case("stop-starved", "STOP while a stream or a program waits for more", "R9")
 def _stop_starved(bench: Bench) -> None:
-    """It is told to wait, then to move again; STOP ends it where it stands, and no task with it."""
+    """Send STOP to a program that waits for instructions.
+
+    The robot stops where it is, and no task ends.
+    """
     watcher, client = bench.watcher(), Programmer(bench)
     starved, moving = RawTrajectoryState.STARVED, RawTrajectoryState.MOVING
     stream, task = Streamer(bench, client.link), bench.rapid_task("ROS_motion")
@@ -116,7 +119,7 @@ def _stop_starved(bench: Bench) -> None:
         _told(bench, watcher, number, moving, RawReason.NONE)
         bench.wait_until_at(ends[1], 60)
         bench.run(patience(bench))
-        # Where its motion task waits for more; longer than a server and two interrupts take.
+        # The motion task waits for more here; this takes longer than a server and two interrupts.
         at_call(bench, "ROS_motion", "WaitTime", 1, ask)
         if client.link.reply(JOINT_TRAJ_PT) != messages.RawAcknowledged():
             raise CheckFailed("STOP is not confirmed while more is waited for")

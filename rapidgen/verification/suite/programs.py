@@ -1,4 +1,4 @@
-"""Motion programs: moves to joints and poses, checked whole, executed as RAPID would."""
+"""Motion programs: moves to joints and poses, executed as in RAPID."""
 
 import random
 from dataclasses import replace
@@ -42,20 +42,20 @@ case = SuiteGroup("programs", needs="stream")
 
 MOVE_ABSJ = RawInstruction.MOVE_ABSJ
 _LATER = 0.005
-"""Share of its time that a program may take longer, or shorter, than the same one in RAPID."""
+"""Share of its time by which a program may differ from RAPID."""
 _SAME = 1e-5
-"""m that the TCP may be away from the path of the same program in RAPID."""
+"""m by which the TCP may leave the path of the same program in RAPID."""
 
 
 @case("program-like-rapid", "a program moves as the same one written in RAPID", once=True)
 def _like_rapid(bench: Bench) -> None:
-    """On the same path, in the same time, with no stop point more."""
+    """Execute on the same path and in the same time, without more stop points."""
     matches_rapid(bench, 6, random.Random(7))
     program_matches_rapid(Programmer(bench), bench, _turning(bench))
 
 
 def _turning(bench: Bench) -> list[RawMove]:
-    """Moves that take as long as the tool may turn, or external axes may move."""
+    """Return moves whose duration depends on rotation or external axes."""
     first = orders(bench, 1, random.Random(8))[0]
     speed = min(0.5, bench.group.tcp_speed_limit)
     slow = RawMove(
@@ -69,7 +69,7 @@ def _turning(bench: Bench) -> list[RawMove]:
 
 
 def turned_by(bench: Bench, place: Position, angle: float) -> Position:
-    """A place with the robot's last axis, and external ones, by so much elsewhere."""
+    """Return a position with the last and external axes moved by so much."""
     last = max(joint.axis for joint in bench.group.joints if joint.axis.startswith("rax"))
     return tuple(
         inward(joint, value, angle if joint.kind == "revolute" else 0.1)
@@ -80,14 +80,14 @@ def turned_by(bench: Bench, place: Position, angle: float) -> Position:
 
 
 def matches_rapid(bench: Bench, count: int, chance: random.Random) -> None:
-    """So many programs by lot beside the same ones in RAPID (more: `rapidgen test --programs`)."""
+    """Compare random programs with RAPID (more: `rapidgen test --programs`)."""
     client = Programmer(bench)
     for _ in range(count):
         program_matches_rapid(client, bench, orders(bench, 8, chance))
 
 
 class MotionDiffers(CheckFailed):
-    """A program moved otherwise than the same one in RAPID."""
+    """A program moved differently than the same one in RAPID."""
 
 
 def program_matches_rapid(
@@ -97,12 +97,11 @@ def program_matches_rapid(
     other: Bench | None = None,
     hand: list[RawMove] | None = None,
 ) -> None:
-    """A program beside the same one in RAPID.
+    """Compare a program with the same one in RAPID.
 
-    Raises Unlike, and Broken as an expectation does.
+    Raises MotionDiffers, and CheckFailed as a check does.
 
-    `other`: a controller that is `called`, of which nothing has run yet. `hand`: what is written in
-    RAPID, if that is not literally the program.
+    `other`: a new controller from `called`. `hand`: the RAPID program, if it differs.
     """
     home, since = bench.position, bench.now
     client.takes("a program", program)
@@ -113,8 +112,8 @@ def program_matches_rapid(
         theirs = _moved(other, program, 0.5)
     later, same = _LATER, _SAME
     if bench.setting.motion != MotionSettings():
-        # Where a robot settles, or its moves are planned just before the corner, a millisecond in
-        # which the next one is ordered decides how it is made; a stop there would cost more.
+        # If a robot settles, or its moves are planned just before the corner, the millisecond of
+        # the next order decides how it is made; a stop there would take longer.
         later, same = 4 * later, 200 * same
     if abs(mine[0] - theirs[0]) > later * theirs[0]:
         raise MotionDiffers(
@@ -130,7 +129,7 @@ def program_matches_rapid(
 
 
 def _moved(bench: Bench, program: list[RawMove], since: float) -> tuple[float, list[Position]]:
-    """s of movement and where the robot was, until it stands at the end."""
+    """Return s of movement and the positions until the robot stands."""
     bench.wait_until_at(program[-1].joints, 60)
     bench.run(0.3)
     return movement([sample for sample in bench.track if sample[0] >= since])
@@ -138,7 +137,7 @@ def _moved(bench: Bench, program: list[RawMove], since: float) -> tuple[float, l
 
 @case("program-configurations", "a program reaches its poses in the postures that it says")
 def _configurations(bench: Bench) -> None:
-    """From one configuration to another, whatever instruction was before."""
+    """Move between configurations; earlier instructions have no influence."""
     if not computes(bench):
         raise NotApplicable("the driver computes no poses")
     client, middle = Programmer(bench), bent(bench)
@@ -161,7 +160,7 @@ def _configurations(bench: Bench) -> None:
 
 @case("program-arm-side", "a pose is reached on the side of the arm that is asked for", once=True)
 def _arm_side(bench: Bench) -> None:
-    """Also where two postures of the pose have one configuration, and the other one is nearer."""
+    """Use poses with two postures of one configuration, the other one nearer."""
     geometry = bench.motion_group.kinematics
     if geometry is None or not computes(bench):
         raise NotApplicable("the driver computes no poses")
@@ -181,7 +180,7 @@ def _arm_side(bench: Bench) -> None:
 
 @case("program-index-wraps", "more instructions than numbers", once=True)
 def _index_wraps(bench: Bench) -> None:
-    """They are counted anew behind the last number that a controller counts exactly."""
+    """Let instruction numbers wrap after the last exact integer."""
     last, client = messages.INDEX_WRAP, Programmer(bench)
     program = orders(bench, 10, random.Random(12))
     some = [replace(o, zone=None) for o in program]
@@ -206,7 +205,7 @@ def _index_wraps(bench: Bench) -> None:
 
 @case("program-refused", "one wrong instruction refuses a program whole, with its index")
 def _refused(bench: Bench) -> None:
-    """Nothing moves for a program of which one instruction is wrong, or that begins elsewhere."""
+    """Reject a program with one invalid instruction or start: no motion."""
     right = orders(bench, 6, random.Random(3))
     client, watcher = Programmer(bench), bench.watcher()
     for n, own in enumerate(bench.group.joints):
@@ -218,11 +217,11 @@ def _refused(bench: Bench) -> None:
                 raise CheckFailed(f"joint {n + 1} at {value}: the reply is {reply}")
         for value in (own.lower + small_unit(own), own.upper - small_unit(own)):
             inside = replace(right[3], joints=changed(right[3].joints, n, value), pose=None)
-            # What is behind it is wrong.
+            # The next instruction is invalid.
             after = replace(right[3], speed=0.0)
             reply = client.send([*right[:3], replace(inside, kind=MOVE_ABSJ), after])
             client.refused(reply, RawReason.BAD_SPEED, 4, f"joint {n + 1} at {value}")
-    # The smallest and the widest zone: what is behind it is wrong.
+    # The smallest and the widest zone; the next instruction is invalid.
     for zone in (0.0, 2 / 3):
         reply = client.send(
             [*right[:3], replace(right[3], zone=zone), replace(right[3], speed=0.0)]
@@ -256,7 +255,7 @@ def _refused(bench: Bench) -> None:
     wrong_too = [replace(right[3], speed=fastest + 1e-3), replace(right[3], zone=0.67)]
     for order, reason in zip(wrong_too, (RawReason.BAD_SPEED, RawReason.BAD_ZONE), strict=True):
         client.refused(client.send([*right[:3], order]), reason, 3, f"a program with {order}")
-    # As fast and as wide as may be: 1.5 times that is the widest radius.
+    # The maximum speed and zone: 1.5 times that is the widest radius.
     most = replace(right[3], speed=fastest, zone=2 / 3)
     reply = client.send([*right[:3], most, replace(most, speed=0.0)])
     client.refused(reply, RawReason.BAD_SPEED, 4, f"{most} is right")
@@ -303,7 +302,10 @@ def _refused(bench: Bench) -> None:
 
 @case("program-stream", "a program that comes while the robot moves is executed up to a fault")
 def _stream(bench: Bench) -> None:
-    """Instructions before a wrong one are executed, the last as a stop point; none behind it."""
+    """Cut a stream at an invalid instruction.
+
+    Earlier ones are executed, the last as a stop point.
+    """
     watcher, client = bench.watcher(), Programmer(bench)
     program = orders(bench, 16, random.Random(11))
     client.number += 1
@@ -327,7 +329,7 @@ def _stream(bench: Bench) -> None:
 
 @case("program-halves", "a trajectory ends a program, and a program a trajectory")
 def _superseded(bench: Bench) -> None:
-    """Whatever is newer; nothing of the older one is executed behind it."""
+    """Replace a program by something newer: none of it executes later."""
     client, watcher = Programmer(bench), bench.watcher()
     program = orders(bench, 5, random.Random(2))
     client.takes("a program", program)
@@ -346,7 +348,7 @@ def _superseded(bench: Bench) -> None:
     bench.start_motion(client.link, points, 0.5)
     reply = client.send(program)
     if isinstance(reply, messages.RawPointsRefused):
-        # It began where the robot was when it was sent.
+        # It started at the robot's position when it was sent.
         client.refused(reply, RawReason.START_TOO_FAR, 0, "a program into a trajectory")
         bench.wait_until_at_rest(5, 1, "neither is under way")
         client.takes("a program", program)
@@ -355,7 +357,7 @@ def _superseded(bench: Bench) -> None:
 
 @case("program-waits", "a wait stands between moves, and STOP ends it")
 def _waits(bench: Bench) -> None:
-    """The move before it is a stop point, whatever its zone; what cannot be is refused."""
+    """Wait after a stop point, whatever the zone; reject invalid waits."""
     client = Programmer(bench)
     first, *_, last = orders(bench, 6, random.Random(4))
     target = replace(last, kind=MOVE_ABSJ, pose=None, zone=0.01)
@@ -374,14 +376,14 @@ def _waits(bench: Bench) -> None:
             raise CheckFailed(f"a program with a wait of {seconds} s is refused")
         if seconds:
             bench.wait_until_at(target.joints, 60)
-        else:  # Axes that lag go on before they have come to rest.
+        else:  # Axes that lag move on before they rest.
             bench.until(comes_by, 60, "the robot comes by the point before the wait")
         bench.assert_at_rest(0.8 * seconds, "the program waits")
         bench.wait_until_at(first.joints, 60)
     corners_made(bench)
     for seconds in (-1.0, 2001.0):
         client.refused(sends(seconds), RawReason.BAD_VALUE, 1, f"a wait of {seconds} s")
-    # The longest.
+    # The longest wait.
     sends(2000.0)
     bench.wait_until_at(target.joints, 60)
     bench.run(0.5)
@@ -404,7 +406,7 @@ def _waits(bench: Bench) -> None:
 
 
 def corners_made(bench: Bench) -> None:
-    """Broken when the controller has found a corner that no move follows: a stop point was due."""
+    """Check that no corner lacked its next move: a stop point was due."""
     failed = [event for event in bench.controller.log if event.code == CORNER_FAILURE]
     if failed:
         raise CheckFailed(f"the robot was to stop where it passes: {failed[0]}")
@@ -415,7 +417,7 @@ plain = SuiteGroup("programs")
 
 @plain("program-basic", "a driver of the basic profile says that it takes no programs")
 def _basic(bench: Bench) -> None:
-    """HELLO does not tell PROGRAMS, and PROGRAM is answered by a failure."""
+    """Omit PROGRAMS from HELLO, and answer PROGRAM with a failure."""
     link = bench.motion()
     told = bench.send_hello(bench.state())
     if bool(told.features & messages.RawFeature.PROGRAMS) is not bench.streams:

@@ -1,4 +1,4 @@
-"""What is refused whole, with a reason, before anything moves."""
+"""Trajectories that are rejected as a whole, before any motion."""
 
 import math
 from collections.abc import Sequence
@@ -21,13 +21,13 @@ def refused(
     joint: int = 0,
     point: int | None = None,
 ) -> None:
-    """Broken unless nothing moves, and STATUS and PROGRESS give one of the reasons.
+    """Check that nothing moves, and STATUS and PROGRESS give a reason.
 
-    Where `joint` (from 1) and `point` (from 0, -1: none) are given they are to be named.
+    If `joint` (from 1) and `point` (from 0, -1: none) are given, they are reported too.
     """
     state, link = bench.watcher(), bench.motion()
     link.send(frames)
-    # A controller has read all of it by then.
+    # The controller has read all of it by then.
     bench.assert_at_rest(
         3 * bench.setting.slowness, f"it had to be refused: {messages.text_of(reasons[0])}"
     )
@@ -45,7 +45,7 @@ def refused(
         raise CheckFailed(f"the first point had to be refused, PROGRESS says {reply}")
     if point is not None and reply.point != point:
         raise CheckFailed(f"point {point} had to be blamed, PROGRESS says {reply}")
-    # A refusal is over with the next good trajectory.
+    # A rejection is over with the next good trajectory.
     bench.assert_moves_through(link, bench.wave(3))
     bench.run(0.5)
     if bench.status(state).in_error != 0:
@@ -74,7 +74,7 @@ def _hole(bench: Bench) -> None:
         frames = b"".join(
             point_frame(n, len(points), *point) for n, point in enumerate(points) if n != missing
         )
-        # Without point N-2 the end frame comes one early: nobody can see that one.
+        # Without point N-2 the end frame comes one early, which the driver cannot detect.
         if missing < len(points) - 2:
             refused(bench, frames, [RawReason.SEQUENCE_GAP], point=missing)
 

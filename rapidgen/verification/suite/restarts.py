@@ -1,4 +1,4 @@
-"""What was sent while the program did not execute is nothing, whoever finds it on Start."""
+"""Data sent while the program is stopped has no effect after Start."""
 
 from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.stream import BEGIN, END, Streamer
@@ -11,7 +11,7 @@ _STOPS = ("stop", "e-stop", "motors-off")
 
 @case("sent-meanwhile", "what comes while the program is stopped is nothing on Start", "R7a")
 def _sent_meanwhile(bench: Bench) -> None:
-    """Over a link that is known, and over one that waits to be accepted."""
+    """Send over an open connection, and over one that waits for accept."""
     for action in _STOPS:
         known = bench.motion()
         bench.run(0.5)
@@ -30,7 +30,7 @@ def _sent_meanwhile(bench: Bench) -> None:
 
 @case("half-sent-before", "a trajectory that a stop divides is none", "R7a")
 def _half_sent_before(bench: Bench) -> None:
-    """The end of a trajectory whose beginning came before the stop."""
+    """Send the end of a trajectory whose start came before the stop."""
     for action in _STOPS:
         link = bench.motion()
         data = bench.download(bench.wave(20))
@@ -46,7 +46,7 @@ def _half_sent_before(bench: Bench) -> None:
 
 @case("stopped-while-taken", "a stop at any moment of the hand-over", "R7a")
 def _stopped_while_taken(bench: Bench) -> None:
-    """The stop comes while a trajectory is received and handed over."""
+    """Stop while a trajectory is received and handed over."""
     for number in range(12):
         link = bench.motion()
         bench.run(0.3)
@@ -62,7 +62,7 @@ def _stopped_while_taken(bench: Bench) -> None:
 
 @case("batches-meanwhile", "batches that come while the program is stopped", "R7a", needs="stream")
 def _batches(bench: Bench) -> None:
-    """A stream that begins, or goes on, while the program is stopped."""
+    """Start or continue a stream while the program is stopped."""
     for number, before in enumerate((0, 8), 1):
         stream = Streamer(bench, number=number)
         points = bench.wave(16)

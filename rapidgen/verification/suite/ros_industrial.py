@@ -1,4 +1,4 @@
-"""What the unmodified ROS-Industrial nodes send and expect."""
+"""Messages of the unmodified ROS-Industrial nodes."""
 
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
@@ -46,7 +46,7 @@ def _first_point_of_ten_seconds(bench: Bench) -> None:
 
 @case("single-point", "a single point, sent as -1 and -3, begins where the robot stands", "R8")
 def _single_point_sent_twice(bench: Bench) -> None:
-    """As near as any first point it is reached; farther away it is refused as any other is."""
+    """Send a single near point twice: reached; a far one: rejected."""
     link, joints = bench.motion(), bench.group.joints
 
     def away(part: float) -> Position:
@@ -64,14 +64,14 @@ def _single_point_sent_twice(bench: Bench) -> None:
     bench.wait_until_standing()
     refused(bench, twice(away(1.1)), [RawReason.START_TOO_FAR], joint=1, point=0)
     link = bench.motion()
-    # Two points of which only the second is elsewhere are a way like any other.
+    # Two points with only the second elsewhere are a normal segment.
     bench.assert_moves_through(link, bench.wave(2, duration=1.0))
 
 
 @case("equal-stamps", "equal stamps are a stay, and the rest follows")
 def _equal_stamps(bench: Bench) -> None:
     first, second, third = bench.wave(3)
-    # The node turns equal stamps into 10 s; the robot stays for them, and goes on.
+    # The node turns equal stamps into 10 s; the robot stays for them, and continues.
     points: list[Point] = [first, second, (second[0], 10.0), third]
     link = bench.motion()
     bench.assert_moves_through(link, points)
@@ -163,7 +163,7 @@ def _stop_is_answered(bench: Bench) -> None:
 @case("at-the-limits", "every limit of every joint can be reached")
 def _limits_are_reached(bench: Bench) -> None:
     link = bench.motion()
-    # What is a limit in 64 bits may lie outside of it by a rounding to 32.
+    # A limit in 64 bits may lie outside by the rounding to 32.
     for index, joint in enumerate(bench.group.joints):
         for limit in (joint.lower, joint.upper):
             current = bench.position

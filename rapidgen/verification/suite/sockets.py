@@ -1,4 +1,4 @@
-"""Sockets of the driver: ports that are taken or free, and messages with impossible lengths."""
+"""Sockets of the driver: ports in use, and impossible message lengths."""
 
 import struct
 from itertools import product
@@ -22,7 +22,7 @@ def _pings(link: RawLink, what: str) -> None:
 
 @case("whole-headers", "lengths at their bounds and beyond, in whole headers", "R3")
 def _whole_headers(bench: Bench) -> None:
-    """A length out of bounds, whatever type comes with it, and wherever it lies."""
+    """Send lengths out of bounds, with any type and at any place."""
     lengths = (-(2**31), -1024, -16, -1, 0, 11, 1021, 100_000)
     for length, number in product(lengths, (PING, JOINT_TRAJ_PT, 1399)):
         for before in (b"", _PING):
@@ -38,7 +38,7 @@ def _whole_headers(bench: Bench) -> None:
         link = bench.motion()
         link.send(head[:4])
         link.wait_disconnected(0.2, f"{length} as a length breaks the link")
-    # What one client began is nothing to the next one.
+    # Data that one client started does not affect the next one.
     link = bench.motion()
     link.send(_PING[:10])
     bench.run(0.05)
@@ -61,7 +61,7 @@ def _whole_headers(bench: Bench) -> None:
 
 @case("ports-open", "ports that are taken are waited for, then stay open", "R18")
 def _ports_open(bench: Bench) -> None:
-    """Ports that are taken at the start are tried again each second, then stay open."""
+    """Retry ports in use at the start each second, then keep them open."""
     network, ports = bench.controller.network, bench.group.ports
     expected = [port for port in (ports.motion, ports.control, ports.state) if port]
     bench.run(1)
@@ -88,7 +88,7 @@ def _ports_open(bench: Bench) -> None:
     for endpoint in accepted:
         network.close(endpoint)
     bench.until(lambda: all(p in network.listeners for p in expected), 1.1, "ports are opened")
-    # A virtual controller has no LAN port; an address of the configuration is bound as it is.
+    # A virtual controller has no LAN port; the driver binds a configured address unchanged.
     hosts = {network.listeners[port][0] for port in expected}
     if bench.config.bind == "lan" and hosts != {"127.0.0.1"}:
         raise CheckFailed(f"the virtual controller listens at {hosts}")

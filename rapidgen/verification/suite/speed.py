@@ -1,6 +1,6 @@
-"""SPEED: never faster than asked, whatever SpeedRefresh does, and not slowed down twice.
+"""SPEED: never faster than requested, and not slowed down twice.
 
-What is ordered already is slowed down by SpeedRefresh, what follows gets more time.
+SpeedRefresh slows down ordered moves; later moves get more time. SpeedRefresh may have no effect.
 """
 
 import math
@@ -29,22 +29,22 @@ from rapidgen.verification.testbench import Bench
 case = SuiteGroup("speed", needs="control")
 
 RATE = 0.08
-"""rad/s or m/s of the axis that is looked at."""
+"""rad/s or m/s of the observed axis."""
 _TICK = 0.1
-"""s between two SpeedRefresh of the driver, the shortest that ITimer does."""
+"""s between two SpeedRefresh of the driver, the minimum of ITimer."""
 LONG = 0.25
 """s of a move that the driver slows down by SpeedRefresh."""
 _RAMPS = 0.15
-"""s in which the axis has come to another speed."""
+"""s in which the axis has reached another speed."""
 
 _PEAK = 1.4
-"""A short move that ends at a standstill is faster in its middle than on the whole ..."""
+"""A short move that ends at a standstill is faster in its middle than on average ..."""
 _MOMENT = 0.05
 """... and for so many s much faster."""
 
 
 def straight(bench: Bench, count: int, seconds: float) -> list[Point]:
-    """Points on a straight way of the first axis, all as fast."""
+    """Return points on a straight path of the first axis, at equal speed."""
     current, joint = bench.position, bench.group.joints[0]
     step = inward(joint, current[0], RATE * seconds) - current[0]
     return [
@@ -54,12 +54,12 @@ def straight(bench: Bench, count: int, seconds: float) -> list[Point]:
 
 
 def _slow(bench: Bench) -> float:
-    """s that the driver needs from a request or a timer to SpeedRefresh."""
+    """Return s from a request or timer to SpeedRefresh."""
     return soon(bench) + bench.setting.latest_interrupt
 
 
 def paces(bench: Bench, since: float, rate: float) -> list[tuple[float, float, float]]:
-    """From when to when the axis was how fast, in shares of its speed."""
+    """Return intervals with the axis' speed as a share of its normal one."""
     track = [(when, seen[0]) for when, seen in bench.track if when >= since]
     return [
         (when, then, abs(b - a) / (then - when) / rate)
@@ -76,16 +76,16 @@ def as_asked(
     stops: int = 2,
     rate: float | None = None,
 ) -> None:
-    """Broken where the axis was faster than asked since then, or much slower for long.
+    """Check that the axis was never faster than requested, or long too slow.
 
-    `seconds`: what a move takes at the speed before. `stops`: how often it comes to rest. `rate`:
-    of the axis in moves without a time of their own.
+    `seconds`: duration of a move at the previous speed. `stops`: number of stops. `rate`: of the
+    axis in moves without a time of their own.
     """
     requested, seen = percent / 100, paces(bench, since, RATE if rate is None else rate)
     lag = bench.setting.motion.servo_lag
     ordered = 2 * seconds + bench.setting.motion.planning_lead + _slow(bench) + lag
     acts = rate is not None or (seconds > LONG and bench.setting.motion.refresh_timed)
-    # Each move that was ordered may begin as fast as it was ordered, until a timer comes.
+    # Each ordered move may start at its ordered speed, until a timer expires.
     most = _TICK + _slow(bench) + _RAMPS + lag if acts else ordered
     last = since + (ordered / requested if acts else ordered) + most
     fast = 0.0
@@ -103,7 +103,10 @@ def as_asked(
 
 
 def asks_as_it_begins(bench: Bench, control: RawLink, percent: float) -> None:
-    """SPEED as the next trajectory begins: the motion task's first interrupts-off is there."""
+    """Send SPEED at a trajectory's start.
+
+    Interrupts of the motion task are off there for the first time.
+    """
 
     def ask() -> None:
         control.at_once(messages.encode(messages.RawSpeed(percent), RawComm.REQUEST))
@@ -126,7 +129,7 @@ def _stream(bench: Bench, link: RawLink, points: Sequence[Point]) -> None:
 
 @case("speed-kept", "never faster than asked, nor slowed down twice")
 def _kept(bench: Bench) -> None:
-    """Long moves and short ones, slower and faster, and at full speed in the next trajectory."""
+    """Check long and short moves, slower, faster, and the next trajectory."""
     control, link, lead = bench.control(), bench.motion(), bench.setting.motion.planning_lead
     short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
     paths: list[tuple[_Send, int, float]] = [(_download, 8, 0.6), (_download, 24, short)]
@@ -137,7 +140,7 @@ def _kept(bench: Bench) -> None:
             points, started = straight(bench, count, seconds), bench.now
             send(bench, link, points)
             bench.wait_until_moving()
-            # Once when no other move is ordered, once when one is.
+            # Once without another ordered move, once with one.
             bench.run(seconds * (0.5 if percents[-1] > 50 else 2) - 0.8 * lead)
             before = 1.0
             for percent in percents:
@@ -147,7 +150,7 @@ def _kept(bench: Bench) -> None:
                     raise CheckFailed(f"SPEED is answered after {bench.now - since:.3f} s")
                 if percent == percents[-1]:
                     bench.wait_until_at(points[-1][0], 10 + 8 * count * seconds)
-                    # What was ordered for less keeps that.
+                    # Moves ordered with less speed keep it.
                     stops = 2 if percent < 100 * before else 2 + math.ceil(2 * seconds / before)
                     as_asked(bench, since, percent, seconds / before, stops)
                 else:
@@ -164,7 +167,10 @@ def _kept(bench: Bench) -> None:
 
 @case("speed-in-pause", "a speed that is asked for in a pause holds behind it")
 def _in_pause(bench: Bench) -> None:
-    """SpeedRefresh may do nothing while the robot stands."""
+    """Send SPEED in a pause.
+
+    SpeedRefresh may have no effect while the robot stands.
+    """
     control, link = bench.control(), bench.motion()
     points, started = straight(bench, 6, 0.8), bench.now
     bench.start_motion(link, points, 1.0)
@@ -181,7 +187,10 @@ def _in_pause(bench: Bench) -> None:
 
 @case("speed-at-end", "a speed that is asked for in the last move is over with it")
 def _at_the_end(bench: Bench) -> None:
-    """SpeedRefresh may last, and may do nothing while the robot stands."""
+    """Send SPEED at the end.
+
+    SpeedRefresh may persist, and may have no effect while the robot stands.
+    """
     control, link = bench.control(), bench.motion()
     bench.start_motion(link, straight(bench, 2, 1.0), 0.2)
     done(control.ask(messages.RawSpeed(50)), "SPEED")
@@ -195,7 +204,7 @@ def _at_the_end(bench: Bench) -> None:
 
 @case("speed", "a speed for one trajectory")
 def _speed(bench: Bench) -> None:
-    """Half the speed for this trajectory, and the full one again for the next."""
+    """Set half the speed for this trajectory; the next one is at full speed."""
     control, link = bench.control(), bench.motion()
     not_done(control.ask(messages.RawSpeed(50)), RawReason.IDLE, "SPEED of nothing")
     accepted = []
@@ -225,7 +234,7 @@ def _speed(bench: Bench) -> None:
 
 @case("speed-at-start", "a speed that comes at the beginning of a trajectory")
 def _at_the_start(bench: Bench) -> None:
-    """SPEED comes just before the first move is ordered: all moves get more time."""
+    """Send SPEED just before the first move is ordered: all get more time."""
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)
     task = bench.rapid_task("ROS_motion")
 
@@ -253,7 +262,7 @@ def _at_the_start(bench: Bench) -> None:
 
 @case("program-speed", "a program is never faster than asked, nor slowed down twice")
 def _program(bench: Bench) -> None:
-    """Slower and faster within a move and between two, and at full speed in the next program."""
+    """Change speed within and between a program's moves, then start another."""
     control, client = bench.control(), Programmer(bench)
     step, count = RATE * 0.6, 6
     program = straight_moves(bench, count, step)
@@ -289,8 +298,11 @@ def _program(bench: Bench) -> None:
 
 @case("speed-on-circle", "a circle that is slowed down goes on where it was")
 def _circle(bench: Bench) -> None:
-    """Its end is ordered anew, and is no circle through where the robot was before."""
-    # The tool turns with the circle, which a palletizer's does not.
+    """Slow down a circle: the driver orders its end again.
+
+    The new move is not a circle through the earlier position.
+    """
+    # The tool turns with the circle, which a palletizer cannot do.
     if not computes(bench) or len(bench.group.joints) < 6:
         raise NotApplicable("no poses are computed, or the tool does not turn with a circle")
     control, client = bench.control(), Programmer(bench)
@@ -314,7 +326,7 @@ def _circle(bench: Bench) -> None:
         bench.until(lambda: distance(bench.position, last.joints) < 0.01, 60, "the circle ends")
         accepted = bench.now - since
         seconds = seconds or accepted
-        # What is left of it takes more than three times as long; but it may be short.
+        # The remainder takes more than three times as long; but it may be short.
         if share is not None and seconds > 1 and accepted < (1 + (1 - share)) * seconds:
             raise CheckFailed(
                 f"a circle of {seconds:.1f} s, {share:.0%} on the way SPEED 30: {accepted:.1f} s"
@@ -328,7 +340,10 @@ def _circle(bench: Bench) -> None:
 
 
 def aside(one: Pose, other: Pose, share: float = 0.2) -> Pose:
-    """Beside the middle between two places, by a share of the way: 0.2 for an arc of 80 degrees."""
+    """Return a pose off the middle between two poses.
+
+    `share` of the distance: 0.2 for an arc of 80 degrees.
+    """
     path = np.subtract(other[0], one[0])
     side = np.cross(path, np.eye(3)[np.argmin(np.abs(path))])
     x, y, z = (np.add(one[0], other[0]) / 2 + share * side).tolist()
@@ -336,7 +351,7 @@ def aside(one: Pose, other: Pose, share: float = 0.2) -> Pose:
 
 
 def straight_moves(bench: Bench, count: int, step: float) -> list[RawMove]:
-    """Moves on a straight way of the first axis, each in about 0.6 s, the last a stop point."""
+    """Return moves on a straight path, each about 0.6 s, the last a stop point."""
     current, joint = bench.position, bench.group.joints[0]
     step = inward(joint, current[0], step) - current[0]
     places = [changed(current, 0, current[0] + n * step) for n in range(count + 1)]

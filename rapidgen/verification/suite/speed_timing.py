@@ -1,4 +1,4 @@
-"""SPEED and the order of moves: it comes as one is ordered, between short ones, is over."""
+"""SPEED and the order of moves: at the order, in short moves, too late."""
 
 from dataclasses import replace
 from itertools import product
@@ -30,8 +30,10 @@ case = SuiteGroup("speed", needs="control")
 
 @case("speed-before-order", "a speed that comes just before a long move is ordered holds for it")
 def _before_the_order(bench: Bench) -> None:
-    """Its time is computed already: it is slowed down like a move that is ordered, also where it
-    begins long after the speed was asked for."""
+    """Send SPEED after a move's time is computed.
+
+    The driver slows it down like an ordered move, even if the move starts much later.
+    """
     control, link = bench.control(), bench.motion()
     short = max(0.12, 1.05 * bench.config.trajectory.min_segment)
     for percent in (50.0, 5.0):
@@ -47,7 +49,7 @@ def _before_the_order(bench: Bench) -> None:
             control.at_once(messages.encode(messages.RawSpeed(expected), RawComm.REQUEST))
             bench.rapid_task("ROS_motion").sleep(0.05)
 
-        # Interrupts are off at the beginning of a trajectory, and for each move before its order.
+        # Interrupts are off at the start of a trajectory, and for each move before its order.
         at_call(bench, "ROS_motion", "IDisable", 1 + len(line), ask)
         started = bench.now
         bench.start_motion(link, points)
@@ -61,7 +63,7 @@ def _before_the_order(bench: Bench) -> None:
 
 @case("speed-between", "a speed that comes as a trajectory begins is not held twice")
 def _between(bench: Bench) -> None:
-    """All its moves get their time: that those before it were long counts no more."""
+    """Send SPEED between short moves: all get their time."""
     control, link, group = bench.control(), bench.motion(), bench.motion_group
     bench.assert_moves_through(link, straight(bench, 2, 1.0))
     bench.run(0.5)
@@ -85,7 +87,7 @@ def _between(bench: Bench) -> None:
 
 @case("speed-of-short", "short moves get more time, and the robot does not stop between them")
 def _of_short(bench: Bench) -> None:
-    """No SpeedRefresh slows them down, which would end in a stop."""
+    """Slow down short moves without SpeedRefresh, which would stop the robot."""
     if not bench.setting.corners_in_time:
         raise NotApplicable("tasks by lot are not in time for a corner")
     control, link = bench.control(), bench.motion()
@@ -93,7 +95,7 @@ def _of_short(bench: Bench) -> None:
     if short > LONG:
         raise NotApplicable("`min_segment` allows no short moves")
     line = straight(bench, 26, short)
-    # A long one before them counts no more.
+    # A long move before them no longer counts.
     points = [line[0], (line[6][0], 6 * short), *line[7:]]
     bench.start_motion(link, points, 10 * short)
     done(control.ask(messages.RawSpeed(50)), "SPEED 50")
@@ -106,7 +108,10 @@ def _of_short(bench: Bench) -> None:
 
 @case("speed-reached", "a move that was slowed down is reached before the next one begins")
 def _reached_first(bench: Bench) -> None:
-    """It ends in a stop: PROGRESS tells of it in the last move; and not where that stop fails."""
+    """Report a slowed move's last point in its last move.
+
+    It ends in a stop. If that stop fails, PROGRESS does not report the point.
+    """
     control, watcher, link = bench.control(), bench.watcher(), bench.motion()
     line = straight(bench, 6, 0.6)
     current, first, second, last = (line[n][0] for n in (0, 1, 2, 5))
@@ -148,7 +153,7 @@ def _reached_first(bench: Bench) -> None:
 
 @case("speed-is-over", "a speed that comes behind the last move leaves nothing to be ended", "R5")
 def _is_over(bench: Bench) -> None:
-    """In a stay at the end nothing is slowed down: what comes next begins where the robot is."""
+    """Send SPEED in a stay at the end: the next trajectory starts normally."""
     current, log_entries = bench.position, _refreshes(bench)
     link = _asked_in_a_stay(bench, bench.motion())
     if any(value < 100 for _, value in log_entries) or bench.motion_group.refresh < 1:
@@ -164,7 +169,7 @@ def _is_over(bench: Bench) -> None:
     bench.assert_moves_through(link, bench.way_to(target))
     if not bench.streams:
         return
-    # Nor is the last instruction of an earlier program executed again.
+    # The last instruction of an earlier program is not executed again.
     client = Programmer(bench, link)
     moves = straight_moves(bench, 2, RATE * 0.6)
     client.takes("a program", moves)
@@ -178,7 +183,7 @@ def _is_over(bench: Bench) -> None:
 
 
 def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
-    """A trajectory with SPEED in a stay at its end, which is over."""
+    """Send SPEED in a stay at a trajectory's end; wait for the end."""
     control, points = bench.control(), straight(bench, 2, 1.0)
     bench.start_motion(link, [*points, (points[1][0], 2.0)])
     bench.wait_until_at(points[1][0], 5)
@@ -192,7 +197,7 @@ def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
 
 @case("speed-said-enough", "SpeedRefresh is said for as long as it may be lost, and no longer")
 def _said_enough(bench: Bench) -> None:
-    """It is said again at the full speed of the next trajectory, and then left alone."""
+    """Repeat SpeedRefresh at full speed in the next trajectory, then stop."""
     control, link, log_entries = bench.control(), bench.motion(), _refreshes(bench)
     points = straight(bench, 2, 1.0)
     bench.start_motion(link, points, 0.3)
@@ -216,7 +221,7 @@ def _said_enough(bench: Bench) -> None:
 
 @case("speed-keeps-own", "SPEED multiplies the SpeedRefresh of the program, which is there again")
 def _keeps_own(bench: Bench) -> None:
-    """On a controller where that lasts; the operator's override is left alone."""
+    """Persist SpeedRefresh: the operator's override stays unchanged."""
     motion = replace(bench.setting.motion, refresh_lasts=True, refresh_standing=True)
     setting = replace(bench.setting, motion=motion)
     with bench.beside(bench.system, setting=setting) as other:
@@ -240,7 +245,7 @@ def _keeps_own(bench: Bench) -> None:
 
 
 def _refreshes(bench: Bench) -> list[tuple[float, float]]:
-    """From now on, when the motion task says which SpeedRefresh."""
+    """Record times and values of the motion task's SpeedRefresh from now on."""
     log_entries: list[tuple[float, float]] = []
 
     def noted(as_before: Instruction) -> Instruction:

@@ -1,4 +1,4 @@
-"""What a driver finds at its start: modules of other builds, and what was under way before."""
+"""Start of a driver: modules of other builds, and earlier activity."""
 
 from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import POINT_BYTES, RawReason, RawTrajectoryState
@@ -12,7 +12,7 @@ case = SuiteGroup("controller")
 
 @case("one-module-of-another", "a module of another build that several tasks load")
 def _one_other(bench: Bench) -> None:
-    """Each task with a module of another build says so, and no other task does."""
+    """Load another build into each task: only that task reports it."""
     tasks = [t for t in bench.system.tasks if t.mechanical_unit_group == bench.mechanical_unit]
     build = bench.system.build_id.encode()
     # A module that several tasks load.
@@ -37,7 +37,7 @@ def _one_other(bench: Bench) -> None:
 
 @case("power-returns", "a power failure while a trajectory is received", needs="stream")
 def _power_returns(bench: Bench) -> None:
-    """What was being received or ready to move when the power failed is forgotten."""
+    """Fail power during reception or before motion: the data is discarded."""
     for streaming in (False, True):
         link, watcher = bench.motion(), bench.watcher()
         if streaming:

@@ -1,4 +1,4 @@
-"""Those who watch: several at once, some that do not read, feedback, events, read limits."""
+"""State clients: several, slow ones, feedback, events, limits."""
 
 import struct
 from collections.abc import Sequence
@@ -26,12 +26,12 @@ case = SuiteGroup("watching")
 _CLIENTS = 3
 """Clients that the state port serves at a time, as docs/reference/driver.md says."""
 _WAITING = 16
-"""Events that may wait to be told."""
+"""Maximum number of queued events."""
 
 
 @case("several-watch", "three clients at once, and who makes room for a fourth")
 def _several_watch(bench: Bench) -> None:
-    """Three are served, a newer one takes the place of the one that came last, or a free one."""
+    """Serve three clients; a fourth replaces the latest, or takes a free place."""
     links: list[RawLink] = []
     for number in range(_CLIENTS + 3):
         lost = [link.lost for link in links]
@@ -68,7 +68,10 @@ def _several_watch(bench: Bench) -> None:
 
 
 def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
-    """Messages on the way to a client, as after minutes without reading, but for `room` bytes."""
+    """Fill a client's buffers, as after minutes without reading.
+
+    `room` bytes stay free.
+    """
     end = link.endpoint
     assert isinstance(end, MemoryEndpoint)
     assert end.incoming is not None
@@ -76,7 +79,7 @@ def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
     left = 2 * BUFFER - len(pipe.arrived) - pipe.flying - len(pipe.waiting) - room
     while left:
         size = left if left <= 1024 else min(1024, left - 16)
-        # A reply, as nobody has asked for: it is in no round.
+        # An unrequested reply: it is part of no round.
         frame = struct.pack("<4i", size - 4, messages.PING, RawComm.REPLY, 0)
         while len(pipe.waiting) + size > BUFFER:
             bench.run(0.001)
@@ -91,7 +94,7 @@ def _held(bench: Bench) -> bool:
 
 
 def _until_held(bench: Bench) -> float:
-    """Let time pass until a send does not end; when it began."""
+    """Let time pass until a send blocks; return when it started."""
     since = [bench.now]
 
     def stuck() -> bool:
@@ -104,12 +107,12 @@ def _until_held(bench: Bench) -> float:
 
 
 def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
-    """A client with full buffers is dropped in time; the other goes on from there."""
+    """Check that a client with full buffers is dropped, and the other works."""
     since = _until_held(bench)
     bench.until(lambda: not _held(bench), 70, "a send ends")
     held = bench.now - since
-    # Where no trap comes into a send it lasts until that gives up by itself.
-    # The trap of the pulse may come between the alarm and the send.
+    # If no trap interrupts a send, it lasts until its own time-out. The trap of the pulse may come
+    # between the alarm and the send.
     least = 0.1 - 0.005 * bench.setting.slowness
     if bench.setting.dialect.send_attends and not least <= held < 0.35:
         raise CheckFailed(f"a client that does not read has held up others for {held:.3f} s")
@@ -130,7 +133,10 @@ def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
     needs="events",
 )
 def _does_not_read(bench: Bench) -> None:
-    """Others miss its time once, and it is dropped; who is only slow is not."""
+    """Stop reading: others miss one round, and the client is dropped.
+
+    A slow client is not dropped.
+    """
     silent, reader = bench.state(reading=False), bench.state()
     bench.run(1)
     _fill(bench, silent)
@@ -146,7 +152,7 @@ def _does_not_read(bench: Bench) -> None:
         if slow.lost:
             raise CheckFailed("a client that was slow for 0.15 s is dropped")
         on_turn(bench, rounds(slow, since), "a client that was slow")
-    # It has room for all rounds until the next event, and for no event behind them.
+    # It has space for all rounds until the next event, but not for later events.
     slow.close(then=0.5)
     silent = subscribe(bench, RawFeature.EVENTS)
     silent.stop_reading()
@@ -164,7 +170,7 @@ def _does_not_read(bench: Bench) -> None:
 
 
 def _fails_to_send(bench: Bench, reader: RawLink) -> None:
-    """Nothing is known of what a send that failed has sent: its client is dropped."""
+    """Fail a send: its client is dropped, as the sent part is unknown."""
     recovers = fails(bench, "ROS_stateServer", "SocketSend", "ERR_SOCK_CLOSED", _CLIENTS)
     reader.wait_disconnected(0.3, "a client is dropped when a send to it fails")
     recovers()
@@ -173,7 +179,7 @@ def _fails_to_send(bench: Bench, reader: RawLink) -> None:
 
 @case("breaks-in-send", "a state client that is reset while the server sends", "R13")
 def _breaks_in_a_send(bench: Bench) -> None:
-    """A client that does not read is reset while the server has bytes for it."""
+    """Reset a client that does not read while the server sends to it."""
     silent, reader = bench.state(reading=False), bench.state()
     bench.run(1)
     _fill(bench, silent)
@@ -207,7 +213,7 @@ def _feedback(bench: Bench) -> None:
 
 
 def _is_motion(bench: Bench, reply: Sequence[tuple[float, messages.RawJointFeedback]]) -> None:
-    """Positions, times and velocities belong together."""
+    """Check that positions, times and velocities agree."""
     count = len(bench.position)
     moved = False
     for (_, before), (when, now) in pairwise(reply):
@@ -239,19 +245,23 @@ _Event: TypeAlias = tuple[int, int, int, str, str, str]
 def _write(
     bench: Bench, number: int, title: str, kind: EventType = EventType.WARNING, *texts: str
 ) -> None:
-    """An event of the state server's task: of others it may not be told on every controller."""
+    """Write an event of the state server's task.
+
+    Some controllers do not report events of other tasks.
+    """
     task = bench.task("ROS_stateServer")
     code = 10_000 * (number % 9 + 1) + number
     bench.controller.log.write(code, kind, title, *texts, task=task)
 
 
 def _are_told(link: RawLink, since: float, expected: Sequence[_Event]) -> None:
-    """Broken unless just these events were told, in order, no more than ten a second."""
+    """Check that exactly these events arrived in order, ten a second at most."""
     result = link.told(messages.RawEvent, since)
     reply = [(e.domain, e.number, e.type, e.title.rstrip(), e.first, e.second) for _, e in result]
     if reply != list(expected):
         raise CheckFailed(f"wanted are events {expected}, EVENT told {reply}")
-    # One is late, and the next one in time: nearer than they were sent, but ten take their second.
+    # One event is late, and the next one in time: closer than they were sent, but ten still take a
+    # second.
     times = [when for when, _ in result]
     near = any(b - a < 0.05 for a, b in pairwise(times))
     if near or any(b - a < 0.95 for a, b in zip(times, times[10:], strict=False)):
@@ -259,14 +269,17 @@ def _are_told(link: RawLink, since: float, expected: Sequence[_Event]) -> None:
 
 
 def _burst(bench: Bench, link: RawLink, count: int) -> tuple[float, list[_Event]]:
-    """Write an event, and `count` others just when it is told; what is then to be told."""
+    """Write an event and `count` others at its report; return the expected.
+
+    The result is a time and the list of events.
+    """
     since, kinds = bench.now, tuple(EventType)
     before = len(link.told(messages.RawEvent))
     _write(bench, 100, "First")
     bench.until(lambda: len(link.told(messages.RawEvent)) > before, 1, "an event is told")
     expected: list[_Event] = [(2, 100, 2, "First", "", "")]
     for number in range(count):
-        # A title has room for 80 characters; one may be empty.
+        # A title holds 80 characters; one may be empty.
         title = "" if number == 7 else f"Größe {number} " + number % 5 * "of a long row "
         below = ("", f"cell/weld/{number}", "x" * 80)[number % 3], "y" * 80 * (number % 2)
         _write(bench, number, title * (1 + 9 * (number == 9)), kinds[number % 3], *below)
@@ -292,7 +305,7 @@ def _events(bench: Bench) -> None:
             _are_told(link, since, expected)
         if links[1].told(messages.RawEvent):
             raise CheckFailed("EVENT comes to a client that did not ask for it")
-    # Nobody wants those that still wait, nor the number of the others.
+    # No client needs the waiting events, nor the number of the others.
     since, expected = _burst(bench, links[0], 20)
     subscribe(bench, RawFeature.PROGRESS, links[2])
     subscribe(bench, RawFeature.PROGRESS, links[0])
@@ -322,7 +335,7 @@ def _events(bench: Bench) -> None:
 
 @case("read-limits", "limits read from the controller count where they are narrower")
 def _limits_of_the_controller(bench: Bench) -> None:
-    """A joint that the controller lets move less has those limits."""
+    """Narrow a joint's limits on the controller: they apply."""
     if not bench.setting.dialect.axis_limits_told:
         raise NotApplicable("the controller does not tell limits of axes")
     group = bench.group

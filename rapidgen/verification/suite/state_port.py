@@ -1,4 +1,4 @@
-"""What is told on the state port: each round of each client, and how rounds follow each other."""
+"""State port: contents of each round for each client, and timing."""
 
 from collections.abc import Sequence
 from itertools import pairwise, zip_longest
@@ -30,19 +30,19 @@ _NONE = RawFeature(0)
 
 
 class Round(NamedTuple):
-    """What one client is told at one time."""
+    """Messages to one client at one time."""
 
     time: float
     frames: list[messages.RawFrame]
 
     @property
     def numbers(self) -> list[int]:
-        """Message numbers, in order."""
+        """Return message numbers, in order."""
         return [frame.number for frame in self.frames]
 
 
 def content(one: Round, kind: type[C]) -> C:
-    """The first message of a kind in a round."""
+    """Return the first message of a type in a round."""
     match = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
     if match is None:
         raise CheckFailed(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
@@ -50,9 +50,9 @@ def content(one: Round, kind: type[C]) -> C:
 
 
 def rounds(link: RawLink, since: float) -> list[Round]:
-    """What a client was told since a time, by rounds.
+    """Return the rounds of a client since a time.
 
-    Each begins with JOINT; replies are none.
+    Each starts with JOINT; replies are not part of rounds.
     """
     failures: list[Round] = []
     for when, frame in link.frames:
@@ -65,7 +65,7 @@ def rounds(link: RawLink, since: float) -> list[Round]:
 
 
 def subscribe(bench: Bench, features: RawFeature, link: RawLink | None = None) -> RawLink:
-    """A client, new or not, that says HELLO to just these features."""
+    """Send HELLO with these features from a client, new or not."""
     client = link if link is not None else bench.state()
     client.read()
     bench.send_hello(client, int(features))
@@ -73,12 +73,12 @@ def subscribe(bench: Bench, features: RawFeature, link: RawLink | None = None) -
 
 
 def _late(bench: Bench) -> float:
-    """s: what else the controller has to do may delay a round by so much."""
+    """Return s by which other work may delay a round."""
     return 0.005 * bench.setting.slowness
 
 
 def on_turn(bench: Bench, result: Sequence[Round], what: str) -> None:
-    """Broken unless rounds came a period apart, none missed, whatever each of them took."""
+    """Check that rounds came one period apart, without a gap."""
     period = bench.config.state_period
     if len(result) < 3:
         raise CheckFailed(f"{what}: {len(result)} rounds")
@@ -90,14 +90,14 @@ def on_turn(bench: Bench, result: Sequence[Round], what: str) -> None:
 
 
 def _pause(bench: Bench, link: RawLink) -> float:
-    """A moment between two rounds; now, that is."""
+    """Wait for a moment between two rounds and return its time."""
     bench.status(link)
     bench.run(0.5 * bench.config.state_period)
     return bench.now
 
 
 PLAIN = [messages.JOINT_POSITION, messages.STATUS]
-"""Messages of a round for those who asked for nothing."""
+"""Messages of a round for a client without requests."""
 _FOLLOW = {
     RawFeature.PROGRESS: messages.PROGRESS,
     RawFeature.FEEDBACK: messages.JOINT_FEEDBACK,
@@ -107,7 +107,10 @@ _FOLLOW = {
 def _all_alike(
     bench: Bench, clients: Sequence[tuple[RawLink, RawFeature]], since: float
 ) -> list[Round]:
-    """The rounds of the first client; Broken unless each gets what it asked for, and the same."""
+    """Return the first client's rounds; check that clients get equal data.
+
+    Each client gets the features that it requested.
+    """
     reply = [rounds(link, since) for link, _ in clients]
     for (_, features), own in zip(clients, reply, strict=True):
         on_turn(bench, own, f"a client of {features!r}")
@@ -118,7 +121,7 @@ def _all_alike(
     counts = [len(own) for own in reply]
     if max(counts) - min(counts) > 1:
         raise CheckFailed(f"clients of one server are told {counts} rounds")
-    # The last round may be under way to the others.
+    # The last round may still be on its way to the others.
     for moment in zip(*reply, strict=False):
         seen: dict[int, messages.RawFrame] = {}
         for one in moment:
@@ -131,12 +134,12 @@ def _all_alike(
 
 
 def _is_true(bench: Bench, reply: Sequence[Round]) -> set[int]:
-    """Broken unless joints, STATUS and PROGRESS of each round fit each other; the states seen."""
+    """Check that joints, STATUS and PROGRESS of rounds agree; return states."""
     seen: set[int] = set()
     before, stood = bench.track_at(reply[0].time), 0
     motion = bench.setting.motion
     late = (motion.settle + motion.servo_lag) / bench.config.state_period
-    # What STATUS says of the motion is read behind PROGRESS: something else may be true by then.
+    # The server reads the motion in STATUS after PROGRESS: it may be newer.
     slow = bench.setting.random_schedule or bench.setting.slowness > 1
     for one, following in zip_longest(reply, reply[1:]):
         joints, status = content(one, messages.RawJointPosition), content(one, messages.RawStatus)
@@ -165,7 +168,10 @@ def _is_true(bench: Bench, reply: Sequence[Round]) -> set[int]:
 
 @case("each-round", "what each of three clients is told in each round", needs="feedback")
 def _each_round(bench: Bench) -> None:
-    """Three clients with wishes that change: a trajectory, one that is refused, a STOP."""
+    """Check three clients with changing features in several situations.
+
+    A trajectory, a rejected one, and a STOP.
+    """
     some, everything = RawFeature.PROGRESS, RawFeature.PROGRESS | RawFeature.FEEDBACK
     links = [subscribe(bench, everything), subscribe(bench, _NONE), subscribe(bench, some)]
     motion, joints, period = bench.motion(), bench.group.joints, bench.config.state_period
@@ -174,7 +180,7 @@ def _each_round(bench: Bench) -> None:
         number = bench.progress(links[0]).trajectory
         since = _pause(bench, links[0])
         points = bench.wave(5)
-        # Also while it stays at a point it is under way.
+        # A robot that stays at a point is still executing.
         points[3:3] = [(points[2][0], 1.0)]
         motion.send(bench.download(points))
         bench.wait_until_at(points[-1][0])
@@ -204,7 +210,7 @@ def _each_round(bench: Bench) -> None:
 
 
 _WRAP = 1000
-"""s: where the time stamp of JOINT_FEEDBACK begins anew, as docs/reference/driver.md says."""
+"""s after which the time stamp of JOINT_FEEDBACK wraps, as docs/reference/driver.md says."""
 
 
 def _stamps(reply: Sequence[Round]) -> list[float]:
@@ -212,7 +218,7 @@ def _stamps(reply: Sequence[Round]) -> list[float]:
 
 
 def _is_measured(bench: Bench, reply: Sequence[Round], what: str) -> None:
-    """Broken unless stamps of JOINT_FEEDBACK tell the time of the rounds, and velocities theirs."""
+    """Check that JOINT_FEEDBACK stamps match the rounds, and velocities match."""
     period, count = bench.config.state_period, len(bench.position)
     for before, now in pairwise(content(one, messages.RawJointFeedback) for one in reply):
         if not (0 <= now.time < _WRAP and now.valid_fields == 0b111):
@@ -239,20 +245,20 @@ def _of(value: object) -> list[StopWatch]:
 
 @case("over-the-ends", "schedule and stamps over the ends of the clock", needs="feedback")
 def _over_the_ends(bench: Bench) -> None:
-    """The schedule and the stamps of feedback, over both ends of the clock, in motion."""
+    """Let the schedule and stamps pass both ends of the clock, in motion."""
     link = subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS)
     motion, period = bench.motion(), bench.config.state_period
     server = bench.controller.task(bench.task("ROS_stateServer"))
     for what, left in (
         ("an end of the clock", 3.0),
         ("the next end", 3.0),
-        # The clock has run 0.7 periods over each end of its own when it is exchanged.
+        # The clock is exchanged after 0.7 periods past each of its ends.
         ("an end of months later", 20.8 * period),
         ("the end after that", 2.7 * period),
         ("a delay over the end", -1.0),
     ):
         since = _pause(bench, link)
-        # Most of the way to the end is left out, as if the clocks had run.
+        # Most of the time to the end is skipped, as if the clocks had run.
         clock = _stamps(rounds(link, since - period))[-1] + 0.5 * period
         clock -= server["ROS_stateServer:overrun"] % _WRAP
         _advance(bench, _WRAP - left - clock)
@@ -262,7 +268,7 @@ def _over_the_ends(bench: Bench) -> None:
             points = bench.wave(6, duration=0.6)
             points[3:3] = [(points[2][0], 0.8)]
             motion.send(bench.download(points))
-        # The round that was waited for, and at once the next one, which has come too late.
+        # The awaited round, and at once the next one, which is too late.
         bench.run(max(left, 0.0) + 2)
         result = rounds(link, since)[1:]
         on_turn(bench, result, what)
@@ -276,7 +282,7 @@ def _over_the_ends(bench: Bench) -> None:
 
 
 def _late_by_half(bench: Bench, link: RawLink) -> None:
-    """A round that is late by less than a period is made up for: the next one keeps its turn."""
+    """Delay a round by less than a period: the next one is on schedule."""
     period, since = bench.config.state_period, _pause(bench, link)
     _advance(bench, 1.5 * period)
     bench.run(5 * period)
@@ -288,7 +294,7 @@ def _late_by_half(bench: Bench, link: RawLink) -> None:
 
 
 def _advance(bench: Bench, seconds: float) -> None:
-    """Put the state server's clocks forward: to it, it was held up for so long."""
+    """Advance the state server's clocks, as if it was delayed."""
     for clock in _clocks(bench):
         assert clock.started is not None
         clock.started -= int(seconds * 10**9)
@@ -296,7 +302,7 @@ def _advance(bench: Bench, seconds: float) -> None:
 
 @case("not-over-yet", "a halted trajectory whose path is not cleared yet", needs="feedback")
 def _not_over_yet(bench: Bench) -> None:
-    """A halted trajectory whose path is not cleared yet: the robot stands, and takes no other."""
+    """Halt with an uncleared path: the robot stands and accepts no trajectory."""
     link, motion, period = bench.watcher(), bench.motion(), bench.config.state_period
     for ending, state, reason in (
         ("STOP", RawTrajectoryState.STOPPED, RawReason.STOPPED),
@@ -336,7 +342,10 @@ def _not_over_yet(bench: Bench) -> None:
     needs="feedback",
 )
 def _first_of_all(bench: Bench) -> None:
-    """Who comes to a server without clients is told at once, and time begins anew for him."""
+    """Connect to a server without clients: the first round is immediate.
+
+    The schedule restarts for this client.
+    """
     period, motion = bench.config.state_period, bench.motion()
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
     error, at_rest, stop = (names[n] for n in ("controller_error", "standing", "emergency_stop"))
@@ -375,14 +384,14 @@ def _first_of_all(bench: Bench) -> None:
             )
         link.close(abort=visit == 1, then=2 * period + 0.1)
         bench.assert_moves_through(motion, bench.wave(3, duration=0.2))
-        # Its last hair's breadth belongs to the motion.
+        # The last small remainder belongs to the motion.
         bench.wait_until_standing(3)
         bench.run(2 * bench.setting.motion.settle)
     _moved_by_others(bench, bench.state())
 
 
 def _moved_by_others(bench: Bench, link: RawLink) -> None:
-    """Somebody else moves an axis, and no signal shows it: STATUS does, once."""
+    """Move an axis by other means, without a signal: STATUS reports it once."""
     fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
     bench.run(0.5)
     group, period = bench.motion_group, bench.config.state_period

@@ -1,4 +1,4 @@
-"""STOP, and trajectories that take each other's place."""
+"""STOP, and trajectories that replace each other."""
 
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
@@ -35,7 +35,7 @@ def _moves_again_after_stop(bench: Bench) -> None:
         bench.start_motion(link, bench.wave(10), 0.4)
         link.stop(1)
         if bench.setting.motion.servo_lag:
-            # Where it is now is too far from where it comes to rest to be a start.
+            # The current position is too far from the rest position to be a start.
             bench.wait_until_standing(2)
         bench.assert_moves_through(link, bench.wave(3))
 
@@ -43,7 +43,7 @@ def _moves_again_after_stop(bench: Bench) -> None:
 @case("stop-any-moment", "STOP at every moment of the hand-over", "R7b")
 def _stop_at_every_moment(bench: Bench) -> None:
     link = bench.motion()
-    # From before the end frame is looked at until well into the motion.
+    # From before the end frame is processed until well into the motion.
     for step in range(0, 40):
         points = bench.wave(5, duration=0.3)
         link.send(bench.download(points))
@@ -81,12 +81,12 @@ def _new_trajectory_while_moving(bench: Bench) -> None:
     link = bench.motion()
     first = bench.wave(10)
     bench.start_motion(link, first, 0.6)
-    # It begins where the old one began: too far away by now, or just in reach. Either way the
-    # old one is over and nothing of it is executed any more.
+    # The new one starts where the old one started: too far away by now, or just in reach. In both
+    # cases the old one is over and is not executed any more.
     second = bench.wave(4)
     since = bench.now
     link.send(bench.download(second))
-    # The new one may begin only after the old one's path is gone.
+    # The new one may start only after the old path is cleared.
     bench.run(5)
     bench.wait_until_standing(20)
     reached = distance(bench.position, second[-1][0]) < 1e-4
@@ -109,7 +109,7 @@ def _ends_once(bench: Bench) -> None:
 
 @case("ring-is-empty", "a stopped long trajectory leaves nothing behind")
 def _short_way_to_stop(bench: Bench) -> None:
-    """Nothing of an old ring is executed when a long trajectory was stopped early."""
+    """Stop a long trajectory early: its ring is not executed later."""
     link = bench.motion()
     count = min(bench.config.trajectory.capacity, 400)
     bench.start_motion(link, bench.wave(count, duration=0.2, size=0.01), 0.2)

@@ -1,4 +1,4 @@
-"""Where a stream is cut: each value of its points, each odd batch, and what the replies count."""
+"""Cut streams: each point value, each invalid batch, reply counts."""
 
 from collections.abc import Sequence
 
@@ -25,14 +25,13 @@ case = SuiteGroup("streaming", needs="stream")
 
 _NONE = RawStreamFlag(0)
 _SLOW = 30.0
-"""s for a segment that no axis is too slow for; the wire has no more than 33 s."""
+"""s of a segment that no axis is too slow for; the wire allows at most 33 s."""
 _HEAD = 4
 """Reads of the driver in front of a batch: of the frame, and of what kind of message it is."""
-"""Where the counters of the ring begin again."""
 
 
 class _Streams:
-    """Streams over one connection, each with the next number, and replies that are known."""
+    """Streams over one connection, with increasing numbers and known replies."""
 
     def __init__(self, bench: Bench) -> None:
         self._bench = bench
@@ -42,13 +41,13 @@ class _Streams:
         self.trajectory = bench.progress(self.watcher).trajectory
 
     def begin(self, points: Sequence[Point] = (), flags: RawStreamFlag = _NONE) -> None:
-        """A new stream, which begins with these points."""
+        """Start a new stream with these points."""
         self.stream = Streamer(self._bench, self.link, number=self.stream.number + 1)
         self.trajectory += 1
         self.stream.put(points, BEGIN | flags)
 
     def taken(self, count: int, what: str) -> messages.RawPointsAccepted:
-        """The last reply; Broken unless all is well with so many points."""
+        """Return the last reply; check that it accepts so many points."""
         reply = self.stream.accepted(what)
         if reply[:3] != (self.stream.number, self.trajectory, count):
             raise CheckFailed(f"{what}: {count} points of {self.trajectory}, the reply is {reply}")
@@ -63,7 +62,7 @@ class _Streams:
         point: int | None = None,
         joint: int = 0,
     ) -> None:
-        """Broken unless the last reply is that refusal; it blames the first point not taken."""
+        """Check the last reply's rejection of the first point not accepted."""
         at = accepted if point is None else point
         expected = messages.RawPointsRefused(
             self.stream.number, self.trajectory, accepted, reason, at, joint
@@ -72,13 +71,13 @@ class _Streams:
             raise CheckFailed(f"{what}: wanted {expected}, the reply is {self.stream.last}")
 
     def strange(self, number: int, reason: RawReason, what: str) -> None:
-        """Broken unless the last reply refuses a batch that is of no stream."""
+        """Check that the last reply rejects a batch of no stream."""
         expected = messages.RawPointsRefused(number, 0, 0, reason, -1, 0)
         if self.stream.last != expected:
             raise CheckFailed(f"{what}: wanted {expected}, the reply is {self.stream.last}")
 
     def alone(self, sequence: int, what: str) -> None:
-        """A point that comes alone, which is refused for that."""
+        """Send a single point, which is rejected for that."""
         self.trajectory += 1
         self.link.send(raw_point(sequence, self._bench.position, 1.0, RawComm.REQUEST))
         reply = messages.decode(self.link.expect_reply(2, "a point alone is answered"))
@@ -86,11 +85,14 @@ class _Streams:
             raise CheckFailed(f"{what}: a point alone is answered by {reply}")
 
     def stop(self) -> None:
-        """STOP, and its reply."""
+        """Send STOP and check its reply."""
         self.link.stop()
 
     def shows(self, state: RawTrajectoryState, counts: tuple[int, ...], reason: int) -> None:
-        """Broken unless PROGRESS says so; `counts`: received, and planned and reached if given."""
+        """Check PROGRESS.
+
+        `counts`: received, and planned and reached if given.
+        """
         self._bench.run(2 * self._bench.config.state_period + 2 * self._bench.setting.motion.settle)
         reply = self._bench.progress(self.watcher)
         if (reply.trajectory, reply.state, reply.reason) != (self.trajectory, state, reason) or (
@@ -104,7 +106,7 @@ class _Streams:
 
 @case("stream-values", "each value of a stream's points at its bounds and beyond", "R10, R11")
 def _each_value(bench: Bench) -> None:
-    """Limits and speeds of each joint, durations: the reply tells which point and joint."""
+    """Check limits, speeds and durations: the reply names point and joint."""
     streams, current, policy = _Streams(bench), bench.position, bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
@@ -121,7 +123,7 @@ def _each_value(bench: Bench) -> None:
     for seconds in (0.0, -1e-6, -2.0):
         streams.begin([(current, 1.0), (current, 1.0), (current, seconds)])
         streams.refused(RawReason.BAD_DURATION, 2, f"a duration of {seconds} s")
-        # What the first one's is, nobody asks; but it is no less than nothing.
+        # The first duration has no effect; but it must not be negative.
         streams.begin([(current, seconds), (current, 1.0)])
         if seconds < 0:
             streams.refused(RawReason.BAD_DURATION, 0, f"a first duration of {seconds} s")
@@ -153,7 +155,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
             if ends is None:
                 continue
             one, other = (changed(current, axis, value) for value in ends)
-            # A slow beginning: nothing of what is asked is reached before it is over.
+            # A slow start: no requested point is reached before the check ends.
             if share < 1:
                 allowed += [(one, _SLOW), (other, seconds), (one, seconds), (current, _SLOW)]
             else:
@@ -167,7 +169,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
 
 
 def _said(bench: Bench, reason: RawReason) -> None:
-    """Broken unless the event log has a refusal for that reason."""
+    """Check that the event log has a rejection for that reason."""
     bench.run(0.05)
     text = messages.text_of(reason)
     if not any(text in " ".join(event.texts) for event in bench.controller.log):
@@ -175,7 +177,7 @@ def _said(bench: Bench, reason: RawReason) -> None:
 
 
 def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
-    """Batches that nobody knows to be of the stream under way do nothing to it."""
+    """Send batches of other streams: the current stream is not affected."""
     stream, points = streams.stream, way(bench, 4)
     for after in (_HEAD, _HEAD + 3):
         recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
@@ -187,7 +189,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     stream.say(head[:16] + b"\xff" * 8 + head[24:])
     if not isinstance(stream.last, messages.RawPointsRefused) or stream.last.stream:
         raise CheckFailed(f"a damaged head is answered by {stream.last}")
-    # Nor does a beginning that cannot be read end anything.
+    # A start that cannot be read ends nothing either.
     last = _HEAD + 4 + 2 * (1 + len(bench.position))
     for after in (_HEAD + 4, _HEAD + 5, last):
         other = Streamer(bench, stream.link, number=9)
@@ -204,7 +206,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
 
 @case("odd-batches", "a stream is cut by its own faults alone")
 def _odd_batches(bench: Bench) -> None:
-    """A stream is cut by what is wrong of its own, and by nothing else; what was taken is done."""
+    """Cut a stream only by its own faults; execute the accepted points."""
     streams = _Streams(bench)
     values = 1 + len(bench.position)
     for number, (what, first, unreadable) in enumerate(
@@ -238,7 +240,7 @@ def _odd_batches(bench: Bench) -> None:
         bench.executed(points[:12], since)
         if number in (0, 3):
             streams.shows(RawTrajectoryState.FAILED, (12, 12, 12), RawReason.CHECKSUM)
-    # What comes next is none the worse for it.
+    # Later data is not affected.
     for which in ("stream", "download", "stream"):
         points = bench.wave(4, duration=0.2)
         if which == "stream":
@@ -253,7 +255,7 @@ def _odd_batches(bench: Bench) -> None:
 
 @case("early-ends", "streams that end before they move", "R5")
 def _early_ends(bench: Bench) -> None:
-    """Streams that end before they begin to move, and the one with the number 1 among them."""
+    """End streams before they move, including the one with number 1."""
     streams, current = _Streams(bench), bench.position
     far = changed(current, 0, bench.group.joints[0].upper + 1)
     streams.begin([(current, 1.0)], END)
@@ -269,14 +271,14 @@ def _early_ends(bench: Bench) -> None:
     streams.refused(RawReason.SEQUENCE_GAP, 0, "an end without a point")
     streams.begin([(current, 1.0), (current, 1.0), (far, _SLOW)])
     streams.refused(RawReason.JOINT_LIMIT, 2, "a third point that is too far", joint=1)
-    # Nothing of the refusal before is told of the next stream.
+    # The earlier rejection is not reported for the next stream.
     streams.begin()
     before = streams.trajectory
     streams.link.send(raw_point(-1, current, 1.0))
     streams.stream.put([(current, 1.0)])
     streams.refused(RawReason.SUPERSEDED, 0, "a point behind a download", point=-1)
     streams.trajectory = before + 1
-    # What was being received before a stream begins is forgotten, and what was skipped, too.
+    # A stream's start discards a partly received or skipped trajectory.
     streams.begin()
     streams.alone(1, "a download was under way, then a stream began")
     for joints in (far, current):
@@ -284,7 +286,7 @@ def _early_ends(bench: Bench) -> None:
         streams.link.send(raw_point(-1, joints, 1.0) + raw_point(1, far, 1.0))
         streams.begin()
         streams.alone(2, "a download was refused, then a stream began")
-        # A point alone is skipped to its end.
+        # A single point is skipped to its end.
         streams.link.send(raw_point(int(RawSpecial.END), current, 1.0))
     streams.begin()
     streams.stop()
@@ -309,7 +311,7 @@ def _early_ends(bench: Bench) -> None:
 
 
 def _left(bench: Bench) -> None:
-    """Its client leaves before a stream has a point: refused, unless it has ended already."""
+    """Leave before a stream has a point: rejected, unless it has ended."""
     for stopped in (False, True):
         streams = _Streams(bench)
         streams.begin()
@@ -332,7 +334,7 @@ def _left(bench: Bench) -> None:
 
 @case("room", "as many points as there is room for, and one more", "R1")
 def _room(bench: Bench) -> None:
-    """Just as many points as the reply says that there is room for, over the counters' end."""
+    """Send as many points as the reply allows, across the counters' wrap."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
     current, most = bench.position, batches.batch_points(len(bench.position))
@@ -357,7 +359,7 @@ def _room(bench: Bench) -> None:
     bench.wait_until_standing(2)
     stream.put(goal[sent : sent + 1])
     streams.refused(RawReason.OVERRUN, sent, "a point behind a stream that was cut")
-    # What is there in the ring is found behind the end of the counters, too.
+    # After the counters' wrap, the ring's entries are found, too.
     streams.begin()
     while streams.taken(0, "a stream behind one that was stopped").room < ring - 1:
         bench.run(0.1)
@@ -370,7 +372,10 @@ def _room(bench: Bench) -> None:
 
 
 def _count_from(bench: Bench, value: int) -> None:
-    """Let the ring's counters be near their last value, as after many years, while it is empty."""
+    """Set the ring's counters near their last value, as after many years.
+
+    The ring is empty.
+    """
     number = bench.config.groups.index(bench.group) + 1
     end = f"_{number}" if len(bench.config.groups) > 1 else ""
     task = bench.controller.task(bench.task("ROS_motionServer"))
@@ -380,7 +385,7 @@ def _count_from(bench: Bench, value: int) -> None:
 
 @case("stream-move-fails", "the motion task ends a stream")
 def _move_fails(bench: Bench) -> None:
-    """The motion task ends a stream by itself; batches are told so, and nothing follows."""
+    """Fail a move: batches report it, and nothing follows."""
     streams = _Streams(bench)
     points = way(bench, 24)
     streams.begin(points[:10])

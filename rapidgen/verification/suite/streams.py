@@ -1,4 +1,4 @@
-"""Trajectories without end: batches, credits, starvation, and what cuts a stream."""
+"""Endless trajectories: batches, credits, starvation and cut streams."""
 
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
@@ -16,7 +16,7 @@ _NONE = RawStreamFlag(0)
 
 
 def way(bench: Bench, count: int, duration: float = 0.15) -> list[Point]:
-    """`count` points there and back again, small enough for every robot; the first is here."""
+    """Return `count` small points there and back; the first is here."""
     duration = max(duration, 1.05 * bench.config.trajectory.min_segment)
     return [(p, duration) for p, _ in bench.wave(count, duration=duration, size=0.03)]
 
@@ -28,7 +28,7 @@ def _progress(bench: Bench, link: RawLink) -> messages.RawProgress:
 
 @case("stream", "a stream longer than the ring is executed whole, in time", "R1", once=True)
 def _whole_stream(bench: Bench) -> None:
-    """Longer than the ring, in batches of many sizes."""
+    """Stream more points than the ring holds, in batches of many sizes."""
     watcher, since = bench.watcher(), bench.now
     points = way(bench, 2 * bench.config.trajectory.ring + 7, 0.12)
     stream = Streamer(bench)
@@ -50,7 +50,7 @@ def _whole_stream(bench: Bench) -> None:
 
 @case("preload", "motion begins with enough in the ring, or when told")
 def _preload(bench: Bench) -> None:
-    """Motion begins with enough in the ring, at the end, or when it is told to."""
+    """Start the motion with enough preload, at the end, or on request."""
     seconds = bench.config.trajectory.preload
     points = way(bench, 40, 0.2)
     few = max(2, int(0.6 * seconds / points[1][1]))
@@ -74,7 +74,7 @@ def _preload(bench: Bench) -> None:
 
 @case("starves", "starvation is a stop on the path; more points go on", "R9")
 def _starves(bench: Bench) -> None:
-    """It stops at the last point, on its path, says so, and goes on when there is more."""
+    """Starve a stream: the robot stops on its path, reports, and resumes."""
     watcher = bench.watcher()
     points, since = way(bench, 45), bench.now
     stream = Streamer(bench)
@@ -101,7 +101,7 @@ def _starves(bench: Bench) -> None:
 
 
 def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0) -> None:
-    """A wrong batch in a moving stream: what was accepted is executed, nothing behind it."""
+    """Send an invalid batch in a moving stream: only accepted points run."""
     watcher, since = bench.watcher(), bench.now
     points = way(bench, 30)
     stream = Streamer(bench, number=3)
@@ -131,7 +131,7 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
 
 
 def _maker(bench: Bench) -> Streamer:
-    """Makes frames of stream 3 and sends none of them."""
+    """Return a maker of stream 3 frames that sends none."""
     maker = Streamer(bench, number=3)
     maker.link.close(then=1.2)
     maker.sent = 20
@@ -196,7 +196,7 @@ def _names_the_point(bench: Bench) -> None:
 
 @case("stream-begins-wrong", "a wrong beginning moves nothing", "R8")
 def _first_batch_is_wrong(bench: Bench) -> None:
-    """Nothing moves for a stream whose beginning is wrong."""
+    """Start a stream with an invalid batch: nothing moves."""
     far = [(bench.group.joints[0].upper + 1, *bench.position[1:])]
     joint, current = bench.group.joints[0], bench.position
     step = 0.2 if joint.upper - current[0] > current[0] - joint.lower else -0.2
@@ -259,7 +259,7 @@ def _behind_the_end(bench: Bench) -> None:
 
 @case("stream-ended", "stops end a stream, and batches are told why", "R5, R7a", background=True)
 def _early_end(bench: Bench) -> None:
-    """Everything that ends a trajectory early ends a stream, and batches are told why."""
+    """End a stream by each event; batches report the reason."""
     stopped = (RawReason.MOTORS_OFF, RawReason.PROGRAM_STOPPED, RawReason.EMERGENCY_STOP)
     for action, reasons in (
         ("STOP", (RawReason.STOPPED,)),
@@ -332,7 +332,10 @@ def _client_lost(bench: Bench) -> None:
 
 @case("stream-taken-over", "a new client ends a silent stream", "R12")
 def _taken_over(bench: Bench) -> None:
-    """A standard client that comes takes the place of one whose stream has fallen silent."""
+    """Connect a standard client while a silent stream's client is there.
+
+    The new client takes over.
+    """
     stream = Streamer(bench)
     stream.put(way(bench, 30), BEGIN)
     bench.wait_until_moving()

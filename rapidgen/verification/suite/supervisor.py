@@ -1,4 +1,4 @@
-"""The supervisor seen from outside: how soon it answers, why a trajectory ended, pauses."""
+"""The supervisor from outside: reaction times, end reasons, pauses."""
 
 from rapidgen.machine.event_log import Event, EventType
 from rapidgen.verification import messages
@@ -24,19 +24,19 @@ _TRAJ = messages.JOINT_TRAJ_PT
 
 
 def _at_once(bench: Bench) -> float:
-    """s for what the supervisor does in a trap."""
+    """Return s of the supervisor's work in a trap."""
     return bench.setting.latest_interrupt + 0.025 * bench.setting.slowness
 
 
 def _prompt(bench: Bench, requested: float, what: str) -> None:
     late = bench.now - requested
-    # Some controllers let a program go on behind StopMove only when the robot stands.
+    # Some controllers continue a program after StopMove only when the robot stands.
     if late > _at_once(bench) + (0.3 if bench.setting.motion.stop_waits else 0):
         raise CheckFailed(f"{what} is answered after {late:.3f} s")
 
 
 def end_as_request(bench: Bench, count: int, duration: float) -> bytes:
-    """The bytes of a trajectory whose end frame is a request."""
+    """Return the bytes of a trajectory whose end frame is a request."""
     points = bench.wave(count, duration=duration)
     frames = [point_frame(n, count, *p) for n, p in enumerate(points[:-1])]
     return b"".join((*frames, point_frame(count - 1, count, *points[-1], RawComm.REQUEST)))
@@ -44,12 +44,12 @@ def end_as_request(bench: Bench, count: int, duration: float) -> bytes:
 
 @case("answers-soon", "the supervisor answers by interrupts", "R7a", background=True)
 def _answers_soon(bench: Bench) -> None:
-    """Whatever the supervisor is asked, whenever: it does not wait for its next look."""
+    """Send requests at any moment: the supervisor answers immediately."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     control = bench.control() if bench.group.ports.control else None
     period = bench.config.state_period
     for phase in range(5):
-        # Not at the same moment of the supervisor's round each time.
+        # At different moments of the supervisor's round.
         bench.run(0.3 + 0.021 * phase)
         link.send(end_as_request(bench, 5, unit))
         requested = bench.now
@@ -65,7 +65,7 @@ def _answers_soon(bench: Bench) -> None:
                     raise CheckFailed(f"PAUSE {paused} is refused")
                 _prompt(bench, requested, f"PAUSE {paused}")
                 bench.run(0.1)
-        # The reply comes just before a STATUS, which then tells of the stop.
+        # The reply comes just before a STATUS, which then reports the stop.
         bench.status(watcher)
         bench.run(max(0.0, period - 0.045))
         port = link
@@ -77,7 +77,7 @@ def _answers_soon(bench: Bench) -> None:
         if port.reply(_TRAJ) != messages.RawAcknowledged():
             raise CheckFailed("STOP is not confirmed")
         _prompt(bench, requested, "STOP")
-        # One that was measured before is on its way for no longer than this.
+        # An earlier measurement is on its way for no longer than this.
         bench.run(0.01)
         status = bench.status(watcher)
         if bench.now - requested < 0.06 and status.motion_possible:
@@ -89,7 +89,7 @@ def _answers_soon(bench: Bench) -> None:
                 requested = bench.now
                 other.stop()
                 _prompt(bench, requested, "STOP at a standstill")
-        # What comes right behind a stop of the program is refused.
+        # Data right after a stop of the program is rejected.
         bench.run(0.4)
         bench.controller.perform("stop")
         link.send(end_as_request(bench, 3, unit))
@@ -111,7 +111,7 @@ def _warnings(bench: Bench, since: int) -> list[Event]:
 
 @case("why-it-ended", "the reason for each early end, at once", "R11, R14", background=True)
 def _why_it_ended(bench: Bench) -> None:
-    """Each event by its own reason, at once; what comes meanwhile is refused for it."""
+    """Report each event's own reason immediately; reject data meanwhile."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number = bench.progress(watcher).trajectory
     auto, failed = RawMode.AUTO, RawTrajectoryState.FAILED
@@ -139,7 +139,7 @@ def _why_it_ended(bench: Bench) -> None:
         powered, e_stopped, mode = status
         possible = int(action == "leaves")
         expected = messages.RawStatus(powered, e_stopped, reason, 1, 0, mode, possible)
-        # An emergency stop is an error of the controller's own, too.
+        # An emergency stop is also an error of the controller.
         if seen != expected:
             raise CheckFailed(f"after {action} STATUS says {seen}, wanted {expected}")
         log_entries = [e.texts[0] for e in _warnings(bench, last)]
@@ -154,7 +154,7 @@ def _why_it_ended(bench: Bench) -> None:
         number += 1
         if content != messages.RawRefused(later, -1, 0):
             raise CheckFailed(f"after {action} a trajectory is answered by {content}")
-        # What is received meanwhile is for nothing, although its end comes when all is well again.
+        # Data received meanwhile is discarded, even if its end comes after recovery.
         frames = end_as_request(bench, 3, unit)
         link.send(frames[:68])
         number += 1
@@ -165,7 +165,7 @@ def _why_it_ended(bench: Bench) -> None:
             raise CheckFailed(f"after {action} and a start of the program no motion is possible")
         link.send(frames[68:])
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
-        # The way back to automatic mode is a change of mode, too.
+        # The return to automatic mode is a change of mode, too.
         noted = RawReason.MODE_CHANGED if action == "manual" else reason
         if content != messages.RawRefused(noted, -1, 0):
             raise CheckFailed(
@@ -191,7 +191,7 @@ def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> No
 
 @case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends", needs="control")
 def _pause_by_step(bench: Bench) -> None:
-    """Each answer to PAUSE, what is told of it, and what becomes of a paused trajectory."""
+    """Check each reply to PAUSE, its reports, and the paused trajectory."""
     control, watcher, link, unit = bench.control(), bench.watcher(), bench.motion(), unit_of(bench)
 
     def ask(paused: int, reason: RawReason = RawReason.NONE) -> None:
@@ -223,7 +223,7 @@ def _pause_by_step(bench: Bench) -> None:
         raise CheckFailed("a pause that was refused, and the end of none, stop the robot")
     bench.wait_until_at(path[3][0], 5)
     bench.followed([p for p, _ in path], since=started)
-    # The stay at its end goes on in a pause, and then there is nothing left to be paused.
+    # The stay at its end continues in a pause; then nothing is left to pause.
     bench.run(0.5 * unit)
     ask(1)
     _is_paused(bench, watcher, 5, 4)
@@ -248,7 +248,7 @@ def _pause_by_step(bench: Bench) -> None:
 
 @case("stop-in-pause", "STOP while a paused robot is about to be started", "R7b", needs="control")
 def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
-    """STOP comes while the supervisor is about to start a paused robot: it does not move."""
+    """Send STOP while the supervisor resumes a paused robot: no motion."""
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)
     supervisor = bench.rapid_task("ROS_supervisor")
 
@@ -271,7 +271,7 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
 
 @case("builds-differ", "a task that shows another build, at a time", background=True)
 def _builds_differ(bench: Bench) -> None:
-    """A task that shows another build: said once after two seconds, and nothing is taken."""
+    """Show another build in a task: one report after 2 s, no trajectories."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     task = bench.controller.task(bench.task("ROS_supervisor"))
     displayed, last = datum(bench, "ros_shown_state"), bench.last_event
@@ -281,7 +281,7 @@ def _builds_differ(bench: Bench) -> None:
         task[displayed] = "0123456789ab"
 
     for seconds, times in ((1.5, 0), (1.5, 0), (3.0, 1), (2.5, 2)):
-        # Just behind a look of the supervisor.
+        # Just after a look of the supervisor.
         at_call(bench, "ROS_supervisor", "WaitTime", 1, mix)
         bench.until(lambda: task[displayed] != good, 0.2, "the supervisor looks")
         mixed = bench.now
@@ -321,7 +321,7 @@ def _builds_differ(bench: Bench) -> None:
             stream.put(bench.wave(3, duration=unit), BEGIN)
             stream.refused(RawReason.BUILD_MISMATCH, f"the {role} shows another build")
         task[other] = good
-    # What the motion task shows counts from when its program runs.
+    # The value of the motion task counts once its program runs.
     displayed = datum(bench, "ros_shown_motion")
     for text, stopped, reason in (
         ("", False, RawReason.NOT_EXECUTING),

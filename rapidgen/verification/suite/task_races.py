@@ -1,4 +1,4 @@
-"""Stops, trajectories and holds at each statement of the driver: races are where tasks meet."""
+"""Races: stops, trajectories and halts at each statement of the driver."""
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -28,7 +28,7 @@ case = SuiteGroup("faults")
 
 @contextmanager
 def _stepped(bench: Bench) -> Iterator[Bench]:
-    """Another controller, which can be stopped at a statement."""
+    """Return another controller, which can be stopped at a statement."""
     with bench.beside(bench.system, setting=replace(bench.setting, coverage=True)) as other:
         yield other
         other.run(1.5)
@@ -37,7 +37,7 @@ def _stepped(bench: Bench) -> Iterator[Bench]:
 
 
 def _lines(bench: Bench, module: str, *routines: str) -> list[int]:
-    """Where the statements of some routines begin."""
+    """Return the first lines of the statements of some routines."""
     data = next(m.data for t in bench.system.tasks for m in t.modules if m.name == module)
     tree = parse(data)
     result: set[int] = set()
@@ -60,7 +60,7 @@ def _lines(bench: Bench, module: str, *routines: str) -> list[int]:
 def _once_at(
     bench: Bench, module: str, place: tuple[str, int], count: int, act: Callable[[], None]
 ) -> list[float]:
-    """Call `act` when a module's task comes to a statement for the `count`-th time; when it did."""
+    """Call `act` at a statement's `count`-th execution; return the times."""
     came: list[float] = []
 
     def reached() -> None:
@@ -79,7 +79,10 @@ def _once_at(
     once=True,
 )
 def _stopped_at_every_statement(bench: Bench) -> None:
-    """A program stop, then Start or PP to main and Start, at each statement of the motion task."""
+    """Stop and restart the program at each statement of the motion task.
+
+    With Start, or PP to main and Start.
+    """
     with _stepped(bench) as other:
         link = other.motion()
         other.assert_moves_through(link, other.wave(4))
@@ -112,7 +115,7 @@ def _stopped_at_every_statement(bench: Bench) -> None:
 
 
 def _is_over(bench: Bench, came: list[float]) -> None:
-    """Wait for what happens at a statement, if ever, and for the robot to stand."""
+    """Wait for the event at a statement, if any, and for standstill."""
     bench.controller.run_until(lambda: bool(came), timeout=3)
     came.append(bench.now)
     bench.wait_until_standing(5)
@@ -126,13 +129,14 @@ def _is_over(bench: Bench, came: list[float]) -> None:
     needs="stream",
 )
 def _stream_stopped_at_every_statement(bench: Bench) -> None:
-    """Also of a stream that has starved, and of one that ends."""
+    """Stop streams that run, starve and end, at each statement."""
     routines = ("next_point", "wait_for_points", "finish")
     with _stepped(bench) as other:
         for number, line in enumerate(2 * _lines(other, "ROS_motion", *routines)):
             link = other.motion()
             other.run(1.1)
-            # While commissioning the servers stop with the program: the rest is not answered.
+            # While commissioning the servers stop with the program: the remaining data gets no
+            # reply.
             by_wire = number % 2 == 0 or other.config.commissioning
             stream, since = Streamer(other, link), other.now
 
@@ -158,7 +162,7 @@ def _stream_stopped_at_every_statement(bench: Bench) -> None:
 
 
 def _is_answered(link: RawLink) -> bool:
-    """Whether a STOP was, with a plain success."""
+    """True if STOP got a plain success reply."""
     return any(
         frame.number == JOINT_TRAJ_PT and decode(frame) == messages.RawAcknowledged()
         for _, frame in link.frames
@@ -173,7 +177,7 @@ def _is_answered(link: RawLink) -> bool:
     needs="control",
 )
 def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
-    """Whatever the motion server is at when it comes: nothing moves after the reply to it."""
+    """Stop at each statement of a start: nothing moves after the reply."""
     with _stepped(bench) as other:
         control = other.control()
         for module, routines in (
@@ -236,7 +240,7 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
     once=True,
 )
 def _progress_at_every_statement(bench: Bench) -> None:
-    """Nothing of one trajectory is told under the number of another one."""
+    """Check PROGRESS at every statement: no mix of two trajectories."""
     far = bench.group.joints[0].upper + 1
     with _stepped(bench) as other:
         link, watcher = other.motion(), other.watcher()
@@ -260,7 +264,10 @@ def _held_at(
     place: tuple[str, str, int],
     far: float | None,
 ) -> None:
-    """A good trajectory, then another one that is good or not, while a task is held somewhere."""
+    """Hold a task at a statement during two trajectories.
+
+    The first is good, the second good or not.
+    """
     module, home, line = place
     current = bench.position
     link.send(bench.download(bench.wave(3, duration=0.2)))
@@ -280,7 +287,7 @@ def _held_at(
         if module == "ROS_stateServer":
             link.at_once(second)
         task.hold()
-        # One or two PROGRESS, and less than what counts as the end of a task.
+        # One or two PROGRESS, and less than the time that counts as a task's end.
         bench.controller.scheduler.after(120_000_000, task.release)
 
     came = _once_at(bench, module, (home, line), 1, held)

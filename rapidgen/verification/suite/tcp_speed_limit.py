@@ -1,4 +1,4 @@
-"""The ceiling of the TCP's speed, where a configuration has one below what every robot may do."""
+"""TCP speed limit, if a configuration has one below the standard."""
 
 import math
 import random
@@ -17,9 +17,9 @@ case = SuiteGroup("edges")
 ROUNDS = 4
 """Random trajectories of one run; a benchmark has more."""
 ALLOWED = 1.05
-"""Part of the ceiling that a recording may show."""
+"""Share of the speed limit that a recording may show."""
 _MARGIN = 1.09
-"""Part of the time needed that a driver takes without doubt."""
+"""Share of the needed time that a driver accepts in any case."""
 
 
 def _asked(bench: Bench) -> bool:
@@ -30,7 +30,7 @@ def _asked(bench: Bench) -> bool:
 
 @case("tcp-too-fast", "more speed than the TCP may have", "R10")
 def _tcp_too_fast(bench: Bench) -> None:
-    """No axis is too fast: the TCP alone is."""
+    """Exceed the speed limit with the TCP alone; no axis is too fast."""
     if not _asked(bench):
         raise NotApplicable("the TCP has no ceiling of its own")
     seconds = max(0.2, bench.config.trajectory.min_segment)
@@ -56,7 +56,7 @@ def _tcp_too_fast(bench: Bench) -> None:
 
 @case("tcp-arc", "a long turn between two places that are near each other", "R10")
 def _long_turn(bench: Bench) -> None:
-    """The TCP goes along its arc, whatever the distance between its ends."""
+    """Turn far: the TCP follows its arc, not the chord."""
     joint, current = bench.group.joints[0], bench.position
     low, high = (changed(current, 0, v) for v in (joint.lower + 0.01, joint.upper - 0.01))
     seconds = 0.5 * bench.tcp_seconds(low, high)
@@ -77,7 +77,7 @@ def _long_turn(bench: Bench) -> None:
 
 
 def random_way(bench: Bench, chance: random.Random, margin: float) -> list[Point]:
-    """Points in `margin` times the time that their ways need, from near where the robot stands."""
+    """Return random points in `margin` times the needed time, near here."""
     policy, joints = bench.config.trajectory, bench.group.joints
 
     def near(place: Position, share: float) -> Position:
@@ -104,7 +104,7 @@ def random_way(bench: Bench, chance: random.Random, margin: float) -> list[Point
 
 
 def fastest(bench: Bench, since: float) -> float:
-    """The highest speed of the TCP in what was recorded since then, m/s."""
+    """Return the highest recorded TCP speed since then, m/s."""
     track = [(when, bench.tcp(seen)) for when, seen in bench.track if when >= since]
     return max(
         (math.dist(a, b) / (then - when) for (when, a), (then, b) in pairwise(track)), default=0.0
@@ -112,7 +112,7 @@ def fastest(bench: Bench, since: float) -> float:
 
 
 def is_taken(bench: Bench, points: list[Point], *, streaming: bool) -> bool:
-    """Whether the driver takes a trajectory, which is executed then."""
+    """True if the driver accepts the trajectory; then execute it."""
     link, end = bench.motion(), points[-1][0]
     if streaming:
         stream = Streamer(bench, link)
@@ -130,7 +130,7 @@ def is_taken(bench: Bench, points: list[Point], *, streaming: bool) -> bool:
 
 @case("tcp-turns", "the TCP keeps its ceiling between corners that slow it down", "R10")
 def _turns(bench: Bench) -> None:
-    """There and back on axis 1, where the robot has to turn round, at once and after a while."""
+    """Turn round on axis 1, immediately and after a while."""
     if not _asked(bench):
         raise NotApplicable("the TCP has no ceiling of its own")
     joint, current, limit = bench.group.joints[0], bench.position, bench.group.tcp_speed_limit
@@ -156,7 +156,7 @@ def _turns(bench: Bench) -> None:
 
 @case("tcp-recorded", "the TCP is never faster than its ceiling", "R10")
 def _recorded(bench: Bench) -> None:
-    """On random ways, near the ceiling, as a whole and streamed, from rest to rest."""
+    """Record random paths near the speed limit, complete and streamed."""
     if not _asked(bench):
         raise NotApplicable("the TCP has no ceiling of its own")
     chance, limit = random.Random(bench.setting.seed), bench.group.tcp_speed_limit

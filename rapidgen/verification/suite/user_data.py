@@ -1,4 +1,4 @@
-"""Data of the customer's program that clients may read and write: DATA on the control port."""
+"""User data that clients may read and write: DATA on the control port."""
 
 import math
 import struct
@@ -20,7 +20,7 @@ case = SuiteGroup("own data", needs="control")
 _BEGIN = {"num": "3", "bool": "FALSE", "string": '"begin"'}
 _FIRST = {"num": (3.0, ""), "bool": (0.0, ""), "string": (0.0, "begin")}
 _LARGEST = struct.unpack("<f", struct.pack("<f", 3.4e38))[0]
-"""What the driver takes for a num, at most."""
+"""Largest value that the driver accepts for a num."""
 _SOME = {
     "num": ((-2.5, ""), (_LARGEST, ""), (-_LARGEST, ""), (2.0**101, "")),
     "bool": ((1.0, ""), (0.0, "")),
@@ -35,7 +35,7 @@ _NEVER = {
 
 @case("own-data", "data of the robot's program that the configuration lists")
 def _data(bench: Bench) -> None:
-    """Read, written, refused; where the program lacks them, refused, and nothing else happens."""
+    """Read, write, reject; reject if the program lacks the data."""
     listed = bench.group.data
     control = bench.control()
     for index in (-1, len(listed), 99, 2**31 - 1, -(2**31)):
@@ -80,13 +80,13 @@ def _data(bench: Bench) -> None:
 
 @case("data-reading-fails", "a request for a datum that cannot be read changes nothing", once=True)
 def _reading_fails(bench: Bench) -> None:
-    """Whatever fails of it: its client is dropped, and the next one is served."""
+    """Fail while reading DATA: the client is dropped, the next is served."""
     listed = bench.group.data
     texts = [n for n, d in enumerate(listed) if (d.type, d.access) == ("string", "write")]
     if not texts:
         raise NotApplicable("no text of the program may be written")
     with bench.beside(_with(bench, listed)) as other:
-        # Three of its head, three of what is asked, and two characters with their end.
+        # Three of the head, three of the request, and two characters with their end.
         for name, count in (("UnpackRawBytes", 9), ("ByteToStr", 2)):
             for after in range(count):
                 control = other.control()
@@ -125,7 +125,7 @@ def _one(control: RawLink, index: int, datum: UserDatum) -> None:
 def _asks(
     control: RawLink, index: int, write: int = 0, value: float = 7.0, text: str = "7"
 ) -> RawContent:
-    """The reply; a refusal whole is one, too."""
+    """Send DATA and return the reply, which may be a rejection."""
     requested = messages.RawDatum(index, write, value, text)
     control.send(messages.encode(requested, RawComm.REQUEST))
     return control.reply(messages.DATA)
@@ -137,7 +137,7 @@ def _says(reply: RawContent, expected: messages.RawDatumReply) -> None:
 
 
 def _with(bench: Bench, listed: tuple[UserDatum, ...]) -> System:
-    """The system with modules that have these data in the motion task."""
+    """Return the system with modules that declare these data."""
     texts: dict[str, list[str]] = {}
     for datum in listed:
         module, _, name = datum.name.partition(":")

@@ -1,4 +1,4 @@
-"""The driver within a program of the customer's: his main calls ROS_run, which returns to it."""
+"""The driver in a user program: its main calls ROS_run, which returns."""
 
 from dataclasses import replace
 
@@ -64,7 +64,7 @@ ENDMODULE
 
 
 def _system(bench: Bench, main: bytes = _MAIN) -> System:
-    """The driver of `main: own`, with a main that does something else, too."""
+    """Return the driver of `main: own` with a main that also does other work."""
     config = replace(bench.config, call_main=False)
     system = make_system(config, build(config))
     cell = ModuleFile("cell", "cell.mod", main)
@@ -77,7 +77,10 @@ def _system(bench: Bench, main: bytes = _MAIN) -> System:
 
 
 def _served(bench: Bench, link: RawLink) -> RawLink:
-    """The same client; while commissioning a server that was stopped has closed its link."""
+    """Return a working client.
+
+    While commissioning, a stopped server has closed its connection.
+    """
     return bench.motion() if link.lost and bench.config.commissioning else link
 
 
@@ -90,7 +93,7 @@ def _refused(bench: Bench, link: RawLink, when: str) -> None:
 
 @case("own-main", "ROS_run returns to a program that moves by itself, and main starts once", "R7b")
 def _own_main(bench: Bench) -> None:
-    """STOP, a fault and the way back and forth: the customer's main is never begun anew."""
+    """Stop, fail and leave ROS_run: the user's main never restarts."""
     with bench.beside(_system(bench)) as other:
         view = other.controller.task(other.group.task)
         link, state = other.motion(), other.state()
@@ -123,7 +126,10 @@ def _own_main(bench: Bench) -> None:
 
 
 def _moves_by_itself(bench: Bench, link: RawLink, state: RawLink) -> None:
-    """The program moves: nothing of the driver's holds it, and no trajectory comes between."""
+    """Let the program move: the driver does not interfere.
+
+    No trajectory is executed meanwhile.
+    """
     last = bench.last_event
     _refused(bench, link, "while the program moves by itself")
     ports = [link]
@@ -148,7 +154,7 @@ def _moves_by_itself(bench: Bench, link: RawLink, state: RawLink) -> None:
 
 @case("own-main-signal", "ROS_run returns at a signal, and leaves speeds as it found them")
 def _until_a_signal(bench: Bench) -> None:
-    """VelSet is the program's; a client's speed is over.
+    """Leave ROS_run at a signal: VelSet is the program's again.
 
     A signal may be out of reach.
     """
@@ -184,7 +190,7 @@ def _until_a_signal(bench: Bench) -> None:
 
 
 def _begun_anew(bench: Bench, link: RawLink) -> None:
-    """Stop in a trajectory, then another beginning, without ROS_run at first: nothing holds it."""
+    """Stop in a trajectory and restart without ROS_run: motion is free."""
     view = bench.controller.task(bench.group.task)
     bench.start_motion(link, bench.wave(8), 0.4)
     bench.controller.perform("stop")
@@ -227,7 +233,10 @@ ENDMODULE
 
 @case("another-program", "a program without the driver in the motion task", "R7a", background=True)
 def _another_program(bench: Bench) -> None:
-    """ROS_motion was replaced by another program: event routines are there, and nothing is held."""
+    """Replace ROS_motion by another program: event routines are present.
+
+    No motion is blocked.
+    """
     foreign = ModuleFile("foreign", "foreign.mod", _FOREIGN)
 
     tasks = tuple(
@@ -237,7 +246,7 @@ def _another_program(bench: Bench) -> None:
         for task in bench.system.tasks
     )
     system = replace(bench.system, tasks=tasks)
-    # Without signals the event routines alone tell whether the program runs.
+    # Without signals, only the event routines report if the program runs.
     for own in (system, replace(system, signals=(), outputs=(), cross=())):
         with bench.beside(own) as other:
             for event in system.events:
@@ -265,13 +274,16 @@ def _another_program(bench: Bench) -> None:
 
 
 def _goes(module: ModuleFile) -> bool:
-    """Whether it goes with the driver's program: a main that calls ROS_run does."""
+    """True if the module belongs to the driver's program.
+
+    A main that calls ROS_run does.
+    """
     return module.name == "ROS_motion" or b"PROC main()" in module.data
 
 
 @case("program-replaced", "another program is loaded in a trajectory", "R7a", background=True)
 def _replaced(bench: Bench) -> None:
-    """It is begun at its main while the driver's stops are in force: they do not hold it."""
+    """Restart at another main while the driver's stops hold: no effect."""
     link, state = bench.motion(), bench.state()
     bench.assert_moves_through(link, bench.wave(3))
     bench.start_motion(link, bench.wave(8), 0.4)
@@ -297,7 +309,7 @@ def _replaced(bench: Bench) -> None:
 
 
 def _told_of_stop(bench: Bench, link: RawLink, times: int) -> None:
-    """STOP, which is not for a program of its own: the event log says so while that runs."""
+    """Send STOP to a foreign program: the event log reports it."""
     last = bench.last_event
     link.stop()
     log_entries = [e for e in bench.controller.log.since(last) if e.title == _OUTSIDE]
@@ -306,7 +318,7 @@ def _told_of_stop(bench: Bench, link: RawLink, times: int) -> None:
 
 
 def _turns(bench: Bench) -> None:
-    """The other program goes on."""
+    """Check that the other program continues."""
     view = bench.controller.task(bench.group.task)
     turns = view["foreign:turns"]
     bench.until(lambda: view["foreign:turns"] > turns + 1, 9, "the other program goes on")

@@ -1,4 +1,4 @@
-"""Routines of the customer's own that a program calls: arguments, results, errors, how they end."""
+"""User routines called by programs: arguments, results, errors, ends."""
 
 import math
 import random
@@ -60,7 +60,7 @@ _MODULE = b"""MODULE cell
 ENDMODULE
 """
 WELD, LONG, ABSENT, TEACH = range(4)
-"""Numbers of the routines that a configuration for these cases has (tools/cell.yaml)."""
+"""Numbers of the routines in the configuration for these cases (tools/cell.yaml)."""
 _THESE = {
     "cell:weld": ("num", "bool", "bool", "string"),
     "cell:wait_long": (),
@@ -72,24 +72,24 @@ _DISPLACEMENTS = (
     ((0.05, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
     ((0.0, 0.0, 0.0), (_HALF, 0.0, 0.0, _HALF)),
 )
-"""Of a customer's program: where a robtarget's zero is, m, and how it lies."""
+"""Of a user program: position (m) and orientation of a robtarget's zero."""
 _HOLDERS = ("cell", "nocell")
 
 
 def knows_these(bench: Bench) -> bool:
-    """Whether the configuration's routines are those of the module of these cases."""
+    """True if the configuration's routines are those of this module."""
     own = {r.call: tuple(p.type for p in r.parameters) for r in bench.group.routines}
     return own == _THESE and list(own) == list(_THESE)
 
 
 def _has_these(bench: Bench) -> bool:
-    """Whether it does, and the motion task is told that the module is there."""
+    """True if it is so, and the motion task has the module."""
     return knows_these(bench) and bench.setting.dialect.modules_told
 
 
 @case("routine-absent", "a routine of a module that is not there refuses its program")
 def _absent(bench: Bench) -> None:
-    """At once and whole, with its index; a driver without routines has no CALL."""
+    """Reject absent routines at once with index; without routines, no CALL."""
     client = Programmer(bench)
     if not bench.group.routines:
         reply = _calls(client, LONG)
@@ -126,7 +126,7 @@ def _absent(bench: Bench) -> None:
 
 @case("routine-missing", "a procedure that its module does not have ends the program in its turn")
 def _missing(bench: Bench) -> None:
-    """With that reason, what was before it is executed, and nothing of another one is called."""
+    """Load no module: earlier instructions run, no other routine is called."""
     if not _has_these(bench):
         raise NotApplicable("the routines that are tried are not in the configuration")
     system = _with_module(bench, ModuleFile("nocell", "nocell.mod", b"MODULE nocell\nENDMODULE\n"))
@@ -159,7 +159,7 @@ def _missing(bench: Bench) -> None:
 
 @case("routine-results", "a routine's parameters and its error come back")
 def _results(bench: Bench) -> None:
-    """Numbers, texts, number and name of an error; the program behind it goes on, or ends."""
+    """Return numbers, texts and errors; the program continues or ends."""
     if not _has_these(bench):
         raise NotApplicable("the routines that are tried are not in the configuration")
     with bench.beside(_with_module(bench)) as other:
@@ -191,7 +191,10 @@ def _results(bench: Bench) -> None:
 
 @case("routine-alone", "nothing else begins while a routine runs", needs="control")
 def _alone(bench: Bench) -> None:
-    """Not by its own client, nor by another one; STOP and the time-out end it, UNDO runs."""
+    """Do not interrupt a routine by clients; STOP and time-outs end it.
+
+    UNDO runs.
+    """
     if not _has_these(bench):
         raise NotApplicable("the routines that are tried are not in the configuration")
     with bench.beside(_with_module(bench)) as other:
@@ -225,8 +228,8 @@ def _alone(bench: Bench) -> None:
             seen = other.progress(watcher)
             if (seen.reason, own["cell:undone"], own["cell:calls"]) != (reason, True, 1):
                 raise CheckFailed(f"{reason.name} of a routine: PROGRESS says {seen}")
-        # The way that was turned away is taken now. At its second corner the looks of the state and
-        # the control server for clients fall together: where tasks run by lot it may be a stop.
+        # The rejected path is accepted now. At its second corner the state and the control server
+        # look for clients at the same time: with random task order it may be a stop.
         other.assert_moves_through(client.link, points)
         program = orders(other, 2, random.Random(28))
         client.takes("a program behind a routine", program)
@@ -235,7 +238,10 @@ def _alone(bench: Bench) -> None:
 
 @case("program-displaced", "a displacement of the customer's own program moves no program of ours")
 def _displaced(bench: Bench) -> None:
-    """PDispOn and EOffsOn would take it elsewhere than was checked: it ends before it does."""
+    """Displace in a routine: the program ends before the next pose.
+
+    PDispOn and EOffsOn would lead it to an unchecked position.
+    """
     if not computes(bench):
         raise NotApplicable("the driver computes no poses")
     _displaced_before(bench)
@@ -271,7 +277,10 @@ def _displaced(bench: Bench) -> None:
 
 
 def _displaced_before(bench: Bench) -> None:
-    """Refused, or ended before it moves; without the displacement it moves."""
+    """Displace before the program: rejected, or ended without motion.
+
+    Without the displacement it moves.
+    """
     first, *_, last = orders(bench, 3, random.Random(33))
     last = replace(last, kind=RawInstruction.MOVE_ABSJ, pose=None)
     client, modal = Programmer(bench), bench.motion_group.modal
@@ -295,7 +304,7 @@ def _displaced_before(bench: Bench) -> None:
 
 @case("routine-targets", "targets that a routine leaves come back")
 def _targets(bench: Bench) -> None:
-    """Each with its own number, in m and rad; where there is none, none is told."""
+    """Report targets with their numbers, in m and rad; none if absent."""
     if not _has_these(bench) or not computes(bench):
         raise NotApplicable("the routines that are tried are not there, or no poses are computed")
     with bench.beside(_with_module(bench)) as other:
@@ -330,13 +339,13 @@ def _asks_target(client: Programmer, joints: int, parameter: int) -> messages.Ra
 
 
 def _near(what: str, reply: Sequence[float], expected: Sequence[float]) -> None:
-    """Broken unless numbers are those that were sent, as far as the wire tells them."""
+    """Check that numbers equal the sent ones within the wire's precision."""
     if not all(abs(a - b) < 1e-5 for a, b in zip(reply, expected, strict=True)):
         raise CheckFailed(f"the {what} has come back as {reply}, not {expected}")
 
 
 def _zeros(bench: Bench, routine: UserRoutine) -> list[int]:
-    """Words of arguments that any routine takes: nothing, and where the robot is."""
+    """Return argument words for any routine: zeros and the robot's position."""
     current = bench.position
     values: dict[str, list[float]] = {
         "num": [0.0],
@@ -351,7 +360,7 @@ def _zeros(bench: Bench, routine: UserRoutine) -> list[int]:
 
 
 def weld_words(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
-    """Words of weld's arguments: a num as float32, two bools, a text."""
+    """Return words of weld's arguments: a num as float32, two bools, a text."""
     number = struct.unpack("<i", struct.pack("<f", seam))[0]
     letters = text.encode() + bytes(-len(text) % 4)
     return [
@@ -364,7 +373,7 @@ def weld_words(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") ->
 def _calls(
     client: Programmer, number: int, arguments: Sequence[int] = (), *, seconds: float = 0.0
 ) -> messages.RawContent:
-    """A program of one call; its reply."""
+    """Send a program of one call and return its reply."""
     client.number += 1
     values = [*millionths(client.bench.position), int(_CALL), *millionths([number, seconds])]
     return client.say([*values, *arguments], 1, ALL)
@@ -384,7 +393,7 @@ def _asks(client: Programmer, parameter: int) -> messages.RawResultReply:
 
 
 def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResultReply:
-    """What RESULT says when the newest call has ended."""
+    """Return RESULT when the newest call has ended."""
     newest = bench.progress(bench.watcher()).trajectory
     for _ in range(100):
         reply = _asks(client, parameter)
@@ -399,7 +408,7 @@ def _with_module(bench: Bench, *more: ModuleFile) -> System:
 
 
 def _beside(bench: Bench, *more: ModuleFile) -> System:
-    """The system with these modules beside the driver's in the motion task."""
+    """Return the system with these additional modules in the motion task."""
     tasks = tuple(
         replace(task, modules=(*task.modules, *more)) if task.name == bench.group.task else task
         for task in bench.system.tasks
