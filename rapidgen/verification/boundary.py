@@ -295,7 +295,7 @@ def _blamed(prepared: Prepared, batch: Sequence[Trial], fault: str) -> list[tupl
         return [(batch[0], fault)]
     middle = len(batch) // 2
     result = [*failing(prepared, batch[:middle]), *failing(prepared, batch[middle:])]
-    return result or [(batch[0], f"with the {len(batch) - 1} behind it: {fault}")]
+    return result or [(batch[0], f"with the {len(batch) - 1} after it: {fault}")]
 
 
 def _outcome(prepared: Prepared, batch: Sequence[Trial]) -> tuple[str, int]:

@@ -27,7 +27,7 @@ CONNECTS = 10
 """s within which the scheduler must answer."""
 EVERY = 1.0
 """s between two checks of the list of workers."""
-NOBODY = 60.0
+WORKER_TIMEOUT = 60.0
 """s without a worker after which the campaign stops."""
 AHEAD = 1
 """Items queued at a worker besides those in progress."""
@@ -78,7 +78,7 @@ class Cluster:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def room(self) -> bool:
+    def has_capacity(self) -> bool:
         """True if a worker could start another item soon."""
         slots = sum(threads + AHEAD for threads in self._workers.values())
         return len(self._given) + len(self._waiting) < slots
@@ -192,9 +192,9 @@ class Cluster:
             waiting, self._waiting = self._waiting, []
             for piece in waiting:
                 self.give(piece)
-        elif self._looked - self._seen > NOBODY:
+        elif self._looked - self._seen > WORKER_TIMEOUT:
             raise WorkersLost(
-                f"the scheduler at {self._address} has had no worker for {NOBODY:g} s"
+                f"the scheduler at {self._address} has had no worker for {WORKER_TIMEOUT:g} s"
             )
 
 

@@ -121,7 +121,7 @@ def _start_again(bench: Bench, chance: random.Random) -> bool:
     bench.run(chance.uniform(0.2, 4))
     bench.start_again()
     refused = bench.controller.task(bench.group.task).state != "running"
-    why = "the program was started, and nobody has asked for motion"
+    why = "the program was started, and no client has asked for motion"
     if not refused:
         # The supervisor reports it 2 s after the start.
         bench.assert_at_rest(chance.uniform(2.2, 4), why)

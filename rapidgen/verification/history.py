@@ -254,7 +254,7 @@ class History:
         self._say("... and start again")
         self.bench.start_again()
         self.bench.assert_at_rest(
-            3, f"the program was started after {action}; nobody asked for motion"
+            3, f"the program was started after {action}; no client asked for motion"
         )
 
     def superseded(self) -> None:
@@ -344,7 +344,7 @@ class History:
             self._comes_to(last, 12)
         elif ending == "hole" and more:
             stream.say(stream.frame(more, NONE, first=stream.sent + 1))
-            stream.refused(RawReason.SEQUENCE_GAP, "a batch behind a hole")
+            stream.refused(RawReason.SEQUENCE_GAP, "a batch after a hole")
             self._comes_to(last, 12)
         elif ending == "leaves":
             stream.link.close(abort=self.chance.random() < 0.5)

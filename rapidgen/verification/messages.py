@@ -451,8 +451,8 @@ class RawFailure(NamedTuple):
     """A failure reply without data."""
 
 
-_Told: TypeAlias = RawJointPosition | RawStatus | RawJointFeedback | RawProgress | RawStopped
-_Asked: TypeAlias = (
+_Report: TypeAlias = RawJointPosition | RawStatus | RawJointFeedback | RawProgress | RawStopped
+_Request: TypeAlias = (
     RawTrajectoryPoint
     | RawHello
     | RawPause
@@ -474,7 +474,7 @@ _Done: TypeAlias = (
 )
 _Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
 RawContent: TypeAlias = (
-    _Told | _Asked | _Done | _Refused | RawEvent | RawPing | RawAccepted | RawAcknowledged
+    _Report | _Request | _Done | _Refused | RawEvent | RawPing | RawAccepted | RawAcknowledged
 )
 _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     # Number, reply code (0: a topic or a request), and a struct code for each field.

@@ -43,7 +43,7 @@ class RawLink:
         self.sent = 0
         self.lost = False
         self._taken = 0
-        self._said: Splitter | None = Splitter()
+        self._sent_splitter: Splitter | None = Splitter()
         self._trajectory: list[Point] = []
         self.endpoint: Endpoint = self._network.connect(address, port)
         if reading:
@@ -87,16 +87,16 @@ class RawLink:
 
     def _listen(self, data: bytes) -> None:
         """Record a well-formed download for the plots."""
-        if self._said is None:
+        if self._sent_splitter is None:
             return
         try:
-            for frame in self._said.feed(data):
+            for frame in self._sent_splitter.feed(data):
                 if frame.number == JOINT_TRAJ_PT:
                     content = decode(frame)
                     if isinstance(content, RawTrajectoryPoint):
                         self._keep(content)
         except CheckFailed:
-            self._said = None
+            self._sent_splitter = None
 
     def _keep(self, point: RawTrajectoryPoint) -> None:
         if point.sequence == RawSpecial.BEGIN:
@@ -154,7 +154,7 @@ class RawLink:
         self._bench.until(arrived, seconds, what)
         return failures[0]
 
-    def told(self, kind: type[C], since: float = 0.0) -> list[tuple[float, C]]:
+    def messages_of(self, kind: type[C], since: float = 0.0) -> list[tuple[float, C]]:
         """Return all messages of a type since `since`, with times."""
         result = [(when, decode(frame)) for when, frame in self.frames if when >= since]
         return [(when, content) for when, content in result if isinstance(content, kind)]

@@ -154,7 +154,7 @@ def write_html(report: SuiteResult, path: Path) -> None:
 <style>{_STYLE}</style>
 <h1>{html.escape(report.name)}: {verdict}</h1>
 <p>BUILD_ID {html.escape(report.build_id)} · {len(report.tried)} cases ·
-{report.schedules} schedules explored · {report.programs} programs beside the same in RAPID ·
+{report.schedules} schedules explored · {report.programs} programs compared with the same in RAPID ·
 on the virtual controller; no real controller was asked.</p>
 <p>{html.escape(_versions())}</p>
 {_coverage(report)}

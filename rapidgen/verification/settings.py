@@ -98,7 +98,7 @@ def questions() -> dict[str, tuple[Answer, ...]]:
     return requested | {"costs": COSTS, "schedule": SCHEDULES}
 
 
-def said(name: str, answer: Answer) -> str:
+def assumption_text(name: str, answer: Answer) -> str:
     """Return an assumption as `--assume` takes it."""
     return f"{name}={str(answer).lower()}" if isinstance(answer, bool) else f"{name}={answer}"
 
@@ -108,7 +108,9 @@ def assumed(texts: Sequence[str]) -> Setting:
 
     Raises DiagnosticError RG804.
     """
-    known = {said(n, answer): (n, answer) for n, own in questions().items() for answer in own}
+    known = {
+        assumption_text(n, answer): (n, answer) for n, own in questions().items() for answer in own
+    }
     answers: dict[str, Answer] = {}
     seed = 0
     for text in texts:
@@ -141,7 +143,7 @@ def _unknown(text: str) -> Exception:
     requested = questions()
     name = text.partition("=")[0]
     if name in requested:
-        help = "one of " + ", ".join(said(name, answer) for answer in requested[name])
+        help = "one of " + ", ".join(assumption_text(name, answer) for answer in requested[name])
     else:
         help = suggest(name, list(requested)) or f"there are seed, {', '.join(requested)}"
     return refusal("RG804", None, f"nothing can be assumed as '{text}'", help)
@@ -160,7 +162,9 @@ def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
     requested = questions()
     array = covering(requested, strength)
     for number, row in enumerate(array[1:], 1):
-        others = [said(n, answer) for n, answer in row.items() if answer != requested[n][0]]
+        others = [
+            assumption_text(n, answer) for n, answer in row.items() if answer != requested[n][0]
+        ]
         # Each row has random numbers of its own.
         result[f"{STRENGTHS[strength]} {number}"] = (*others, f"seed={number}")
     return result

@@ -43,8 +43,8 @@ class Streamer:
             self.link.send(self.frame(part, own & ~BEGIN if number else own))
             self.sent += len(part)
             self.points += part
-            told = self.reply()
-        return told
+            answer = self.reply()
+        return answer
 
     def say(self, frame: bytes) -> messages.RawContent:
         """Send a batch as bytes, valid or not; return the reply."""

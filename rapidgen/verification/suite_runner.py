@@ -251,12 +251,12 @@ def _explained(
         if case.name in {verdict.case for verdict in broken} - anyhow
     ][:EXPLAINED]
     result = each(workers, work, explain)
-    blame: dict[tuple[str, str], tuple[str, ...]] = {}
+    explanations: dict[tuple[str, str], tuple[str, ...]] = {}
     for done, (one, by_setting) in enumerate(zip(work, result, strict=True), 1):
-        blame |= {(CASES[one.case].name, name): texts for name, texts in by_setting.items()}
+        explanations |= {(CASES[one.case].name, name): texts for name, texts in by_setting.items()}
         if progress is not None:
             progress("smallest pairs", done, len(work))
-    return [replace(v, blamed=blame.get((v.case, v.setting), ())) for v in report.outcomes]
+    return [replace(v, blamed=explanations.get((v.case, v.setting), ())) for v in report.outcomes]
 
 
 # -- work items ----------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ Rules of the bench:
 - `assert_...` methods and the functions in `position_checks` raise CheckFailed with the expected
   and the observed value. The runner reports CheckFailed, Deadlock, FatalError and NetworkFault as
   failures of the driver. Any other exception is a fault of the suite.
-- `beside` boots another controller, which has a clock of its own; its caller closes it.
+- `second_controller` boots another controller, which has a clock of its own; its caller closes it.
   `of_group` returns a bench of another motion group on the same controller.
 - The motion task drops data that arrives before the robot has settled. The constructor therefore
   waits for that, unless the setting is `early`.
@@ -100,7 +100,7 @@ class Bench:
         self._robots = robots or config.groups
         self.system = system
         self.setting = setting if setting is not None else Setting()
-        self._beside: list[Bench] = []
+        self._others: list[Bench] = []
         self.controller = controller if controller is not None else self._boot()
         tracked = self.setting.coverage and controller is None
         self._coverage = Coverage(self.controller) if tracked else None
@@ -150,7 +150,7 @@ class Bench:
         program.unload(module.name)
         program.load([(self.controller.parse_module(module), module)])
 
-    def beside(
+    def second_controller(
         self,
         system: System,
         robots: Sequence[GroupConfig] = (),
@@ -161,7 +161,7 @@ class Bench:
         The caller closes it.
         """
         other = Bench(self.config, system, setting or self.setting, robots)
-        self._beside.append(other)
+        self._others.append(other)
         return other
 
     def of_group(self, number: int) -> "Bench":
@@ -188,7 +188,7 @@ class Bench:
     def lines(self) -> Lines:
         """Return reached RAPID lines of all benches; empty without `coverage`."""
         result = self._coverage.lines() if self._coverage is not None else {}
-        for other in self._beside:
+        for other in self._others:
             add_lines(result, other.lines())
         return result
 
@@ -255,7 +255,7 @@ class Bench:
         self.until(settled, seconds, "the robot comes to rest")
 
     def wait_until_at(self, target: Position, seconds: float = 60) -> None:
-        """Wait until the robot stands at `target`."""
+        """Wait until the robot is at `target`."""
         self.until(
             lambda: self.standing and distance(self.position, target) < SETTLED,
             seconds,
@@ -453,10 +453,10 @@ class Bench:
 
     def _step(self, axis: int, current: Position, duration: float, size: float) -> float:
         joint = self.group.joints[axis]
-        room_up, room_down = joint.upper - current[axis], current[axis] - joint.lower
-        room = max(room_up, room_down)
-        step = min(size, 0.2 * duration * joint.speed, 0.5 * room)
-        return step if room_up >= room_down else -step
+        space_above, space_below = joint.upper - current[axis], current[axis] - joint.lower
+        space = max(space_above, space_below)
+        step = min(size, 0.2 * duration * joint.speed, 0.5 * space)
+        return step if space_above >= space_below else -step
 
     def download(self, points: Sequence[Point], comm: RawComm = RawComm.TOPIC) -> bytes:
         """Return a trajectory's frames as the ROS-Industrial node sends them."""

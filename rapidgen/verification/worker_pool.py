@@ -77,7 +77,7 @@ class CachedResult:
 class WorkerPool(Protocol):
     """Workers on this machine or on others."""
 
-    def room(self) -> bool:
+    def has_capacity(self) -> bool:
         """True if the pool could start another item now, or soon."""
 
     def give(self, piece: Call) -> None:
@@ -114,7 +114,7 @@ def in_order(
         if accepted in results:
             yield results.pop(accepted)
             accepted += 1
-        elif given < total and needs(given) <= accepted and workers.room() and not over():
+        elif given < total and needs(given) <= accepted and workers.has_capacity() and not over():
             made = make(given)
             if isinstance(made, CachedResult):
                 results[given] = made.result
@@ -153,7 +153,7 @@ class LocalPool:
         """Return process ids of the workers."""
         return [process.pid for process in self._processes.values() if process.pid is not None]
 
-    def room(self) -> bool:
+    def has_capacity(self) -> bool:
         """True if a worker is idle."""
         return None in self._pieces.values()
 

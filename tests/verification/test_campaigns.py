@@ -121,7 +121,7 @@ def test_workers_end_with_whoever_gives_them_work():
     assert len(processes) == 2
 
 
-def told(report):
+def comparable(report):
     """A report without what was measured."""
     result = as_json(report)
     del result["elapsed"]
@@ -143,7 +143,7 @@ def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(t
     broken_off.write_bytes(b"".join(lines[:2]) + lines[2][:40])
     again = run_suite(SIX_AXES, jobs=1, only=FEW, strength=0, results=broken_off, resume=True)
     assert broken_off.read_bytes() == files[0]
-    assert told(again) == told(report)
+    assert comparable(again) == comparable(report)
 
 
 def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
@@ -159,7 +159,7 @@ def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
         )
         for jobs in (1, 3)
     ]
-    assert told(result[0]) == told(result[1])
+    assert comparable(result[0]) == comparable(result[1])
     assert result[0].curve[-1][1] > 20
     assert result[0].programs == 2
     assert (tmp_path / "1.jsonl").read_bytes() == (tmp_path / "3.jsonl").read_bytes()
@@ -190,18 +190,20 @@ def _elsewhere(bench, program):
 
 
 @pytest.mark.parametrize(
-    ("otherwise", "told"),
+    ("otherwise", "expected"),
     [(_slower, "s when written in RAPID"), (_elsewhere, "mm off the way of the same in RAPID")],
 )
-def test_a_program_that_moves_otherwise_is_found_and_replayed(monkeypatch, capsys, otherwise, told):
+def test_a_program_that_moves_otherwise_is_found_and_replayed(
+    monkeypatch, capsys, otherwise, expected
+):
     monkeypatch.setattr("rapidgen.verification.raw_programs.in_rapid", otherwise)
     values = ["test", "irb120", "--case", "hello", "--quick", "--seeds", "0", "--programs", "1"]
     assert main([*values, "--jobs", "1"]) == 1
     printed = capsys.readouterr().out
-    assert told in printed
+    assert expected in printed
     assert "rapidgen test irb120 --replay program/0 --record story.mcap" in printed
     assert main(["test", "irb120", "--replay", "program/0"]) == 1
-    assert told in capsys.readouterr().out
+    assert expected in capsys.readouterr().out
     monkeypatch.undo()
     assert main(["test", "irb120", "--replay", "program/0"]) == 0
 

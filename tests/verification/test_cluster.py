@@ -13,7 +13,7 @@ from rapidgen.config import load_config
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.verification.suite_runner import run_suite
 from rapidgen.verification.worker_pool import each
-from tests.verification.test_campaigns import FEW, double, told
+from tests.verification.test_campaigns import FEW, comparable, double
 
 pytest.importorskip("distributed")
 
@@ -94,7 +94,7 @@ def test_the_results_are_those_of_this_machine(scheduler, hired, tmp_path):
             results=target,
         ),
     ]
-    assert told(result[0]) == told(result[1])
+    assert comparable(result[0]) == comparable(result[1])
     assert here.read_bytes() == target.read_bytes()
     assert message == []
 

@@ -172,7 +172,7 @@ def test_a_refusal_that_does_not_come_is_seen(bench):
         (RawReason.JOINT_LIMIT, 2, None),
         (RawReason.JOINT_LIMIT, 1, 1),
     ):
-        with red("wanted in_error|had to be blamed"):
+        with red("wanted in_error|had to be named"):
             refusals.refused(bench, frames, [reason], joint, point)
     with red("it had to be refused"):
         refusals.refused(bench, bench.download(bench.wave(4)), [RawReason.JOINT_LIMIT])

@@ -121,13 +121,13 @@ def test_one_that_was_elsewhere_for_a_moment_is_not(place):
 
 
 def test_a_robot_that_moves_does_not_stay(bench):
-    bench.assert_at_rest(1, "nobody asked for motion")
+    bench.assert_at_rest(1, "no client asked for motion")
     points = bench.wave(3)
     back = [(p, 0.4) for p, _ in points[-2::-1]]
     bench.motion().send(bench.download([*points, *back]))
     # It is where it was when the time is over: what counts is what happened meanwhile.
-    with red("nobody asked for motion"):
-        bench.assert_at_rest(5, "nobody asked for motion")
+    with red("no client asked for motion"):
+        bench.assert_at_rest(5, "no client asked for motion")
     assert position_checks.distance(bench.position, points[0][0]) < position_checks.SETTLED
     bench.assert_at_rest(5, "its trajectory is over")
 

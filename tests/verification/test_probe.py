@@ -11,7 +11,7 @@ from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.rapid import check, parse
 from rapidgen.rapid.switches import Switches
-from rapidgen.verification.settings import assumption_choices, said
+from rapidgen.verification.settings import assumption_choices, assumption_text
 from tests.verification.probing import answers, asked
 
 PROBE = data_folder("templates") / "ROS_probe.mod"
@@ -42,7 +42,7 @@ def test_an_answer_is_the_switch(name, value, tmp_path):
     set_so = replace(Switches(), **{name: value})
     reply = answers(TEXT, tmp_path / PROBE.name, partial(run, dialect=set_so))
     assert len(reply) == len(ASKED)
-    assert set(reply) == {said(asked, getattr(set_so, asked)) for asked in ASKED}
+    assert set(reply) == {assumption_text(asked, getattr(set_so, asked)) for asked in ASKED}
 
 
 @pytest.mark.parametrize("value", [True, False])
@@ -59,7 +59,7 @@ def test_what_a_task_without_a_robot_is_asked(name, value, tmp_path):
     ) as controller:
         controller.operator.subscribe(lambda _task, text: lines.append(text))
         controller.run(max_time=60)
-    assert said(name, value) in lines
+    assert assumption_text(name, value) in lines
 
 
 def test_it_asks():

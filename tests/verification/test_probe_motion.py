@@ -13,7 +13,7 @@ from rapidgen.controller import VirtualController
 from rapidgen.machine.operator import Answer
 from rapidgen.motion.settings import MotionSettings
 from rapidgen.rapid import check, parse
-from rapidgen.verification.settings import assumption_choices, said
+from rapidgen.verification.settings import assumption_choices, assumption_text
 from tests.verification.probing import answers, asked
 
 PROBE = data_folder("templates") / "ROS_probe_motion.mod"
@@ -45,7 +45,7 @@ def test_an_answer_is_the_switch(name, value, tmp_path):
     settings, places = replace(MotionSettings(), **{name: value}), []
     reply = answers(TEXT, tmp_path / PROBE.name, partial(run, settings=settings, places=places))
     assert len(reply) == len(ASKED)
-    assert set(reply) == {said(asks, getattr(settings, asks)) for asks in ASKED}
+    assert set(reply) == {assumption_text(asks, getattr(settings, asks)) for asks in ASKED}
     assert max(places) < 0.19
     assert min(places) > -0.01
 

@@ -20,22 +20,27 @@ from rapidgen.verification.settings import (
     NEEDED,
     Setting,
     assumed,
+    assumption_text,
     possible,
     questions,
     rows,
-    said,
 )
 
 
 def answers(texts):
     """What a row assumes, defaults included."""
     chosen = dict(text.split("=") for text in texts)
-    return {n: chosen.get(n, said(n, own[0]).partition("=")[2]) for n, own in questions().items()}
+    return {
+        n: chosen.get(n, assumption_text(n, own[0]).partition("=")[2])
+        for n, own in questions().items()
+    }
 
 
 def missing(array, strength=2):
     """Combinations of answers that no row has, from the questions themselves."""
-    requested = {n: [said(n, a).partition("=")[2] for a in own] for n, own in questions().items()}
+    requested = {
+        n: [assumption_text(n, a).partition("=")[2] for a in own] for n, own in questions().items()
+    }
     result = {
         tuple(zip(names, met, strict=True))
         for names in combinations(requested, strength)
@@ -105,7 +110,7 @@ def test_every_switch_is_asked_or_left_out_by_name():
 @pytest.mark.parametrize("name", questions())
 def test_an_assumption_is_made(name):
     """Every answer makes another setting, and the first one the default."""
-    texts = [said(name, answer) for answer in questions()[name]]
+    texts = [assumption_text(name, answer) for answer in questions()[name]]
     result = [assumed([text]) for text in texts]
     assert result[0] == Setting()
     assert all(a != b for a, b in combinations(result, 2))

@@ -52,7 +52,7 @@ def _as_topics(bench: Bench) -> None:
         1,
         RawReason.SEQUENCE_GAP,
     ):
-        raise CheckFailed(f"a topic behind 22 points had a hole, {progress}, {status}")
+        raise CheckFailed(f"a topic after 22 points had a hole, {progress}, {status}")
 
 
 @case("batch-in-time", "a batch that comes while the last point is approached", "R9")
@@ -104,17 +104,17 @@ def _shapes(bench: Bench) -> None:
     link = bench.motion()
     for size in (0, 8, 16):
         link.send(messages.framed(messages.POINTS, bytes(size)))
-        told = messages.decode(link.expect_reply(2, "a batch without a head is answered"))
-        if not isinstance(told, messages.RawPointsRefused | messages.RawFailure):
-            raise CheckFailed(f"a batch of {size} bytes is answered by {told}")
+        answer = messages.decode(link.expect_reply(2, "a batch without a head is answered"))
+        if not isinstance(answer, messages.RawPointsRefused | messages.RawFailure):
+            raise CheckFailed(f"a batch of {size} bytes is answered by {answer}")
     for number, first in enumerate((1, messages.INDEX_WRAP - 1), 2):
         link.send(batches.points_frame(number, first, points, BEGIN))
         stream = Streamer(bench, link, number=number)
         stream.reply()
-        told = stream.refused(RawReason.SEQUENCE_GAP, f"a beginning at point {first}")
-        if (told.accepted, told.point) != (0, 0):
-            raise CheckFailed(f"a beginning at point {first}: the reply is {told}")
-    bench.assert_at_rest(1, "no stream has begun")
+        answer = stream.refused(RawReason.SEQUENCE_GAP, f"a beginning at point {first}")
+        if (answer.accepted, answer.point) != (0, 0):
+            raise CheckFailed(f"a beginning at point {first}: the reply is {answer}")
+    bench.assert_at_rest(1, "no stream has started")
     values = [word for point in points[5:] for word in batches.words_of(point)]
     exchanged = bytearray(batches.points_frame(7, 5, points[5:]))
     exchanged[32:40] = exchanged[36:40] + exchanged[32:36]
@@ -131,18 +131,18 @@ def _shapes(bench: Bench) -> None:
     ]
     for value in (2**24 + 1, 2**31 - 1, -(2**31)):
         for place in (32, 36, len(data) + 12):
-            spoilt = bytearray(batches.points_frame(7, 5, points[5:]))
-            struct.pack_into("<i", spoilt, place, value)
-            wrong.append((bytes(spoilt), RawReason.CHECKSUM))
+            damaged = bytearray(batches.points_frame(7, 5, points[5:]))
+            struct.pack_into("<i", damaged, place, value)
+            wrong.append((bytes(damaged), RawReason.CHECKSUM))
     for bad, reason in wrong:
         points = way(bench, 10)
         stream = Streamer(bench, link, number=7)
         stream.put(points[:5], BEGIN)
         link.send(bad)
         stream.reply()
-        told = stream.refused(reason, f"a batch that begins with {bad[:40].hex()}")
-        if (told.accepted, told.point, told.joint) != (5, 5, 0):
-            raise CheckFailed(f"five points were right, the reply is {told}")
+        answer = stream.refused(reason, f"a batch that begins with {bad[:40].hex()}")
+        if (answer.accepted, answer.point, answer.joint) != (5, 5, 0):
+            raise CheckFailed(f"five points were right, the reply is {answer}")
         bench.wait_until_at(points[4][0], 10)
         if distance(bench.position, points[4][0]) > 1e-3:
             raise CheckFailed("the points before a wrong batch are not executed")

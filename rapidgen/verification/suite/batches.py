@@ -21,7 +21,7 @@ _NONE = RawStreamFlag(0)
 _LARGEST = 2**23 - 1
 
 
-@case("batch-replies", "replies to batches: counts, room, state")
+@case("batch-replies", "replies to batches: counts, free places, state")
 def _replies(bench: Bench) -> None:
     """Check stream, trajectory, accepted points, space and progress of replies."""
     watcher, ring = bench.watcher(), bench.config.trajectory.ring
@@ -63,10 +63,7 @@ def _replies(bench: Bench) -> None:
     bench.run(0.5)
     for flags in (_NONE, END):
         stream.put((), flags)
-        if (
-            stream.accepted("a batch without points behind the end").state
-            != RawTrajectoryState.DONE
-        ):
+        if stream.accepted("a batch without points after the end").state != RawTrajectoryState.DONE:
             raise CheckFailed(f"the stream is done, the reply is {stream.last}")
 
 
@@ -91,7 +88,7 @@ def _strange(bench: Bench) -> None:
     bench.wait_until_standing(5)
 
 
-def _spoilt(frame: bytes, place: int) -> bytes:
+def _damaged(frame: bytes, place: int) -> bytes:
     data = bytearray(frame)
     data[place : place + 8] = b"\xff" * 8
     return bytes(data)
@@ -103,7 +100,7 @@ def _no_number(bench: Bench) -> None:
     last = len(Streamer(bench, number=3).frame(way(bench, 4), BEGIN)) - 8
     for place, whose in ((16, 0), (24, 3), (32, 3), (40, 3), (last - 8, 3), (last, 3)):
         stream = Streamer(bench, number=3)
-        stream.say(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
+        stream.say(_damaged(stream.frame(way(bench, 4), BEGIN), place))
         reply = stream.last
         if (
             not isinstance(reply, messages.RawPointsRefused)
@@ -140,7 +137,7 @@ def _damaged_beginning(bench: Bench) -> None:
             stream.accepted("points of the stream under way")
             bench.wait_until_at(points[-1][0], 20)
         else:
-            stream.refused(RawReason.CHECKSUM, "points behind a damaged beginning")
+            stream.refused(RawReason.CHECKSUM, "points after a damaged beginning")
             bench.wait_until_at(points[19][0], 20)
         bench.executed(points, since)
         stream.link.close(then=1.2)
@@ -203,14 +200,14 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream.number, stream.sent = 5, 0
     stream.put((), BEGIN)
     stream.link.stop()
-    refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 20))
+    refusal = stream.refuses(RawReason.STOPPED, "points after a STOP", way(bench, 20))
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
-        raise CheckFailed(f"points behind a STOP are answered by {refusal}")
+        raise CheckFailed(f"points after a STOP are answered by {refusal}")
     bench.assert_at_rest(1, "the stream was stopped")
     stream.number, stream.sent = 2, 0
     stream.put((), BEGIN)
     stream.link.send(bench.download(bench.wave(3))[:68])
-    stream.refuses(RawReason.SUPERSEDED, "points behind a download", way(bench, 20))
+    stream.refuses(RawReason.SUPERSEDED, "points after a download", way(bench, 20))
     bench.assert_at_rest(1, "the stream was superseded")
     for number in (3, 4):
         stream.number, stream.sent = number, 0
@@ -218,7 +215,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
         if number == 4:
             stream.put(way(bench, 3), _NONE)
             stream.sent = 17
-            stream.refuses(RawReason.SEQUENCE_GAP, "points behind a hole", way(bench, 3), _NONE)
+            stream.refuses(RawReason.SEQUENCE_GAP, "points after a hole", way(bench, 3), _NONE)
         stream.link.close(then=1)
         reply = bench.progress(watcher)
         expected = (RawTrajectoryState.REFUSED, RawReason.INCOMPLETE) if number == 3 else None
@@ -253,7 +250,7 @@ def _stays(bench: Bench) -> None:
     stream.takes("a stay in another batch", [(second[0], stay), third], END)
     bench.wait_until_at(third[0], 10)
     if not any(t > since and distance(p, second[0]) < 1e-4 for t, p in bench.track):
-        raise CheckFailed("the robot was not where the next batch told it to stay")
+        raise CheckFailed("the robot was not where the next batch asked for a stay")
 
 
 @case("batch-short-last", "a short last segment of a stream", "R9")
@@ -301,7 +298,7 @@ def _index_wraps(bench: Bench) -> None:
     if stream.accepted("points over the last number").accepted != 5:
         raise CheckFailed(f"ten points from {last - 5} on, the reply is {stream.last}")
     stream.sent = 5
-    stream.takes("points behind the last number", points[20:], END)
+    stream.takes("points after the last number", points[20:], END)
     bench.arrives(points, since, 20)
 
 
@@ -323,9 +320,12 @@ def _unreadable(bench: Bench) -> None:
         recovers()
         if not stream.link.lost:
             stream.reply()
-            told = stream.last
-            if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.CHECKSUM:
-                raise CheckFailed(f"read {after} of a batch has failed, the reply is {told}")
+            answer = stream.last
+            if (
+                not isinstance(answer, messages.RawPointsRefused)
+                or answer.reason != RawReason.CHECKSUM
+            ):
+                raise CheckFailed(f"read {after} of a batch has failed, the reply is {answer}")
         bench.wait_until_standing(10)
         bench.executed(points[:8], since)
         bench.assert_at_rest(0.3, f"read {after} of a batch has failed")
@@ -360,20 +360,20 @@ def _fits_unread(bench: Bench) -> None:
         stream.link.close(then=0.5)
 
 
-@case("batch-behind-end", "points behind the end")
-def _behind_the_end(bench: Bench) -> None:
+@case("batch-behind-end", "points after the end")
+def _after_end(bench: Bench) -> None:
     """Send points after the end: rejected, and earlier points are executed."""
     watcher = bench.watcher()
     stream = Streamer(bench)
     stream.all(way(bench, 12))
-    reply = stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
+    reply = stream.refuses(RawReason.SEQUENCE_GAP, "points after the end", way(bench, 3))
     if (reply.accepted, reply.point) != (12, 12):
-        raise CheckFailed(f"points came behind 12 and the end, the reply is {reply}")
+        raise CheckFailed(f"points came after 12 and the end, the reply is {reply}")
     bench.wait_until_at(stream.points[11][0], 20)
     bench.run(0.5)
     progress = bench.progress(watcher)
     if (progress.state, progress.reached) != (RawTrajectoryState.DONE, 12):
-        raise CheckFailed(f"points came behind the end, PROGRESS says {progress}")
+        raise CheckFailed(f"points came after the end, PROGRESS says {progress}")
 
 
 @case("batch-full-ring", "a full ring begins with less than it likes to have", "R1")
@@ -385,10 +385,10 @@ def _full_ring(bench: Bench) -> None:
         raise NotApplicable("a full ring lasts longer than `preload`")
     stream = Streamer(bench)
     points = way(bench, count, seconds)
-    stream.takes("almost all that there is room for", points[:-3], BEGIN)
+    stream.takes("almost all that fit", points[:-3], BEGIN)
     bench.assert_at_rest(1, f"{count - 4} points are less than it likes to have")
     stream.put(points[-3:])
-    if stream.accepted("all that there is room for").room:
+    if stream.accepted("all that fit").room:
         raise CheckFailed(f"the ring is full, the reply is {stream.last}")
     bench.wait_until_moving(1)
     stream.put((), END)

@@ -91,7 +91,7 @@ def _part_before_stop(bench: Bench) -> None:
         watcher.close()
 
 
-@case("waiting-before-stop", "an order that waits behind a silent client", "R7a, R12")
+@case("waiting-before-stop", "an order that waits after a silent client", "R7a, R12")
 def _waiting_before_stop(bench: Bench) -> None:
     """Stop while the data is received but not read."""
     for path in _ways(bench):
@@ -107,10 +107,10 @@ def _waiting_before_stop(bench: Bench) -> None:
                 bench.controller.perform(action)
                 bench.run(stopped)
                 bench.start_again()
-                bench.assert_at_rest(4, f"a {path} waited behind a silent client at {action}")
+                bench.assert_at_rest(4, f"a {path} waited after a silent client at {action}")
                 silent.close()
                 bench.assert_at_rest(
-                    3, f"a {path} waited behind a client at {action}, which then left"
+                    3, f"a {path} waited after a client at {action}, which then left"
                 )
                 for link in waiting:
                     link.close()

@@ -94,8 +94,8 @@ def _fastest(bench: Bench) -> None:
         raise NotApplicable("axes are not refused for their speed alone")
     for axis, joint in enumerate(bench.group.joints):
         seconds = max(0.2, bench.config.trajectory.min_segment)
-        room = max(joint.upper - bench.position[axis], bench.position[axis] - joint.lower)
-        if room < 1.1 * seconds * joint.speed:
+        space = max(joint.upper - bench.position[axis], bench.position[axis] - joint.lower)
+        if space < 1.1 * seconds * joint.speed:
             continue
         current = bench.position
         for share in (0.995, 1.05):
@@ -295,16 +295,16 @@ def _rest_is_skipped(bench: Bench) -> None:
     number = bench.progress(state).trajectory
     link.send(frames[4])
     bench.assert_at_rest(0.5, "a refused trajectory goes on")
-    _blames(bench, state, number, RawReason.JOINT_LIMIT)
+    _expect_reason(bench, state, number, RawReason.JOINT_LIMIT)
     # A new start ends the skipping, and the rejected trajectory's end does too.
     good = bench.wave(4)
     bench.assert_moves_through(link, good)
     link.send(b"".join(frames))
     bench.assert_at_rest(0.5, "it was refused")
-    _blames(bench, state, number + 2, RawReason.JOINT_LIMIT)
+    _expect_reason(bench, state, number + 2, RawReason.JOINT_LIMIT)
     link.send(raw_point(1, bench.position, 1.0))
     bench.assert_at_rest(0.5, "it has no start")
-    _blames(bench, state, number + 3, RawReason.NO_START)
+    _expect_reason(bench, state, number + 3, RawReason.NO_START)
     link.send(raw_point(int(RawSpecial.END), bench.position, 1.0))
     bench.run(0.5)
     bench.assert_moves_through(link, bench.wave(4))
@@ -314,10 +314,10 @@ def _rest_is_skipped(bench: Bench) -> None:
         link.send(raw_point(int(RawSpecial.END), bench.position, 1.0))
         bench.run(0.3)
         if bench.progress(state).reason != RawReason.SEQUENCE_GAP:
-            raise CheckFailed(f"number {wrong} behind a start is taken")
+            raise CheckFailed(f"number {wrong} after a start is taken")
 
 
-def _blames(bench: Bench, state: RawLink, number: int, reason: RawReason) -> None:
+def _expect_reason(bench: Bench, state: RawLink, number: int, reason: RawReason) -> None:
     bench.run(0.3)
     reply = bench.progress(state)
     if (reply.trajectory, reply.state, reply.reason) != (
@@ -346,9 +346,9 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
     far = changed(current, axis, _inward(bench, axis, 0.3))
     link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, current, 9.0))
     link.send(raw_point(1, current, 1.0, RawComm.REQUEST))
-    content = decode(link.expect_reply(2, "a point behind a refused end is answered"))
+    content = decode(link.expect_reply(2, "a point after a refused end is answered"))
     if not isinstance(content, messages.RawRefused) or content.reason != RawReason.NO_START:
-        raise CheckFailed(f"a point behind a refused end is answered by {content}")
+        raise CheckFailed(f"a point after a refused end is answered by {content}")
     link.send(raw_point(int(RawSpecial.END), current, 1.0))
     bench.run(0.5)
     state = bench.watcher()

@@ -24,7 +24,7 @@ def _quick(bench: Bench) -> list[Point]:
     return [(current, 1.0), (target, seconds), (changed(current, 0, current[0] + 0.9 * step), 1.0)]
 
 
-@case("slowed-down", "what is too fast is slowed down where told so", "R10")
+@case("slowed-down", "what is too fast is slowed down if so configured", "R10")
 def _slowed_down(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "slow_down":
         raise NotApplicable("`too_fast` refuses")
@@ -42,26 +42,26 @@ def _slowed_down(bench: Bench) -> None:
 
 
 @links("strangers", "addresses that the configuration does not name are not served")
-def _strangers(bench: Bench) -> None:
+def _unlisted_clients(bench: Bench) -> None:
     """Connect from other addresses, which must not replace clients either."""
     if not bench.config.allowed_clients:
         raise NotApplicable("`allowed_clients` names none")
     ports, known = bench.group.ports, [bench.state() for _ in range(3)]
     bench.run(0.5)
     for port in (ports.motion, ports.state, ports.control):
-        stranger = bench.connect_unlisted(port) if port else None
-        if stranger is None:
+        unlisted = bench.connect_unlisted(port) if port else None
+        if unlisted is None:
             continue
-        stranger.send(bench.download(bench.wave(4)))
-        bench.assert_at_rest(1, "a stranger has asked for it")
-        if not stranger.lost or stranger.read():
-            raise CheckFailed(f"a stranger is served on port {port}")
+        unlisted.send(bench.download(bench.wave(4)))
+        bench.assert_at_rest(1, "a client that is not listed sent it")
+        if not unlisted.lost or unlisted.read():
+            raise CheckFailed(f"a client that is not listed is served on port {port}")
     if any(link.lost for link in known):
-        raise CheckFailed("strangers take the place of others")
+        raise CheckFailed("clients that are not listed replace others")
     bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
-@links("stalls", "a client that stalls inside of a message is dropped where told so", "R12")
+@links("stalls", "a client that stalls inside of a message is dropped if so configured", "R12")
 def _stalls(bench: Bench) -> None:
     seconds = bench.config.receive_timeout
     link = bench.motion()
@@ -76,7 +76,12 @@ def _stalls(bench: Bench) -> None:
     bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
-@links("control-silent", "a control client that does not read harms nobody", "R13", needs="control")
+@links(
+    "control-silent",
+    "a control client that does not read harms no other client",
+    "R13",
+    needs="control",
+)
 def _control_silent(bench: Bench) -> None:
     silent, link = bench.control(), bench.motion()
     bench.run(0.2)
@@ -102,11 +107,11 @@ def _braking(bench: Bench) -> None:
         bench.wait_until_standing(3)
         stood = bench.now - 0.1
         bench.run(4 * period + bench.setting.motion.settle)
-        for when, status in state.told(messages.RawStatus, since):
+        for when, status in state.messages_of(messages.RawStatus, since):
             if when < stood - 0.005 and not status.in_motion:
                 raise CheckFailed(f"at {when:.3f} s the robot brakes, STATUS says {status}")
-        if state.told(messages.RawStatus, since)[-1][1].in_motion:
-            raise CheckFailed("the robot stands, STATUS says that it is in motion")
+        if state.messages_of(messages.RawStatus, since)[-1][1].in_motion:
+            raise CheckFailed("the robot is at rest, STATUS reports motion")
 
 
 @reading("there-and-back", "a movement back and forth between two STATUS is in one of them", "R16")
@@ -122,6 +127,6 @@ def _there_and_back(bench: Bench) -> None:
         bench.run(0.6 + 2 * bench.config.state_period + 2 * bench.setting.motion.settle)
         if distance(bench.position, current) > 1e-4:
             raise CheckFailed("a movement there and back does not end where it began")
-        moved = [status.in_motion for _, status in state.told(messages.RawStatus, since)]
+        moved = [status.in_motion for _, status in state.messages_of(messages.RawStatus, since)]
         if 1 not in moved or moved[-1]:
             raise CheckFailed(f"a movement there and back: STATUS says {moved}")

@@ -64,7 +64,7 @@ def _moves(bench: Bench) -> None:
 @case("idle-client", "an idle client is never timed out")
 def _idle_client(bench: Bench) -> None:
     link = bench.motion()
-    bench.assert_at_rest(900, "nobody asked for anything")
+    bench.assert_at_rest(900, "no client asked for anything")
     bench.assert_moves_through(link, bench.wave(4))
 
 
@@ -77,7 +77,7 @@ def _newest_takes_over(bench: Bench) -> None:
     bench.assert_moves_through(new, bench.wave(3))
 
 
-@case("dead-peer", "a peer that died without a word blocks nobody", "R12")
+@case("dead-peer", "a peer that died silently blocks no other client", "R12")
 def _dead_peer(bench: Bench) -> None:
     old = bench.motion()
     bench.assert_moves_through(old, bench.wave(3))
@@ -158,7 +158,7 @@ def _sets_off(bench: Bench, link: RawLink, what: str) -> list[Point]:
     return points
 
 
-@case("silent-while-moving", "whoever connects stops nobody", "R12")
+@case("silent-while-moving", "a new connection stops no motion", "R12")
 def _silent_while_moving(bench: Bench) -> None:
     """Keep a trajectory with a silent client running.
 
@@ -222,10 +222,10 @@ def _second_stops(bench: Bench) -> None:
             raise CheckFailed("the PING in front of a second client's STOP is not answered")
         if not isinstance(new.reply(messages.JOINT_TRAJ_PT, 1), messages.RawAcknowledged):
             raise CheckFailed(f"{what}: a second client's STOP is not confirmed")
-        bench.assert_at_rest(1, f"{what}: a second client has said STOP")
-        told = bench.progress(watcher)
-        if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
-            raise CheckFailed(f"{what}: a second client has said STOP, PROGRESS says {told}")
+        bench.assert_at_rest(1, f"{what}: a second client has sent STOP")
+        answer = bench.progress(watcher)
+        if (answer.state, answer.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
+            raise CheckFailed(f"{what}: a second client has sent STOP, PROGRESS says {answer}")
         bench.assert_moves_through(new, bench.wave(3))
         old = new
     # Its own trajectory replaces the current one, and starts where that has stopped.

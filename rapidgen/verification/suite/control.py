@@ -12,7 +12,7 @@ from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.stream import BEGIN, END, Streamer
-from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.motion_task import halt_timeout
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import HELLO, Bench
 
@@ -45,7 +45,7 @@ def done(reply: object, what: str) -> None:
         raise CheckFailed(f"{what}: the reply is {reply}")
 
 
-@case("control-stop", "STOP over the control port, and where the robot stands", "R5")
+@case("control-stop", "STOP over the control port, and the robot's position", "R5")
 def _stops(bench: Bench) -> None:
     """Send STOP during a download; STOPPED gives the robot's position."""
     control, watcher = bench.control(), bench.watcher()
@@ -66,7 +66,7 @@ def _stops(bench: Bench) -> None:
         # If axes follow late, their last millimetres still change.
         near = 5e-3 if bench.setting.motion.servo_lag else 1e-4
         if max(abs(a - b) for a, b in zip(reply.joints, current, strict=True)) > near:
-            raise CheckFailed(f"the robot stands at {current}, STOPPED says {reply.joints}")
+            raise CheckFailed(f"the robot is at {current}, STOPPED says {reply.joints}")
         if (reply.trajectory, reply.reached, reply.reason) != (
             progress.trajectory,
             progress.reached,
@@ -109,8 +109,7 @@ def _stop_under_load(bench: Bench) -> None:
         most = delay + 0.01 * bench.setting.slowness
         if late - requested > most and not bench.setting.random_schedule:
             raise CheckFailed(
-                f"under load the robot is told to stop after {late - requested:.3f} s, "
-                f"not {most:.3f} s"
+                f"under load the stop is ordered after {late - requested:.3f} s, not {most:.3f} s"
             )
         bench.wait_until_at_rest(3, 1, "it was stopped under load")
         stream.link.close(then=2)
@@ -131,7 +130,7 @@ def _stop_at_any_moment(bench: Bench) -> None:
         bench.wait_until_standing(5)
         bench.run(0.3)
         link.stop()
-        bench.assert_at_rest(0.4, f"STOP came {step * 4} ms behind a trajectory")
+        bench.assert_at_rest(0.4, f"STOP came {step * 4} ms after a trajectory")
     bench.assert_moves_through(link, bench.wave(4))
 
 
@@ -195,7 +194,7 @@ def _pause_ends(bench: Bench) -> None:
 
 
 @case("nobody-answers", "a motion task that does not answer", background=True)
-def _nobody_answers(bench: Bench) -> None:
+def _stopped_motion_task(bench: Bench) -> None:
     """Send requests while the motion task is stopped: failure replies, soon."""
     control, link = bench.control(), bench.motion()
     bench.start_motion(link, bench.wave(12))
@@ -276,10 +275,10 @@ def _heartbeats(bench: Bench) -> None:
             if bench.standing or reply.state != RawTrajectoryState.MOVING:
                 raise CheckFailed(f"the robot does not move although heartbeats come: {reply}")
         last = bench.now
-        told_stop = control.expect(messages.RawStopped, 3, "without a heartbeat the robot stops")
+        stop_ordered = control.expect(messages.RawStopped, 3, "without a heartbeat the robot stops")
         bench.wait_until_standing(3)
-        if not 0.45 < bench.now - last < 2.5 or told_stop.reason != RawReason.CLIENT_LOST:
-            raise CheckFailed(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
+        if not 0.45 < bench.now - last < 2.5 or stop_ordered.reason != RawReason.CLIENT_LOST:
+            raise CheckFailed(f"{bench.now - last:.2f} s after the last heartbeat: {stop_ordered}")
         bench.assert_at_rest(3, "a heartbeat is missing")
         # The first missing heartbeat.
         bench.assert_moves_through(link, bench.wave(6))
@@ -403,13 +402,13 @@ def _first_start(bench: Bench) -> None:
     received = watched_orders(bench)
     bench.run(2)
     if received:
-        raise CheckFailed(f"nobody has asked for anything, the driver orders {received[0]}")
+        raise CheckFailed(f"no client has asked for anything, the driver orders {received[0]}")
 
 
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
 def _supervisor_is_gone(bench: Bench) -> None:
     """End the supervisor: nothing moves, and no reply claims success."""
-    with bench.beside(bench.system) as other:
+    with bench.second_controller(bench.system) as other:
         control, link, state = other.control(), other.motion(), other.state()
         other.run(1)
         if not other.status(state).motion_possible:
@@ -422,12 +421,12 @@ def _supervisor_is_gone(bench: Bench) -> None:
         other.assert_at_rest(3, "the supervisor does not answer")
         for requested in (control, link):
             requested.send(STOP)
-            told = requested.reply(_TRAJ, 3)
-            if not isinstance(told, messages.RawFailure):
-                raise CheckFailed(f"the supervisor does not answer, STOP is answered by {told}")
+            answer = requested.reply(_TRAJ, 3)
+            if not isinstance(answer, messages.RawFailure):
+                raise CheckFailed(f"the supervisor does not answer, STOP is answered by {answer}")
         not_done(control.ask(messages.RawPause(1), 3), RawReason.INTERNAL, "PAUSE")
         other.assert_at_rest(1, "the supervisor does not answer")
-    with bench.beside(bench.system) as other:
+    with bench.second_controller(bench.system) as other:
         control, link = other.control(), other.motion()
         other.start_motion(link, other.wave(30))
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
@@ -446,11 +445,13 @@ def _old_end(bench: Bench) -> None:
     bench.start_motion(link, bench.wave(12))
     link.stop()
     bench.wait_until_standing(3)
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     control = bench.control()
     bench.run(1)
     if any(f.number == messages.STOPPED for f in control.read()):
-        raise CheckFailed("a client is told of a trajectory that had ended before it came")
+        raise CheckFailed(
+            "a client gets STOPPED of a trajectory that had ended before it connected"
+        )
     link.close(then=1.2)
     stream = Streamer(bench)
     points = way(bench, 20)
@@ -462,7 +463,7 @@ def _old_end(bench: Bench) -> None:
     stream.refused(RawReason.JOINT_LIMIT, "joint 2 is outside its limits")
     reply = control.expect(messages.RawStopped, 10, "STOPPED arrives")
     if (reply.reached, reply.reason) != (20, RawReason.JOINT_LIMIT):
-        raise CheckFailed(f"a stream was cut behind 20 points, STOPPED says {reply}")
+        raise CheckFailed(f"a stream was cut after 20 points, STOPPED says {reply}")
     # Axes that follow late are not at their target yet.
     near = 1e-3 + 0.2 * bench.setting.motion.servo_lag
     if distance(reply.joints[: len(current)], current) > near or any(reply.joints[len(current) :]):
@@ -484,8 +485,8 @@ def _stream_over_control(bench: Bench) -> None:
     stream.takes("points while the stream is paused", points[25:50])
     bench.assert_at_rest(3, "the stream is paused")
     done(control.ask(messages.RawPause(0)), "the end of a pause")
-    stream.takes("points behind a pause", points[50:70])
-    stream.takes("the end of a stream behind a pause", points[70:], END)
+    stream.takes("points after a pause", points[50:70])
+    stream.takes("the end of a stream after a pause", points[70:], END)
     bench.arrives(points, since, 60)
     stream = Streamer(bench, stream.link, number=2)
     stream.put(way(bench, 25), BEGIN)
@@ -494,7 +495,7 @@ def _stream_over_control(bench: Bench) -> None:
     control.read()
     stop(control)
     reply = control.expect(messages.RawStopped, 2, "STOPPED arrives")
-    refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 3))
+    refusal = stream.refuses(RawReason.STOPPED, "points after a STOP", way(bench, 3))
     if refusal.trajectory != reply.trajectory or refusal.point != reply.reached:
-        raise CheckFailed(f"STOPPED says {reply}, a batch behind it is answered by {refusal}")
+        raise CheckFailed(f"STOPPED says {reply}, a batch after it is answered by {refusal}")
     bench.wait_until_at_rest(1, 2, "the stream was stopped")

@@ -60,11 +60,11 @@ def _newest_control_client(bench: Bench) -> None:
 @case("control-hello", "HELLO, PING and requests in pieces and lumps", "R2")
 def _control_hello(bench: Bench) -> None:
     control = bench.control()
-    told = control.ask(HELLO)
-    if not isinstance(told, messages.RawHelloReply) or told.build_id != bench.system.build_id:
-        raise CheckFailed(f"HELLO on the control port is answered by {told}")
-    if bench.state().ask(HELLO) != told:
-        raise CheckFailed(f"HELLO on the state port is not answered by {told}")
+    answer = control.ask(HELLO)
+    if not isinstance(answer, messages.RawHelloReply) or answer.build_id != bench.system.build_id:
+        raise CheckFailed(f"HELLO on the control port is answered by {answer}")
+    if bench.state().ask(HELLO) != answer:
+        raise CheckFailed(f"HELLO on the state port is not answered by {answer}")
     done(control.ask(messages.RawPing()), "PING")
     control.send(b"\x0c\0\0\0\x14\0\0\0\x02\0\0\0\0\0\0\0")
     if not isinstance(_failure(control), messages.RawFailure):
@@ -126,8 +126,8 @@ def _signals(bench: Bench) -> None:
     for index in (-1, count, 99, 2**31 - 1, -(2**31)):
         control.send(messages.encode(messages.RawSignal(index, 0, 0.0), RawComm.REQUEST))
         if count:
-            told = control.reply(messages.SIGNAL)
-            not_done(told, RawReason.NO_SIGNAL, f"signal {index} of {count}")
+            answer = control.reply(messages.SIGNAL)
+            not_done(answer, RawReason.NO_SIGNAL, f"signal {index} of {count}")
         elif not isinstance(_failure(control), messages.RawFailure):
             raise CheckFailed("a driver without signals answers SIGNAL")
     for index, signal in enumerate(exposed):

@@ -25,7 +25,7 @@ def _alone(bench: Bench) -> None:
     No reply claims success.
     """
     for port in ("control", "motion", "heartbeat", "leaves"):
-        with bench.beside(bench.system) as other:
+        with bench.second_controller(bench.system) as other:
             _stops_alone(other, port)
 
 
@@ -46,9 +46,9 @@ def _stops_alone(bench: Bench, port: str) -> None:
     motion = bench.setting.motion
     bench.wait_until_standing(1.3 + motion.settle + motion.servo_lag)
     if port in ("control", "motion"):
-        told = chosen.reply(_TRAJ, 2)
-        if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - requested < 1.8:
-            raise CheckFailed(f"STOP is answered by {told} after {bench.now - requested:.2f} s")
+        answer = chosen.reply(_TRAJ, 2)
+        if not isinstance(answer, messages.RawFailure) or not 0.9 < bench.now - requested < 1.8:
+            raise CheckFailed(f"STOP is answered by {answer} after {bench.now - requested:.2f} s")
     if not any(o.instruction == "StopMove" and o.free for o in orders):
         raise CheckFailed(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
     # Some controllers continue a program after StopMove, and report it, only then.
@@ -89,12 +89,12 @@ def _cannot(bench: Bench) -> None:
     fails(bench, "ROS_control", "StopMove", "ERR_PATH_STOP")
     supervisor.stop()
     control.send(STOP)
-    told = control.reply(_TRAJ, 2)
+    answer = control.reply(_TRAJ, 2)
     # If the motion server was first, this one has not tried.
     texts = " ".join(str(event) for event in bench.controller.log.since(last))
     known = "could not stop the robot" in texts or "The robot was stopped by" in texts
-    if not isinstance(told, messages.RawFailure) or not known:
-        raise CheckFailed(f"a server cannot stop the robot, {told}, the event log says {texts}")
+    if not isinstance(answer, messages.RawFailure) or not known:
+        raise CheckFailed(f"a server cannot stop the robot, {answer}, the event log says {texts}")
     bench.wait_until_standing(1 + bench.setting.motion.settle + bench.setting.motion.servo_lag)
     supervisor.start()
     bench.wait_until_at_rest(3, 1, "the supervisor goes on, and was asked to stop")
@@ -177,7 +177,7 @@ def _leave(bench: Bench) -> None:
 
 
 @case("stops-before", "STOP before a stream moves")
-def _not_begun(bench: Bench) -> None:
+def _not_started(bench: Bench) -> None:
     """Stop a stream before its motion: no point was reached."""
     if bench.config.trajectory.preload <= 0:
         raise NotApplicable("streams begin at once, `preload` is 0")
@@ -193,7 +193,7 @@ def _not_begun(bench: Bench) -> None:
         or max(abs(a - b) for a, b in zip(reply.joints, current, strict=True)) > 1e-5
     ):
         raise CheckFailed(f"a stream was stopped before it moved, STOPPED says {reply}")
-    stream.refuses(RawReason.STOPPED, "points behind STOP", way(bench, 2))
+    stream.refuses(RawReason.STOPPED, "points after STOP", way(bench, 2))
     bench.run(0.3)
     progress = bench.progress(watcher)
     if (progress.trajectory, progress.state, progress.reason) != (

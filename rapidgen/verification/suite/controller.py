@@ -36,7 +36,7 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
             bench.run(0.5)
         _back_to_work(bench)
         bench.assert_at_rest(
-            5, f"the program was started again after {action}, nobody asked for motion"
+            5, f"the program was started again after {action}, no client asked for motion"
         )
         if action != "power-loss":
             status = bench.status(state)
@@ -120,7 +120,7 @@ def _pp_to_main_idle(bench: Bench) -> None:
 @case("without-signals", "missing signals are not fatal", "R15")
 def _without_signals(bench: Bench) -> None:
     bare = replace(bench.system, signals=(), outputs=(), cross=())
-    with bench.beside(bare) as other:
+    with bench.second_controller(bare) as other:
         state, link = other.state(), other.motion()
         status = other.status(state)
         if status.drives_powered != RawTriState.UNKNOWN:
@@ -137,7 +137,9 @@ def _open_files(bench: Bench) -> None:
     for without, undriven in ((absent, absent), (frozenset(), opened)):
         signals = tuple(s for s in bench.system.signals if s.name not in without)
         outputs = tuple(o for o in bench.system.outputs if o.signal not in undriven)
-        with bench.beside(replace(bench.system, signals=signals, outputs=outputs)) as other:
+        with bench.second_controller(
+            replace(bench.system, signals=signals, outputs=outputs)
+        ) as other:
             _serves_and_stops(other)
 
 
@@ -160,7 +162,7 @@ def _serves_and_stops(bench: Bench) -> None:
     bench.controller.perform("e-stop")
     bench.wait_until_at_rest(10, 2, "an emergency stop")
     _back_to_work(bench)
-    bench.assert_at_rest(5, "the program was started again, nobody asked for motion")
+    bench.assert_at_rest(5, "the program was started again, no client asked for motion")
     bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
@@ -220,7 +222,7 @@ def _mixed_builds(bench: Bench) -> None:
     }
     for path, data in sorted(files.items()):
         mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
-        with bench.beside(mixed) as other:
+        with bench.second_controller(mixed) as other:
             state, link = other.watcher(), other.motion()
             other.run(0.5)
             frames = other.download(other.wave(4))
@@ -267,7 +269,7 @@ case("power-loss", "nothing resumes after a power failure")(
 )
 
 
-@case("power-loss-after-stop", "Start works after a power failure behind another stop", "R7a")
+@case("power-loss-after-stop", "Start works after a power failure after another stop", "R7a")
 def _power_loss_after_stop(bench: Bench) -> None:
     """Interrupt a halt by a power failure: it ends after Start.
 

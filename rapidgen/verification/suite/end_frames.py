@@ -173,7 +173,7 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
         _in_time(bench, "the first way", arrived - at_start, short)
         _in_time(bench, "a stay", left - arrived, 0.5)
         ended = _times(bench, left, three)[0]
-        _in_time(bench, "the ways behind a stay", ended - left, 2 * short + 0.1)
+        _in_time(bench, "the ways after a stay", ended - left, 2 * short + 0.1)
         if last and finished < ended + 0.3:
             raise CheckFailed("a stay at the end was left out")
 
@@ -253,7 +253,7 @@ def _fed(bench: Bench) -> None:
     """
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 25:
-        raise NotApplicable("a whole trajectory has room in the ring")
+        raise NotApplicable("a whole trajectory fits into the ring")
     table, points, since = Table(bench), _long(bench, policy.ring + 25), bench.now
     table.number += 1
     table.link.send(bench.download(points))
@@ -278,7 +278,7 @@ def _ends_while_fed(bench: Bench) -> None:
     """End a trajectory while it is fed: waiting points never execute."""
     policy = bench.config.trajectory
     if policy.capacity < policy.ring + 60:
-        raise NotApplicable("a whole trajectory has room in the ring")
+        raise NotApplicable("a whole trajectory fits into the ring")
     table, points = Table(bench), _long(bench, policy.ring + 60)
     link, data = table.link, bench.download(points)
     for action in ("STOP", "stop", "another"):

@@ -12,7 +12,7 @@ from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryStat
 from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.stream import BEGIN, Streamer
-from rapidgen.verification.suite.motion_task import patience, unit_of
+from rapidgen.verification.suite.motion_task import halt_timeout, unit_of
 from rapidgen.verification.suite.supervisor import end_as_request
 from rapidgen.verification.testbench import Bench
 
@@ -106,7 +106,7 @@ def _halts(bench: Bench, module: str, situation: str) -> None:
             f"{what}: after {bench.now - finished:.2f} s the event log says {log_entries}"
         )
     bench.wait_until_standing(1 + bench.setting.motion.settle + bench.setting.motion.servo_lag)
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     if module != "ROS_stateServer":
         status, reply = bench.status(watcher), bench.progress(watcher)
         if (status.motion_possible, status.error_code) != (0, RawReason.TASK_ENDED):
@@ -120,7 +120,7 @@ def _halts(bench: Bench, module: str, situation: str) -> None:
         _is_refused(bench, link, stream, what)
     bench.assert_at_rest(1, what)
     task.start()
-    bench.run(2 + patience(bench))
+    bench.run(2 + halt_timeout(bench))
     if module == "ROS_supervisor" and bench.setting.motion.stop_owner != "kind":
         # Here the supervisor cannot reset the stop of a server.
         return
@@ -139,24 +139,24 @@ def _is_refused(bench: Bench, link: RawLink, stream: Streamer | None, what: str)
     stream.refuses(RawReason.TASK_ENDED, what, bench.wave(3), BEGIN)
 
 
-@case("task-ends-idle", "a server task ends while the robot stands", background=True)
+@case("task-ends-idle", "a server task ends while the robot is at rest", background=True)
 def _idle(bench: Bench) -> None:
     for module in _modules(bench):
-        with bench.beside(bench.system) as other:
+        with bench.second_controller(bench.system) as other:
             _halts(other, module, "idle")
 
 
 @case("task-ends-moving", "a server task ends while the robot moves", background=True)
 def _moving(bench: Bench) -> None:
     for module in _modules(bench):
-        with bench.beside(bench.system) as other:
+        with bench.second_controller(bench.system) as other:
             _halts(other, module, "moving")
 
 
 @case("task-ends-streaming", "a server task ends in a stream", needs="stream", background=True)
 def _streaming(bench: Bench) -> None:
     for module in _modules(bench):
-        with bench.beside(bench.system) as other:
+        with bench.second_controller(bench.system) as other:
             _halts(other, module, "streaming")
 
 
@@ -167,7 +167,7 @@ def _fails(bench: Bench) -> None:
     After Start nothing moves, with tasks in the background and with NORMAL ones.
     """
     for module in _modules(bench):
-        with bench.beside(bench.system) as other:
+        with bench.second_controller(bench.system) as other:
             _ends_with_an_error(other, module)
 
 

@@ -26,7 +26,7 @@ def _stop_and_more_in_one_packet(bench: Bench) -> None:
         bench.run(delay)
         # The trajectory starts at the robot's initial position.
         link.send(STOP + bench.download(second))
-        link.expect_reply(3, "STOP with a trajectory behind it is answered")
+        link.expect_reply(3, "STOP with a trajectory after it is answered")
         bench.run(6)
         bench.wait_until_standing(20)
         at_end = distance(bench.position, second[-1][0]) < 1e-3
@@ -53,7 +53,7 @@ def _loop(bench: Bench) -> None:
         if bench.now - since > 20:
             raise CheckFailed("a loop does not end")
     if bench.now - since < sum(d for _, d in points[1:]) - 0.5:
-        raise CheckFailed("a loop is told to be done before it is")
+        raise CheckFailed("a loop is reported as done before it is")
     bench.wait_until_at(points[-1][0], 5)
     bench.followed([p for p, _ in points], since=since)
     moved = [p for t, p in bench.track if t >= since]
@@ -130,7 +130,7 @@ def _stale_data(bench: Bench) -> None:
     """Start with any lock, ring or counter data in PERS: no motion."""
     chance = random.Random(bench.setting.seed)
     for _ in range(6):
-        with bench.beside(bench.system) as other:
+        with bench.second_controller(bench.system) as other:
             cells = other.controller.shared.cells.values()
             for cell in cells:
                 _fill(cell, other, chance)
@@ -191,7 +191,7 @@ def _files(bench: Bench) -> dict[str, bytes]:
 
 def _moves_nothing(bench: Bench, system: System, what: str) -> None:
     try:
-        other = bench.beside(system)
+        other = bench.second_controller(system)
     except DiagnosticError:
         return
     try:

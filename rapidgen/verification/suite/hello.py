@@ -279,7 +279,7 @@ def _progress_of_an_early_end(bench: Bench) -> None:
         if (status.in_error, status.error_code) != ((1, reply.reason) if failed else (0, 0)):
             raise CheckFailed(f"a trajectory was ended by {action}, STATUS says {status}")
         if status.in_motion:
-            raise CheckFailed(f"the robot stands after {action}, STATUS says {status}")
+            raise CheckFailed(f"the robot is at rest after {action}, STATUS says {status}")
         bench.start_again()
         bench.run(1)
         link.close()
@@ -294,7 +294,7 @@ def _progress_of_a_successor(bench: Bench) -> None:
     motion.send(bench.download(bench.wave(4))[:68])
     reply = _newest(bench, link)
     if reply[:3] != (number + 1, RawTrajectoryState.RECEIVING, 1):
-        raise CheckFailed(f"a new trajectory has begun, PROGRESS says {reply}")
+        raise CheckFailed(f"a new trajectory has started, PROGRESS says {reply}")
     bench.wait_until_standing(2)
     link.read()
     bench.run(1)

@@ -179,7 +179,7 @@ def _far_off_once(bench: Bench) -> None:
 
 @case("port-taken", "a port that is taken is waited for", "R18")
 def _port_taken(bench: Bench) -> None:
-    with bench.beside(bench.system, setting=bench.setting.early()) as other:
+    with bench.second_controller(bench.system, setting=bench.setting.early()) as other:
         network = other.controller.network
         accepted = [
             network.bind("127.0.0.1", port)
@@ -197,11 +197,11 @@ def _port_taken(bench: Bench) -> None:
         _serves(other)
 
 
-@case("counters-wrap", "counters begin anew behind their last value", once=True)
+@case("counters-wrap", "counters begin anew after their last value", once=True)
 def _counters_wrap(bench: Bench) -> None:
     """Set counters to their last values, which take years to reach."""
     for before in (1, 3, 5):
-        with bench.beside(bench.system) as other:
+        with bench.second_controller(bench.system) as other:
             set_counters(other, WRAP - before)
             watcher, link = other.watcher(), other.motion()
             first = other.progress(watcher).trajectory
@@ -280,13 +280,13 @@ def _state_for_hours(bench: Bench) -> None:
         raise CheckFailed(f"{len(stamps)} STATUS in 1050 s, wanted {1050 / period:.0f}")
 
 
-@case("nobody-costs", "a driver that nobody talks to takes little of the processor", "R19")
-def _nobody_costs(bench: Bench) -> None:
+@case("nobody-costs", "a driver without clients takes little processor time", "R19")
+def _unused_driver_costs(bench: Bench) -> None:
     """Measure processor time without clients: each task waits."""
     bench.run(0.1)
     meter = CpuMeter(bench)
     bench.run(0.5)
-    meter.end("while nobody is there")
+    meter.end("without clients")
 
 
 @case("idle-costs", "a driver that waits takes little of the processor", "R19")
@@ -298,7 +298,7 @@ def _idle_costs_nothing(bench: Bench) -> None:
     bench.run(2)
     meter = CpuMeter(bench)
     bench.run(20)
-    meter.end("while nobody wants anything")
+    meter.end("while no client asks for anything")
     bench.status(state)
     link.close()
 
@@ -320,7 +320,9 @@ def _signal_units_fail(bench: Bench) -> None:
 @case("stopped-unseen", "a program stop that no signal shows", "R15", background=True)
 def _stopped_without_signals(bench: Bench) -> None:
     """Stop the program without signals: the robot stays stopped."""
-    with bench.beside(replace(bench.system, signals=(), outputs=(), cross=(), events=())) as other:
+    with bench.second_controller(
+        replace(bench.system, signals=(), outputs=(), cross=(), events=())
+    ) as other:
         link = other.motion()
         other.start_motion(link, other.wave(10))
         other.controller.perform("stop")
@@ -345,5 +347,5 @@ def _stopped_without_signals(bench: Bench) -> None:
         link.send(other.download(other.wave(4)))
         other.assert_at_rest(5, "the program is stopped")
         other.controller.perform("start")
-        other.assert_at_rest(3, "the program was started again, nobody asked for motion")
+        other.assert_at_rest(3, "the program was started again, no client asked for motion")
         other.assert_moves_through(link, other.wave(4))

@@ -21,7 +21,14 @@ from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import SETTLED, Position
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.suite.instruction_errors import set_counters
-from rapidgen.verification.suite.motion_task import CpuMeter, begins, datum, patience, soon, unit_of
+from rapidgen.verification.suite.motion_task import (
+    CpuMeter,
+    begins,
+    datum,
+    halt_timeout,
+    soon,
+    unit_of,
+)
 from rapidgen.verification.suite.off_path import STAYS_STOPPED
 from rapidgen.verification.suite.supervisor import end_as_request
 from rapidgen.verification.testbench import Bench, with_module
@@ -67,7 +74,7 @@ def _before_a_move(bench: Bench) -> None:
         bench.run(pause)
         bench.controller.perform("start")
         bench.assert_at_rest(
-            patience(bench), f"the program was stopped before move {number}, and started"
+            halt_timeout(bench), f"the program was stopped before move {number}, and started"
         )
         reply = _ended(bench, watcher, RawReason.PROGRAM_STOPPED, "the program was stopped")
         if (reply.planned, reply.reached) != (number + 1, max(1, number - 1)):
@@ -86,17 +93,17 @@ def _first_reason(bench: Bench) -> None:
     bench.run(unit)
     link.stop()
     bench.controller.perform("stop")
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     _ended(bench, watcher, RawReason.STOPPED, "STOP, then a stop of the program")
     bench.controller.perform("start")
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     # A move fails just when the supervisor has requested a halt.
     in_progress = _fails_with_a_halt(bench, "ERR_COLL_STOP")
     link.send(bench.download(bench.wave(5, duration=unit)))
     bench.until(lambda: bool(in_progress), 2 * unit, "the second move begins")
     link.stop()
     bench.wait_until_standing(2)
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     _ended(bench, watcher, RawReason.STOPPED, "STOP, then a move that fails")
     _works(bench, link)
     log_entries = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
@@ -143,7 +150,7 @@ def _late_point(bench: Bench) -> None:
     begins(bench, link, bench.wave(5, duration=unit))
     bench.run(1.15 * unit)
     link.stop()
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     reply = _ended(bench, watcher, RawReason.STOPPED, "STOP")
     points = list(task[ring].values())
     place = int(task[head]) % len(points)
@@ -153,12 +160,12 @@ def _late_point(bench: Bench) -> None:
     bench.assert_at_rest(1, "a point of a stopped trajectory came late")
     _works(bench, link)
     if any(e.type is EventType.ERROR for e in bench.controller.log.since(last)):
-        raise CheckFailed("a point of a stopped trajectory came late, and is told as an error")
+        raise CheckFailed("a point of a stopped trajectory came late, and is reported as an error")
 
 
-def _beside(bench: Bench, system: System, *, early: bool = False) -> Bench:
+def _second_controller(bench: Bench, system: System, *, early: bool = False) -> Bench:
     """Boot another controller; `early`: none of its tasks has run yet."""
-    return bench.beside(system, setting=bench.setting.early() if early else None)
+    return bench.second_controller(system, setting=bench.setting.early() if early else None)
 
 
 def _bare(system: System, *events: str) -> System:
@@ -180,7 +187,7 @@ def _unseen(bench: Bench) -> None:
 
     The driver sees a stop by the mode, or when main starts again.
     """
-    with _beside(bench, _bare(bench.system)) as other:
+    with _second_controller(bench, _bare(bench.system)) as other:
         watcher, link = other.watcher(), other.motion()
         for action, reason, restarts in (
             ("manual", RawReason.MODE_CHANGED, False),
@@ -207,22 +214,24 @@ def _unseen(bench: Bench) -> None:
                 abs(t - halted - 2) > 0.2 for t in log_entries
             ):
                 raise CheckFailed(
-                    f"from {halted:.2f} s on nobody answers, which is told at {log_entries} s"
+                    f"from {halted:.2f} s on no task answers, which is reported at {log_entries} s"
                 )
             other.start_again()
             other.assert_at_rest(1, f"{action} of a driver without signals, then Start")
             _ended(other, watcher, reason, f"{action} of a driver without signals, then Start")
-            other.run(patience(other))
+            other.run(halt_timeout(other))
             _works(other, link)
 
 
 @case("stopped-alone", "event routines alone tell that the program is stopped", background=True)
 def _stopped_alone(bench: Bench) -> None:
     """Stop without signals: data before Start is rejected and has no effect."""
-    with _beside(bench, _bare(bench.system, *(e.event for e in bench.system.events))) as other:
+    with _second_controller(
+        bench, _bare(bench.system, *(e.event for e in bench.system.events))
+    ) as other:
         for action in ("stop", "e-stop", "power-loss"):
             other.controller.perform(action)
-            other.run(patience(other))
+            other.run(halt_timeout(other))
             link = other.motion()
             link.send(end_as_request(other, 3, unit_of(other)))
             reply = messages.decode(link.expect_reply(3, "the end frame is answered"))
@@ -232,7 +241,7 @@ def _stopped_alone(bench: Bench) -> None:
                 raise CheckFailed(f"{action} of a driver without signals, a trajectory: {reply}")
             other.start_again()
             other.assert_at_rest(
-                patience(other), f"{action} of a driver without signals, then Start"
+                halt_timeout(other), f"{action} of a driver without signals, then Start"
             )
             _works(other, link)
             link.close(then=0.3)
@@ -269,7 +278,7 @@ def _cannot(bench: Bench) -> None:
                 f"{instruction} of the motion task fails, the event log says {log_entries}"
             )
         ends()
-        bench.run(patience(bench))
+        bench.run(halt_timeout(bench))
         link = link if not link.lost else bench.motion()
         _works(bench, link)
 
@@ -295,7 +304,7 @@ def _crept(bench: Bench, current: Position, wait: float, when: str) -> None:
 @case("start-alone", "event routines drop the path by themselves", "R7a", background=True)
 def _start_alone(bench: Bench) -> None:
     """Check that the Start and emergency stop routines each clear the path."""
-    with _beside(bench, _bare(bench.system, "START", "RESTART", "QSTOP")) as other:
+    with _second_controller(bench, _bare(bench.system, "START", "RESTART", "QSTOP")) as other:
         watcher, link, orders = other.watcher(), other.motion(), watched_orders(other)
         for action in ("stop", "e-stop", "stop of the supervisor"):
             _moves(other, link)
@@ -305,7 +314,7 @@ def _start_alone(bench: Bench) -> None:
                 # It ends, and the program stops with it.
                 fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
             other.wait_until_standing(1)
-            other.run(patience(other))
+            other.run(halt_timeout(other))
             if action == "e-stop" and other.setting.dialect.e_stop_routines:
                 _ended(other, watcher, RawReason.PROGRAM_STOPPED, action)
             current, since = other.position, other.now
@@ -314,7 +323,7 @@ def _start_alone(bench: Bench) -> None:
                 other.run(0.3)
                 stops = [order.time for order in orders if order.time >= since]
                 _crept(other, current, min(stops, default=since) - since, f"{action}, then Start")
-            other.assert_at_rest(patience(other), f"{action}, then Start")
+            other.assert_at_rest(halt_timeout(other), f"{action}, then Start")
             _ended(other, watcher, RawReason.PROGRAM_STOPPED, f"{action}, then Start")
             if action in ("stop", "e-stop"):
                 _works(other, link)
@@ -326,7 +335,7 @@ def _without_routines(bench: Bench) -> None:
 
     Counters restart.
     """
-    with _beside(bench, replace(bench.system, events=()), early=True) as other:
+    with _second_controller(bench, replace(bench.system, events=()), early=True) as other:
         view = other.controller.task(other.task("ROS_supervisor"))
         set_counters(other, WRAP - 2)
         # Old requests, and a ring whose counters restart in the middle.
@@ -354,12 +363,14 @@ def _without_routines(bench: Bench) -> None:
                 # If a task's turn ends at a PERS, the supervisor may have ended it already.
                 reasons = (reason, RawReason.IDLE) if other.setting.switch_at_pers else (reason,)
                 if reply not in [messages.RawNotDone(reason) for reason in reasons]:
-                    raise CheckFailed(f"{action}, and right behind it the end of a pause: {reply}")
+                    raise CheckFailed(f"{action}, and right after it the end of a pause: {reply}")
             other.wait_until_standing(1)
-            other.run(patience(other))
+            other.run(halt_timeout(other))
             _ended(other, watcher, reason, f"{action} without event routines")
             other.start_again()
-            other.assert_at_rest(patience(other), f"{action} without event routines, then Start")
+            other.assert_at_rest(
+                halt_timeout(other), f"{action} without event routines, then Start"
+            )
             _works(other, link)
         _moves(other, link)
         other.controller.perform("power-loss")
@@ -379,7 +390,7 @@ def _pause(bench: Bench, control: RawLink, paused: int) -> None:
     bench.run(0.1)
     if reply != messages.RawAcknowledged() or bench.standing != bool(paused):
         raise CheckFailed(
-            f"PAUSE {paused} is answered by {reply}, the robot stands: {bench.standing}"
+            f"PAUSE {paused} is answered by {reply}, the robot is at rest: {bench.standing}"
         )
 
 
@@ -418,7 +429,7 @@ def _refills(bench: Bench, link: RawLink) -> None:
         raise CheckFailed("a trajectory longer than the ring stops on its way")
     link.stop()
     bench.wait_until_standing(1)
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
 
 
 @case("stale-build", "a module was exchanged, and its task shows what it did")
@@ -433,7 +444,7 @@ def _stale_build(bench: Bench) -> None:
         if m.name == "ROS_motion"
     )
     mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
-    with _beside(bench, mixed, early=True) as other:
+    with _second_controller(bench, mixed, early=True) as other:
         task = other.controller.task(other.task("ROS_motion"))
         task[datum(other, "ros_shown_motion")] = bench.system.build_id
         watcher, link = other.watcher(), other.motion()

@@ -8,7 +8,7 @@ from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, changed, distance, inward
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.stream import BEGIN, END, Streamer
-from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.motion_task import halt_timeout
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
@@ -59,20 +59,22 @@ class _RejectedJoint:
 )
 def _joints_of_a_stream(bench: Bench) -> None:
     policy, current = bench.config.trajectory, bench.position
-    blame = _RejectedJoint(bench)
-    blame.limits()
+    expect_rejected = _RejectedJoint(bench)
+    expect_rejected.limits()
     seconds = max(0.2, policy.min_segment)
     for axis, joint in enumerate(bench.group.joints):
         near = bench.start_tolerance(joint)
         if near > 0:
             start = changed(current, axis, inward(joint, current[axis], 1.1 * near))
-            blame([(start, 1.0), (current, 5.0)], RawReason.START_TOO_FAR, 0, axis)
+            expect_rejected([(start, 1.0), (current, 5.0)], RawReason.START_TOO_FAR, 0, axis)
         fast = 1.05 * seconds * joint.speed
-        room = max(joint.upper - current[axis], current[axis] - joint.lower)
-        if policy.too_fast == "refuse" and bench.group.tcp_speed_limit >= 5 and room > fast:
+        space = max(joint.upper - current[axis], current[axis] - joint.lower)
+        if policy.too_fast == "refuse" and bench.group.tcp_speed_limit >= 5 and space > fast:
             target = changed(current, axis, inward(joint, current[axis], fast))
-            blame([(current, 1.0), (target, seconds), (current, 9.0)], RawReason.TOO_FAST, 1, axis)
-    blame.close()
+            expect_rejected(
+                [(current, 1.0), (target, seconds), (current, 9.0)], RawReason.TOO_FAST, 1, axis
+            )
+    expect_rejected.close()
     bench.run(1.2)
     # The driver ignores the first point's duration, and the start offset.
     stream = Streamer(bench)
@@ -107,7 +109,7 @@ def _controller_error(bench: Bench) -> None:
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
     state = bench.state()
     # The driver believes a movement that follows a standstill.
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     for function, field, on, values in (
         ("standing", "in_motion", 0, (0, 1)),
         ("controller_error", "in_error", 1, (1, 0, 1, 0)),
@@ -148,7 +150,7 @@ def _one_signal_missing(bench: Bench) -> None:
         bench.controller.perform("e-stop")
         bench.run(0.5)
         _shown(bench, state, "e-stop", missing.function, off, on, 0)
-        bench.assert_at_rest(0.5, "nobody asked for anything")
+        bench.assert_at_rest(0.5, "no client asked for anything")
         signals[name] = signal
     _power_again(bench)
     _shown(bench, bench.watcher(), "all signals are back", "", on, off, 1)

@@ -17,7 +17,7 @@ from rapidgen.verification.testbench import HELLO, Bench
 
 case = SuiteGroup("limits")
 
-_SAID = {
+_LOGGED = {
     "are narrower": (EventType.WARNING, "Those of the controller count."),
     "are wider": (EventType.INFO, "Those of the configuration count."),
     "make no sense": (EventType.ERROR, "No trajectory is taken."),
@@ -31,15 +31,15 @@ _FAR = 1e6
 
 
 @dataclass(frozen=True, slots=True)
-class _Told:
+class _ReportedLimits:
     """The controller's limits of a joint, rad or m; None: not available.
 
-    `said`: the driver's text in the event log, empty if there is none.
+    `log_text`: the driver's text in the event log, empty if there is none.
     """
 
     lower: float | None
     upper: float | None
-    said: str = ""
+    log_text: str = ""
 
     def left(self, joint: Joint) -> tuple[float, float]:
         """Return the limits in force."""
@@ -48,34 +48,34 @@ class _Told:
         return max(self.lower, joint.lower), min(self.upper, joint.upper)
 
 
-def _differences(joint: Joint) -> list[_Told]:
+def _differences(joint: Joint) -> list[_ReportedLimits]:
     """Return limits that differ.
 
     A hundredth is a difference, less than a thousandth is none.
     """
     low, high, more, less = joint.lower, joint.upper, 0.01, 0.0004
     return [
-        _Told(low + more, high, "are narrower"),
-        _Told(low - more, high, "are wider"),
-        _Told(None, high - more),
-        _Told(low, high - more, "are narrower"),
-        _Told(low, high + more, "are wider"),
-        _Told(low + more, None),
-        _Told(low + less, high - less),
-        _Told(low + more, high + more, "are narrower"),
-        _Told(low - less, high + less),
-        _Told(low - more, high - more, "are narrower"),
+        _ReportedLimits(low + more, high, "are narrower"),
+        _ReportedLimits(low - more, high, "are wider"),
+        _ReportedLimits(None, high - more),
+        _ReportedLimits(low, high - more, "are narrower"),
+        _ReportedLimits(low, high + more, "are wider"),
+        _ReportedLimits(low + more, None),
+        _ReportedLimits(low + less, high - less),
+        _ReportedLimits(low + more, high + more, "are narrower"),
+        _ReportedLimits(low - less, high + less),
+        _ReportedLimits(low - more, high - more, "are narrower"),
     ]
 
 
-def _nonsense(joint: Joint, lowest: float, highest: float) -> list[_Told]:
+def _nonsense(joint: Joint, lowest: float, highest: float) -> list[_ReportedLimits]:
     """Return invalid limits.
 
     Either the range is empty, or its overlap with `lowest` to `highest` is.
     """
     low, high, middle = joint.lower, joint.upper, (joint.lower + joint.upper) / 2
     return [
-        _Told(*limits, "make no sense")
+        _ReportedLimits(*limits, "make no sense")
         for limits in (
             (high + 0.1, high + 0.2),
             (low - 0.2, low - 0.1),
@@ -103,7 +103,7 @@ class _Cell:
         self._newest = 0
         self.plain = _hello(bench.state())
 
-    def start(self, reply: Sequence[_Told]) -> None:
+    def start(self, reply: Sequence[_ReportedLimits]) -> None:
         """Start with other limits; check that the event log names the differences."""
         bench = self._bench
         for joint, one in zip(bench.group.joints, reply, strict=True):
@@ -118,19 +118,21 @@ class _Cell:
             bench.controller.perform(action)
         bench.run(1)
         for number, (joint, one) in enumerate(zip(bench.group.joints, reply, strict=True), 1):
-            self._is_said(number, joint, one)
+            self._is_logged(number, joint, one)
 
-    def _is_said(self, number: int, joint: Joint, reply: _Told) -> None:
+    def _is_logged(self, number: int, joint: Joint, reply: _ReportedLimits) -> None:
         title = f"ROS: limits of joint {number} "
         log = self._bench.controller.log.since(self._newest)
         result = [e for e in log if e.title.startswith(title)]
         what = f"joint {number} may move from {reply.lower} to {reply.upper}, of {joint}"
-        if not (reply.said and self._bench.setting.dialect.axis_limits_told):
+        if not (reply.log_text and self._bench.setting.dialect.axis_limits_told):
             if result:
                 raise CheckFailed(f"{what}: the event log says {result[0]}")
             return
-        kind, effect = _SAID[reply.said]
-        if [(e.type, e.title, e.texts[0]) for e in result] != [(kind, title + reply.said, effect)]:
+        kind, effect = _LOGGED[reply.log_text]
+        if [(e.type, e.title, e.texts[0]) for e in result] != [
+            (kind, title + reply.log_text, effect)
+        ]:
             raise CheckFailed(f"{what}: the event log says {[str(e) for e in result]}")
         _are(result[0].texts[1], "Configuration", joint, joint.lower, joint.upper)
         _are(result[0].texts[2], "Controller", joint, reply.lower or 0.0, reply.upper or 0.0)
@@ -163,21 +165,23 @@ def _are(text: str, whose: str, joint: Joint, lower: float, upper: float) -> Non
     reply = re.fullmatch(rf"{whose}: (-?\d+(?:\.\d\d?)?) to (-?\d+(?:\.\d\d?)?) {unit}", text)
     for number, limit in enumerate((factor * lower, factor * upper), 1):
         if reply is None or abs(float(reply[number]) - limit) > 0.0051 + 1e-5 * abs(limit):
-            raise CheckFailed(f"a limit of {limit:.3f} {unit} is told in {text!r}")
+            raise CheckFailed(f"a limit of {limit:.3f} {unit} is reported in {text!r}")
 
 
-@case("limits-as-told", "limits that the controller tells of each joint, or does not", "R11")
-def _limits_as_told(bench: Bench) -> None:
+@case("limits-as-told", "limits that the controller reports for each joint, or not", "R11")
+def _reported_limits(bench: Bench) -> None:
     """Change the limits of each joint in several ways, and restore them."""
     joints, cell = bench.group.joints, _Cell(bench)
     kinds = len(_differences(joints[0]))
     for first in range(0, kinds, len(joints)):
         turn = [_differences(joint)[(first + n) % kinds] for n, joint in enumerate(joints)]
         _counts(bench, cell, turn)
-    _counts(bench, cell, [_Told(j.lower - 0.3, j.upper + 0.3, "are wider") for j in joints])
+    _counts(
+        bench, cell, [_ReportedLimits(j.lower - 0.3, j.upper + 0.3, "are wider") for j in joints]
+    )
 
 
-def _counts(bench: Bench, cell: _Cell, reply: Sequence[_Told]) -> None:
+def _counts(bench: Bench, cell: _Cell, reply: Sequence[_ReportedLimits]) -> None:
     """Check that the limits in force are reported and applied."""
     cell.start(reply)
     hello, link = cell.in_force(), bench.motion()
@@ -217,7 +221,7 @@ def _limits_without_sense(bench: Bench) -> None:
         axis = number % len(joints)
         joint = joints[axis]
         odd = _nonsense(joint, cell.plain.lower[axis], cell.plain.upper[axis])[number]
-        chosen = [_Told(j.lower, j.upper) for j in joints]
+        chosen = [_ReportedLimits(j.lower, j.upper) for j in joints]
         chosen[axis] = odd
         cell.start(chosen)
         hello, link = cell.in_force(), bench.motion()

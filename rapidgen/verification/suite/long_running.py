@@ -63,8 +63,8 @@ def _days(bench: Bench) -> None:
         bench.assert_healthy()
 
 
-@case("unheard", "bells that a stopped program does not hear", "R7a", background=True)
-def _unheard(bench: Bench) -> None:
+@case("unheard", "interrupts that a stopped program misses", "R7a", background=True)
+def _lost_interrupts(bench: Bench) -> None:
     """Stop and PP to main in a motion, Start much later: motion works."""
     link = bench.motion()
     for steps in (("stop", "pp-to-main"), ("stop",), ("e-stop", "pp-to-main")):

@@ -75,16 +75,16 @@ def _in_order(
             at += 1
         if at == len(steps):
             raise CheckFailed(
-                f"{when - started:.3f} s behind its beginning "
-                f"a trajectory is told to be in state {log_entries[0]} "
+                f"{when - started:.3f} s after its beginning "
+                f"a trajectory is reported in state {log_entries[0]} "
                 f"with {log_entries[1]} points planned and {log_entries[2]} reached"
             )
         seen.add(at)
         if not steps[at].since - _CLOSE <= when - started <= steps[at].until + late:
-            raise CheckFailed(f"{steps[at]} is told {when - started:.3f} s behind the beginning")
+            raise CheckFailed(f"{steps[at]} is reported {when - started:.3f} s after the start")
     missing = [step for number, step in enumerate(steps) if number not in seen]
     if missing:
-        raise CheckFailed(f"it is never told that {missing}")
+        raise CheckFailed(f"not reported: {missing}")
 
 
 def watched(
@@ -112,7 +112,7 @@ def _goes_by(
     following = [progress.state for _, progress, _ in reply[1:]]
     for (when, progress, status), then in zip_longest(reply, following):
         if (progress.trajectory, progress.received, *progress[5:]) != (trajectory, count, 0, -1, 0):
-            raise CheckFailed(f"at {when:.3f} s trajectory {trajectory} is told as {progress}")
+            raise CheckFailed(f"at {when:.3f} s trajectory {trajectory} is reported as {progress}")
         moving = [int(progress.state == RawTrajectoryState.MOVING)]
         over = over if over or moving[0] else when
         if when <= over + lag:
@@ -129,7 +129,7 @@ def begins_soon(bench: Bench, sent: float) -> float:
     """Return the start of the motion requested at `sent`; check its delay."""
     bench.wait_until_moving(2)
     if bench.now - sent > soon(bench) + 2 * bench.setting.motion.settle:
-        raise CheckFailed(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
+        raise CheckFailed(f"the robot begins to move {bench.now - sent:.3f} s after the end frame")
     return bench.now
 
 
@@ -219,14 +219,14 @@ def _stream_by_step(bench: Bench) -> None:
     stream, meter = Streamer(bench), CpuMeter(bench)
     starved, done = RawTrajectoryState.STARVED, RawTrajectoryState.DONE
     points = bench.wave(4, duration=unit)
-    told: list[tuple[float, RawTrajectoryState | int, int, int]] = []
+    reports: list[tuple[float, RawTrajectoryState | int, int, int]] = []
 
     def ask(seconds: float) -> None:
         until = bench.now + seconds
         while bench.now < until:
             stream.put(())
             reply = stream.accepted("a question")
-            told.append((bench.now, reply.state, reply.planned, reply.reached))
+            reports.append((bench.now, reply.state, reply.planned, reply.reached))
             bench.run(0.03)
 
     stream.put(points[:3], BEGIN | FLUSH)
@@ -248,7 +248,7 @@ def _stream_by_step(bench: Bench) -> None:
     _in_order(
         bench,
         started,
-        told,
+        reports,
         [
             *steps,
             _Step(more, more + unit, 4, 3),
@@ -270,7 +270,7 @@ def _stream_by_step(bench: Bench) -> None:
     progress, status = bench.progress(watcher), bench.status(watcher)
     failed = (number, RawTrajectoryState.FAILED, 2, 2, 2, RawReason.JOINT_LIMIT, 2, 1)
     if progress != failed or (status.in_error, status.error_code, status.in_motion) != (1, 104, 0):
-        raise CheckFailed(f"a stream was cut behind two points, but {progress} and {status}")
+        raise CheckFailed(f"a stream was cut after two points, but {progress} and {status}")
 
 
 def _cycles(bench: Bench) -> int:
@@ -278,7 +278,7 @@ def _cycles(bench: Bench) -> int:
     return bench.rapid_task("ROS_motion").cycles
 
 
-def patience(bench: Bench) -> float:
+def halt_timeout(bench: Bench) -> float:
     """s in which a halt is over, and STATUS has said so."""
     return soon(bench) + 2 * (bench.config.state_period + bench.setting.motion.settle)
 
@@ -290,13 +290,13 @@ def _over_soon(bench: Bench, watcher: RawLink, since: float, what: str) -> messa
             p.state == RawTrajectoryState.STOPPED and s.motion_possible == 1
             for _, p, s in watched(watcher, since)
         ),
-        patience(bench),
+        halt_timeout(bench),
         f"{what}: PROGRESS tells of it",
     )
     return watched(watcher, since)[-1][1]
 
 
-def _stop_is_told(bench: Bench, watcher: RawLink, since: float) -> None:
+def _reports_stop(bench: Bench, watcher: RawLink, since: float) -> None:
     bench.until(
         lambda: any(p.state == RawTrajectoryState.STOPPED for _, p, _ in watched(watcher, since)),
         3,
@@ -330,14 +330,14 @@ def _halts(bench: Bench) -> None:
     link.stop(latest, "STOP in a stay is answered")
     reply = _over_soon(bench, watcher, since, "STOP in a stay")
     if (reply.planned, reply.reached) != (3, 2):
-        raise CheckFailed(f"STOP came in the stay behind two points, PROGRESS says {reply}")
+        raise CheckFailed(f"STOP came in the stay after two points, PROGRESS says {reply}")
     for _ in range(2):
         begins(bench, link, bench.wave(5, duration=unit))
         bench.run(1.15 * unit)
         since = bench.now
         fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 6)
         link.send(STOP)
-        _stop_is_told(bench, watcher, since)
+        _reports_stop(bench, watcher, since)
         bench.wait_until_at_rest(1, 1, "it was stopped, and its path not cleared at once")
         reply = _over_soon(bench, watcher, since, "a path that cannot be cleared at once")
         if (reply.planned, reply.reached) != (3, 1):

@@ -51,7 +51,9 @@ def _speed(bench: Bench) -> float:
 def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -> float:
     """Stop while an axis is fast; return the distance (m) from the path."""
     motion = replace(bench.setting.motion, quick_factor=quick)
-    with bench.beside(bench.system, setting=replace(bench.setting, motion=motion)) as other:
+    with bench.second_controller(
+        bench.system, setting=replace(bench.setting, motion=motion)
+    ) as other:
         link = other.motion()
         path = _zigzag(other, 6, seconds)
         to_it = 2 * other.seconds_to(path[0][0])
@@ -79,7 +81,7 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
             other.controller.perform("pp-to-main")
             other.start_again()
         reply = f"after {action} at speed, {1000 * off:.0f} mm off the path"
-        other.assert_at_rest(4, f"{reply}, nobody asked for motion")
+        other.assert_at_rest(4, f"{reply}, no client asked for motion")
         log_entries = [e for e in other.controller.log.since(last) if e.title == STAYS_STOPPED]
         held = off > motion.path_distance and motion.stop_move_reset == "keeps"
         if log_entries and not held:
@@ -90,7 +92,7 @@ def _stopped_at_speed(bench: Bench, action: str, quick: float, seconds: float) -
             # The action that the event asks for.
             for step in ("stop", "pp-to-main", "start"):
                 other.controller.perform(step)
-        other.assert_at_rest(1, f"{reply}, nobody asked for motion")
+        other.assert_at_rest(1, f"{reply}, no client asked for motion")
         link.close()
         other.run(1.5)
         other.assert_moves_through(other.motion(), other.wave(3))

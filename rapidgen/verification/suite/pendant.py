@@ -62,7 +62,7 @@ def _send_wrong(bench: Bench, link: RawLink, index: int, *, joint: int = 0) -> N
 
 
 @case("said", "a refusal is one warning with point and joint, and no line on the pendant", "R19")
-def _refusals_are_said(bench: Bench) -> None:
+def _refusals_are_logged(bench: Bench) -> None:
     pendant, link = _Pendant(bench), bench.motion()
     last = len(bench.position) - 1
     for index, joint in ((2, 0), (3, last)):
@@ -82,8 +82,8 @@ def _refusals_are_said(bench: Bench) -> None:
     pendant.says(RawReason.INCOMPLETE, 2, 0, after="the client left after two points")
 
 
-@case("framing-said", "broken framing is told")
-def _framing_is_said(bench: Bench) -> None:
+@case("framing-said", "broken framing is logged")
+def _framing_is_logged(bench: Bench) -> None:
     pendant = _Pendant(bench)
     link = bench.motion()
     link.send(b"\xff" * 4)
@@ -92,7 +92,7 @@ def _framing_is_said(bench: Bench) -> None:
     link = bench.motion()
     link.send(raw_point(-1, bench.position, 1.0) + b"\xff" * 4)
     bench.run(1.5)
-    pendant.says(RawReason.FRAMING, 1, 0, after="a length out of bounds behind a point")
+    pendant.says(RawReason.FRAMING, 1, 0, after="a length out of bounds after a point")
     link = bench.motion()
     link.send(b"\x0c\0\0\0\x14\0\0\0\x01\0\0\0\0\0\0\0")
     bench.run(1.5)
@@ -118,11 +118,11 @@ def _lines_are_rationed(bench: Bench) -> None:
         log_entries = str(events[0]) if events else ""
         if len(events) != 1 or ((more or "more like") in log_entries) != bool(more):
             raise CheckFailed(
-                f"after eight refusals at once the next one is told as {log_entries!r}"
+                f"after eight refusals at once the next one is reported as {log_entries!r}"
             )
 
 
-@case("quiet", "what is in order is not told", "R19")
+@case("quiet", "correct behaviour is not logged", "R19")
 def _peace_is_quiet(bench: Bench) -> None:
     """Check that work, and clients that come and go, log nothing."""
     pendant = _Pendant(bench)

@@ -175,7 +175,7 @@ def _impossible(signal: ExposedSignal) -> tuple[float, ...]:
     return {"DO": (2.0, 0.5, -1.0), "GO": (-1.0, 0.5)}.get(signal.kind, ())
 
 
-@case("program-sets", "a program sets signals and waits for them where it stands")
+@case("program-sets", "a program sets signals and waits for them at rest")
 def _sets(bench: Bench) -> None:
     """Set a signal after a stop point; wait; time-out; STOP ends the wait."""
     exposed, client, watcher = bench.config.signals, Programmer(bench), bench.watcher()
@@ -230,7 +230,7 @@ def _without(bench: Bench) -> None:
         raise NotApplicable("no signal is exposed")
     for index, signal in enumerate(exposed):
         target = tuple(s for s in bench.system.signals if s.name != signal.name)
-        with bench.beside(replace(bench.system, signals=target)) as other:
+        with bench.second_controller(replace(bench.system, signals=target)) as other:
             _one_without(other, index, signal)
 
 

@@ -46,12 +46,17 @@ def _reading_fails(bench: Bench) -> None:
             bench.until(partial(_answered, link), 4, f"{name} has failed; an answer comes")
             ends()
             if not link.lost:
-                told = link.reply(PROGRAM)
+                answer = link.reply(PROGRAM)
                 allowed = {RawReason.CHECKSUM}
                 if name in _NO_GEOMETRY:
                     allowed.add(RawReason.NO_GEOMETRY)
-                if not isinstance(told, messages.RawPointsRefused) or told.reason not in allowed:
-                    raise CheckFailed(f"{name} number {after + 1} has failed, the reply is {told}")
+                if (
+                    not isinstance(answer, messages.RawPointsRefused)
+                    or answer.reason not in allowed
+                ):
+                    raise CheckFailed(
+                        f"{name} number {after + 1} has failed, the reply is {answer}"
+                    )
                 link.close()
             bench.run(0.3)
     bench.wait_until_at_rest(1, 1, "no program could be read")
@@ -154,7 +159,7 @@ def _instructions_fail(bench: Bench) -> None:
         if name not in _FAILING:
             bench.assert_at_rest(0.5, f"{name} has failed")
     bench.wait_until_at_rest(2, 1, "the programs have ended")
-    client.takes("a program behind one that failed", [first, second])
+    client.takes("a program after one that failed", [first, second])
     bench.wait_until_at(second.joints, 60)
 
 
@@ -194,6 +199,6 @@ def _due(
 def _serves(bench: Bench) -> None:
     program = orders(bench, 2, random.Random(41))
     client = Programmer(bench)
-    client.takes("a program behind one that failed", program)
+    client.takes("a program after one that failed", program)
     bench.wait_until_at(program[-1].joints, 60)
     client.link.close(then=1.5)

@@ -119,7 +119,7 @@ def _own(bench: Bench) -> None:
     own, their = (tools, 0), (0, objects)
     at_rest = replace(first, kind=RawInstruction.MOVE_ABSJ, pose=None, joints=bench.position)
     for order in (replace(at_rest, frames=own), replace(at_rest, frames=their)):
-        client.refused(says(client, order), RawReason.NO_FRAME, 0, "values that nobody gave")
+        client.refused(says(client, order), RawReason.NO_FRAME, 0, "values that no program gave")
     reply = says(client, (TOOL, right[0]), replace(at_rest, frames=their))
     client.refused(reply, RawReason.NO_FRAME, 1, "a tool is no work object")
     if not computes(bench):

@@ -17,7 +17,7 @@ from rapidgen.verification.instruction_hooks import at_call
 from rapidgen.verification.messages import RawInstruction, RawReason, RawTrajectoryState
 from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.raw_programs import ALL, Programmer, RawMove, computes, orders, reached
-from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.motion_task import halt_timeout
 from rapidgen.verification.suite.program_frames import Other, object_of, says, tool_of
 from rapidgen.verification.suite.speed import aside, asks_as_it_begins
 from rapidgen.verification.testbench import Bench
@@ -154,7 +154,7 @@ _DISPLACED: tuple[Pose, ...] = (
 """0.05 mm, a milliradian about each axis; the last one with an offset of external axes."""
 
 
-@case("program-displaced-late", "a displacement that nobody saw when the program was taken")
+@case("program-displaced-late", "a displacement after the program was accepted")
 def _displaced_late(bench: Bench) -> None:
     """Displace the program late: the first pose ends it without motion.
 
@@ -177,7 +177,7 @@ def _displaced_late(bench: Bench) -> None:
         # While the motion task prepares the program.
         at_call(bench, "ROS_motion", "ConfJ", 1, displace)
         number = client.takes("a pose", [line])
-        bench.assert_at_rest(patience(bench), f"poses are displaced by {displacement}")
+        bench.assert_at_rest(halt_timeout(bench), f"poses are displaced by {displacement}")
         reply = bench.progress(watcher)
         if (
             reply[:2] != (number, RawTrajectoryState.FAILED)
@@ -187,15 +187,15 @@ def _displaced_late(bench: Bench) -> None:
         if displacement is _DISPLACED[0]:
             client.takes("joints, which no displacement takes elsewhere", [joints])
             bench.wait_until_at(joints.joints, 60)
-            bench.run(patience(bench))
+            bench.run(halt_timeout(bench))
             back = replace(joints, joints=_stand_joints(bench))
             client.takes("the way back", [back])
             bench.wait_until_at(back.joints, 60)
-            bench.run(patience(bench))
+            bench.run(halt_timeout(bench))
         modal.displacement, data.external_offset = IDENTITY, NO_OFFSETS
     client.takes("a pose that is displaced no more", [line])
     bench.wait_until_at(line.joints, 60)
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     if (reply := bench.progress(watcher)).state != RawTrajectoryState.DONE:
         raise CheckFailed(f"a pose is displaced no more, PROGRESS says {reply}")
 

@@ -78,7 +78,7 @@ def _kinds(bench: Bench) -> None:
                 value = bench.controller.signals[name]
                 if value != (seen.reached > sets) and not seen.reached <= sets < seen.planned:
                     raise CheckFailed(
-                        f"{ending} behind {seen.reached}: {name}, set by {sets}, is {value}"
+                        f"{ending} after {seen.reached}: {name}, set by {sets}, is {value}"
                     )
             client.link.close(then=1.5)
 
@@ -135,8 +135,8 @@ def _endings(bench: Bench) -> list[str]:
 
     Servers of a driver in commissioning stop with the program.
     """
-    unheard = ("e-stop", "stop") if bench.config.commissioning else ()
-    return [ending for ending in _ENDINGS if ending not in unheard]
+    unreported = ("e-stop", "stop") if bench.config.commissioning else ()
+    return [ending for ending in _ENDINGS if ending not in unreported]
 
 
 def _ended(
@@ -150,7 +150,7 @@ def _ended(
     bench.run(0.5)
     reply = bench.progress(watcher)
     if reply.reason != _ENDINGS[ending] or not at <= reply.reached < length:
-        raise CheckFailed(f"{ending} behind instruction {at}: PROGRESS says {reply}")
+        raise CheckFailed(f"{ending} after instruction {at}: PROGRESS says {reply}")
     return reply
 
 

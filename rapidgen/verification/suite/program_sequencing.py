@@ -20,7 +20,7 @@ from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.raw_programs import BEGIN, Programmer, orders
 from rapidgen.verification.stream import FLUSH, Streamer
-from rapidgen.verification.suite.motion_task import datum, patience
+from rapidgen.verification.suite.motion_task import datum, halt_timeout
 from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
@@ -36,7 +36,7 @@ def _ring(bench: Bench) -> list[Value]:
     return list(view[f"ROS_instructions:{name}"].values())
 
 
-def _told(
+def _expect_progress(
     bench: Bench, watcher: RawLink, trajectory: int, state: RawTrajectoryState, reason: RawReason
 ) -> messages.RawProgress:
     """Return PROGRESS; check state and reason of the trajectory."""
@@ -59,19 +59,19 @@ def _late(bench: Bench) -> None:
     bench.wait_until_moving()
     bench.run(0.3)
     client.link.stop()
-    bench.run(patience(bench))
-    reply = _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
+    bench.run(halt_timeout(bench))
+    reply = _expect_progress(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
     ring = _ring(bench)
     late, like = ring[int(task[head]) % len(ring)], ring[0]
     late.session, late.index = number, reply.planned + 1
     late.kind, late.joints, late.speed, late.zone = like.kind, like.joints, like.speed, like.zone
     task[head] = task[head] + 1
     bench.assert_at_rest(1, "an instruction of a stopped program came late")
-    number = client.takes("a program behind it", program)
+    number = client.takes("a program after it", program)
     next(o for o in ring if (o.session, o.index) == (number, 4)).index = 5.0
     bench.wait_until_at(program[2].joints, 60)
     bench.assert_at_rest(1, "an instruction is missing")
-    reply = _told(bench, watcher, number, RawTrajectoryState.FAILED, RawReason.INTERNAL)
+    reply = _expect_progress(bench, watcher, number, RawTrajectoryState.FAILED, RawReason.INTERNAL)
     if (reply.planned, reply.reached) != (3, 3):
         raise CheckFailed(f"the fourth instruction is missing, PROGRESS says {reply}")
     log_entries = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
@@ -79,7 +79,7 @@ def _late(bench: Bench) -> None:
         raise CheckFailed(
             f"an instruction is missing, the event log says {[str(e) for e in log_entries]}"
         )
-    client.takes("a program behind that", program)
+    client.takes("a program after that", program)
     bench.wait_until_at(program[-1].joints, 60)
 
 
@@ -108,22 +108,22 @@ def _stop_starved(bench: Bench) -> None:
             number = stream.takes("the beginning", points[:8], BEGIN | FLUSH).trajectory
             ends = [points[7][0], points[-1][0]]
         bench.wait_until_at(ends[0], 60)
-        bench.run(patience(bench))
-        _told(bench, watcher, number, starved, RawReason.NONE)
+        bench.run(halt_timeout(bench))
+        _expect_progress(bench, watcher, number, starved, RawReason.NONE)
         if program:
             client.say(goals[1].words, 1, RawStreamFlag(0), first=1)
         else:
             stream.takes("the rest", points[8:], FLUSH)
         bench.wait_until_moving()
         bench.run(2 * bench.config.state_period)
-        _told(bench, watcher, number, moving, RawReason.NONE)
+        _expect_progress(bench, watcher, number, moving, RawReason.NONE)
         bench.wait_until_at(ends[1], 60)
-        bench.run(patience(bench))
+        bench.run(halt_timeout(bench))
         # The motion task waits for more here; this takes longer than a server and two interrupts.
         at_call(bench, "ROS_motion", "WaitTime", 1, ask)
         if client.link.reply(JOINT_TRAJ_PT) != messages.RawAcknowledged():
             raise CheckFailed("STOP is not confirmed while more is waited for")
-        bench.assert_at_rest(patience(bench), "it was stopped while it waited for more")
-        _told(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
+        bench.assert_at_rest(halt_timeout(bench), "it was stopped while it waited for more")
+        _expect_progress(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
         bench.assert_healthy()
         bench.assert_moves_through(client.link, bench.wave(3))

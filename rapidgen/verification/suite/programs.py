@@ -106,7 +106,7 @@ def program_matches_rapid(
     home, since = bench.position, bench.now
     client.takes("a program", program)
     mine = _moved(bench, program, since)
-    with other or bench.beside(called(bench.config, bench.group.task)) as other:
+    with other or bench.second_controller(called(bench.config, bench.group.task)) as other:
         by_hand(other, hand or program)
         other.motion_group.jump(home)
         theirs = _moved(other, program, 0.5)
@@ -289,9 +289,9 @@ def _refused(bench: Bench) -> None:
         raise CheckFailed(f"more instructions than the ring holds: the reply is {reply}")
     if bench.motion_group.kinematics is not None and not computes(bench):
         pose = reached(bench, right[3].joints)
-        untold = replace(right[3], kind=RawInstruction.MOVE_L, pose=pose)
-        reply = client.send([*right[:3], untold])
-        client.refused(reply, RawReason.NO_GEOMETRY, 3, "a pose of which nobody knows the joints")
+        unknown_pose = replace(right[3], kind=RawInstruction.MOVE_L, pose=pose)
+        reply = client.send([*right[:3], unknown_pose])
+        client.refused(reply, RawReason.NO_GEOMETRY, 3, "a pose with unknown joints")
     bench.assert_at_rest(1, "no program was right")
     reply = bench.progress(watcher)
     if (reply.state, reply.planned) != (RawTrajectoryState.REFUSED, 0):
@@ -323,7 +323,7 @@ def _stream(bench: Bench) -> None:
     seen = bench.progress(watcher)
     expected = (RawTrajectoryState.FAILED, 12, RawReason.BAD_SPEED)
     if (seen.state, seen.reached, seen.reason) != expected:
-        raise CheckFailed(f"a program was cut behind 12 instructions, PROGRESS says {seen}")
+        raise CheckFailed(f"a program was cut after 12 instructions, PROGRESS says {seen}")
     bench.assert_at_rest(1, "a program was cut")
 
 
@@ -338,11 +338,11 @@ def _superseded(bench: Bench) -> None:
     client.link.send(bench.download(bench.wave(4)))
     over = (RawTrajectoryState.DONE, RawTrajectoryState.REFUSED)
     for _ in range(200):
-        told = bench.progress(watcher)
-        if told.trajectory == 2 and told.state in over:
+        answer = bench.progress(watcher)
+        if answer.trajectory == 2 and answer.state in over:
             break
     else:
-        raise CheckFailed(f"a trajectory has come into a program, PROGRESS says {told}")
+        raise CheckFailed(f"a trajectory has come into a program, PROGRESS says {answer}")
     bench.assert_at_rest(1, "the program has ended")
     points = bench.wave(20)
     bench.start_motion(client.link, points, 0.5)
@@ -355,7 +355,7 @@ def _superseded(bench: Bench) -> None:
     bench.wait_until_at(program[-1].joints, 60)
 
 
-@case("program-waits", "a wait stands between moves, and STOP ends it")
+@case("program-waits", "a wait between moves, which STOP ends")
 def _waits(bench: Bench) -> None:
     """Wait after a stop point, whatever the zone; reject invalid waits."""
     client = Programmer(bench)
@@ -419,9 +419,9 @@ plain = SuiteGroup("programs")
 def _basic(bench: Bench) -> None:
     """Omit PROGRAMS from HELLO, and answer PROGRAM with a failure."""
     link = bench.motion()
-    told = bench.send_hello(bench.state())
-    if bool(told.features & messages.RawFeature.PROGRAMS) is not bench.streams:
-        raise CheckFailed(f"HELLO tells the features {told.features}")
+    answer = bench.send_hello(bench.state())
+    if bool(answer.features & messages.RawFeature.PROGRAMS) is not bench.streams:
+        raise CheckFailed(f"HELLO reports the features {answer.features}")
     if bench.streams:
         return
     place = millionths(bench.position)

@@ -44,7 +44,7 @@ def refused(
     if point == 0 and reason != RawReason.START_TOO_FAR and reply.received:
         raise CheckFailed(f"the first point had to be refused, PROGRESS says {reply}")
     if point is not None and reply.point != point:
-        raise CheckFailed(f"point {point} had to be blamed, PROGRESS says {reply}")
+        raise CheckFailed(f"point {point} had to be named, PROGRESS says {reply}")
     # A rejection is over with the next good trajectory.
     bench.assert_moves_through(link, bench.wave(3))
     bench.run(0.5)
@@ -184,8 +184,8 @@ def _no_end(bench: Bench) -> None:
     bench.assert_at_rest(5, "its end frame has not come")
 
 
-@case("reasons", "a request is told reason, point and joint")
-def _requests_are_told_why(bench: Bench) -> None:
+@case("reasons", "a request's reply has reason, point and joint")
+def _requests_get_reason(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(4)
     joints = (bench.group.joints[0].upper + 0.5, *points[2][0][1:])
@@ -198,5 +198,5 @@ def _requests_are_told_why(bench: Bench) -> None:
     if not isinstance(content, messages.RawRefused) or content.reason != RawReason.JOINT_LIMIT:
         raise CheckFailed(f"the reply to the end frame is {content}")
     if (content.point, content.joint) != (2, 1):
-        raise CheckFailed(f"the reply blames point {content.point}, joint {content.joint}")
+        raise CheckFailed(f"the reply names point {content.point}, joint {content.joint}")
     bench.assert_at_rest(2, "it was refused")

@@ -44,7 +44,7 @@ def _first_point_of_ten_seconds(bench: Bench) -> None:
         )
 
 
-@case("single-point", "a single point, sent as -1 and -3, begins where the robot stands", "R8")
+@case("single-point", "a single point, sent as -1 and -3, starts at the robot's position", "R8")
 def _single_point_sent_twice(bench: Bench) -> None:
     """Send a single near point twice: reached; a far one: rejected."""
     link, joints = bench.motion(), bench.group.joints
@@ -124,10 +124,10 @@ def _state_is_true(bench: Bench) -> None:
         raise CheckFailed("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
-    _, last = link.told(messages.RawJointPosition)[-1]
+    _, last = link.messages_of(messages.RawJointPosition)[-1]
     current = bench.position
     if distance(last.joints[: len(current)], current) > 1e-4 or any(last.joints[len(current) :]):
-        raise CheckFailed(f"JOINT says {last.joints}, the robot stands at {current}")
+        raise CheckFailed(f"JOINT says {last.joints}, the robot is at {current}")
     if bench.status(link).in_motion != 0:
         raise CheckFailed("a standing robot says that it is in motion")
 
@@ -192,7 +192,7 @@ def _in_one_piece_with_a_stop(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(6)
     link.send(bench.download(points) + STOP)
-    link.expect_reply(5, "STOP behind a trajectory in one segment is answered")
+    link.expect_reply(5, "STOP after a trajectory in one segment is answered")
     bench.wait_until_standing()
     bench.assert_at_rest(2, "it was stopped")
     bench.assert_moves_through(link, bench.wave(4))

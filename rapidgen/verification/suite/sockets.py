@@ -48,15 +48,15 @@ def _whole_headers(bench: Bench) -> None:
         link.send(piece)
         bench.run(0.02)
     for _ in range(3):
-        _pings(link, "PING in pieces, and another one behind it")
+        _pings(link, "PING in pieces, and another one after it")
     longest = struct.pack("<4i", 1020, 1399, RawComm.TOPIC, 0) + bytes(1008)
     for size in (16, 500, 1024):
         for at in range(0, len(longest), size):
             link.send(longest[at : at + size])
             bench.run(0.01)
         link.send(_PING)
-        _pings(link, f"behind a message of 1024 bytes in pieces of {size}")
-    bench.assert_at_rest(0.5, "nobody asked for motion")
+        _pings(link, f"after a message of 1024 bytes in pieces of {size}")
+    bench.assert_at_rest(0.5, "no client asked for motion")
 
 
 @case("ports-open", "ports that are taken are waited for, then stay open", "R18")

@@ -93,7 +93,7 @@ def as_asked(
         fast = fast + then - when if pace > _PEAK * requested else 0.0
         if fast > most or (fast > _MOMENT and then > last):
             raise CheckFailed(
-                f"{then - since:.2f} s behind SPEED {percent:g} the robot is at {100 * pace:.0f} % "
+                f"{then - since:.2f} s after SPEED {percent:g} the robot is at {100 * pace:.0f} % "
                 f"of its speed, for {fast:.2f} s"
             )
     slow = sum(then - when for when, then, pace in seen if pace < 0.75 * requested)
@@ -165,7 +165,7 @@ def _kept(bench: Bench) -> None:
         bench.wait_until_standing()
 
 
-@case("speed-in-pause", "a speed that is asked for in a pause holds behind it")
+@case("speed-in-pause", "a speed that is asked for in a pause holds after it")
 def _in_pause(bench: Bench) -> None:
     """Send SPEED in a pause.
 
@@ -250,9 +250,9 @@ def _at_the_start(bench: Bench) -> None:
     points = bench.wave(3, duration=unit)
     bench.start_motion(link, points)
     started = bench.now
-    told = control.reply(messages.SPEED, soon(bench))
-    if told != messages.RawAcknowledged():
-        raise CheckFailed(f"SPEED at the beginning of a trajectory is answered by {told}")
+    answer = control.reply(messages.SPEED, soon(bench))
+    if answer != messages.RawAcknowledged():
+        raise CheckFailed(f"SPEED at the beginning of a trajectory is answered by {answer}")
     bench.wait_until_at(points[2][0], 10 * unit)
     if bench.now - started < 3.0 * unit:
         raise CheckFailed(

@@ -143,7 +143,7 @@ def _reached_first(bench: Bench) -> None:
             (count + 1, count) if is_good else (count, count - 1)
         ):
             raise CheckFailed(
-                f"the end of a slower move of {what}, which {is_good=}, is told as {reply}"
+                f"the end of a slower move of {what}, which {is_good=}, is reported as {reply}"
             )
         if is_good:
             bench.wait_until_at(last, 20)
@@ -151,7 +151,7 @@ def _reached_first(bench: Bench) -> None:
         bench.assert_moves_through(link, bench.way_to(current))
 
 
-@case("speed-is-over", "a speed that comes behind the last move leaves nothing to be ended", "R5")
+@case("speed-is-over", "a speed that comes after the last move leaves nothing to be ended", "R5")
 def _is_over(bench: Bench) -> None:
     """Send SPEED in a stay at the end: the next trajectory starts normally."""
     current, log_entries = bench.position, _refreshes(bench)
@@ -177,7 +177,7 @@ def _is_over(bench: Bench) -> None:
     _asked_in_a_stay(bench, link)
     moves, since = straight_moves(bench, 2, RATE * 0.6), bench.now
     started = bench.position
-    client.takes("a program behind a trajectory", moves)
+    client.takes("a program after a trajectory", moves)
     bench.wait_until_at(moves[-1].joints, 60)
     bench.followed([started, *(move.joints for move in moves)], since=since, corner=0.002)
 
@@ -195,8 +195,8 @@ def _asked_in_a_stay(bench: Bench, link: RawLink) -> RawLink:
     return link
 
 
-@case("speed-said-enough", "SpeedRefresh is said for as long as it may be lost, and no longer")
-def _said_enough(bench: Bench) -> None:
+@case("speed-said-enough", "SpeedRefresh is repeated as long as it may be lost, and no longer")
+def _repeats_refresh(bench: Bench) -> None:
     """Repeat SpeedRefresh at full speed in the next trajectory, then stop."""
     control, link, log_entries = bench.control(), bench.motion(), _refreshes(bench)
     points = straight(bench, 2, 1.0)
@@ -211,12 +211,14 @@ def _said_enough(bench: Bench) -> None:
     since, points = bench.now, straight(bench, 5, 1.0)
     bench.start_motion(link, points, 2.0)
     if not any(when > since for when, _ in log_entries):
-        raise CheckFailed("a speed is over, and SpeedRefresh has not said so while the robot moves")
+        raise CheckFailed(
+            "a speed is over, and SpeedRefresh has not followed while the robot moves"
+        )
     enough = bench.now
     bench.wait_until_at(points[-1][0], 20)
     late = [when for when, _ in log_entries if enough < when < bench.now - 0.5]
     if late:
-        raise CheckFailed(f"SpeedRefresh is said again at {late}, 2 s behind the beginning")
+        raise CheckFailed(f"SpeedRefresh is repeated at {late}, 2 s after the start")
 
 
 @case("speed-keeps-own", "SPEED multiplies the SpeedRefresh of the program, which is there again")
@@ -224,7 +226,7 @@ def _keeps_own(bench: Bench) -> None:
     """Persist SpeedRefresh: the operator's override stays unchanged."""
     motion = replace(bench.setting.motion, refresh_lasts=True, refresh_standing=True)
     setting = replace(bench.setting, motion=motion)
-    with bench.beside(bench.system, setting=setting) as other:
+    with bench.second_controller(bench.system, setting=setting) as other:
         control, link, group = other.control(), other.motion(), other.motion_group
         group.refresh, group.override = 0.5, 0.8
         for percent in (50.0, 100.0):

@@ -17,7 +17,7 @@ def _one_other(bench: Bench) -> None:
     build = bench.system.build_id.encode()
     # A module that several tasks load.
     path, data = next((m.path, m.data) for t in tasks for m in t.modules if m.name == "ROS_limits")
-    with bench.beside(
+    with bench.second_controller(
         with_module(bench.system, path, data.replace(build, b"0123456789ab"))
     ) as other:
         watcher, link = other.watcher(), other.motion()

@@ -29,7 +29,7 @@ _WAITING = 16
 """Maximum number of queued events."""
 
 
-@case("several-watch", "three clients at once, and who makes room for a fourth")
+@case("several-watch", "three clients at once, and which one a fourth replaces")
 def _several_watch(bench: Bench) -> None:
     """Serve three clients; a fourth replaces the latest, or takes a free place."""
     links: list[RawLink] = []
@@ -38,7 +38,7 @@ def _several_watch(bench: Bench) -> None:
         came = bench.now
         links.append(bench.state())
         soon = 0.2 + 2 * bench.config.state_period
-        bench.until(lambda: bool(links[-1].frames), soon, f"client {number + 1} is told")
+        bench.until(lambda: bool(links[-1].frames), soon, f"client {number + 1} gets a round")
         bench.run(3 * bench.config.state_period)
         if number >= _CLIENTS:
             lost[-1] = True
@@ -59,24 +59,26 @@ def _several_watch(bench: Bench) -> None:
             )
         on_turn(bench, rounds(served[0], since), "one left, another came")
         if any(one.numbers != PLAIN for one in rounds(links[-1], since)):
-            raise CheckFailed("who takes the place of another is told what that had asked for")
+            raise CheckFailed(
+                "a replacing client gets messages that the replaced one had requested"
+            )
     since = bench.now
     bench.run(1)
     tails = [[f for _, f in link.frames[-10:]] for link in links if not link.lost]
     if tails[1:] != tails[:-1]:
-        raise CheckFailed("clients at one time are told different things")
+        raise CheckFailed("clients get different messages at one time")
 
 
-def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
+def _fill(bench: Bench, link: RawLink, free: int = 0) -> None:
     """Fill a client's buffers, as after minutes without reading.
 
-    `room` bytes stay free.
+    `free` bytes stay free.
     """
     end = link.endpoint
     assert isinstance(end, MemoryEndpoint)
     assert end.incoming is not None
     network, pipe = bench.controller.network, end.incoming
-    left = 2 * BUFFER - len(pipe.arrived) - pipe.flying - len(pipe.waiting) - room
+    left = 2 * BUFFER - len(pipe.arrived) - pipe.flying - len(pipe.waiting) - free
     while left:
         size = left if left <= 1024 else min(1024, left - 16)
         # An unrequested reply: it is part of no round.
@@ -121,14 +123,14 @@ def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
     gaps = [b.time - a.time for a, b in pairwise(result)]
     if any(a + b < 0.8 * bench.config.state_period for a, b in pairwise(gaps)):
         raise CheckFailed("what could not be sent in time comes in a burst")
-    on_turn(bench, result[1:], "behind a client that did not read")
+    on_turn(bench, result[1:], "after a client that did not read")
     link.read_on()
     link.wait_disconnected(5, "a client that does not read is dropped")
 
 
 @case(
     "does-not-read",
-    "a state client that does not read holds nobody up for long",
+    "a state client that does not read delays the others only briefly",
     "R13",
     needs="events",
 )
@@ -159,11 +161,13 @@ def _does_not_read(bench: Bench) -> None:
     subscribe(bench, RawFeature.EVENTS, reader)
     since = bench.now
     _write(bench, 1, "First")
-    bench.until(lambda: bool(reader.told(messages.RawEvent, since)), 1, "an event is told")
+    bench.until(
+        lambda: bool(reader.messages_of(messages.RawEvent, since)), 1, "an event is reported"
+    )
     bench.run(0.01)
     times = max(1, round(0.1 / bench.config.state_period))
     size = messages.STATE_BYTES
-    _fill(bench, silent, room=times * size + 50)
+    _fill(bench, silent, free=times * size + 50)
     _write(bench, 2, "Second")
     _is_dropped(bench, silent, reader)
     _fails_to_send(bench, reader)
@@ -201,14 +205,14 @@ def _feedback(bench: Bench) -> None:
     bench.wait_until_at(points[-1][0])
     bench.run(1)
     for one in (first, link):
-        reply = one.told(messages.RawJointFeedback)
+        reply = one.messages_of(messages.RawJointFeedback)
         if len(reply) < 20:
             raise CheckFailed(f"{len(reply)} JOINT_FEEDBACK came")
         _is_motion(bench, reply[2:])
-    seen = {reply.joints for _, reply in link.told(messages.RawJointPosition)}
-    if any(reply.positions not in seen for _, reply in link.told(messages.RawJointFeedback)):
+    seen = {reply.joints for _, reply in link.messages_of(messages.RawJointPosition)}
+    if any(reply.positions not in seen for _, reply in link.messages_of(messages.RawJointFeedback)):
         raise CheckFailed("JOINT_FEEDBACK tells other joints than JOINT")
-    if bench.state().told(messages.RawJointFeedback):
+    if bench.state().messages_of(messages.RawJointFeedback):
         raise CheckFailed("JOINT_FEEDBACK comes to a client that did not ask for it")
 
 
@@ -254,12 +258,12 @@ def _write(
     bench.controller.log.write(code, kind, title, *texts, task=task)
 
 
-def _are_told(link: RawLink, since: float, expected: Sequence[_Event]) -> None:
+def _expect_events(link: RawLink, since: float, expected: Sequence[_Event]) -> None:
     """Check that exactly these events arrived in order, ten a second at most."""
-    result = link.told(messages.RawEvent, since)
+    result = link.messages_of(messages.RawEvent, since)
     reply = [(e.domain, e.number, e.type, e.title.rstrip(), e.first, e.second) for _, e in result]
     if reply != list(expected):
-        raise CheckFailed(f"wanted are events {expected}, EVENT told {reply}")
+        raise CheckFailed(f"wanted are events {expected}, EVENT reported {reply}")
     # One event is late, and the next one in time: closer than they were sent, but ten still take a
     # second.
     times = [when for when, _ in result]
@@ -274,9 +278,11 @@ def _burst(bench: Bench, link: RawLink, count: int) -> tuple[float, list[_Event]
     The result is a time and the list of events.
     """
     since, kinds = bench.now, tuple(EventType)
-    before = len(link.told(messages.RawEvent))
+    before = len(link.messages_of(messages.RawEvent))
     _write(bench, 100, "First")
-    bench.until(lambda: len(link.told(messages.RawEvent)) > before, 1, "an event is told")
+    bench.until(
+        lambda: len(link.messages_of(messages.RawEvent)) > before, 1, "an event is reported"
+    )
     expected: list[_Event] = [(2, 100, 2, "First", "", "")]
     for number in range(count):
         # A title holds 80 characters; one may be empty.
@@ -302,15 +308,15 @@ def _events(bench: Bench) -> None:
         since, expected = _burst(bench, links[0], count)
         bench.run(0.12 * (len(expected) + 2))
         for link in (links[0], links[2]):
-            _are_told(link, since, expected)
-        if links[1].told(messages.RawEvent):
+            _expect_events(link, since, expected)
+        if links[1].messages_of(messages.RawEvent):
             raise CheckFailed("EVENT comes to a client that did not ask for it")
     # No client needs the waiting events, nor the number of the others.
     since, expected = _burst(bench, links[0], 20)
     subscribe(bench, RawFeature.PROGRESS, links[2])
     subscribe(bench, RawFeature.PROGRESS, links[0])
     bench.run(0.3)
-    seen, started = len(links[0].told(messages.RawEvent, since)), since
+    seen, started = len(links[0].messages_of(messages.RawEvent, since)), since
     for number in range(100):
         _write(bench, number, "Nobody listens")
     bench.run(0.5)
@@ -320,13 +326,13 @@ def _events(bench: Bench) -> None:
     bench.run(0.5)
     if (
         seen > 8
-        or len(links[0].told(messages.RawEvent, started)) > seen
-        or links[2].told(messages.RawEvent, since)
+        or len(links[0].messages_of(messages.RawEvent, started)) > seen
+        or links[2].messages_of(messages.RawEvent, since)
     ):
-        raise CheckFailed("events from before HELLO are told")
+        raise CheckFailed("events from before HELLO are reported")
     since, expected = _burst(bench, links[2], 2)
     bench.run(0.5)
-    _are_told(links[2], since, expected)
+    _expect_events(links[2], since, expected)
     links[2].close(then=0.5)
     for number in range(100):
         _write(bench, number, "Who listened has left")
@@ -346,7 +352,7 @@ def _limits_of_the_controller(bench: Bench) -> None:
         replace(g, joints=(narrow, *g.joints[1:])) if g.name == group.name else g
         for g in bench.config.groups
     )
-    with bench.beside(bench.system, robots) as other:
+    with bench.second_controller(bench.system, robots) as other:
         link = other.state()
         reply = other.send_hello(link)
         if abs(reply.lower[0] - narrow.lower) + abs(reply.upper[0] - narrow.upper) > 1e-4:

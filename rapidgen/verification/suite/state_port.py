@@ -20,7 +20,7 @@ from rapidgen.verification.messages import (
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance, small_unit
 from rapidgen.verification.raw_connection import STOP, RawLink
-from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.motion_task import halt_timeout
 from rapidgen.verification.testbench import Bench
 
 case = SuiteGroup("reading")
@@ -45,7 +45,7 @@ def content(one: Round, kind: type[C]) -> C:
     """Return the first message of a type in a round."""
     match = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
     if match is None:
-        raise CheckFailed(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
+        raise CheckFailed(f"at {one.time:.3f} s a client gets {one.numbers}: no {kind.__name__}")
     return match
 
 
@@ -117,19 +117,19 @@ def _all_alike(
         expected = [*PLAIN, *(n for f, n in _FOLLOW.items() if f in features)]
         for one in own:
             if one.numbers != expected:
-                raise CheckFailed(f"who asked for {features!r} is told messages {one.numbers}")
+                raise CheckFailed(
+                    f"a client that asked for {features!r} gets messages {one.numbers}"
+                )
     counts = [len(own) for own in reply]
     if max(counts) - min(counts) > 1:
-        raise CheckFailed(f"clients of one server are told {counts} rounds")
+        raise CheckFailed(f"clients of one server get {counts} rounds")
     # The last round may still be on its way to the others.
     for moment in zip(*reply, strict=False):
         seen: dict[int, messages.RawFrame] = {}
         for one in moment:
             for frame in one.frames:
                 if seen.setdefault(frame.number, frame) != frame:
-                    raise CheckFailed(
-                        f"at {one.time:.3f} s clients are told different {frame.number}"
-                    )
+                    raise CheckFailed(f"at {one.time:.3f} s clients get different {frame.number}")
     return reply[0]
 
 
@@ -151,14 +151,14 @@ def _is_true(bench: Bench, reply: Sequence[Round]) -> set[int]:
         wrong = progress.state in (RawTrajectoryState.REFUSED, RawTrajectoryState.FAILED)
         code = progress.reason + 100 * progress.joint if wrong else 0
         if (status.in_error, status.error_code) != (int(wrong), code):
-            raise CheckFailed(f"{progress} is told with {status}")
+            raise CheckFailed(f"{progress} is reported with {status}")
         moving = progress.state == RawTrajectoryState.MOVING
         if slow and following is not None and status.in_motion != moving:
             then = content(following, messages.RawProgress)
             moving = then.state == RawTrajectoryState.MOVING
         stood = stood + 1 if current == before else 0
         if status.in_motion != moving and (moving or stood > late):
-            raise CheckFailed(f"{progress} is told with {status}")
+            raise CheckFailed(f"{progress} is reported with {status}")
         plain = (status.drives_powered, status.e_stopped, status.mode, status.motion_possible)
         if plain != (1, 0, RawMode.AUTO, 1):
             raise CheckFailed(f"all is well, STATUS says {status}")
@@ -166,7 +166,7 @@ def _is_true(bench: Bench, reply: Sequence[Round]) -> set[int]:
     return seen
 
 
-@case("each-round", "what each of three clients is told in each round", needs="feedback")
+@case("each-round", "messages to each of three clients in each round", needs="feedback")
 def _each_round(bench: Bench) -> None:
     """Check three clients with changing features in several situations.
 
@@ -229,7 +229,7 @@ def _is_measured(bench: Bench, reply: Sequence[Round], what: str) -> None:
         for joint in range(count):
             gone = (now.positions[joint] - before.positions[joint]) / seconds
             if abs(gone - now.velocities[joint]) > 1e-5 + 1e-3 * abs(gone):
-                raise CheckFailed(f"{what}: joint {joint + 1} moves with {gone}, told is {now}")
+                raise CheckFailed(f"{what}: joint {joint + 1} moves with {gone}, reported is {now}")
 
 
 def _clocks(bench: Bench) -> list[StopWatch]:
@@ -315,7 +315,7 @@ def _not_over_yet(bench: Bench) -> None:
         else:
             motion.close()
         bench.wait_until_standing(3)
-        bench.run(patience(bench))
+        bench.run(halt_timeout(bench))
         since = _pause(bench, link)
         bench.run(3 * period)
         for one in rounds(link, since):
@@ -353,15 +353,13 @@ def _first_of_all(bench: Bench) -> None:
         came = bench.now
         bench.controller.signals[error] = visit % 2
         link = bench.state()
-        bench.until(lambda: bool(link.frames), 0.1, "the first client is told")  # noqa: B023
+        bench.until(lambda: bool(link.frames), 0.1, "the first client gets a round")  # noqa: B023
         bench.run(4 * period)
         result = rounds(link, came)
         on_turn(bench, result, f"visit {visit + 1}")
         first = content(result[0], messages.RawStatus)
         if first.in_motion:
-            raise CheckFailed(
-                f"the robot has moved while nobody looked, the first STATUS is {first}"
-            )
+            raise CheckFailed(f"the robot has moved without clients, the first STATUS is {first}")
         if first.in_error != visit % 2:
             raise CheckFailed(f"signal {error} is {visit % 2}, the first STATUS is {first}")
         for name, value in ((at_rest, 0), (stop, 1), (at_rest, 1), (stop, 0)):
@@ -380,7 +378,7 @@ def _first_of_all(bench: Bench) -> None:
         stamp = _stamps(rounds(link, since))[-1]
         if abs(stamp - (bench.now - result[0].time) - 0.3) > period:
             raise CheckFailed(
-                f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}"
+                f"the first client has come {bench.now - came:.2f} s ago, reported is {stamp}"
             )
         link.close(abort=visit == 1, then=2 * period + 0.1)
         bench.assert_moves_through(motion, bench.wave(3, duration=0.2))

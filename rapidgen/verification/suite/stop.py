@@ -48,7 +48,7 @@ def _stop_at_every_moment(bench: Bench) -> None:
         points = bench.wave(5, duration=0.3)
         link.send(bench.download(points))
         bench.run(step * 0.005)
-        link.stop(2, f"STOP {step * 5} ms behind a trajectory is answered")
+        link.stop(2, f"STOP {step * 5} ms after a trajectory is answered")
         bench.wait_until_at_rest(5, 0.5, "it was stopped")
     bench.assert_moves_through(link, bench.wave(4))
 
@@ -61,7 +61,7 @@ def _stop_in_a_download(bench: Bench) -> None:
     link.expect_reply(1, "STOP in a download is answered")
     bench.assert_at_rest(2, "the download was stopped")
     link.send(frames[68 * 4 :])
-    bench.assert_at_rest(2, "points behind a STOP belong to no trajectory")
+    bench.assert_at_rest(2, "points after a STOP belong to no trajectory")
     bench.assert_moves_through(link, bench.wave(3))
 
 
@@ -107,13 +107,13 @@ def _ends_once(bench: Bench) -> None:
     bench.assert_at_rest(30, "the trajectory is done")
 
 
-@case("ring-is-empty", "a stopped long trajectory leaves nothing behind")
+@case("ring-is-empty", "a stopped long trajectory leaves no points")
 def _short_way_to_stop(bench: Bench) -> None:
     """Stop a long trajectory early: its ring is not executed later."""
     link = bench.motion()
     count = min(bench.config.trajectory.capacity, 400)
     bench.start_motion(link, bench.wave(count, duration=0.2, size=0.01), 0.2)
-    link.stop(3, "STOP behind a long trajectory is answered")
+    link.stop(3, "STOP after a long trajectory is answered")
     bench.wait_until_standing(5)
     points = bench.wave(4)
     bench.assert_moves_through(link, points)

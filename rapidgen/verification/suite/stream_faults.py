@@ -138,7 +138,7 @@ def _each_value(bench: Bench) -> None:
             streams.refused(RawReason.SEGMENT_TOO_SHORT, 1, "a short segment in between")
         streams.begin([(current, 1.0), (current, policy.min_segment), (current, short)])
         streams.refused(
-            RawReason.SEGMENT_TOO_SHORT, 2, "a short segment that is not said to be last"
+            RawReason.SEGMENT_TOO_SHORT, 2, "a short segment that is not marked as last"
         )
         streams.begin([(current, 1.0), (current, policy.min_segment), (current, short)], END)
         streams.taken(3, "a short last segment")
@@ -168,7 +168,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
     bench.wait_until_at_rest(2, 0.1, "the last stream was stopped")
 
 
-def _said(bench: Bench, reason: RawReason) -> None:
+def _expect_logged(bench: Bench, reason: RawReason) -> None:
     """Check that the event log has a rejection for that reason."""
     bench.run(0.05)
     text = messages.text_of(reason)
@@ -184,7 +184,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
         stream.say(stream.frame(points, _NONE))
         recovers()
         streams.strange(0, RawReason.CHECKSUM, "a head that cannot be read")
-    _said(bench, RawReason.CHECKSUM)
+    _expect_logged(bench, RawReason.CHECKSUM)
     head = stream.frame(points, _NONE)
     stream.say(head[:16] + b"\xff" * 8 + head[24:])
     if not isinstance(stream.last, messages.RawPointsRefused) or stream.last.stream:
@@ -212,7 +212,7 @@ def _odd_batches(bench: Bench) -> None:
     for number, (what, first, unreadable) in enumerate(
         (
             ("a damaged batch", 12, None),
-            ("a damaged batch behind a hole", 13, None),
+            ("a damaged batch after a hole", 13, None),
             ("a checksum that cannot be read", 12, _HEAD + 4 + 2 * values),
             ("a point that cannot be read", 12, _HEAD + 4 + values),
         )
@@ -224,7 +224,7 @@ def _odd_batches(bench: Bench) -> None:
             bench.wait_until_moving(1)
             _no_business_of_it(bench, streams)
         stream.put(points[8:12])
-        streams.taken(12, "a batch behind others that were none of this stream")
+        streams.taken(12, "a batch after others that were none of this stream")
         data = bytearray(stream.frame(points[12:], _NONE, first))
         if unreadable is None:
             data[-9] ^= 1
@@ -235,7 +235,7 @@ def _odd_batches(bench: Bench) -> None:
         recovers()
         streams.refused(RawReason.CHECKSUM, 12, what)
         stream.put(points[12:])
-        streams.refused(RawReason.CHECKSUM, 12, f"a batch behind {what}")
+        streams.refused(RawReason.CHECKSUM, 12, f"a batch after {what}")
         bench.wait_until_at(points[11][0], 10)
         bench.executed(points[:12], since)
         if number in (0, 3):
@@ -245,7 +245,7 @@ def _odd_batches(bench: Bench) -> None:
         points = bench.wave(4, duration=0.2)
         if which == "stream":
             streams.begin(points, END)
-            streams.taken(4, "a stream behind one that was cut")
+            streams.taken(4, "a stream after one that was cut")
         else:
             streams.link.send(bench.download(points))
             streams.trajectory += 1
@@ -263,10 +263,10 @@ def _early_ends(bench: Bench) -> None:
     bench.run(0.3)
     streams.shows(RawTrajectoryState.DONE, (1, 1, 1), 0)
     streams.stream.put(())
-    if streams.taken(1, "a question behind the end").state != RawTrajectoryState.DONE:
+    if streams.taken(1, "a question after the end").state != RawTrajectoryState.DONE:
         raise CheckFailed(f"a stream is done, the reply is {streams.stream.last}")
     streams.stream.put([(current, 1.0)])
-    streams.refused(RawReason.SEQUENCE_GAP, 1, "a single point behind the end")
+    streams.refused(RawReason.SEQUENCE_GAP, 1, "a single point after the end")
     streams.begin((), END)
     streams.refused(RawReason.SEQUENCE_GAP, 0, "an end without a point")
     streams.begin([(current, 1.0), (current, 1.0), (far, _SLOW)])
@@ -276,7 +276,7 @@ def _early_ends(bench: Bench) -> None:
     before = streams.trajectory
     streams.link.send(raw_point(-1, current, 1.0))
     streams.stream.put([(current, 1.0)])
-    streams.refused(RawReason.SUPERSEDED, 0, "a point behind a download", point=-1)
+    streams.refused(RawReason.SUPERSEDED, 0, "a point after a download", point=-1)
     streams.trajectory = before + 1
     # A stream's start discards a partly received or skipped trajectory.
     streams.begin()
@@ -294,7 +294,7 @@ def _early_ends(bench: Bench) -> None:
     short[28] = 1
     streams.link.send(bytes(short))
     streams.stream.reply()
-    streams.refused(RawReason.STOPPED, 0, "a batch of a wrong size behind STOP", point=-1)
+    streams.refused(RawReason.STOPPED, 0, "a batch of a wrong size after STOP", point=-1)
     if not bench.config.commissioning:
         streams.begin()
         bench.controller.perform("stop")
@@ -332,8 +332,8 @@ def _left(bench: Bench) -> None:
     streams.watcher.close(then=0.3)
 
 
-@case("room", "as many points as there is room for, and one more", "R1")
-def _room(bench: Bench) -> None:
+@case("room", "as many points as fit, and one more", "R1")
+def _ring_space(bench: Bench) -> None:
     """Send as many points as the reply allows, across the counters' wrap."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
@@ -345,28 +345,30 @@ def _room(bench: Bench) -> None:
     bench.run(0.4)
     stream, sent = streams.stream, 3
     stream.put(())
-    while room := streams.taken(sent, "points that there is room for").room:
+    while space := streams.taken(sent, "points that fit").room:
         planned = stream.accepted("room").planned
-        if room != ring - 1 - sent + planned:
-            raise CheckFailed(f"{sent} of {ring - 1} points sent, {planned} planned, room {room}")
-        stream.put(goal[sent : sent + min(room, most)])
-        sent += min(room, most)
+        if space != ring - 1 - sent + planned:
+            raise CheckFailed(
+                f"{sent} of {ring - 1} points sent, {planned} planned, free places {space}"
+            )
+        stream.put(goal[sent : sent + min(space, most)])
+        sent += min(space, most)
     streams.shows(RawTrajectoryState.MOVING, (sent,), 0)
     stream.put(goal[sent : sent + 1])
-    streams.refused(RawReason.OVERRUN, sent, "one point more than there is room for")
-    _said(bench, RawReason.OVERRUN)
+    streams.refused(RawReason.OVERRUN, sent, "one point more than fit")
+    _expect_logged(bench, RawReason.OVERRUN)
     streams.stop()
     bench.wait_until_standing(2)
     stream.put(goal[sent : sent + 1])
-    streams.refused(RawReason.OVERRUN, sent, "a point behind a stream that was cut")
+    streams.refused(RawReason.OVERRUN, sent, "a point after a stream that was cut")
     # After the counters' wrap, the ring's entries are found, too.
     streams.begin()
-    while streams.taken(0, "a stream behind one that was stopped").room < ring - 1:
+    while streams.taken(0, "a stream after one that was stopped").room < ring - 1:
         bench.run(0.1)
         streams.stream.put(())
     points, since = way(bench, 12), bench.now
     streams.stream.put(points, END)
-    streams.taken(12, "a stream behind one that was stopped")
+    streams.taken(12, "a stream after one that was stopped")
     bench.arrives(points, since, 5)
     streams.shows(RawTrajectoryState.DONE, (12, 12, 12), 0)
 
@@ -394,7 +396,7 @@ def _move_fails(bench: Bench) -> None:
     bench.run(0.5)
     bench.wait_until_standing(3)
     streams.stream.put(points[10:14])
-    reply = streams.stream.refused(RawReason.COLLISION, "a batch behind a collision")
+    reply = streams.stream.refused(RawReason.COLLISION, "a batch after a collision")
     if reply.trajectory != streams.trajectory or reply.accepted != 10 or not 0 <= reply.point < 10:
-        raise CheckFailed(f"a batch behind a collision is answered by {reply}")
+        raise CheckFailed(f"a batch after a collision is answered by {reply}")
     bench.assert_moves_through(streams.link, bench.way_to(points[0][0]))

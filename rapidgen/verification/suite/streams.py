@@ -7,7 +7,7 @@ from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, distance
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.motion_task import halt_timeout
 from rapidgen.verification.testbench import Bench
 
 case = SuiteGroup("streaming", needs="stream")
@@ -22,7 +22,7 @@ def way(bench: Bench, count: int, duration: float = 0.15) -> list[Point]:
 
 
 def _progress(bench: Bench, link: RawLink) -> messages.RawProgress:
-    bench.run(patience(bench))
+    bench.run(halt_timeout(bench))
     return bench.progress(link)
 
 
@@ -48,7 +48,7 @@ def _whole_stream(bench: Bench) -> None:
         points = [*reversed(points)]
 
 
-@case("preload", "motion begins with enough in the ring, or when told")
+@case("preload", "motion begins with enough points in the ring, or on request")
 def _preload(bench: Bench) -> None:
     """Start the motion with enough preload, at the end, or on request."""
     seconds = bench.config.trajectory.preload
@@ -83,7 +83,7 @@ def _starves(bench: Bench) -> None:
     bench.assert_at_rest(2, "the stream has starved")
     reply = _progress(bench, watcher)
     if (reply.state, reply.reached, reply.reason) != (RawTrajectoryState.STARVED, 15, 0):
-        raise CheckFailed(f"a stream has starved behind 15 points, PROGRESS says {reply}")
+        raise CheckFailed(f"a stream has starved after 15 points, PROGRESS says {reply}")
     status = bench.status(watcher)
     if (status.in_motion, status.in_error) != (0, 0):
         raise CheckFailed(f"a stream has starved, STATUS says {status}")
@@ -112,7 +112,7 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
     if reply.accepted != 20 + taken:
         raise CheckFailed(f"{what}: {20 + taken} points are right, the reply is {reply}")
     stream.sent = 20
-    stream.refuses(reason, f"a batch behind {what}", points[20:24])
+    stream.refuses(reason, f"a batch after {what}", points[20:24])
     bench.wait_until_standing(20)
     bench.executed(points[: 20 + taken], since)
     if not taken and distance(bench.position, points[19][0]) > 1e-3:
@@ -204,7 +204,7 @@ def _first_batch_is_wrong(bench: Bench) -> None:
     for reason, joints in ((RawReason.JOINT_LIMIT, far), (RawReason.START_TOO_FAR, away)):
         stream = Streamer(bench)
         stream.refuses(reason, "a first point that is wrong", [(p, 1.0) for p in joints], BEGIN)
-        stream.refuses(reason, "a batch behind a first point that is wrong", way(bench, 10))
+        stream.refuses(reason, "a batch after a first point that is wrong", way(bench, 10))
         bench.assert_at_rest(3, "the first point of the stream is wrong")
         stream.link.close(then=1.5)
     stream = Streamer(bench, number=9)
@@ -216,13 +216,13 @@ def _first_batch_is_wrong(bench: Bench) -> None:
     stream.say(bytes(data))
     stream.refused(RawReason.CHECKSUM, "a damaged beginning")
     stream.refuses(RawReason.SEQUENCE_GAP, "an end without a point", (), BEGIN | END)
-    bench.assert_at_rest(3, "no stream has begun")
+    bench.assert_at_rest(3, "no stream has started")
     stream.number, stream.sent = 10, 0
     stream.all(way(bench, 10))
     bench.wait_until_at(stream.points[-1][0], 20)
 
 
-@case("overrun", "more points than there is room for cut the stream", "R1")
+@case("overrun", "more points than fit cut the stream", "R1")
 def _overrun(bench: Bench) -> None:
     watcher, since = bench.watcher(), bench.now
     ring = bench.config.trajectory.ring
@@ -230,34 +230,34 @@ def _overrun(bench: Bench) -> None:
     stream = Streamer(bench)
     stream.put(points[:20], BEGIN)
     while stream.room >= 20:
-        stream.takes("points that there is room for", points[stream.sent : stream.sent + 20])
+        stream.takes("points that fit", points[stream.sent : stream.sent + 20])
     before = stream.sent
     stream.link.send(stream.frame(points[before : before + 20], _NONE))
     stream.link.send(stream.frame(points[before + 20 : before + 40], _NONE, first=before + 20))
     for _ in range(2):
         stream.reply()
-    told = stream.refused(RawReason.OVERRUN, "more points than there is room for")
-    if not before <= told.accepted <= before + 20:
-        raise CheckFailed(f"{before} points were sent with room for them, the reply is {told}")
+    answer = stream.refused(RawReason.OVERRUN, "more points than fit")
+    if not before <= answer.accepted <= before + 20:
+        raise CheckFailed(f"{before} points were sent with places for them, the reply is {answer}")
     bench.wait_until_standing(60)
-    bench.executed(points[: told.accepted], since)
-    if distance(bench.position, points[told.accepted - 1][0]) > 1e-3:
+    bench.executed(points[: answer.accepted], since)
+    if distance(bench.position, points[answer.accepted - 1][0]) > 1e-3:
         raise CheckFailed("points that were accepted before an overrun are not executed")
     if _progress(bench, watcher).reason != RawReason.OVERRUN:
         raise CheckFailed(f"after an overrun PROGRESS says {bench.progress(watcher)}")
 
 
 @case("behind-the-end", "nothing follows the end of a stream")
-def _behind_the_end(bench: Bench) -> None:
+def _after_end(bench: Bench) -> None:
     stream = Streamer(bench)
     points = way(bench, 12)
     stream.all(points)
-    stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
+    stream.refuses(RawReason.SEQUENCE_GAP, "points after the end", way(bench, 3))
     bench.wait_until_at(points[-1][0], 20)
     bench.assert_at_rest(2, "the stream has ended")
 
 
-@case("stream-ended", "stops end a stream, and batches are told why", "R5, R7a", background=True)
+@case("stream-ended", "stops end a stream, and batches get the reason", "R5, R7a", background=True)
 def _early_end(bench: Bench) -> None:
     """End a stream by each event; batches report the reason."""
     stopped = (RawReason.MOTORS_OFF, RawReason.PROGRAM_STOPPED, RawReason.EMERGENCY_STOP)

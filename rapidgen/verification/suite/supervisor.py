@@ -12,7 +12,7 @@ from rapidgen.verification.suite.motion_task import (
     begins,
     begins_soon,
     datum,
-    patience,
+    halt_timeout,
     soon,
     unit_of,
 )
@@ -96,7 +96,7 @@ def _answers_soon(bench: Bench) -> None:
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0):
             raise CheckFailed(
-                f"right behind a stop of the program a trajectory is answered: {content}"
+                f"right after a stop of the program a trajectory is answered: {content}"
             )
         bench.controller.perform("start")
 
@@ -132,7 +132,7 @@ def _why_it_ended(bench: Bench) -> None:
         else:
             bench.controller.perform(action)
         bench.wait_until_standing(3)
-        bench.run(patience(bench))
+        bench.run(halt_timeout(bench))
         reply, seen = bench.progress(watcher), bench.status(watcher)
         if reply != (number, failed, 5, 3, 1, reason, 1, 0):
             raise CheckFailed(f"{action} came between points 1 and 2, PROGRESS says {reply}")
@@ -160,7 +160,7 @@ def _why_it_ended(bench: Bench) -> None:
         number += 1
         bench.run(0.3)
         bench.start_again()
-        bench.assert_at_rest(patience(bench), f"the program was started again after {action}")
+        bench.assert_at_rest(halt_timeout(bench), f"the program was started again after {action}")
         if bench.status(watcher).motion_possible != 1:
             raise CheckFailed(f"after {action} and a start of the program no motion is possible")
         link.send(frames[68:])
@@ -169,7 +169,7 @@ def _why_it_ended(bench: Bench) -> None:
         noted = RawReason.MODE_CHANGED if action == "manual" else reason
         if content != messages.RawRefused(noted, -1, 0):
             raise CheckFailed(
-                f"what began behind {action}, and ended later, is answered by {content}"
+                f"what started after {action}, and ended later, is answered by {content}"
             )
 
 
@@ -239,7 +239,7 @@ def _pause_by_step(bench: Bench) -> None:
         bench.wait_until_standing(1)
         if stopped:
             link.stop()
-            bench.run(patience(bench))
+            bench.run(halt_timeout(bench))
             ask(0, RawReason.IDLE)
         points = bench.wave(3, duration=unit)
         link.send(bench.download(points))
@@ -264,7 +264,7 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
         bench.wait_until_standing(1)
         at_call(bench, "ROS_supervisor", "StartMove", 1, stop)
         control.send(messages.encode(messages.RawPause(0), RawComm.REQUEST))
-        bench.assert_at_rest(patience(bench), "STOP came at the end of a pause")
+        bench.assert_at_rest(halt_timeout(bench), "STOP came at the end of a pause")
         if link.reply(_TRAJ) != messages.RawAcknowledged():
             raise CheckFailed("STOP at the end of a pause is not confirmed")
 
@@ -293,7 +293,7 @@ def _builds_differ(bench: Bench) -> None:
         if bench.status(watcher).motion_possible:
             raise CheckFailed("tasks show different builds, STATUS says that motion is possible")
         task[displayed] = good
-        bench.run(patience(bench))
+        bench.run(halt_timeout(bench))
         if not bench.status(watcher).motion_possible:
             raise CheckFailed("tasks show one build again, STATUS says that no motion is possible")
         log_entries = [e for e in _warnings(bench, last) if "different builds" in e.title]

@@ -19,7 +19,7 @@ from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.verification.suite.control import done
-from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.motion_task import halt_timeout
 from rapidgen.verification.suite.state_port import rounds
 from rapidgen.verification.testbench import Bench
 
@@ -29,7 +29,9 @@ case = SuiteGroup("faults")
 @contextmanager
 def _stepped(bench: Bench) -> Iterator[Bench]:
     """Return another controller, which can be stopped at a statement."""
-    with bench.beside(bench.system, setting=replace(bench.setting, coverage=True)) as other:
+    with bench.second_controller(
+        bench.system, setting=replace(bench.setting, coverage=True)
+    ) as other:
         yield other
         other.run(1.5)
         other.assert_moves_through(other.motion(), other.wave(4))
@@ -231,7 +233,7 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
             other.wait_until_at_rest(
                 2, 1, f"STOP came at line {line} of the supervisor, which ended a pause"
             )
-            other.run(patience(other))
+            other.run(halt_timeout(other))
 
 
 @case(

@@ -49,7 +49,7 @@ def _data(bench: Bench) -> None:
         not_done(reply, RawReason.NO_DATUM, f"datum {index} is not in the robot's program")
     if not listed:
         return
-    with bench.beside(_with(bench, listed)) as other:
+    with bench.second_controller(_with(bench, listed)) as other:
         control = other.control()
         if not bench.setting.dialect.data_of_tasks:
             for index in range(len(listed)):
@@ -61,7 +61,7 @@ def _data(bench: Bench) -> None:
         other.assert_at_rest(0.5, "data were read and written")
     for missing, datum in enumerate(listed):
         others = tuple(d for d in listed if d != datum)
-        with bench.beside(_with(bench, others)) as other:
+        with bench.second_controller(_with(bench, others)) as other:
             control = other.control()
             not_done(_asks(control, missing), RawReason.NO_DATUM, f"datum {missing} is missing")
             for index in range(len(listed)):
@@ -71,7 +71,7 @@ def _data(bench: Bench) -> None:
                         messages.RawDatumReply(index, *_FIRST[listed[index].type]),
                     )
     elsewhere = tuple(replace(d, name=f"other{d.name}") for d in listed)
-    with bench.beside(_with(bench, elsewhere)) as other:
+    with bench.second_controller(_with(bench, elsewhere)) as other:
         control = other.control()
         for index in range(len(listed)):
             reply = _asks(control, index)
@@ -85,7 +85,7 @@ def _reading_fails(bench: Bench) -> None:
     texts = [n for n, d in enumerate(listed) if (d.type, d.access) == ("string", "write")]
     if not texts:
         raise NotApplicable("no text of the program may be written")
-    with bench.beside(_with(bench, listed)) as other:
+    with bench.second_controller(_with(bench, listed)) as other:
         # Three of the head, three of the request, and two characters with their end.
         for name, count in (("UnpackRawBytes", 9), ("ByteToStr", 2)):
             for after in range(count):
@@ -107,8 +107,8 @@ def _one(control: RawLink, index: int, datum: UserDatum) -> None:
     kind, reply = datum.type, messages.RawDatumReply
     _says(_asks(control, index), reply(index, *_FIRST[kind]))
     if datum.access == "read":
-        told = _asks(control, index, 1, 1.0, "other")
-        not_done(told, RawReason.READ_ONLY, f"datum {index} may not be written")
+        answer = _asks(control, index, 1, 1.0, "other")
+        not_done(answer, RawReason.READ_ONLY, f"datum {index} may not be written")
         _says(_asks(control, index), reply(index, *_FIRST[kind]))
         return
     for number, text in _SOME[kind]:
@@ -117,8 +117,8 @@ def _one(control: RawLink, index: int, datum: UserDatum) -> None:
     for number, reason in _NEVER[kind]:
         not_done(_asks(control, index, 1, number), reason, f"{number} to a {kind}")
     for write in (2, -1):
-        told = _asks(control, index, write)
-        not_done(told, RawReason.BAD_VALUE, "neither read nor write")
+        answer = _asks(control, index, write)
+        not_done(answer, RawReason.BAD_VALUE, "neither read nor write")
     _says(_asks(control, index), reply(index, *_SOME[kind][-1]))
 
 

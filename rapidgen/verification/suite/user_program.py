@@ -13,7 +13,7 @@ from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import RawLink
 from rapidgen.verification.suite.control import done
-from rapidgen.verification.suite.motion_task import patience
+from rapidgen.verification.suite.motion_task import halt_timeout
 from rapidgen.verification.suite.supervisor import end_as_request
 from rapidgen.verification.testbench import Bench
 
@@ -94,18 +94,18 @@ def _refused(bench: Bench, link: RawLink, when: str) -> None:
 @case("own-main", "ROS_run returns to a program that moves by itself, and main starts once", "R7b")
 def _own_main(bench: Bench) -> None:
     """Stop, fail and leave ROS_run: the user's main never restarts."""
-    with bench.beside(_system(bench)) as other:
+    with bench.second_controller(_system(bench)) as other:
         view = other.controller.task(other.group.task)
         link, state = other.motion(), other.state()
         for _ in range(3):
             other.start_motion(link, other.wave(8), 0.4)
             link.stop()
-            other.run(patience(other) + 0.3)
+            other.run(halt_timeout(other) + 0.3)
         other.start_motion(link, other.wave(8), 0.4)
         other.controller.perform("e-stop")
         other.wait_until_standing(3)
         other.start_again()
-        other.assert_at_rest(patience(other), "it was stopped, and nobody asked for motion")
+        other.assert_at_rest(halt_timeout(other), "it was stopped, and no client asked for motion")
         link = _served(other, link)
         for _ in range(2):
             points, since = other.wave(5), other.now
@@ -117,11 +117,11 @@ def _own_main(bench: Bench) -> None:
             other.wait_until_moving()
             _moves_by_itself(other, link, state)
             view["cell:leave"] = False
-            other.run(patience(other) + 0.3)
+            other.run(halt_timeout(other) + 0.3)
             other.assert_moves_through(link, other.wave(3))
         if view["cell:starts"] != 1:
             raise CheckFailed(f"the customer's main was started {view['cell:starts']} times")
-        _begun_anew(other, link)
+        _restarted(other, link)
         other.assert_healthy()
 
 
@@ -158,13 +158,13 @@ def _until_a_signal(bench: Bench) -> None:
 
     A signal may be out of reach.
     """
-    with bench.beside(_system(bench, _MAIN_SIGNAL)) as other:
+    with bench.second_controller(_system(bench, _MAIN_SIGNAL)) as other:
         view, group = other.controller.task(other.group.task), other.motion_group
         link = other.motion()
         control = other.control() if other.group.ports.control else None
         other.until(lambda: view["cell:stage"] == 1, 2, "the program serves")
         for _ in range(2):
-            other.run(patience(other) + 0.3)
+            other.run(halt_timeout(other) + 0.3)
             ends = fails(other, "cell", "DInput", "ERR_NORUNUNIT", 1000)
             other.run(1.5)
             if view["cell:stage"] != 1:
@@ -179,7 +179,7 @@ def _until_a_signal(bench: Bench) -> None:
             other.wait_until_at(points[-1][0], 30)
             other.executed(points, since)
             other.until(lambda: view["cell:stage"] == 2, 2, "ROS_run returns")
-            _refused(other, link, "behind ROS_run")
+            _refused(other, link, "after ROS_run")
             if (group.modal.speed_override, group.refresh) != (0.5, 1.0):
                 raise CheckFailed(
                     f"VelSet is {group.modal.speed_override}, SpeedRefresh {group.refresh}"
@@ -189,7 +189,7 @@ def _until_a_signal(bench: Bench) -> None:
         other.assert_healthy()
 
 
-def _begun_anew(bench: Bench, link: RawLink) -> None:
+def _restarted(bench: Bench, link: RawLink) -> None:
     """Stop in a trajectory and restart without ROS_run: motion is free."""
     view = bench.controller.task(bench.group.task)
     bench.start_motion(link, bench.wave(8), 0.4)
@@ -200,14 +200,16 @@ def _begun_anew(bench: Bench, link: RawLink) -> None:
     view["cell:leave"] = True
     bench.controller.perform("pp-to-main")
     bench.start_again()
-    bench.until(lambda: view["cell:stage"] == 3, 12, "a program that was begun anew moves")
+    bench.until(lambda: view["cell:stage"] == 3, 12, "a restarted program moves")
     bench.run(0.2)
     if distance(before, bench.position) > 1e-3:
         raise CheckFailed("the program has come back to where it stood, the robot has not")
     if view["cell:starts"] != 2 or bench.motion_group.stop_reasons:
-        raise CheckFailed(f"begun {view['cell:starts']} times, {bench.motion_group.stop_reasons}")
+        raise CheckFailed(
+            f"restarted {view['cell:starts']} times, {bench.motion_group.stop_reasons}"
+        )
     view["cell:leave"] = False
-    bench.run(patience(bench) + 0.3)
+    bench.run(halt_timeout(bench) + 0.3)
     bench.assert_moves_through(_served(bench, link), bench.wave(3))
 
 
@@ -248,7 +250,7 @@ def _another_program(bench: Bench) -> None:
     system = replace(bench.system, tasks=tasks)
     # Without signals, only the event routines report if the program runs.
     for own in (system, replace(system, signals=(), outputs=(), cross=())):
-        with bench.beside(own) as other:
+        with bench.second_controller(own) as other:
             for event in system.events:
                 if event.task == other.group.task:
                     routines = other.rapid_task("ROS_events").program.modules["ros_events"].routines
@@ -259,12 +261,12 @@ def _another_program(bench: Bench) -> None:
             for actions in (("stop",), ("e-stop",), ("stop", "pp-to-main"), ("power-loss",)):
                 _turns(other)
                 link = other.motion()
-                _told_of_stop(other, link, 1)
+                _logs_stop(other, link, 1)
                 for action in actions:
                     other.controller.perform(action)
                     other.run(0.5)
                 if actions == ("stop",):
-                    _told_of_stop(other, link, 0)
+                    _logs_stop(other, link, 0)
                 link.close()
                 other.start_again()
             _turns(other)
@@ -301,14 +303,14 @@ def _replaced(bench: Bench) -> None:
     _turns(bench)
     if bench.motion_group.stop_reasons:
         raise CheckFailed(f"another program is held: {bench.motion_group.stop_reasons}")
-    _told_of_stop(bench, link, 1)
+    _logs_stop(bench, link, 1)
     _refused(bench, link, "in another program")
     if bench.status(state).motion_possible:
         raise CheckFailed("another program runs, STATUS says that a trajectory may come")
     _turns(bench)
 
 
-def _told_of_stop(bench: Bench, link: RawLink, times: int) -> None:
+def _logs_stop(bench: Bench, link: RawLink, times: int) -> None:
     """Send STOP to a foreign program: the event log reports it."""
     last = bench.last_event
     link.stop()

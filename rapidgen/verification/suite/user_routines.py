@@ -101,12 +101,14 @@ def _absent(bench: Bench) -> None:
             reply = _calls(client, number, _zeros(bench, routine))
             client.refused(reply, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
     if knows_these(bench) and not bench.setting.dialect.modules_told:
-        with bench.beside(_with_module(bench)) as other:
+        with bench.second_controller(_with_module(bench)) as other:
             reply = _calls(Programmer(other), WELD, weld_words(1.0))
-            client.refused(reply, RawReason.NO_ROUTINE, 0, "a module of which nobody is told")
+            client.refused(
+                reply, RawReason.NO_ROUTINE, 0, "a module that the configuration does not list"
+            )
     if not _has_these(bench):
         return
-    with bench.beside(_with_module(bench)) as other:
+    with bench.second_controller(_with_module(bench)) as other:
         client = Programmer(other)
         for number in (ABSENT, 4, -1):
             client.refused(_calls(client, number), RawReason.NO_ROUTINE, 0, f"routine {number}")
@@ -130,7 +132,7 @@ def _missing(bench: Bench) -> None:
     if not _has_these(bench):
         raise NotApplicable("the routines that are tried are not in the configuration")
     system = _with_module(bench, ModuleFile("nocell", "nocell.mod", b"MODULE nocell\nENDMODULE\n"))
-    with bench.beside(system) as other:
+    with bench.second_controller(system) as other:
         client, watcher = Programmer(other), other.watcher()
         client.number += 1
         wait = [RawInstruction.WAIT, *millionths([0.1])]
@@ -143,9 +145,9 @@ def _missing(bench: Bench) -> None:
             raise CheckFailed(f"a procedure is missing, PROGRESS says {seen}")
         _taken(_calls(client, WELD, weld_words(1.0)))
         if _ended(other, client, 4).values[0] != 2:
-            raise CheckFailed("a routine behind one that is missing has not run")
+            raise CheckFailed("a routine after one that is missing has not run")
     empty = tuple(ModuleFile(n, f"{n}.mod", f"MODULE {n}\nENDMODULE\n".encode()) for n in _HOLDERS)
-    with bench.beside(_beside(bench, *empty)) as other:
+    with bench.second_controller(_with_modules(bench, *empty)) as other:
         client, watcher = Programmer(other), other.watcher()
         for number, routine in enumerate(other.group.routines):
             if number == TEACH and not computes(other):
@@ -162,14 +164,14 @@ def _results(bench: Bench) -> None:
     """Return numbers, texts and errors; the program continues or ends."""
     if not _has_these(bench):
         raise NotApplicable("the routines that are tried are not in the configuration")
-    with bench.beside(_with_module(bench)) as other:
+    with bench.second_controller(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
         for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
             _taken(_calls(client, WELD, weld_words(seam, dry=dry, good=good)))
             reply = _ended(other, client, 4)
             same = float(dry == good)
             if (reply.error, reply.values[:3], reply.text) != (0, (2 * seam, dry, same), "abab"):
-                raise CheckFailed(f"weld({seam}, {dry}) is told as {reply}")
+                raise CheckFailed(f"weld({seam}, {dry}) is reported as {reply}")
             if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
                 raise CheckFailed("a parameter that is no string has a text")
         for text in ("", "x" * 40, "12345"):
@@ -197,7 +199,7 @@ def _alone(bench: Bench) -> None:
     """
     if not _has_these(bench):
         raise NotApplicable("the routines that are tried are not in the configuration")
-    with bench.beside(_with_module(bench)) as other:
+    with bench.second_controller(_with_module(bench)) as other:
         client, watcher = Programmer(other), other.watcher()
         own = other.controller.task(other.group.task)
         trajectory = _taken(_calls(client, LONG))
@@ -232,7 +234,7 @@ def _alone(bench: Bench) -> None:
         # look for clients at the same time: with random task order it may be a stop.
         other.assert_moves_through(client.link, points)
         program = orders(other, 2, random.Random(28))
-        client.takes("a program behind a routine", program)
+        client.takes("a program after a routine", program)
         other.wait_until_at(program[-1].joints, 60)
 
 
@@ -247,7 +249,7 @@ def _displaced(bench: Bench) -> None:
     _displaced_before(bench)
     if not _has_these(bench):
         return
-    with bench.beside(_with_module(bench)) as other:
+    with bench.second_controller(_with_module(bench)) as other:
         client, watcher, modal = Programmer(other), other.watcher(), other.motion_group.modal
         data = data_of(other.rapid_task("ROS_motion"), other.motion_group)
         line = replace(orders(other, 4, random.Random(33))[-1], kind=RawInstruction.MOVE_L)
@@ -270,7 +272,7 @@ def _displaced(bench: Bench) -> None:
             if move is joints:
                 other.wait_until_at(move.joints, 60)
                 return
-            other.assert_at_rest(7, "a routine has displaced the poses behind it")
+            other.assert_at_rest(7, "a routine has displaced the poses after it")
             seen = other.progress(watcher)
             if (seen.reason, seen.reached) != (RawReason.POSE_MISMATCH, 1):
                 raise CheckFailed(f"poses are displaced, PROGRESS says {seen}")
@@ -307,7 +309,7 @@ def _targets(bench: Bench) -> None:
     """Report targets with their numbers, in m and rad; none if absent."""
     if not _has_these(bench) or not computes(bench):
         raise NotApplicable("the routines that are tried are not there, or no poses are computed")
-    with bench.beside(_with_module(bench)) as other:
+    with bench.second_controller(_with_module(bench)) as other:
         client = Programmer(other)
         first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
         (x, y, z), turn = reached(other, first)
@@ -404,10 +406,10 @@ def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResu
 
 
 def _with_module(bench: Bench, *more: ModuleFile) -> System:
-    return _beside(bench, ModuleFile("cell", "cell.mod", _MODULE), *more)
+    return _with_modules(bench, ModuleFile("cell", "cell.mod", _MODULE), *more)
 
 
-def _beside(bench: Bench, *more: ModuleFile) -> System:
+def _with_modules(bench: Bench, *more: ModuleFile) -> System:
     """Return the system with these additional modules in the motion task."""
     tasks = tuple(
         replace(task, modules=(*task.modules, *more)) if task.name == bench.group.task else task
