@@ -1,14 +1,14 @@
-"""ABB's arm angle and cfx: what eax_a and robconf of a robtarget mean for an arm of seven axes.
+"""ABB's arm angle and cfx: eax_a and robconf of arms with seven axes.
 
-The seventh axis' own value stands in jointtargets only. In a robtarget eax_a is the angle of the
+Only jointtargets contain the seventh axis' own value. In a robtarget eax_a is the angle of the
 elbow about the line from shoulder to wrist: with e along that line, h along axis 3 (the fourth of
 the arm) and r the reference direction, atan2(-(e x (e x r)) . h, -(e x r) . h). Shoulder: on axis 1
 at axis 2; wrist: on axis 6 at axis 5. After A. Elias, J. Wen, "Redundancy Parameterization of the
 ABB YuMi Robot Arm" (arXiv 2505.23111), whose ten postures read in RobotStudio are the tests.
 
 cf1, cf4 and cf6 are the closest multiples of 90 degrees, not the quarters of arms with six axes;
-cfx is +4 axis 2 negative, +2 elbow turned over, +1 axis 5 negative: so it is in 51 targets of five
-public programs in wobj0, whose postures pose and arm angle tell.
+cfx is +4 axis 2 negative, +2 elbow turned over, +1 axis 5 negative. Source: 51 targets of five
+public programs in wobj0, whose postures follow from pose and arm angle.
 """
 
 from collections.abc import Iterator, Sequence
@@ -30,12 +30,12 @@ _STARTS = 160
 
 @dataclass(frozen=True)
 class ArmAngle:
-    """The arm angle of one arm; `reference` is r in the frame where its chain begins."""
+    """The arm angle of one arm; `reference` is r in the chain's first frame."""
 
     reference: Vector
 
     def of(self, axes: Sequence[Axis]) -> float:
-        """The angle (rad) of an arm whose seven axes lie so, in the order of the chain."""
+        """Return the angle (rad) of an arm with these seven axes, in chain order."""
         shoulder, wrist = _foot(axes[0], axes[1]), _foot(axes[6], axes[5])
         along = frames.unit(frames.subtract(wrist, shoulder))
         across = frames.cross(along, self.reference)
@@ -43,10 +43,10 @@ class ArmAngle:
         return atan2(-frames.dot(frames.cross(along, across), elbow), -frames.dot(across, elbow))
 
     def slopes(self, axes: Sequence[Axis]) -> list[float]:
-        """How the angle changes with each of the seven axes (rad/rad).
+        """Return the derivatives of the angle by each of the seven axes (rad/rad).
 
         The shoulder stays; the wrist moves with each axis but the last, axis 3 with those before.
-        All 0 where the arm has no angle: its line lies along the reference.
+        All 0 if the arm has no angle because its line is along the reference.
         """
         dot, cross = frames.dot, frames.cross
         shoulder, wrist = _foot(axes[0], axes[1]), _foot(axes[6], axes[5])
@@ -74,10 +74,10 @@ class ArmAngle:
         return result
 
     def cfx(self, axes: Sequence[Axis], second: float, fifth: float) -> int:
-        """cfx of an arm whose axes lie so, with its axes 2 and 5 (rad) [code].
+        """Return cfx of an arm with these axes, and its axes 2 and 5 (rad) [code].
 
-        The elbow turns over where the wrist, axis 4 at axis 5, is on the line from axis 2 to axis
-        3 (-72 degrees of axis 3); public targets only say: between -31 and -88.
+        The elbow turns over where the wrist, axis 4 at axis 5, is on the line from axis 2 to axis 3
+        (-72 degrees of axis 3); public targets only show that it is between -31 and -88.
         """
         shoulder, wrist = _foot(axes[2], axes[1]), _foot(axes[4], axes[5])
         elbow, across = axes[3]
@@ -88,7 +88,7 @@ class ArmAngle:
     def postures(
         self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
     ) -> Iterator[tuple[float, ...]]:
-        """Values of an arm that reach a pose with an arm angle, near ones of the start first."""
+        """Yield values for a pose and an arm angle, those near the start first."""
         result = self._near(search, pose, angle, start)
         if result is not None:
             yield result
@@ -100,7 +100,7 @@ class ArmAngle:
     def _near(
         self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
     ) -> tuple[float, ...] | None:
-        import numpy as np  # only where an arm has seven axes
+        import numpy as np  # only for arms with seven axes
 
         from rapidgen.axes.numeric_ik import solved
 
@@ -131,7 +131,7 @@ class ArmAngle:
 
 
 def _foot(axis: Axis, other: Axis) -> Vector:
-    """The point of an axis that is closest to another one."""
+    """Return the point of an axis that is closest to another one."""
     (p, a), (q, b) = axis, other
     normal = frames.cross(a, b)
     path = frames.subtract(q, p)

@@ -1,4 +1,4 @@
-"""A kinematic chain with its fixed parts as poses, and the pose at its end."""
+"""A kinematic chain with its fixed parts as poses, and its end pose."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,13 +19,13 @@ class Step:
     fixed: Pose
     axis: Vector
     joint: int
-    """Place in wire order, -1 without a joint."""
+    """Index in wire order, -1 without a joint."""
     prismatic: bool
     follows: tuple[tuple[int, float], ...]
 
 
 def steps_of(group: GroupConfig, chain: Sequence[ChainLink]) -> tuple[Step, ...]:
-    """A chain of a group's joints."""
+    """Return the chain of a group's joints."""
     names = [joint.name for joint in group.joints]
     kinds = {joint.name: joint.kind for joint in group.joints}
 
@@ -42,7 +42,7 @@ def steps_of(group: GroupConfig, chain: Sequence[ChainLink]) -> tuple[Step, ...]
 
 
 def along(steps: tuple[Step, ...], values: Posture) -> Pose:
-    """The end of a chain for joint values in the sense of the URDF."""
+    """Return the end pose of a chain for URDF joint values."""
     place, q = IDENTITY
     for step in steps:
         origin, turned = step.fixed

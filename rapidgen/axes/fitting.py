@@ -1,7 +1,7 @@
-"""Figures from measured points: a frame, a displacement, a sphere, the point that a tool holds.
+"""Fit frames, displacements, spheres and tool points to measured points.
 
-Lengths are mm, as measured. Only a best fit needs numpy, and imports it then. Sources: S4 datasys
-3-DefFrame for when points are too close; FitSphere and its family as the built-ins say.
+Lengths are mm, as measured. Only a best fit imports numpy. Sources: S4 datasys 3-DefFrame for
+points that are too close; the built-ins FitSphere and similar ones.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ _CLOSEST = 0.1
 """mm between the points of a frame (S4 datasys 3-DefFrame)."""
 _STRAIGHT = 1e-4
 _FLAT = 1e-9
-"""Spread of points across a line or a plane, against their spread along it."""
+"""Spread of points across a line or a plane, relative to their spread along it."""
 
 
 class NoFit(Exception):
@@ -22,20 +22,22 @@ class NoFit(Exception):
 
 
 class Sphere(NamedTuple):
-    """A sphere, and how far the points lie off it."""
+    """A sphere, and the deviations of the points from it."""
 
     centre: Vector
     radius: float
     rms: float
     largest: float
     worst: int
-    """Which point is off most, from 0."""
+    """Index of the point with the largest deviation."""
 
 
 def frame_through(first: Vector, second: Vector, third: Vector) -> Pose:
-    """The frame at the first point, with the second on its x axis and the third on the y side.
+    """Return the frame at the first point.
 
-    NoFit: one is too close to the first, or all lie on one line.
+    The second point is on its x axis and the third on the y side.
+
+    NoFit: one is too close to the first, or all are on one line.
     """
     along, side = frames.subtract(second, first), frames.subtract(third, first)
     if min(frames.norm(along), frames.norm(side)) < _CLOSEST:
@@ -49,9 +51,11 @@ def frame_through(first: Vector, second: Vector, third: Vector) -> Pose:
 
 
 def displacement(old: Sequence[Vector], new: Sequence[Vector]) -> tuple[Pose, float, float]:
-    """What takes old points to new ones best, the largest and the mean distance that remains.
+    """Return the best displacement of old points to new ones.
 
-    NoFit: all lie on one line.
+    Also the largest and the mean remaining distance.
+
+    NoFit: all are on one line.
     """
     import numpy as np
 
@@ -70,9 +74,9 @@ def displacement(old: Sequence[Vector], new: Sequence[Vector]) -> tuple[Pose, fl
 
 
 def sphere(points: Sequence[Vector]) -> Sphere:
-    """The sphere through four points or more, by least squares.
+    """Return the sphere through four or more points, by least squares.
 
-    NoFit: they lie in a plane.
+    NoFit: they are in a plane.
     """
     import numpy as np
 
@@ -93,7 +97,7 @@ def sphere(points: Sequence[Vector]) -> Sphere:
 
 
 class Circle(NamedTuple):
-    """A circle in space, and how far the points lie off it."""
+    """A circle in space, and the deviations of the points from it."""
 
     centre: Vector
     radius: float
@@ -101,13 +105,15 @@ class Circle(NamedTuple):
     rms: float
     largest: float
     worst: int
-    """Which point is off most, from 0."""
+    """Index of the point with the largest deviation."""
 
 
 def circle(points: Sequence[Vector]) -> Circle:
-    """The circle through three points or more: in the plane that fits best, by least squares.
+    """Return the circle through three or more points, by least squares.
 
-    NoFit: they lie on one line.
+    It is in the plane that fits best.
+
+    NoFit: they are on one line.
     """
     import numpy as np
 
@@ -122,7 +128,7 @@ def circle(points: Sequence[Vector]) -> Circle:
     solved = np.linalg.lstsq(matrix, (flat**2).sum(axis=1), rcond=None)[0]
     radius = float(np.sqrt(solved[2] + solved[:2] @ solved[:2]))
     centre = solved[:2] @ axes[:2]
-    # Off the circle: across its plane, and along it.
+    # Deviation from the circle: across its plane, and along it.
     along = np.linalg.norm(flat - solved[:2], axis=1) - radius
     errors = np.hypot(along, start @ axes[2])
     rms = float(np.sqrt((errors**2).mean()))
@@ -134,7 +140,7 @@ def circle(points: Sequence[Vector]) -> Circle:
 
 
 def held_point(flanges: Sequence[Pose]) -> tuple[Vector, list[float]]:
-    """The point of a tool that all flanges hold at one place, and how far off each one has it.
+    """Return the tool point that all flanges share, and the deviations.
 
     NoFit: the flanges do not turn the tool.
     """

@@ -3,6 +3,16 @@
 Axis 1 points up. A palletiser's axes 2 and 3 place the wrist in a plane, rods keep the flange
 level, its last axis turns it about the vertical. A SCARA's axes 1 and 2 place it in the horizontal,
 axis 3 slides and axis 4 turns about the vertical. Values are URDF joint values, axis by axis.
+
+Rules of the inverse:
+
+- The height of the flange and its distance from axis 1 give a triangle of two links, whose third
+  side is known. The law of cosines gives the elbow angle.
+- Each sign of the elbow is a branch. A palletiser also reaches behind itself: its wrist is on the
+  other side of axis 1. It has four branches, a SCARA two.
+- The last axis takes the rotation about the vertical that is left. A pose whose flange is not level
+  has no solution.
+- `solve` returns values within +-pi. The caller adds full turns and checks ranges.
 """
 
 from collections.abc import Sequence
@@ -14,7 +24,7 @@ from rapidgen.axes.frames import Pose, Quaternion, Vector, conjugate, multiply
 
 Four: TypeAlias = tuple[float, float, float, float]
 Branch: TypeAlias = tuple[bool, bool]
-"""Wrist behind axis 1, elbow turned over."""
+"""(wrist on the rear side of axis 1, elbow turned over)"""
 BRANCHES: tuple[Branch, ...] = tuple((a, b) for a in (False, True) for b in (False, True))
 _LEVEL = 1e-6
 
@@ -38,14 +48,17 @@ class Palletiser:
     signs: tuple[int, int, int, int]
 
     def branch(self, values: Sequence[float]) -> Branch:
-        """On which of the four branches a posture lies."""
+        """Return the branch of a posture, one of four."""
         a2, a3 = self.signs[1] * values[1], self.signs[2] * values[2]
         (length2, rise2), (length3, rise3) = self.upper, self.fore
         along = self.shoulder[0] + length2 * cos(rise2 - a2) + length3 * cos(rise3 - a2 - a3)
         return along + self.hand[0] < 0.0, sin(rise3 - a3 - rise2) > 0.0
 
     def solve(self, pose: Pose, branch: Branch) -> Four | None:
-        """Values of a flange pose on one branch, turns within +-pi; None: out of reach."""
+        """Return the values of a flange pose on one branch, or None.
+
+        Turns are within +-pi; None: out of reach.
+        """
         back, elbow = branch
         (px, py, pz), q = pose
         w, x, y, z = multiply(q, conjugate(self.turn))
@@ -90,11 +103,14 @@ class Scara:
     signs: tuple[int, int, int, int]
 
     def branch(self, values: Sequence[float]) -> Branch:
-        """Which way the elbow is turned."""
+        """Return the side to which the elbow is turned."""
         return False, sin(self.fore[1] + self.signs[1] * values[1] - self.upper[1]) < 0.0
 
     def solve(self, pose: Pose, branch: Branch) -> Four | None:
-        """Values of a flange pose on one branch, turns within +-pi; None: out of reach."""
+        """Return the values of a flange pose on one branch, or None.
+
+        Turns are within +-pi; None: out of reach.
+        """
         back, over = branch
         (px, py, pz), q = pose
         w, x, y, z = multiply(q, conjugate(self.turn))
@@ -104,7 +120,7 @@ class Scara:
         c, s = cos(yaw), sin(yaw)
         hx, hy, _ = self.hand
         wx, wy = px - (c * hx - s * hy), py - (s * hx + c * hy)
-        # Seen from above angles count upwards, in a plane that is upright downwards.
+        # From above, angles count upwards; in an upright plane they count downwards.
         result = _two_links(
             wx, -wy, (self.upper[0], -self.upper[1]), (self.fore[0], -self.fore[1]), over=over
         )
@@ -126,7 +142,10 @@ FourAxes: TypeAlias = Palletiser | Scara
 def _two_links(
     x: float, z: float, upper: tuple[float, float], fore: tuple[float, float], *, over: bool
 ) -> tuple[float, float] | None:
-    """Angles of two links in a plane, downwards, both against their zero; None: out of reach."""
+    """Return the angles of two links in a plane, or None.
+
+    Downwards, both relative to their zero; None: out of reach.
+    """
     (length2, rise2), (length3, rise3) = upper, fore
     reach = hypot(x, z)
     if reach == 0.0:
@@ -147,12 +166,14 @@ def _wrap(angle: float) -> float:
 def palletiser(
     points: Sequence[Vector], axes: Sequence[Vector], wrist: Vector, flange: Pose
 ) -> Palletiser | None:
-    """The arm of axes at zero: 1 up, 2 and 3 across, the last one upright; `wrist` is what the
-    rods keep level."""
+    """Return the palletiser with these axes at zero, or None.
+
+    Axis 1 is up, 2 and 3 across, the last one upright; the rods keep `wrist` level.
+    """
     signs = _signs(axes, (2, 1, 1, 2))
     if signs is None or max(abs(points[0][0]), abs(points[0][1])) > _LEVEL:
         return None
-    # What axis 6 carries must not swing with it.
+    # The load of axis 6 must not swing with it.
     (x4, y4, _), (ex, ey, ez) = points[3], flange[0]
     if hypot(ex - x4, ey - y4) > _LEVEL:
         return None
@@ -169,7 +190,7 @@ def palletiser(
 
 
 def scara(points: Sequence[Vector], axes: Sequence[Vector], flange: Pose) -> Scara | None:
-    """The arm of four upright axes at zero, the third of which slides."""
+    """Return the SCARA of four upright axes at zero, the third of which slides."""
     signs = _signs(axes, (2, 2, 2, 2))
     if signs is None or max(abs(points[0][0]), abs(points[0][1])) > _LEVEL:
         return None

@@ -29,12 +29,12 @@ IDENTITY: Pose = (ORIGIN, UNIT)
 
 
 def distance(a: Vector, b: Vector) -> float:
-    """Distance of two points."""
+    """Return the distance of two points."""
     return norm(subtract(a, b))
 
 
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
-    """Rotation b in the frame that a turns."""
+    """Return rotation b in the frame that a turns."""
     aw, ax, ay, az = a
     bw, bx, by, bz = b
     return (
@@ -46,18 +46,18 @@ def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def conjugate(q: Quaternion) -> Quaternion:
-    """The inverse rotation of a unit quaternion."""
+    """Return the inverse rotation of a unit quaternion."""
     return q[0], -q[1], -q[2], -q[3]
 
 
 def normalise(q: Quaternion) -> Quaternion:
-    """q / |q|. ZeroDivisionError for zero."""
+    """Return q / |q|. ZeroDivisionError for zero."""
     size = 1 / sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3])
     return q[0] * size, q[1] * size, q[2] * size, q[3] * size
 
 
 def rotate(q: Quaternion, v: Vector) -> Vector:
-    """v turned by q."""
+    """Return v rotated by q."""
     w, x, y, z = q
     tx = 2 * (y * v[2] - z * v[1])
     ty = 2 * (z * v[0] - x * v[2])
@@ -70,20 +70,20 @@ def rotate(q: Quaternion, v: Vector) -> Vector:
 
 
 def compose(a: Pose, b: Pose) -> Pose:
-    """Frame b, given in frame a, as seen from where a is given (RAPID's PoseMult)."""
+    """Return frame b, given in frame a, relative to a's reference (PoseMult)."""
     moved = rotate(a[1], b[0])
     return add(a[0], moved), multiply(a[1], b[1])
 
 
 def invert(p: Pose) -> Pose:
-    """The outer frame seen from p (PoseInv)."""
+    """Return the outer frame relative to p (PoseInv)."""
     back = conjugate(p[1])
     x, y, z = rotate(back, p[0])
     return (-x, -y, -z), back
 
 
 def within(outer: Pose, p: Pose) -> Pose:
-    """A pose as seen from a frame; both are given in one frame."""
+    """Return a pose relative to a frame; both are given in one frame."""
     if outer[1] == UNIT:
         return subtract(p[0], outer[0]), p[1]
     back = conjugate(outer[1])
@@ -91,18 +91,18 @@ def within(outer: Pose, p: Pose) -> Pose:
 
 
 def transform(p: Pose, v: Vector) -> Vector:
-    """A point given in frame p, as seen from where p is given (PoseVect)."""
+    """Return a point of frame p, relative to p's reference (PoseVect)."""
     return add(p[0], rotate(p[1], v))
 
 
 def about(axis: Vector, angle: float) -> Quaternion:
-    """Rotation by `angle` rad about a unit axis."""
+    """Return the rotation by `angle` rad about a unit axis."""
     s = sin(angle / 2)
     return cos(angle / 2), axis[0] * s, axis[1] * s, axis[2] * s
 
 
 def to_axis(q: Quaternion) -> tuple[Vector, float]:
-    """Unit axis and angle, 0 to pi; the z axis for no rotation."""
+    """Return unit axis and angle, 0 to pi; the z axis for no rotation."""
     w, x, y, z = q if q[0] >= 0 else (-q[0], -q[1], -q[2], -q[3])
     size = sqrt(x * x + y * y + z * z)
     if size < 1e-12:
@@ -111,19 +111,22 @@ def to_axis(q: Quaternion) -> tuple[Vector, float]:
 
 
 def angle_between(a: Quaternion, b: Quaternion) -> float:
-    """Smallest rotation angle from a to b, 0 to pi."""
+    """Return the smallest rotation angle from a to b, 0 to pi."""
     w, x, y, z = multiply(conjugate(a), b)
     return 2 * atan2(sqrt(x * x + y * y + z * z), abs(w))
 
 
 def slerp(a: Quaternion, b: Quaternion, fraction: float) -> Quaternion:
-    """From a to b at an even rate about one axis, the short way; share may leave 0..1."""
+    """Interpolate from a to b at a constant rate, the short way.
+
+    `fraction` may be outside 0 to 1.
+    """
     cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
     if cosine < 0.0:
         b = (-b[0], -b[1], -b[2], -b[3])
         cosine = -cosine
     if cosine > 1 - 1e-10:
-        # So close together the chord is exact and there is no small sine to divide by.
+        # At such small angles the chord is exact and avoids division by a small sine.
         w, x, y, z = (p + (q - p) * fraction for p, q in zip(a, b, strict=True))
         return normalise((w, x, y, z))
     angle = acos(min(1.0, cosine))
@@ -138,7 +141,7 @@ def slerp(a: Quaternion, b: Quaternion, fraction: float) -> Quaternion:
 
 
 def to_matrix(q: Quaternion) -> Matrix:
-    """Rotation matrix of a unit quaternion."""
+    """Return the rotation matrix of a unit quaternion."""
     w, x, y, z = q
     return (
         (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
@@ -148,7 +151,7 @@ def to_matrix(q: Quaternion) -> Matrix:
 
 
 def from_matrix(m: Matrix) -> Quaternion:
-    """Unit quaternion of a rotation matrix; the scalar part is not negative."""
+    """Return the unit quaternion of a rotation matrix, scalar not negative."""
     (a, b, c), (d, e, f), (g, h, i) = m
     trace = a + e + i
     if trace > 0:
@@ -167,7 +170,7 @@ def from_matrix(m: Matrix) -> Quaternion:
 
 
 def from_zyx(z: float, y: float, x: float) -> Quaternion:
-    """Rotations by z, then about the new y, then about the new x (rad): Rz Ry Rx."""
+    """Return rotations by z, then new y, then new x (rad): Rz Ry Rx."""
     cz, sz = cos(z / 2), sin(z / 2)
     cy, sy = cos(y / 2), sin(y / 2)
     cx, sx = cos(x / 2), sin(x / 2)
@@ -180,7 +183,7 @@ def from_zyx(z: float, y: float, x: float) -> Quaternion:
 
 
 def to_zyx(q: Quaternion) -> Vector:
-    """The angles (z, y, x) in rad of `from_zyx`; y within +-pi/2."""
+    """Return the angles (z, y, x) in rad of `from_zyx`; y within +-pi/2."""
     m = to_matrix(q)
     sine = -m[2][0]
     if abs(sine) > 1 - 1e-12:
@@ -191,12 +194,15 @@ def to_zyx(q: Quaternion) -> Vector:
 
 
 def from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """URDF's rpy: about fixed x, y, z, which is `from_zyx(yaw, pitch, roll)`."""
+    """Return the rotation of URDF's rpy: about fixed x, y, z.
+
+    This is `from_zyx(yaw, pitch, roll)`.
+    """
     return from_zyx(yaw, pitch, roll)
 
 
 def error(have: Pose, want: Pose) -> tuple[float, float, float, float, float, float]:
-    """Position (m) and rotation vector (rad) from one pose to the other."""
+    """Return position (m) and rotation vector (rad) between two poses."""
     w, x, y, z = multiply(want[1], conjugate(have[1]))
     if w < 0:
         w, x, y, z = -w, -x, -y, -z

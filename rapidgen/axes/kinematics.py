@@ -1,8 +1,23 @@
 """Forward and inverse kinematics of one motion group, from its chain.
 
-Poses are those of the flange (tool0) in the chain's root frame, m; postures are controller
-axis values in wire order, rad and m. External axes that carry the robot (a track) move its
-base; external axes that the chain does not name have no influence here.
+Poses are those of the flange (tool0) in the chain's root frame, m; postures are controller axis
+values in wire order, rad and m. External axes that carry the robot (a track) move its base;
+external axes that the chain does not name have no influence.
+
+Rules of the inverse:
+
+- The chain at zero decides the method once: formulas for four axes (`four_axes`), for six axes with
+  a spherical wrist (`spherical_wrist`), a scalar equation for an offset wrist (`offset_wrist`),
+  else iteration (`posture_search`, `numeric_ik`). Names and signs do not matter
+  (`solver_selection`).
+- A formula works in URDF angles of the arm alone. This module removes the base motion of external
+  axes before, and applies signs, offsets and the coupling of axis 3 after.
+- A formula returns one value within +-pi for each branch. Each axis then gets every full turn
+  within its range.
+- `follow` stays on the branch of its start posture and ignores ranges, because a controller stops
+  at a limit instead of changing the branch. `solutions` returns all branches within the ranges.
+- External axes are never solved for: they keep the values of the start posture.
+- Configurations (confdata) select a branch after solving. They never guide a formula.
 """
 
 from collections.abc import Iterator, Sequence
@@ -30,35 +45,35 @@ if TYPE_CHECKING:
 AxisConfiguration = tuple[int, int, int, int]
 """cf1, cf4, cf6, cfx"""
 ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
-"""How far axes 1, 4 and 6 may be from their quarters, see `Kinematics.room`."""
+"""Allowed distance of axes 1, 4 and 6 from their quarters, see `Kinematics.room`."""
 _ENOUGH = 8
-"""Postures that an iteration looks for."""
+"""Maximum number of postures of an iteration."""
 _LONGER = 2
-"""Rounds behind the first in which it looks for a configuration: of an IRB 5400 two find all."""
+"""Additional rounds to find a configuration: two find all of an IRB 5400."""
 _NEAR = 1e-6
 _TURN = 2 * pi
 
 
 @dataclass(frozen=True)
 class MovingFrame:
-    """The user frame of a unit that carries work objects, in the root of the robot's chain."""
+    """The user frame of a unit with work objects, in the robot's root frame."""
 
     map: JointMap
     steps: tuple[Step, ...]
 
     @classmethod
     def of(cls, group: GroupConfig, chain: Sequence[ChainLink]) -> "MovingFrame":
-        """The frame at the end of a chain of the group's joints."""
+        """Return the frame at the end of a chain of the group's joints."""
         return cls(JointMap.of(group), steps_of(group, chain))
 
     def pose(self, posture: Posture) -> Pose:
-        """Where it is, for controller axis values in wire order."""
+        """Return the frame for controller axis values in wire order."""
         return along(self.steps, self.map.to_urdf(posture))
 
 
 @dataclass(frozen=True)
 class Kinematics:
-    """What a group's chain can compute. Make it with `Kinematics.of`."""
+    """Kinematics of a group's chain. Create it with `Kinematics.of`."""
 
     group: GroupConfig
     map: JointMap
@@ -66,7 +81,7 @@ class Kinematics:
 
     @classmethod
     def of(cls, group: GroupConfig) -> "Kinematics | None":
-        """The kinematics of a group; None when its model has no geometry."""
+        """Return the kinematics of a group; None without geometry."""
         if not group.chain:
             return None
         return cls(group, JointMap.of(group), steps_of(group, group.chain))
@@ -74,7 +89,7 @@ class Kinematics:
     # -- forward ----------------------------------------------------------------------------
 
     def forward(self, posture: Posture) -> Pose:
-        """Flange of a posture."""
+        """Return the flange of a posture."""
         values = self.map.to_urdf(posture)
         result = self._arm
         if result is None:
@@ -88,14 +103,14 @@ class Kinematics:
 
     @property
     def is_closed_form(self) -> bool:
-        """Whether the inverse is a formula."""
+        """True if the inverse is a formula."""
         return self._arm is not None or self._four is not None
 
     def follow(self, pose: Pose, start: Posture) -> Posture | None:
-        """The posture on the same branch as `near`, turns as close to it as can be.
+        """Return the posture on the branch of `start`, turns as close as possible.
 
-        External axes are those of `near`. None: out of reach, or the robot is on another
-        branch there. Ranges are not looked at.
+        External axes are those of `start`. None: out of reach, or the robot is on another branch
+        there. Ranges are ignored.
         """
         values = self.map.to_urdf(start)
         if self._four is not None:
@@ -109,13 +124,13 @@ class Kinematics:
             solved = result.arm.solve(based, result.arm.branch(angles), angles[3])
             return None if solved is None else self._as_posture(solved, angles, values)
         solved = self._offset.near(based, angles)
-        # Where axis 6 alone does not lead there all axes may.
+        # If axis 6 alone cannot reach it, all axes may.
         if solved is None:
             return self.arm.near(pose, start)
         return self._as_posture(solved, angles, values)
 
     def beyond(self, pose: Pose, start: Posture) -> Iterator[Posture]:
-        """Postures that reach a pose, ranges apart; external axes as in `near`."""
+        """Yield postures for a pose, ignoring ranges; external axes of `start`."""
         values = self.map.to_urdf(start)
         if self._four is not None:
             fours = (self._of_four(pose, values, branch) for branch in FOUR_BRANCHES)
@@ -129,11 +144,12 @@ class Kinematics:
     def solutions(
         self, pose: Pose, start: Posture, expected: AxisConfiguration | None = None
     ) -> list[Posture]:
-        """All postures within the ranges that reach a pose, external axes as in `near`.
+        """Return all postures within the ranges that reach a pose.
 
-        Axes that can turn more than once appear with every turn. Closest to `near` first.
-        Without a closed form: what iteration finds from `near` and from other starts, at least
-        one if there is any; with `expected` it looks longer for one of that configuration.
+        External axes are those of `start`. Axes that can turn more than once appear with every
+        turn. Closest to `start` first. Without a closed form: the results of iteration from `start`
+        and from other starts, at least one if there is any; with `expected` it searches longer for
+        one of that configuration.
         """
         values = self.map.to_urdf(start)
         if self._four is not None:
@@ -161,7 +177,10 @@ class Kinematics:
         return result
 
     def _formulas(self, pose: Pose, values: Posture) -> Iterator[Posture]:
-        """Postures of an arm with six axes on all branches, turns as close to URDF values."""
+        """Yield postures of an arm with six axes on all branches.
+
+        Turns are as close as possible to the URDF values.
+        """
         result = self._wrist
         if result is None:
             return
@@ -196,7 +215,7 @@ class Kinematics:
         return frames.within(along(self.steps[:first], values), pose)
 
     def _as_posture(self, solved: Angles, start: Angles, values: Posture) -> Posture:
-        """Controller values of solved angles, each on the turn that is closest to `near`."""
+        """Return controller values of solved angles, turns closest to `start`."""
         assert self._wrist is not None
         urdf = list(values)
         for angle, old, sign, place in zip(
@@ -206,7 +225,7 @@ class Kinematics:
         return self.map.to_controller(urdf)
 
     def found(self, pose: Pose, start: Posture) -> Iterator[Posture]:
-        """Postures within the ranges that reach a pose, one after the other as they are found."""
+        """Yield postures within the ranges that reach a pose, as found."""
         if self.is_closed_form or self._offset is not None:
             yield from self.solutions(pose, start)
             return
@@ -216,16 +235,19 @@ class Kinematics:
 
     @cached_property
     def arm(self) -> ArmSearch:
-        """What iteration can find, where there is no formula."""
+        """Return the iterative search, for arms without a formula."""
         return ArmSearch(self.group, self.map, self.steps)
 
     @cached_property
     def seventh(self) -> int:
-        """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
+        """Return the index of the axis between axes 2 and 3, else -1.
+
+        Its robtargets contain the arm angle.
+        """
         return self.arm.seventh
 
     def at_arm_angle(self, pose: Pose, angle: float, start: Posture) -> Iterator[Posture]:
-        """Postures within the ranges for a pose and an arm angle, as they are found from `near`."""
+        """Yield postures within the ranges for a pose and an arm angle."""
         place = self.seventh
         joint = self.group.joints[place]
         lower, upper = joint.lower - ROUNDING, joint.upper + ROUNDING
@@ -241,7 +263,7 @@ class Kinematics:
                     yield turned
 
     def _turned(self, posture: Posture) -> list[Posture]:
-        """The posture with every turn of its axes that lies within the ranges."""
+        """Return the posture with every turn of its axes within the ranges."""
         result: list[list[float]] = [[]]
         for value, joint in zip(posture, self.group.joints, strict=True):
             low, high = joint.lower - ROUNDING, joint.upper + ROUNDING
@@ -261,13 +283,13 @@ class Kinematics:
     # -- configuration ----------------------------------------------------------------------
 
     def configuration(self, posture: Posture) -> AxisConfiguration:
-        """confdata of a posture: quarter turns of axes 1, 4 and 6, and cfx.
+        """Return confdata of a posture: quarters of axes 1, 4 and 6, and cfx.
 
-        cfx: +4 wrist centre (where axes 4 and 5 meet) behind axis 1, +2 elbow turned over, +1
-        axis 5 negative; 438 targets of public programs have 0, 1, 2, 4 and 5 so. It is 0 for
-        robots with a parallel rod, whose arm cannot turn over (S4 datasys 1-confdata), and where
-        there is no formula. Of an arm with seven axes see `ArmAngle.cfx`; its quarters have
-        their multiple of 90 degrees in the middle.
+        cfx: +4 wrist centre (where axes 4 and 5 meet) on the rear side of axis 1, +2 elbow turned
+        over, +1 axis 5 negative; 438 targets of public programs have 0, 1, 2, 4 and 5 in this
+        sense. It is 0 for robots with a parallel rod, whose arm cannot turn over (S4 datasys
+        1-confdata), and without a formula. For an arm with seven axes see `ArmAngle.cfx`; its
+        quarters have their multiple of 90 degrees in the middle.
         """
         quarters = []
         early = self._early
@@ -285,9 +307,9 @@ class Kinematics:
         return quarters[0], quarters[1], quarters[2], x
 
     def misfit(self, posture: Posture, expected: AxisConfiguration) -> float | None:
-        """Quarters (m) by which the worst of axes 1, 4 and 6 is outside its own; 0: none is.
+        """Return the largest deviation of axes 1, 4 and 6 from their quarters.
 
-        None: another cfx. With axis 5 at zero both its signs fit.
+        In quarters (m); 0: within. None: another cfx. With axis 5 at zero both its signs fit.
         """
         if self._tells_branches:
             other = self.configuration(posture)[3] ^ expected[3]
@@ -302,24 +324,27 @@ class Kinematics:
         return worst
 
     def room(self, check: ConfigurationCheck) -> float:
-        """The largest misfit of a posture that has a configuration.
+        """Return the largest misfit of a posture that has a configuration.
 
-        0.5 quarters is just what tells a turned wrist from one that is not (S4 overview 5-33);
-        where cfx does that, "turn" leaves 1.5, which tells one turn of an axis from the next.
+        0.5 quarters just separate a turned wrist from another (S4 overview 5-33); if cfx does that,
+        "turn" allows 1.5, which separates one turn of an axis from the next.
         """
         return 1.5 if check == "turn" and self._tells_branches else 0.5
 
     def matches(
         self, posture: Posture, expected: AxisConfiguration, check: ConfigurationCheck = "turn"
     ) -> bool:
-        """Whether a posture has a configuration."""
+        """True if a posture has a configuration."""
         misfit = self.misfit(posture, expected)
         return misfit is not None and misfit <= self.room(check) + _NEAR
 
     def fitting(
         self, postures: Sequence[Posture], expected: AxisConfiguration, check: ConfigurationCheck
     ) -> Posture | None:
-        """Of the postures that have a configuration the best one, the first of equal ones."""
+        """Return the best posture of a configuration, or None.
+
+        Of equal ones the first.
+        """
         best, least = None, self.room(check) + _NEAR
         for posture in postures:
             misfit = self.misfit(posture, expected)
@@ -329,12 +354,15 @@ class Kinematics:
 
     @property
     def _tells_branches(self) -> bool:
-        """Whether cfx says on which of the eight branches a posture lies."""
+        """True if cfx identifies the branch of a posture, one of eight."""
         return self.seventh >= 0 or (self._wrist is not None and not self.group.coupling)
 
     @cached_property
     def _early(self) -> float:
-        """rad by which quarters of axes 1, 4 and 6 begin before their multiple of 90 degrees."""
+        """Return rad by which quarters of axes 1, 4 and 6 begin early.
+
+        Relative to their multiple of 90 degrees.
+        """
         return pi / 4 if self.seventh >= 0 else 0.0
 
     @cached_property
@@ -349,17 +377,17 @@ class Kinematics:
 
     @cached_property
     def _arm(self) -> SixAxes | None:
-        """The closed form of an arm whose wrist axes meet."""
+        """Return the closed form of an arm with a spherical wrist."""
         result = self._wrist
         return None if result is None or any(result.offset) else result
 
     @cached_property
     def _offset(self) -> "OffsetWrist | None":
-        """What finds the postures of an arm whose axis 6 passes beside axes 4 and 5."""
+        """Return the solver of an arm whose axis 6 misses axes 4 and 5."""
         result = self._wrist
         if result is None or not any(result.offset):
             return None
-        from rapidgen.axes.offset_wrist import OffsetWrist  # numpy: where there is no formula
+        from rapidgen.axes.offset_wrist import OffsetWrist  # numpy: only without a formula
 
         return OffsetWrist(result.arm, result.offset)
 
@@ -387,10 +415,10 @@ class Kinematics:
 
 
 def quarter(value: float, linear: bool = False) -> int:
-    """confdata of one axis: quarter turns, or metres; 0 at 0, -2 at -90 degrees.
+    """Return confdata of one axis: quarter turns or metres.
 
-    S4 datasys 1-confdata-1 gives trunc(angle / 90 - 1) for negative angles, which differs from
-    the floor only at exact negative quarters.
+    0 at 0, -2 at -90 degrees. S4 datasys 1-confdata-1 gives trunc(angle / 90 - 1) for negative
+    angles, which differs from the floor only at exact negative quarters.
     """
     size = 1.0 if linear else pi / 2
     return int(value / size) if value >= 0 else int(value / size - 1)
@@ -407,6 +435,6 @@ def _known(posture: Posture, result: list[Posture]) -> bool:
 
 
 def orientation(pose: Pose) -> Quaternion:
-    """Orientation of a pose with a scalar part that is not negative."""
+    """Return the orientation of a pose with a scalar part >= 0."""
     q = pose[1]
     return (-q[0], -q[1], -q[2], -q[3]) if q[0] < 0 else q

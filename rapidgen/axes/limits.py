@@ -1,4 +1,4 @@
-"""Which axis values a robot can have: controller axis limits, unconverted (rad, m)."""
+"""Controller axis limits, unconverted (rad, m)."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from rapidgen.config.model import Joint
 
 ROUNDING = 1e-6
-"""Slack (rad, m): what float32 and the conversion to degrees lose at the range of an axis."""
+"""Tolerance (rad, m) for float32 and the conversion to degrees at the end of a range."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class LimitFault:
 
 
 def outside(joints: Sequence[Joint], values: Sequence[float]) -> list[LimitFault]:
-    """Faults of one posture in controller values, in joint order."""
+    """Return the faults of one posture in controller values, in joint order."""
     return [
         LimitFault(0, joint, value)
         for joint, value in zip(joints, values, strict=True)
@@ -40,7 +40,7 @@ def outside(joints: Sequence[Joint], values: Sequence[float]) -> list[LimitFault
 
 
 def check_limits(joints: Sequence[Joint], points: Iterable[Sequence[float]]) -> list[LimitFault]:
-    """Faults of all points (controller values), in order."""
+    """Return the faults of all points (controller values), in order."""
     return [
         LimitFault(i, fault.joint, fault.value)
         for i, values in enumerate(points)

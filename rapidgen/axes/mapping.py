@@ -1,7 +1,7 @@
-"""The joint map: URDF joint values, controller axis values, RAPID's degrees and millimetres.
+"""Joint map: URDF values, controller values, RAPID's degrees and mm.
 
-controller = sign * URDF + offset for each joint; on coupled robots (parallel rod) axis 3 then
-gets k * axis 2 added, because ABB counts it from the horizontal (abb_driver's `J23_coupled`).
+controller = sign * URDF + offset for each joint; on coupled robots (parallel rod) axis 3 then gets
+k * axis 2 added, because ABB counts it from the horizontal (abb_driver's `J23_coupled`).
 """
 
 import math
@@ -20,7 +20,7 @@ _EXTERNAL_AXES = tuple(f"eax_{letter}" for letter in "abcdef")
 
 @dataclass(frozen=True)
 class JointMap:
-    """Both ways between the three forms.
+    """Conversions between the three forms.
 
     All sequences are in wire order (`joints`).
     """
@@ -31,18 +31,20 @@ class JointMap:
 
     @classmethod
     def of(cls, group: GroupConfig) -> "JointMap":
-        """The map of one motion group."""
+        """Return the map of one motion group."""
         return cls(group.joints, group.coupling, group.kept)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """URDF joint names."""
+        """Return URDF joint names."""
         return tuple(joint.name for joint in self.joints)
 
     @cached_property
     def two_sided(self) -> bool:
-        """Whether confdata may not tell two postures of a pose apart: a SCARA's arm comes to it
-        from either side, and no public source says what its cfx means."""
+        """True if two postures of a pose may have the same confdata.
+
+        A SCARA's arm reaches it from either side, and no public source gives its cfx.
+        """
         kinds = {joint.axis: joint.kind for joint in self.joints}
         return [kinds.get(axis) for axis in _ROBOT_AXES[:3]] == [
             "revolute",
@@ -52,7 +54,7 @@ class JointMap:
 
     @cached_property
     def _coupled(self) -> tuple[int, int] | None:
-        """Places of axis 2 and axis 3 when they are coupled."""
+        """Return the indices of axis 2 and axis 3 if they are coupled."""
         if not self.coupling:
             return None
         axes = [joint.axis for joint in self.joints]
@@ -60,7 +62,10 @@ class JointMap:
 
     @cached_property
     def _slots(self) -> tuple[tuple[int, float], ...]:
-        """Per joint: slot 0..5 in robax or 6..11 in extax, and RAPID units per SI unit."""
+        """Return each joint's slot and RAPID units per SI unit.
+
+        Slots 0 to 5 are in robax, 6 to 11 in extax.
+        """
         order = _ROBOT_AXES + _EXTERNAL_AXES
         return tuple(
             (order.index(joint.axis), _DEG if joint.kind == "revolute" else 1000.0)
@@ -69,11 +74,14 @@ class JointMap:
 
     @cached_property
     def _upright(self) -> bool:
-        """Whether all axes turn as their joints do, from the same zero: most robots' do."""
+        """True if all axes turn as their joints do, from the same zero.
+
+        This holds for most robots.
+        """
         return all(j.sign == 1 and j.offset == 0 for j in self.joints)
 
     def to_controller(self, urdf: Sequence[float]) -> tuple[float, ...]:
-        """Controller axis values of URDF joint values."""
+        """Return controller axis values of URDF joint values."""
         if self._upright and len(urdf) == len(self.joints):
             values = list(urdf)
         else:
@@ -84,7 +92,7 @@ class JointMap:
         return tuple(values)
 
     def to_urdf(self, controller: Sequence[float]) -> tuple[float, ...]:
-        """URDF joint values of controller axis values."""
+        """Return URDF joint values of controller axis values."""
         values = list(controller)
         if self._coupled is not None:
             second, third = self._coupled
@@ -94,7 +102,7 @@ class JointMap:
         return tuple(j.sign * (v - j.offset) for j, v in zip(self.joints, values, strict=True))
 
     def rates_to_controller(self, urdf: Sequence[float]) -> tuple[float, ...]:
-        """Velocities or accelerations: as `to_controller`, without the offsets."""
+        """Convert velocities or accelerations: `to_controller` without offsets."""
         values = [j.sign * v for j, v in zip(self.joints, urdf, strict=True)]
         if self._coupled is not None:
             second, third = self._coupled
@@ -102,7 +110,7 @@ class JointMap:
         return tuple(values)
 
     def rates_to_urdf(self, controller: Sequence[float]) -> tuple[float, ...]:
-        """Velocities or accelerations: as `to_urdf`, without the offsets."""
+        """Convert velocities or accelerations: `to_urdf` without offsets."""
         values = list(controller)
         if self._coupled is not None:
             second, third = self._coupled
@@ -110,7 +118,7 @@ class JointMap:
         return tuple(j.sign * v for j, v in zip(self.joints, values, strict=True))
 
     def to_rapid(self, controller: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """`robax` and `extax` in deg and mm; external axes without a joint are 9E9."""
+        """Return `robax` and `extax` in deg and mm; absent axes are 9E9."""
         slots = [0.0] * 6 + [ABSENT] * 6
         for axis in self.kept:
             slots[_ROBOT_AXES.index(axis.axis)] = axis.value * _DEG
@@ -121,10 +129,10 @@ class JointMap:
     def from_rapid(
         self, robax: Sequence[float], extax: Sequence[float], default: Sequence[float] | None = None
     ) -> tuple[float, ...]:
-        """Controller values of `robax` and `extax`.
+        """Return controller values of `robax` and `extax`.
 
-        An external axis of this group that is given as 9E9 takes its value of `default`;
-        ValueError names the axis when there is no default.
+        An external axis of this group that is given as 9E9 takes its value of `default`; ValueError
+        names the axis when there is no default.
         """
         slots = (*robax, *extax)
         values = []
@@ -139,5 +147,5 @@ class JointMap:
         return tuple(values)
 
     def unit_of(self, index: int) -> tuple[str, float]:
-        """RAPID's unit of a joint and how many of it are one rad or m."""
+        """Return RAPID's unit of a joint and its size in rad or m."""
         return ("deg" if self.joints[index].kind == "revolute" else "mm"), self._slots[index][1]

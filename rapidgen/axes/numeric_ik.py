@@ -1,8 +1,18 @@
 """Inverse kinematics by iteration, for arms without a closed form (numpy).
 
-From near, Newton's method on the six equations of a pose. From afar, many starts at once: those of
-some thousand random postures of the arm whose poses are closest, then more of them, then all over
-the ranges. Values are the controller's, of the arm's own axes.
+Rules:
+
+- Near a start: Newton's method on the six equations of a pose (three of position, three of a
+  rotation vector).
+- Far from it: many starts at once, by damped least squares. First come those of some thousand
+  random postures of the arm whose poses are closest, then more of them, then postures all over the
+  ranges.
+- A round limits the step of each joint, so that it does not leave the branch of its start.
+- Values are the controller's, of the arm's own axes. The chain's joints are linear in them, which
+  covers signs, offsets and the coupling of axis 3.
+- The random postures have a fixed seed: the same pose and start give the same result.
+- More than six values (a seventh axis) leave a free direction. The caller fixes it by the arm
+  angle.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -19,14 +29,14 @@ from rapidgen.axes.frames import Axis, Pose, Vector, multiply, subtract
 Floats: TypeAlias = NDArray[np.float64]
 Values = tuple[float, ...]
 _ROUNDS, _HOPELESS, _FAR = 60, 10, 1e-3
-"""Rounds of Newton's method: where an arm is singular it creeps, elsewhere ten are plenty."""
+"""Rounds of Newton's method: it is slow near singularities, elsewhere ten are enough."""
 _EXACT = 1e-10
 """m and rad of a solution"""
 _LARGEST = 0.6
-"""rad (or m) that one round may move a joint."""
+"""rad (or m) that a joint may move in one round."""
 _HOPEFUL = 300
 _SINGLY = 6
-"""Starts that are tried one after the other: most often one of them arrives."""
+"""Starts that are tried one after the other: usually one of them converges."""
 _STARTS = (24, 96, 400, 1600, 3800)
 _TOGETHER_ROUNDS = 40
 _CLOSE = 1e-5
@@ -35,8 +45,10 @@ _DAMPING = 1e-8
 
 
 def solved(normal: Floats, right: Floats) -> Floats:
-    """The step of damped Newton; where the damping is too little for a singular arm, the shortest
-    one."""
+    """Return the step of damped Newton.
+
+    If the damping is too small for a singular arm, the shortest step.
+    """
     try:
         return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
     except np.linalg.LinAlgError:
@@ -45,38 +57,38 @@ def solved(normal: Floats, right: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class Link:
-    """A step of the chain: its fixed part, then how the arm's values turn or slide it."""
+    """A step of the chain: its fixed part, then the motion by the arm's values."""
 
     fixed: Pose
     axis: Vector
     slides: bool
     weights: Values
-    """Per value of the arm; the joint moves by their sum."""
+    """For each value of the arm; the joint moves by their weighted sum."""
     constant: float
 
 
 @dataclass(frozen=True)
 class Search:
-    """Postures of one arm for poses in the frame where its chain begins.
+    """Search for postures of one arm, in the frame of its chain.
 
-    `ranges` are those of the values, rad or m; `around` holds external axes of the arm that a
-    search leaves as they are, at the end of the values.
+    `ranges` are those of the values, rad or m; `around` holds external axes of the arm, which a
+    search does not change, at the end of the values.
     """
 
     links: tuple[Link, ...]
     ranges: tuple[tuple[float, float], ...]
     turning: tuple[bool, ...]
     free: int
-    """How many of the values, from the first, a search may change: six or fewer."""
+    """Number of values, from the first, that a search may change: six or fewer."""
 
     # -- one posture ------------------------------------------------------------------------
 
     def pose(self, values: Sequence[float]) -> Pose:
-        """The flange."""
+        """Return the flange."""
         return self.lines(values)[0]
 
     def lines(self, values: Sequence[float]) -> tuple[Pose, list[Axis]]:
-        """The flange, and place and direction of each moving link's axis."""
+        """Return the flange, and position and direction of each moving axis."""
         place: Vector = (0.0, 0.0, 0.0)
         q = frames.UNIT
         result = []
@@ -101,7 +113,10 @@ class Search:
         return (place, q), result
 
     def near(self, pose: Pose, start: Sequence[float]) -> Values | None:
-        """Values that reach a pose, on the branch of a start; None: Newton does not get there."""
+        """Return values for a pose on the branch of a start, or None.
+
+        None: Newton does not converge.
+        """
         values = list(start)
         last = 1e9
         for rounds in range(_ROUNDS):
@@ -124,7 +139,7 @@ class Search:
         return tuple(values) if last < 100 * _EXACT else None
 
     def columns(self, flange: Pose, axes: Sequence[Axis]) -> list[tuple[float, ...]]:
-        """How the flange moves and turns with each moving link's joint, of what `lines` gave."""
+        """Return the flange's derivatives by each moving joint, from `lines`."""
         result: list[tuple[float, ...]] = []
         for link, (at, direction) in zip(self._moving, axes, strict=True):
             if link.slides:
@@ -135,7 +150,7 @@ class Search:
         return result
 
     def by_value(self, columns: Sequence[Sequence[float]], count: int) -> Floats:
-        """What changes by so much with each moving link's joint, by each of the first values."""
+        """Return derivatives by the first values, from those by joints."""
         rows = [[0.0] * count for _ in columns[0]]
         for link, column in zip(self._moving, columns, strict=True):
             for n in range(count):
@@ -152,10 +167,10 @@ class Search:
     # -- many at once -----------------------------------------------------------------------
 
     def rounds(self, pose: Pose, start: Sequence[float]) -> Iterator[Iterator[Values]]:
-        """Postures for a pose as they are found, near ones of the start first, in rounds of starts.
+        """Yield postures for a pose in rounds, those near the start first.
 
-        What the search leaves as it is are the last values of the start. A pose that no start of
-        some hundred has reached is out of reach.
+        Fixed values are the last values of the start. A pose that none of some hundred starts has
+        reached is out of reach.
         """
         arrived = [0]
 
@@ -186,7 +201,7 @@ class Search:
             begin += count
 
     def closest(self, pose: Pose, count: int) -> list[Values]:
-        """Random postures of the arm, whose poses are the closest ones first."""
+        """Return random postures, those with the closest poses first."""
         values, places, turns = self._samples
         away = np.linalg.norm(places - np.array(pose[0]), axis=1) / self._reach
         away += 1 - np.abs(turns @ np.array(pose[1]))
@@ -211,7 +226,7 @@ class Search:
 
     @cached_property
     def _samples(self) -> tuple[Floats, Floats, Floats]:
-        """Random postures of the arm with their places and orientations."""
+        """Return random postures with their positions and orientations."""
         draw = np.random.default_rng(1).random((_SAMPLES, len(self.ranges)))
         low, high = np.array(self.ranges).T
         values = low + draw * (high - low)
@@ -219,7 +234,7 @@ class Search:
         return values, places, _quaternions(rotations)
 
     def _forward(self, values: Floats) -> tuple[Floats, Floats, list[tuple[Floats, Floats, Link]]]:
-        """Rotations and places of the flanges, and the moving axes of each posture."""
+        """Return flange rotations and positions, and the moving axes."""
         count = len(values)
         rotation = np.broadcast_to(np.eye(3), (count, 3, 3))
         place = np.zeros((count, 3))
@@ -245,10 +260,13 @@ class Search:
         return rotation, place, axes
 
     def _together(self, pose: Pose, values: Floats) -> Iterator[Floats]:
-        """Damped least squares from many starts; those that arrive, each once, soonest first."""
+        """Yield converged values of many starts, each once, fastest first.
+
+        Damped least squares.
+        """
         goal = np.array(frames.to_matrix(pose[1]))
         target = np.array(pose[0])
-        # A pose on axis 1 has endlessly many postures: thousands of starts may arrive.
+        # A pose on axis 1 has infinitely many postures: thousands of starts may converge.
         seen, count = np.empty_like(values), 0
         for _ in range(_TOGETHER_ROUNDS):
             rotation, place, axes = self._forward(values)
@@ -295,7 +313,7 @@ def _wrapped(difference: Floats, turning: Sequence[bool]) -> Floats:
 
 
 def _rotation_vectors(rotations: Floats) -> Floats:
-    """Axis times angle of rotation matrices, also near half a turn."""
+    """Return axis times angle of rotation matrices, also near half a turn."""
     turns = _quaternions(rotations)
     parts = turns[:, 1:]
     sizes = np.linalg.norm(parts, axis=1)
@@ -304,7 +322,7 @@ def _rotation_vectors(rotations: Floats) -> Floats:
 
 
 def _quaternions(rotations: Floats) -> Floats:
-    """Unit quaternions, scalar first and not negative (Shepperd)."""
+    """Return unit quaternions, scalar first and not negative (Shepperd)."""
     m = rotations
     trace = m[:, 0, 0] + m[:, 1, 1] + m[:, 2, 2]
     squares = np.stack(
@@ -338,7 +356,10 @@ def _quaternions(rotations: Floats) -> Floats:
 def linear(
     to_urdf: Callable[[Sequence[float]], Values], at: Sequence[float], places: Sequence[int]
 ) -> tuple[list[Values], Values]:
-    """How URDF values depend on the controller's at `places`: weights for each joint, constants."""
+    """Return URDF values as linear functions of the controller's.
+
+    Weights of the values at `places` for each joint, and constants.
+    """
     zero = [0.0 if n in places else value for n, value in enumerate(at)]
     constant = to_urdf(zero)
     columns = []

@@ -1,9 +1,19 @@
-"""Arms whose axes 4 and 5 meet and whose axis 6 passes beside that point (ABB's CRB 15000); numpy.
+"""Inverse kinematics of arms with an offset wrist (ABB's CRB 15000).
 
-An angle of axis 6 tells where axes 4 and 5 meet, that point tells axes 1 to 3, and axis 4 has then
-to be square to axis 5: one equation in axis 6 on each of four branches (wrist behind axis 1, elbow
-turned over). Its roots are bracketed between samples; close to a posture the secant method finds
-one. Angles and geometry are those of `WristArm`.
+Axes 4 and 5 meet in a point, and axis 6 passes at a distance from it. Needs numpy.
+
+Rules:
+
+- A given angle of axis 6 fixes the point where axes 4 and 5 meet, because the flange pose fixes
+  axis 6.
+- That point gives axes 1 to 3, as for a spherical wrist, on four branches: wrist on the front or
+  rear side of axis 1, elbow up or turned over.
+- The remaining condition is that axis 4 is square to axis 5. It is one scalar equation in axis 6 on
+  each branch.
+- Its roots are bracketed between samples of a whole turn. Two roots may be close to each other, or
+  at the end of the reach: such places are sampled more densely.
+- Near a known posture the secant method finds the root of the same branch.
+- Angles and geometry are those of `WristArm`.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,27 +32,27 @@ from rapidgen.axes.spherical_wrist import Angles, WristArm
 Floats: TypeAlias = NDArray[np.float64]
 Number = TypeVar("Number", float, Floats)
 Side: TypeAlias = tuple[float, float]
-"""Wrist before (+1) or behind (-1) axis 1, elbow up (+1) or turned over (-1)."""
+"""Wrist on the front (+1) or rear (-1) side of axis 1, elbow up (+1) or turned over (-1)."""
 _SIDES: tuple[Side, ...] = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 _ANGLES = np.linspace(-pi, pi + pi / 90, 182)
-"""A whole turn and one step more."""
+"""A whole turn and one additional step."""
 _SHARES = tuple(1.0 - u * u for u in (1.0, 0.75, 0.5, 0.3, 0.16, 0.08, 0.04, 0.02, 0.0))
-"""Towards the end of the reach, where the equation goes with the root of what is left."""
+"""Samples towards the end of the reach, where the equation follows the root of the distance."""
 _GOLDEN = (sqrt(5.0) - 1) / 2
 _NARROW = 1e-7
 _HALVINGS = 40
 _EXACT = 1e-13
 _EXACT_STEPS = 1e-14
-"""Product of two steps of the secant method, by which the second one is off at most."""
+"""Product of two steps of the secant method, a bound for the error of the second."""
 _GRAZING = 0.02
-"""How far from zero the equation may turn round between samples and yet be looked at closely."""
+"""Distance of a minimum from zero below which the equation is sampled closely."""
 _CLOSE = 0.5
-"""rad of axis 6 beside a posture within which its branch goes on."""
+"""rad of axis 6 around a posture within which its branch continues."""
 
 
 @dataclass(frozen=True)
 class OffsetWrist:
-    """The arm to where axes 4 and 5 meet, and what lies behind it."""
+    """The arm up to the point where axes 4 and 5 meet, and the part after it."""
 
     arm: WristArm
     """Its `flange` begins on axis 6, where `offset` ends."""
@@ -51,7 +61,7 @@ class OffsetWrist:
 
     @cached_property
     def figures(self) -> tuple[float, ...]:
-        """What the equation needs of the geometry, in its order."""
+        """Return the geometry values of the equation, in its order."""
         arm = self.arm
         (length2, _), (length3, rise3) = arm.upper, arm.fore
         square2, square3 = length2 * length2, length3 * length3
@@ -66,14 +76,17 @@ class OffsetWrist:
         )
 
     def solutions(self, pose: Pose) -> Iterator[Angles]:
-        """All angles within +-pi of a flange pose."""
+        """Yield all angles within +-pi of a flange pose."""
         wrist = _Wrist.of(self, pose)
         for side in _SIDES:
             for a6 in wrist.roots(side):
                 yield wrist.angles(side, a6)
 
     def near(self, pose: Pose, angles: Angles) -> Angles | None:
-        """Angles of a flange pose on the branch of close ones; None: not found from there."""
+        """Return angles of a flange pose on the branch of close ones, or None.
+
+        None: not found from there.
+        """
         wrist = _Wrist.of(self, pose)
         back, over, _ = self.arm.branch(angles)
         side = (-1.0 if back else 1.0, -1.0 if over else 1.0)
@@ -96,7 +109,10 @@ class OffsetWrist:
 
 
 class _Wrist(NamedTuple):
-    """A flange pose: axes 4 and 5 meet in `fixed` less the offset, turned back about axis 6."""
+    """A flange pose; axes 4 and 5 meet in `fixed` less the offset.
+
+    The offset is turned back about axis 6.
+    """
 
     geometry: OffsetWrist
     fixed: Vector
@@ -113,14 +129,17 @@ class _Wrist(NamedTuple):
         return cls(geometry, fixed, (a, d, g), (b, e, h), (c, f, i))
 
     def value(self, side: Side, a6: float) -> float | None:
-        """The equation at an angle; None: out of the arm's reach."""
+        """Return the equation at an angle; None: out of the arm's reach."""
         result, planar, bent = self._equation(side, cos(a6), sin(a6), _root)
         return result if planar >= 0.0 and bent >= 0.0 else None
 
     def _equation(
         self, side: Side, c: Number, s: Number, root: Callable[[Number], Number]
     ) -> tuple[Number, Number, Number]:
-        """Cosine between axes 4 and 5; negative where axes 1, or 2 and 3, do not get there."""
+        """Return the cosine between axes 4 and 5, and two reach values.
+
+        The values are negative if axes 1, or 2 and 3, do not reach the point.
+        """
         geometry, (fx, fy, fz), _, (yx, yy, yz), (zx, zy, zz) = self
         oy, oz, lateral, x2, z2, square2, squares, cr, sr = geometry.figures
         along_y, along_z = oy * c + oz * s, oz * c - oy * s
@@ -145,7 +164,7 @@ class _Wrist(NamedTuple):
         return level * across - down * (c * yz - s * zz), planar, bent
 
     def angles(self, side: Side, a6: float) -> Angles:
-        """All angles where axis 6 solves the equation."""
+        """Return all angles for a root of the equation."""
         geometry, (fx, fy, fz), (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = self
         arm, (oy, oz) = geometry.arm, geometry.offset
         c, s = cos(a6), sin(a6)
@@ -164,7 +183,7 @@ class _Wrist(NamedTuple):
         a2 = rise2 - atan2(dz, dx)
         bend = rise3 - atan2(uz - dz, ux - dx)
         c1, s1, cb, sb = cos(a1), sin(a1), cos(bend), sin(bend)
-        # Axis 5, and the forearm with what is left of it and above it.
+        # Axis 5, and the forearm with the remaining direction and the one above it.
         ax, ay, az = c * yx - s * zx, c * yy - s * zy, c * yz - s * zz
         fx, fy, fz = c1 * cb, s1 * cb, -sb
         a4 = atan2(sb * (c1 * ax + s1 * ay) + cb * az, c1 * ay - s1 * ax)
@@ -175,7 +194,7 @@ class _Wrist(NamedTuple):
     # -- its roots --------------------------------------------------------------------------
 
     def roots(self, side: Side) -> Iterator[float]:
-        """Angles of axis 6 that solve the equation."""
+        """Yield angles of axis 6 that solve the equation."""
         with np.errstate(divide="ignore", invalid="ignore"):
             value, planar, bent = self._equation(side, np.cos(_ANGLES), np.sin(_ANGLES), _roots)
         inside, above, size = (planar >= 0.0) & (bent >= 0.0), value > 0.0, np.abs(value)
@@ -195,7 +214,7 @@ class _Wrist(NamedTuple):
             yield from self._island(side, float(_ANGLES[n]), float(_ANGLES[n + 2]))
 
     def _between(self, side: Side, a: float, b: float) -> float:
-        """The root between two angles where the equation has different signs (Illinois)."""
+        """Return the root between two angles of different signs (Illinois)."""
         before, current = self.value(side, a), self.value(side, b)
         for _ in range(_HALVINGS):
             if not before or not current or abs(current) < _EXACT:
@@ -212,7 +231,7 @@ class _Wrist(NamedTuple):
         return a if before == 0.0 else b
 
     def _grazing(self, side: Side, a: float, b: float) -> Iterator[float]:
-        """Two roots, or none, around the least value between two angles."""
+        """Yield two roots, or none, around the minimum between two angles."""
         sign = 1.0 if (self.value(side, a) or 0.0) > 0.0 else -1.0
 
         def size(angle: float) -> float:
@@ -225,7 +244,7 @@ class _Wrist(NamedTuple):
             yield self._between(side, least, b)
 
     def _island(self, side: Side, a: float, b: float) -> Iterator[float]:
-        """Roots where the arm reaches between two angles, and at neither of them."""
+        """Yield roots between two angles, if only the interval is in reach."""
 
         def beyond(angle: float) -> float:
             return -self._equation(side, cos(angle), sin(angle), _root)[2]
@@ -236,7 +255,7 @@ class _Wrist(NamedTuple):
             yield from self._at_edge(side, reached, b)
 
     def _at_edge(self, side: Side, within: float, beyond: float) -> Iterator[float]:
-        """Roots between a sample and the end of the arm's reach before the next one."""
+        """Yield roots between a sample and the end of the reach."""
         first, before = within, 2 * within - beyond
         for _ in range(_HALVINGS):
             middle = (within + beyond) / 2
@@ -259,7 +278,10 @@ class _Wrist(NamedTuple):
 
 
 def _least(of: Callable[[float], float], one: float, other: float) -> float | None:
-    """Where a function is not positive, on the way to its minimum (golden section); or None."""
+    """Return a place where a function is not positive, or None.
+
+    The golden-section search to its minimum stops there.
+    """
     low, high = min(one, other), max(one, other)
     c, d = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
     at_c, at_d = of(c), of(d)

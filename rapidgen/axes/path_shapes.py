@@ -1,4 +1,7 @@
-"""Lines and circles of the TCP in the object's frame, over a share from 0 to 1."""
+"""Lines and circles of the TCP in the object's frame.
+
+The path parameter is a share from 0 to 1.
+"""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -10,7 +13,7 @@ from rapidgen.axes.frames import ORIGIN, Pose, Quaternion, Vector
 
 LARGEST_ARC = radians(240)
 SMALLEST_ANGLE = radians(1)
-"""rad: of one MoveC, and between its other two points as the first one sees them (3HAC16581-1)."""
+"""rad: minimum of one MoveC, and between its other two points seen from the first (3HAC16581-1)."""
 
 
 class CircleMode(Enum):
@@ -23,9 +26,9 @@ class CircleMode(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """Straight, turning evenly about one axis the short way.
+    """Straight line with a constant rotation about one axis, the short way.
 
-    The share may leave 0..1.
+    The share may be outside 0 to 1.
     """
 
     start: Pose
@@ -59,7 +62,7 @@ class Line:
 class Arc:
     """Part of a circle; the orientation turns evenly relative to the path.
 
-    Same orientation relative to the path at both ends keeps it so all along (S4 datasys
+    Equal orientation relative to the path at both ends keeps it so along the path (S4 datasys
     2-MoveC-3): the turn of the path itself and an even turn in the tool's own frame.
     """
 
@@ -70,11 +73,11 @@ class Arc:
     sweep: float
     """rad, positive about `normal`"""
     swept: float
-    """rad of the path's turn that the tool takes part in: all of it, or none."""
+    """rad of the path's turn that the tool follows: all of it, or none."""
     turn: Vector
     """The tool's own turn, in the frame of `start`: about this axis, rad."""
     bend: Vector = ORIGIN
-    """What is added to it per share squared, so that it goes through the circle point's."""
+    """Additional turn per share squared, so that it passes the circle point's orientation."""
 
     @property
     def length(self) -> float:
@@ -83,7 +86,7 @@ class Arc:
 
     @property
     def angle(self) -> float:
-        """rad that the tool turns in all."""
+        """Total rad of the tool's turn."""
         rows = [self.orientation(k / 8) for k in range(9)]
         return sum(frames.angle_between(a, b) for a, b in pairwise(rows))
 
@@ -111,12 +114,12 @@ class Arc:
 def arc_through(
     start: Pose, via: Pose, end: Pose, mode: CircleMode = CircleMode.PATH
 ) -> Arc | None:
-    """The circle through three points; None: they do not make one.
+    """Return the circle through three points, or None.
 
-    Points closer than 0.1 mm are no circle, nor are two that the first one sees less than 1 degree
-    apart (ABB's limits of MoveC, as RobotComponents' path generator names them). The orientation
-    at `via` only decides between the short and the long way of the tool's own turn (S4 datasys
-    2-MoveC-3), unless the mode asks for it.
+    Points closer than 0.1 mm do not make a circle, nor do two that are less than 1 degree apart
+    from the first one (ABB's limits of MoveC, as RobotComponents' path generator names them). The
+    orientation at `via` only decides between the short and the long way of the tool's own turn (S4
+    datasys 2-MoveC-3), unless the mode requires it.
     """
     a, b, c = start[0], via[0], end[0]
     to_via, to_end = frames.subtract(b, a), frames.subtract(c, a)
@@ -137,7 +140,7 @@ def arc_through(
     swept = 0.0 if mode is CircleMode.OBJECT else sweep
 
     def own(orientation: Quaternion, at: float) -> Vector:
-        """The tool's own turn at a share of the way, as an axis times an angle."""
+        """Return the tool's own turn at a share, as axis times angle."""
         back = frames.multiply(frames.about(normal, -swept * at), orientation)
         axis, angle = frames.to_axis(frames.multiply(frames.conjugate(start[1]), back))
         return frames.scale(axis, angle)
@@ -151,7 +154,7 @@ def arc_through(
     best = min(ways, key=lambda path: frames.angle_between(path.orientation(fraction), via[1]))
     if mode is CircleMode.PATH:
         return best
-    # turn * s + bend * s^2 is that of the circle point at `fraction` and that of the end at 1.
+    # turn * s + bend * s^2 is the turn of the circle point at `fraction`, and that of the end at 1.
     off = frames.subtract(own(via[1], fraction), frames.scale(best.turn, fraction))
     bend = frames.scale(off, 1 / (fraction * fraction - fraction))
     turn = frames.subtract(best.turn, bend)
@@ -164,6 +167,6 @@ def _about(turn: Vector) -> Quaternion:
 
 
 def _turned(first: Vector, last: Vector, normal: Vector) -> float:
-    """rad from one arm to another about a normal, 0 to 2 pi."""
+    """Return rad from one arm to another about a normal, 0 to 2 pi."""
     angle = atan2(frames.dot(frames.cross(first, last), normal), frames.dot(first, last))
     return angle if angle > 0 else angle + 2 * pi

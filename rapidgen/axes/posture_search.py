@@ -1,4 +1,4 @@
-"""What iteration finds for the arm of a group: postures by poses, and by arm angles."""
+"""Iterative search for a group's arm: postures by pose and arm angle."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -20,9 +20,9 @@ _TURN = 2 * pi
 
 @dataclass(frozen=True)
 class ArmSearch:
-    """The arm of a group: its robot axes, and a seventh one between them where there is one.
+    """The arm of a group: its robot axes, and a seventh one if present.
 
-    What is found has the turns closest to where a search began; ranges are not looked at.
+    Results have the turns closest to the start; ranges are ignored.
     """
 
     group: GroupConfig
@@ -30,17 +30,17 @@ class ArmSearch:
     steps: tuple[Step, ...]
 
     def near(self, pose: Pose, start: Posture) -> Posture | None:
-        """The posture on the branch of a start, external axes as there."""
+        """Return the posture on the branch of a start, with its external axes."""
         values = self.search(start).near(pose, tuple(start[i] for i in self._places))
         return None if values is None else self._posture(self._places, values, start)
 
     def rounds(self, pose: Pose, start: Posture) -> Iterator[Iterator[Posture]]:
-        """Postures for a pose as they are found, in rounds of starts farther and farther away."""
+        """Yield postures for a pose, in rounds of starts farther away."""
         for result in self.search(start).rounds(pose, tuple(start[i] for i in self._places)):
             yield (self._posture(self._places, values, start) for values in result)
 
     def at_arm_angle(self, pose: Pose, angle: float, near: Posture) -> Iterator[Posture]:
-        """Postures for a pose and an arm angle (rad), as they are found from `near`."""
+        """Yield postures for a pose and an arm angle (rad), from `near`."""
         search = self.search(near, complete=True)
         start = tuple(near[i] for i in self._order)
         for values in self._angle.postures(search, pose, angle, start):
@@ -48,7 +48,10 @@ class ArmSearch:
 
     @cached_property
     def seventh(self) -> int:
-        """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
+        """Return the index of the axis between axes 2 and 3, else -1.
+
+        Its robtargets contain the arm angle.
+        """
         own = [self.group.joints[i].axis for i in self._own]
         return self._inner[0] if len(self._inner) == 1 and len(own) == 6 else -1
 
@@ -60,12 +63,12 @@ class ArmSearch:
         return ArmAngle((0.0, -1.0 if side > 0 else 1.0, 0.0))
 
     def arm_angle(self, posture: Posture) -> float:
-        """What eax_a of a robtarget is in a posture of an arm with seven axes (rad)."""
+        """Return eax_a of a robtarget for a posture with seven axes (rad)."""
         values = tuple(posture[i] for i in self._order)
         return self._angle.of(self.search(posture, complete=True).lines(values)[1])
 
     def cfx(self, posture: Posture) -> int:
-        """cfx of a robtarget in a posture of an arm with seven axes."""
+        """Return cfx of a robtarget for a posture with seven axes."""
         values = tuple(posture[i] for i in self._order)
         axes = self.search(posture, complete=True).lines(values)[1]
         by_axis = {joint.axis: v for joint, v in zip(self.group.joints, posture, strict=True)}
@@ -73,11 +76,14 @@ class ArmSearch:
 
     @cached_property
     def _order(self) -> tuple[int, ...]:
-        """Places of the arm's axes in the order of the chain."""
+        """Return the indices of the arm's axes in chain order."""
         return tuple(s.joint for s in self.steps if s.joint in (*self._own, *self._inner))
 
     def search(self, start: Posture, *, complete: bool = False) -> "Search":
-        """The search of this arm, carried as in `start`; `complete`: with its seventh axis."""
+        """Return the search of this arm, with the base as in `start`.
+
+        `complete`: with its seventh axis.
+        """
         key = complete, tuple(start[i] for i in self._outside)
         if key not in self._searches:
             for old in [k for k in self._searches if k[0] == complete]:
@@ -88,7 +94,7 @@ class ArmSearch:
         return self._searches[key]
 
     def _make_search(self, start: Posture, places: tuple[int, ...], free: int) -> "Search":
-        from rapidgen.axes.numeric_ik import (  # numpy: where there is no formula
+        from rapidgen.axes.numeric_ik import (  # numpy: only without a formula
             Link,
             Search,
             linear,
@@ -122,12 +128,12 @@ class ArmSearch:
 
     @cached_property
     def _own(self) -> tuple[int, ...]:
-        """Places of the robot axes."""
+        """Return the indices of the robot axes."""
         return tuple(i for i, j in enumerate(self.group.joints) if j.axis.startswith("rax"))
 
     @cached_property
     def _inner(self) -> tuple[int, ...]:
-        """Places of the external axes inside of the arm: the seventh of a YuMi arm."""
+        """Return the indices of external axes in the arm: a YuMi arm's seventh."""
         order = [s.joint for s in self.steps if s.joint >= 0]
         own = [order.index(i) for i in self._own if i in order]
         among = range(min(own), max(own)) if own else range(0)
@@ -135,7 +141,10 @@ class ArmSearch:
 
     @cached_property
     def _outside(self) -> tuple[int, ...]:
-        """Places of the external axes under the arm, and of those that the chain does not name."""
+        """Return the indices of the other external axes.
+
+        They carry the arm, or the chain does not name them.
+        """
         arm = {*self._own, *self._inner}
         return tuple(i for i in range(len(self.group.joints)) if i not in arm)
 

@@ -1,4 +1,4 @@
-"""Why no posture reaches a pose, in words: which robot, where, and which axis ends too early."""
+"""Explain why no posture reaches a pose: robot, place, limiting axis."""
 
 import math
 from itertools import islice
@@ -14,8 +14,10 @@ _LOOKED_AT = 8
 def unreached(
     kinematics: Kinematics, flange: Pose, start: Posture, arm_angle: float | None = None
 ) -> tuple[bool, str]:
-    """Whether a posture, beyond the axis ranges or not, would reach the pose, and a sentence for
-    people. `arm_angle` (rad) is the one that was asked for, of an arm with seven axes."""
+    """Return if a posture ignoring ranges reaches the pose, and a sentence.
+
+    `arm_angle` (rad) is the requested one, of an arm with seven axes.
+    """
     group = kinematics.group
     place = ", ".join(f"{v * 1000:.1f}" for v in flange[0])
     robot = group.model or group.name

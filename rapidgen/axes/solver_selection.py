@@ -1,4 +1,7 @@
-"""Which arms have formulas: recognised from their axes at zero, whatever their names and signs."""
+"""Select the formulas of an arm from its axes at zero.
+
+Names and signs do not matter.
+"""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,7 +21,7 @@ _PALLETISER = ("rax_1", "rax_2", "rax_3", "rax_6")
 
 @dataclass(frozen=True)
 class SixAxes:
-    """An arm with six axes: its formulas, and how its joints come into them."""
+    """An arm with six axes: its formulas, and their use of the joints."""
 
     arm: WristArm
     offset: tuple[float, float]
@@ -42,7 +45,10 @@ class Four:
 def six_axes(
     steps: tuple[Step, ...], axes: Mapping[str, int], linear: Sequence[bool]
 ) -> SixAxes | None:
-    """The arm of a chain whose controller axes have these places among the joints; or None."""
+    """Return the six-axis arm of a chain, or None.
+
+    `axes` gives the indices of controller axes among the joints.
+    """
     places = tuple(axes.get(axis, -1) for axis in _SIX)
     if -1 in places or any(linear[i] for i in places) or any(step.follows for step in steps):
         return None
@@ -53,7 +59,7 @@ def six_axes(
 def four_axes(
     steps: tuple[Step, ...], axes: Mapping[str, int], linear: Sequence[bool]
 ) -> Four | None:
-    """The palletiser or SCARA of a chain; or None."""
+    """Return the palletiser or SCARA of a chain, or None."""
     names = tuple(sorted(axis for axis in axes if axis.startswith("rax")))
     if names not in (_PALLETISER, _SCARA):
         return None
@@ -73,7 +79,7 @@ def four_axes(
         for before in steps[first : passive[0] + 1]:
             wrist = frames.compose(wrist, before.fixed)
         across = frames.rotate(wrist[1], step.axis)[1]
-        # The rods undo what axes 2 and 3 turn.
+        # The rods compensate the rotation of axes 2 and 3.
         if {i: k * across for i, k in step.follows} != {i: -v for i, v in signs.items()}:
             return None
         made = palletiser(points, directions, wrist[0], flange)
@@ -83,7 +89,10 @@ def four_axes(
 
 
 def _first(steps: tuple[Step, ...], places: tuple[int, ...]) -> int | None:
-    """Where axis 1 is, if all axes follow in order and nothing else moves behind it."""
+    """Return the step of axis 1, if all axes follow in order.
+
+    Nothing else may move after it.
+    """
     if tuple(s.joint for s in steps if s.joint in places) != places:
         return None
     first = next(i for i, s in enumerate(steps) if s.joint == places[0])
@@ -91,7 +100,7 @@ def _first(steps: tuple[Step, ...], places: tuple[int, ...]) -> int | None:
 
 
 def _at_zero(steps: tuple[Step, ...]) -> tuple[list[Vector], list[Vector], Pose]:
-    """A point and the direction of each axis at zero, and the flange, from the base."""
+    """Return points and directions of axes at zero, and the flange."""
     pose, points, axes = IDENTITY, [], []
     for step in steps:
         pose = frames.compose(pose, step.fixed)
@@ -111,7 +120,7 @@ def _of_wrist(
         signs.append(1 if axis[n] > 0 else -1)
     if abs(points[0][0]) > _NEAR or abs(points[0][1]) > _NEAR:
         return None
-    # Axis 5 is met by axis 4, and most often by axis 6 (both along x), in the wrist centre.
+    # Axis 4, and usually axis 6 (both along x), meet axis 5 in the wrist centre.
     x5, z5 = points[4][0], points[4][2]
     y4, z4 = points[3][1], points[3][2]
     y6, z6 = points[5][1], points[5][2]

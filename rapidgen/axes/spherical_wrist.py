@@ -1,8 +1,19 @@
-"""Arms whose last three axes meet in one point (ABB's six-axis robots): closed-form kinematics.
+"""Closed-form kinematics of six-axis arms with a spherical wrist.
 
-At zero axis 1 points up, axes 2, 3 and 5 across, axes 4 and 6 along the forearm. The wrist
-centre is placed by axes 1 to 3 (a turn and two links in a plane), the orientation by 4 to 6.
-Angles are URDF joint angles with positive axes (up, left, forward), rad.
+The last three axes meet in one point (ABB's six-axis robots). At zero axis 1 points up, axes 2, 3
+and 5 across, axes 4 and 6 along the forearm. Angles are URDF joint angles with positive axes (up,
+left, forward), rad.
+
+Rules of the inverse:
+
+- The flange pose fixes the wrist centre, a point behind the flange along axis 6.
+- Axes 1 to 3 place the wrist centre. Axis 1 turns its plane to the front or the rear of the arm;
+  axes 2 and 3 are two links in that plane, with the elbow up or turned over.
+- Axes 4 to 6 give the remaining orientation. Both signs of axis 5 are solutions, with axes 4 and 6
+  turned by pi.
+- A branch is one choice of each: eight branches. The order of the flags is that of cfx.
+- With axis 5 at zero only the sum of axes 4 and 6 is determined. The caller gives axis 4.
+- A wrist centre on axis 1 leaves axis 1 free, and one out of the links' reach has no solution.
 """
 
 from dataclasses import dataclass
@@ -13,7 +24,7 @@ from rapidgen.axes.frames import Pose, Quaternion, Vector, conjugate, multiply, 
 
 Angles: TypeAlias = tuple[float, float, float, float, float, float]
 ArmBranch: TypeAlias = tuple[bool, bool, bool]
-"""Wrist centre behind axis 1, elbow turned over, axis 5 negative."""
+"""(wrist centre on the rear side of axis 1, elbow turned over, axis 5 negative)"""
 BRANCHES: tuple[ArmBranch, ...] = tuple(
     (back, elbow, flip)
     for back in (False, True)
@@ -23,8 +34,8 @@ BRANCHES: tuple[ArmBranch, ...] = tuple(
 SINGULAR = 1e-5
 """rad of axis 5 taken as zero.
 
-A quaternion of six decimals leaves some 5e-6 there, one of single precision 3e-7, which would turn
-axes 4 and 6 anywhere; what is ignored is 10 um at 1 m.
+A quaternion of six decimals causes some 5e-6 there, one of single precision 3e-7, which would turn
+axes 4 and 6 anywhere; the ignored error is 10 um at 1 m.
 """
 
 
@@ -46,7 +57,7 @@ class WristArm:
     """Orientation of the flange."""
 
     def forward(self, angles: Angles) -> Pose:
-        """Flange in the base."""
+        """Return the flange in the base frame."""
         a1, a2, a3, a4, a5, a6 = angles
         (length2, rise2), (length3, rise3) = self.upper, self.fore
         bend = a2 + a3
@@ -71,20 +82,21 @@ class WristArm:
         return c1 * cb, -s1 * sb, c1 * sb, s1 * cb
 
     def branch(self, angles: Angles) -> ArmBranch:
-        """On which of the eight branches a posture lies."""
+        """Return the branch of a posture, one of eight."""
         (length2, rise2), (length3, rise3) = self.upper, self.fore
         along = (
             self.shoulder[0]
             + length2 * cos(rise2 - angles[1])
             + length3 * cos(rise3 - angles[1] - angles[2])
         )
-        # The forearm hangs forward of the upper arm while it is turned clockwise from it.
+        # The forearm is forward of the upper arm while it is turned clockwise from it.
         return along < 0.0, sin(rise3 - angles[2] - rise2) > 0.0, angles[4] < 0.0
 
     def solve(self, pose: Pose, branch: ArmBranch, near4: float) -> Angles | None:
-        """Angles within +-pi of a flange pose on one branch; None: out of reach.
+        """Return angles within +-pi of a flange pose on one branch, or None.
 
-        `near4` is axis 4 where axes 4 and 6 are in line and only their sum is determined.
+        None: out of reach. `near4` is axis 4 where axes 4 and 6 are in line and only their sum is
+        determined.
         """
         back, elbow, flip = branch
         (px, py, pz), q = pose

@@ -1,10 +1,9 @@
-"""When to be where: times for waypoints, speeds that they ask for, resampling (numpy).
+"""Times for waypoints, required speeds, resampling (numpy).
 
-A trajectory is executed as `MoveAbsJ ... \\T` with zones: constant axis speeds on the way
-between two points and a change of speed around each point. So the speed of segment k is its
-distance over its time, and the acceleration at a point is the change of speed over the mean
-of the two times; at the first and last point speed comes up from and goes down to zero within
-the segment.
+A trajectory is executed as `MoveAbsJ ... \\T` with zones: constant axis speeds between two points
+and a change of speed around each point. The speed of segment k is its distance over its time, and
+the acceleration at a point is the change of speed over the mean of the two times; at the first and
+last point speed rises from and falls to zero within the segment.
 """
 
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ Array = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class LimitUsage:
-    """What a timed trajectory asks of the axes, as shares of their limits (1 = at the limit).
+    """Required speeds and accelerations, as shares of their limits.
 
     `speed[k]` belongs to the segment from point k to k + 1, `acceleration[k]` to point k.
     """
@@ -28,25 +27,25 @@ class LimitUsage:
 
     @property
     def worst(self) -> float:
-        """The largest share of all."""
+        """Return the largest share of all."""
         return float(max(self.speed.max(initial=0.0), self.acceleration.max(initial=0.0)))
 
 
 def limit_usage(times: Array, positions: Array, speed: Array, acceleration: Array) -> LimitUsage:
-    """Shares of the limits that a trajectory needs.
+    """Return the shares of the limits that a trajectory needs.
 
-    `times` (N,) s ascending, `positions` (N, n), `speed` and `acceleration` (n,).
-    ValueError: fewer than two points or times that do not increase.
+    `times` (N,) s ascending, `positions` (N, n), `speed` and `acceleration` (n,). ValueError: fewer
+    than two points or times that do not increase.
     """
     periods, deltas = _segments(times, positions)
     return _demand(periods, deltas, np.asarray(speed), np.asarray(acceleration))
 
 
 def parametrise(positions: Array, speed: Array, acceleration: Array) -> Array:
-    """Times (N,) from 0 at which the points can be passed, short but within the limits.
+    """Return short times (N,) from 0 for the points within the limits.
 
-    Points that repeat their predecessor get a segment of zero length and a time that is
-    1 ms later. ValueError: fewer than two points, or a limit that is not positive.
+    Points that repeat their predecessor get a segment of zero length and a time that is 1 ms later.
+    ValueError: fewer than two points, or a limit that is not positive.
     """
     points = np.asarray(positions, dtype=np.float64)
     limits = np.asarray(speed, dtype=np.float64), np.asarray(acceleration, dtype=np.float64)
@@ -87,7 +86,9 @@ def parametrise(positions: Array, speed: Array, acceleration: Array) -> Array:
 def _next_share(
     before: Array, rate: Array, period_before: float, period: float, fraction: float, limit: Array
 ) -> float:
-    """Largest share of a segment whose neighbour has `fraction`, by the acceleration between them.
+    """Return the largest share of a segment with a neighbour at `fraction`.
+
+    It is bounded by the acceleration between them.
 
     |rate s' - before s| <= limit (period_before / s + period / s') / 2 is, for each axis in
     the direction in which it speeds up, a quadratic inequality in s'.
@@ -100,7 +101,10 @@ def _next_share(
 
 
 def slow_down(times: Array, positions: Array, speed: Array, acceleration: Array) -> Array:
-    """The same times, stretched as a whole until the limits hold (unchanged when they do)."""
+    """Return the times, scaled until the limits hold.
+
+    They are unchanged if the limits hold already.
+    """
     worst = limit_usage(times, positions, speed, acceleration)
     factor = max(1.0, float(worst.speed.max()), float(np.sqrt(worst.acceleration.max())))
     stretched: Array = times[0] + (np.asarray(times) - times[0]) * factor
@@ -108,9 +112,9 @@ def slow_down(times: Array, positions: Array, speed: Array, acceleration: Array)
 
 
 def resample(times: Array, positions: Array, period: float) -> tuple[Array, Array]:
-    """Points at an equal spacing close to `period` s and not below it, where the whole is not;
-    first and last kept exactly.
+    """Return points at an equal spacing close to `period` s.
 
+    The spacing is not below `period` unless the whole is; first and last point are kept exactly.
     Between points axes move linearly, so ranges and speeds stay within those of the input.
     """
     stamps = np.asarray(times, dtype=np.float64)
@@ -118,7 +122,7 @@ def resample(times: Array, positions: Array, period: float) -> tuple[Array, Arra
     _segments(stamps, points)
     if not period > 0:
         raise ValueError("the period must be positive")
-    # A spacing that is a period up to rounding is one.
+    # A spacing equal to a period up to rounding counts as one.
     count = max(1, floor((stamps[-1] - stamps[0]) / period * (1 + 1e-9)))
     fresh = np.linspace(stamps[0], stamps[-1], count + 1)
     columns = [np.interp(fresh, stamps, points[:, j]) for j in range(points.shape[1])]
@@ -126,8 +130,11 @@ def resample(times: Array, positions: Array, period: float) -> tuple[Array, Arra
 
 
 def decimate(times: Array, positions: Array, shortest: float, tolerance: float) -> Array:
-    """Indices of points to keep: no segment below `shortest` s if that can be, and no dropped
-    point further than `tolerance` (rad, m) from the way between its kept neighbours."""
+    """Return the indices of points to keep.
+
+    No segment is below `shortest` s if possible, and no dropped point is further than `tolerance`
+    (rad, m) from the path between its kept neighbours.
+    """
     stamps = np.asarray(times, dtype=np.float64)
     points = np.asarray(positions, dtype=np.float64)
     _segments(stamps, points)
@@ -167,8 +174,8 @@ def _demand(periods: Array, deltas: Array, speed: Array, acceleration: Array) ->
     shares = np.max(np.abs(rates) / speed, axis=1)
     mean = (periods[1:] + periods[:-1]) / 2
     inner = np.abs(np.diff(rates, axis=0)) / mean[:, None]
-    # From rest within a segment of time T over a distance D: T = D/v + v/(2a), so that
-    # a >= 2 D / T^2 is the least that is possible at all; with both ends at rest, 4 D / T^2.
+    # From rest within a segment of time T over a distance D: T = D/v + v/(2a), so that a >= 2 D /
+    # T^2 is the minimum; with both ends at rest, 4 D / T^2.
     ramps = 4 if len(deltas) == 1 else 2
     first = ramps * np.abs(deltas[0]) / periods[0] ** 2
     final = ramps * np.abs(deltas[-1]) / periods[-1] ** 2

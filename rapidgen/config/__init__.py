@@ -1,4 +1,4 @@
-"""YAML and URDF become one frozen, checked model of the robot."""
+"""Read YAML and URDF into one frozen, checked model of the robot."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,7 +21,10 @@ def load_config(
     overrides: "Overrides" = (),
     package_paths: "Sequence[str | Path]" = (),
 ) -> "RobotConfig":
-    """Read and check a configuration: see `rapidgen.config.load`, which needs pydantic."""
+    """Read and check a configuration.
+
+    See `rapidgen.config.load`, which needs pydantic.
+    """
     from rapidgen.config import load
 
     return load.load_config(path_or_name, overrides=overrides, package_paths=package_paths)

@@ -1,4 +1,4 @@
-"""The layers of one configuration become one tree: shipped model, the user's file, overrides."""
+"""Combine shipped model, user file and overrides into one tree."""
 
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -32,7 +32,10 @@ _IDENTITY = ("task", "mechanical_unit", "ports")
 
 @dataclass(frozen=True, slots=True)
 class ShippedBasis:
-    """The shipped model under a group; `known` are its figures by (axis, figure)."""
+    """The shipped model below a group; `known` has its figures.
+
+    The keys of `known` are (axis, figure).
+    """
 
     model: str
     known: Figures
@@ -40,7 +43,7 @@ class ShippedBasis:
 
 @dataclass(slots=True)
 class Assembly:
-    """One canonical tree, what it was read from, and what each group rests on."""
+    """One canonical tree, its input files, and the basis of each group."""
 
     path: Path
     root: MappingNode
@@ -50,7 +53,7 @@ class Assembly:
 
 
 def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
-    """Read a file or a shipped model with everything that it rests on."""
+    """Read a file or a shipped model with everything that it is based on."""
     text = str(path_or_name)
     shipped = not isinstance(path_or_name, Path) and not is_path(text)
     path = find_shipped(text) if shipped else Path(text)
@@ -92,12 +95,12 @@ def _figures(group: MappingNode) -> Figures:
         (text(joint["axis"]), figure): number(joint[figure])
         for joint in map(members, joints.values())
         for figure in ("lower", "upper", "speed")
-        if not isinstance(joint[figure], str)  # open
+        if not isinstance(joint[figure], str)  # a placeholder
     }
 
 
 def display_path(path: Path) -> str:
-    """The path as messages show it: relative to the working folder where it lies inside."""
+    """Return the path for messages, relative if inside the working folder."""
     try:
         return str(path.absolute().relative_to(Path.cwd()))
     except ValueError:
@@ -110,7 +113,7 @@ def _read(path: Path, made: Assembly) -> MappingNode:
 
 
 def _model(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
-    """The tree of a shipped model, or of a known variant."""
+    """Return the tree of a shipped model, or of a known variant."""
     path = find_shipped(name, span)
     variant = named(name) if path == PATH else None
     if variant is None:
@@ -131,7 +134,9 @@ def keys_of(
     what: str = "a configuration",
     such: str = "such as `model: irb120`; `rapidgen schema` has them all",
 ) -> tuple[MappingNode, list[Diagnostic]]:
-    """The keys of a YAML file, none of an empty one, and faults that do not hinder them.
+    """Return the keys of a YAML file, and its non-fatal faults.
+
+    An empty file has no keys.
 
     Raises DiagnosticError (RG002, RG003, RG006).
     """
@@ -154,7 +159,7 @@ _known_keys = lru_cache(maxsize=16)(keys_of)
 
 
 def _text(root: MappingNode, key: str) -> str:
-    """A text at the top of a raw tree, where there is one."""
+    """Return a text at the top of a raw tree, or an empty one."""
     entry = root.entries.get(key)
     if entry and isinstance(entry[1], ScalarNode) and isinstance(entry[1].value, str):
         return entry[1].value
@@ -166,7 +171,7 @@ def _shipped(name: str, made: Assembly, span: Span | None = None) -> MappingNode
 
 
 def _group_models(made: Assembly) -> None:
-    """Groups with a `model:` of their own are laid over that model's group."""
+    """Merge groups with a `model:` of their own over that model's group."""
     entry = made.root.entries.get("groups")
     if not entry or not isinstance(entry[1], MappingNode):
         return
@@ -180,7 +185,7 @@ def _group_models(made: Assembly) -> None:
             if chosen:
                 base = _group(below, chosen)
                 made.bases[name] = ShippedBasis(model, _figures(base))
-                # What belongs to a place on a controller is not the model's to say.
+                # A model does not decide the place of a group on a controller.
                 saved = {k: v for k, v in base.entries.items() if k not in _IDENTITY}
                 group = merge(MappingNode(saved, base.span), group, ("groups", name))
             else:

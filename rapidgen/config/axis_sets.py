@@ -1,8 +1,8 @@
-"""Which axes an arm has: a set that some ABB robot has, or with `held_axes` all six.
+"""Check the axes of an arm: a known set, or all six with `held_axes`.
 
 Sets: six robot axes; 1, 2, 3 and 6 of a palletiser (ABB PR10284EN_D: "no axes 4 and 5"); 1 to 4 of
 a SCARA, whose axis 3 slides (IRB 910SC); six and eax_a, which sits between axes 2 and 3 of a YuMi
-arm (libegm, yumipy). What is missing would be commanded to some value that nobody gave.
+arm (libegm, yumipy). A missing axis would get a command value that no user gave.
 """
 
 import math
@@ -21,7 +21,10 @@ SCARA = frozenset({"rax_1", "rax_2", "rax_3", "rax_4"})
 def resolve_held_axes(
     draft: GroupDraft, held: Mapping[str, float | None], path: KeyPath, report: DraftFindings
 ) -> tuple[model.KeptAxis, ...]:
-    """The robot axes that no joint drives; RG021 and RG046 say what is no arm."""
+    """Return the robot axes without a joint.
+
+    RG021 and RG046 report a set that is not an arm.
+    """
     where: KeyPath = (*path, "joints")
     axes = {joint.axis for joint in draft.joints}
     faulty = "" in axes or len(axes) < len(draft.joints)
@@ -103,7 +106,7 @@ def resolve_held_axes(
 
 
 def _needed(draft: GroupDraft, driven: set[str]) -> list[str]:
-    """The axes of the robot that has these."""
+    """Return the axes of the robot that has these."""
     third = next((j for j in draft.joints if j.axis == "rax_3"), None)
     if third is not None and third.unit == "mm" and driven <= SCARA:
         return sorted(SCARA)
@@ -113,7 +116,7 @@ def _needed(draft: GroupDraft, driven: set[str]) -> list[str]:
 
 
 def _disorder(draft: GroupDraft) -> Iterator[tuple[str, str, str]]:
-    """Neighbours in the chain that no ABB robot has in this order."""
+    """Yield neighbouring joints in an order that no ABB robot has."""
     by_name = {joint.name: joint for joint in draft.joints}
     order = [by_name[step.joint] for step in draft.chain if step.joint in by_name]
     axes = [joint.axis for joint in order]

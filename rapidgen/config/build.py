@@ -1,4 +1,7 @@
-"""The validated file becomes the frozen model: units, defaults, and what the schema cannot see."""
+"""Convert the validated file to the frozen model.
+
+This sets units and defaults, and checks what the schema cannot see.
+"""
 
 import math
 from ipaddress import IPv4Address
@@ -26,7 +29,7 @@ PORT_STEP = 10
 _PLAIN_PORTS_END = 4999
 
 SLOWEST_TCP = 10
-"""mm/s that a ceiling of the TCP must leave; own choice, v5 and v10 are the slowest of ABB."""
+"""Minimum TCP speed limit, mm/s; our choice, v5 and v10 are ABB's slowest."""
 _SMALL_ZONES = ("fine", "z0", "z1", "z5", "z10")
 
 
@@ -36,7 +39,10 @@ def build(
     path: Path,
     report: DraftFindings,
 ) -> model.RobotConfig | None:
-    """The model, or None when `report` holds errors; `path` is the file it is named after."""
+    """Return the model, or None when `report` holds errors.
+
+    The model is named after the file `path`.
+    """
     _check_controller(configuration, report)
     _check_network(configuration, report)
     _check_signals(configuration, report)
@@ -125,12 +131,18 @@ def _check_controller(configuration: schema.ConfigurationKeys, report: DraftFind
 
 
 def _one_size(zone: str) -> dict[str, str]:
-    """Corners of the basic profile: all of one size, z10 at most, as those of abb_driver."""
+    """Return the corners of the basic profile.
+
+    All have one size, z10 at most, as those of abb_driver.
+    """
     return {"corners": "zone", "zone": zone if zone in _SMALL_ZONES else "z10"}
 
 
 def _check_profile(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
-    """What is asked for has to be there: the basic profile has no control server."""
+    """Check that the profile has what the file asks for.
+
+    The basic profile has no control server.
+    """
     if configuration.profile == "full":
         return
     requested: list[KeyPath] = [("signals",)] if configuration.signals else []
@@ -191,7 +203,7 @@ def _check_signals(configuration: schema.ConfigurationKeys, report: DraftFinding
 
 
 def _is_address(text: str) -> bool:
-    """Whether it is an address that one machine can have, as a controller writes it."""
+    """True if it is a host address, as a controller writes it."""
     try:
         address = IPv4Address(text)
     except ValueError:
@@ -213,7 +225,7 @@ def _group(
     names = {joint.name for joint in draft.joints}
     _check_ceiling(keys.tcp_speed_limit, (*path, "tcp_speed_limit"), report)
     if report.is_faulty((*path, "joints")):
-        # Which joints there are was not understood: no chain is held against them.
+        # The joints are not known: no chain can be checked against them.
         report.mute((*path, "chain"))
         report.mute((*path, "positioners"))
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
@@ -225,7 +237,7 @@ def _group(
         if _is_shipped(where, draft.model, report) and not (
             unit in keys.external_units and moved <= external
         ):
-            del draft.positioners[unit]  # the model's, and this cell has none
+            del draft.positioners[unit]  # a positioner of the model that this cell lacks
             continue
         if unit not in keys.external_units:
             report.error(
@@ -290,7 +302,7 @@ def _group(
 
 
 def _arm(draft: GroupDraft) -> Arm:
-    """What is known of the arm."""
+    """Return the known figures of the arm."""
     linear = [j for j in draft.joints if j.unit == "mm"]
     ways = sum((j.upper or 0.0) - (j.lower or 0.0) for j in linear) / 1000
     reach = length_of(draft.chain)
@@ -299,7 +311,7 @@ def _arm(draft: GroupDraft) -> Arm:
 
 
 def _check_angles(keys: schema.GroupKeys, path: KeyPath, report: DraftFindings) -> None:
-    """RG071: rad where deg are meant."""
+    """Report rad where deg are meant (RG071)."""
     angles: list[tuple[KeyPath, float]] = [
         ((*path, "chain", number, "rpy", place), angle)
         for number, step in enumerate(keys.chain)
@@ -325,7 +337,10 @@ def _check_angles(keys: schema.GroupKeys, path: KeyPath, report: DraftFindings) 
 
 
 def _check_ceiling(limit: float, path: KeyPath, report: DraftFindings) -> None:
-    """RG006: m/s where mm/s are meant; a way of some cm would take minutes."""
+    """Report m/s where mm/s are meant (RG006).
+
+    A path of some cm would take minutes.
+    """
     if limit < SLOWEST_TCP:
         report.error(
             "RG006",
@@ -337,7 +352,7 @@ def _check_ceiling(limit: float, path: KeyPath, report: DraftFindings) -> None:
 
 
 def _is_shipped(path: KeyPath, name: str, report: DraftFindings) -> bool:
-    """Whether a part is as the shipped model has it."""
+    """True if a part is the same as in the shipped model."""
     if not name:
         return False
     place = report.span(path, key=True).path

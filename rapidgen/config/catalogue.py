@@ -1,4 +1,4 @@
-"""What the shipped models are, in a line each."""
+"""One-line descriptions of the shipped models."""
 
 from dataclasses import asdict, dataclass
 from itertools import pairwise
@@ -26,12 +26,12 @@ class ShippedModel:
     unsure: bool
 
     def as_json(self) -> Members:
-        """Plain data."""
+        """Return plain data."""
         return {**asdict(self), "groups": {name: joints for name, joints in self.groups}}
 
 
 def shipped_models() -> tuple[ShippedModel, ...]:
-    """All shipped models, by name."""
+    """Return all shipped models, by name."""
     return tuple(_model(name) for name in shipped_names())
 
 
@@ -48,7 +48,7 @@ def _model(name: str) -> ShippedModel:
 
 
 def model_description(name: str) -> str:
-    """The line that a shipped model says of itself."""
+    """Return a shipped model's own description."""
     path = find_shipped(name)
     root, _ = parse(decode(read_bytes(path, str(path)), str(path)), str(path))
     assert isinstance(root, MappingNode)
@@ -57,7 +57,10 @@ def model_description(name: str) -> str:
 
 
 def variant_named(name: str) -> tuple[Variant, ...]:
-    """The variants of a shipped model's name, or of a type; raises DiagnosticError (RG009)."""
+    """Return the variants of a shipped model or of a type.
+
+    Raises DiagnosticError (RG009).
+    """
     expected = name.casefold().replace(" ", "")
     every = variants()
     result = [v for v in every if expected in (v.model, v.name.casefold().replace(" ", ""))]
@@ -78,7 +81,7 @@ def variant_named(name: str) -> tuple[Variant, ...]:
 
 
 def variant_text(variant: Variant) -> str:
-    """Axes, reach, coupling and sources of a variant for people."""
+    """Describe axes, reach, coupling and sources of a variant."""
     model = variant.model or ("" if missing_figures(variant) else model_name(variant))
     lines = [variant.name + (f" (model {model})" if model else "")]
     for axis, line in zip(variant.axes, variant.skeleton.lines, strict=True):
@@ -105,10 +108,10 @@ def variant_text(variant: Variant) -> str:
 
 
 def reach(variant: Variant) -> float:
-    """Distance (m) from axis 1 that the wrist has with the arm stretched out."""
+    """Return the distance (m) of the wrist from axis 1, arm stretched out."""
     lines = variant.skeleton.lines
     first, across = lines[0], [line.point for line in lines[1:]]
-    # ABB counts to the wrist centre: where axis 5 is, or the last axis of four.
+    # ABB measures to the wrist centre: axis 5, or the last of four axes.
     place = 4 if len(lines) == 6 else len(lines) - 2 if len(lines) > 6 else len(lines) - 1
     radial = distance(lines[1], first)
     return radial + sum(dist(a, b) for a, b in pairwise(across[:place]))

@@ -1,8 +1,8 @@
-"""The description of a cell: what a program finds around it, and no module of it declares.
+"""Cell file: surroundings of a program that its modules do not declare.
 
-One YAML file, in the words of a robot's configuration: robots by task, signals, tools, work
-objects, loads, and devices, which are no more than what signals answer to signals. Units are
-RAPID's: deg, mm, kg. What it does to a controller is the business of `controller.surroundings`.
+One YAML file with the terms of a robot's configuration: robots by task, signals, tools, work
+objects, loads, and devices. A device is a set of signals that react to signals. Units are RAPID's:
+deg, mm, kg. `controller.surroundings` applies the file to a controller.
 """
 
 from collections.abc import Mapping, Sequence
@@ -36,7 +36,7 @@ from rapidgen.config.yaml_tree import read_bytes
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 GROUP_BITS = 32
-"""Bits of a group signal whose size nobody tells; a group has at most 32 [S4 GO]."""
+"""Bits of a group signal without a size; a group has at most 32 [S4 GO]."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class CellRobotKeys(StrictModel):
 class CellSignalKeys(SignalKeys):
     """A signal of the cell.
 
-    `access` is what a driver's clients may; here it means nothing.
+    `access` is the access of a driver's clients; it has no meaning here.
     """
 
     value: Annotated[float, Rule("Value when the controller is switched on.")] = 0.0
@@ -75,7 +75,7 @@ class CellSignalKeys(SignalKeys):
 
 @dataclass(frozen=True)
 class ReactionKeys(StrictModel):
-    """What a device does: where all of `when` have become true, all of `then` follow."""
+    """Reaction of a device: when all of `when` become true, all of `then` follow."""
 
     when: Annotated[dict[Identifier, float], Rule("Signal: value.", min_length=1)]
     then: Annotated[dict[Identifier, float], Rule("Signal: value.", min_length=1)]
@@ -102,7 +102,10 @@ class SeenKeys(StrictModel):
 
 @dataclass(frozen=True)
 class CameraKeys(StrictModel):
-    """A camera of integrated vision: what it is said to see, no picture is looked at."""
+    """A camera of integrated vision.
+
+    It returns configured results; no picture is evaluated.
+    """
 
     images: Annotated[
         list[list[SeenKeys]],
@@ -115,7 +118,10 @@ class CameraKeys(StrictModel):
 
 @dataclass(frozen=True)
 class ForceKeys(StrictModel):
-    """The force sensor at each robot's hand: what it is said to measure, nothing is touched."""
+    """The force sensor at each robot's hand.
+
+    It returns configured values; there is no contact simulation.
+    """
 
     readings: Annotated[
         list[Annotated[list[float], Rule("Six numbers.", min_length=6, max_length=6)]],
@@ -133,7 +139,7 @@ class ForceKeys(StrictModel):
 
 @dataclass(frozen=True)
 class ThingKeys(StrictModel):
-    """Something that the page draws: it is looked at, nothing runs into it."""
+    """An object that the page draws; there is no collision check."""
 
     mesh: Annotated[str, Rule("STL, DAE or OBJ in this file's folder or below.")]
     frame: Annotated[FrameKeys, Rule("Where it stands.")] = field(default_factory=FrameKeys)
@@ -144,7 +150,7 @@ class ThingKeys(StrictModel):
 
 @dataclass(frozen=True)
 class CellKeys(StrictModel):
-    """What stands around a controller."""
+    """The surroundings of a controller."""
 
     description: Annotated[str, Rule("For people.")] = ""
     robots: Annotated[dict[Identifier, CellRobotKeys], Rule("Robots by motion task.")] = field(
@@ -177,7 +183,7 @@ class CellKeys(StrictModel):
 
 @dataclass(frozen=True, slots=True)
 class Thing:
-    """A mesh that stands in the cell: m in one of its units; the file as it is named."""
+    """A mesh in the cell: scale in m, file name as written."""
 
     name: str
     mesh: str
@@ -187,7 +193,7 @@ class Thing:
 
 @dataclass(frozen=True, slots=True)
 class CellDescription:
-    """A checked description.
+    """A checked cell file.
 
     Frames and loads in SI units; starts and reactions in RAPID's.
     """
@@ -201,19 +207,21 @@ class CellDescription:
     cameras: Mapping[str, CameraKeys] = field(default_factory=dict)
     force: ForceKeys | None = None
     folder: Path = Path()
-    """Where its files are."""
+    """Folder of its files."""
     things: tuple[Thing, ...] = ()
     bases: Mapping[str, Placement] = field(default_factory=dict)
-    """Where robots are drawn, by task."""
+    """Positions of the robots in the drawing, by task."""
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
-    """Warnings found while loading, to be shown."""
+    """Warnings found while loading."""
 
 
 def load_cell(path: Path) -> CellDescription:
-    """Read the description of a cell; a `model` that is a file's is found from its folder.
+    """Read a cell file.
 
-    Raises DiagnosticError (RG001..RG009, RG014, RG070, RG071) with everything that is wrong;
-    warnings are in its `diagnostics`.
+    A `model` that is a file is relative to its folder.
+
+    Raises DiagnosticError (RG001..RG009, RG014, RG070, RG071) with all errors; warnings are in its
+    `diagnostics`.
     """
     displayed = display_path(path)
     such = "such as `signals: {doGrip: {kind: DO}}`; `rapidgen schema --cell` has them all"
@@ -272,9 +280,9 @@ def load_cell(path: Path) -> CellDescription:
 
 
 def _arm(keys: CellKeys) -> Arm:
-    """What the strongest and the longest of its robots can, where all are shipped models.
+    """Return the largest payload and reach of its shipped robots.
 
-    Its tools and work objects belong to none of them.
+    Tools and work objects of a cell belong to no robot.
     """
     models = [robot.model for robot in keys.robots.values()]
     if not models or not set(models) <= set(shipped_names()):
@@ -286,7 +294,7 @@ def _arm(keys: CellKeys) -> Arm:
 
 
 def _check_force(keys: CellKeys, report: DraftFindings, arm: Arm) -> None:
-    """RG070: the load that force sensors find can hardly be one."""
+    """Report an implausible load of force sensors (RG070)."""
     if keys.force is None:
         return
     x, y, z = keys.force.center

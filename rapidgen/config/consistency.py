@@ -1,6 +1,6 @@
-"""What a group says against what is known of its arm: coupling, senses, dimensions, ranges.
+"""Compare a group with its arm: coupling, senses, dimensions, ranges.
 
-One check for every way in: a shipped model with keys over it, a URDF, axes said by hand. An arm
+All inputs use one check: a shipped model with keys over it, a URDF, axes written by hand. An arm
 without a `model:` is recognised by its axes in space.
 """
 
@@ -34,13 +34,16 @@ _SHORTEST_ARM = 0.05
 _LONGEST_LINK, _LONGEST_ARM, _FARTHEST_BASE = 5.0, 10.0, 1000.0
 """m; the longest arm of ABB reaches 4.2 (IRB 8700)"""
 _SAME_END = 0.005
-"""m: flanges of one variant, as its sources have them"""
+"""m between flanges of one variant in its sources."""
 
 
 def contradictions(
     draft: GroupDraft, path: KeyPath, names: tuple[str, ...], report: DraftFindings
 ) -> None:
-    """RG047, RG048, RG049 and RG055 for a group; `names` may say the family."""
+    """Report contradictions of a group (RG047, RG048, RG049, RG055).
+
+    `names` may contain the family.
+    """
     if any(not joint.axis for joint in draft.joints):
         return
     _lengths(draft, path, report)
@@ -55,7 +58,7 @@ def contradictions(
         own = family(*names)
         if match:
             variant, difference = match.variant, match.difference
-            # Another type may have the same dimensions, yet its own ranges, speeds and rods.
+            # Another type may have the same dimensions, but its own ranges, speeds and rods.
             is_named = not own or own == variant.family
     if variant is None:
         for joint in draft.joints:
@@ -79,7 +82,7 @@ def contradictions(
 
 
 def _lengths(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
-    """RG062: no arm is that long; a chain in mm where m are meant is."""
+    """Report links that are too long (RG062): mm instead of m."""
     robot = {joint.name for joint in draft.joints if joint.axis.startswith("rax")}
     inside, total = False, 0.0
     for number, step in enumerate(draft.chain):
@@ -179,7 +182,7 @@ def _coupling(draft: GroupDraft, variant: Variant, path: KeyPath, report: DraftF
                 help=f"coupling: {variant.coupling:g}",
             )
         return
-    own = not draft.model and not draft.coupling  # a URDF may have ABB's sense by itself
+    own = not draft.model and not draft.coupling  # a URDF may have ABB's sense already
     report.add(
         "RG047",
         Severity.WARNING if own or "coupling" in variant.unsure else Severity.ERROR,
@@ -214,7 +217,7 @@ def _figures(
         )
         return
     if draft.model:
-        return  # said where a key is beyond the model's
+        return  # reported where a key exceeds the model's
     wider = list(_wider(joint, known, unit))
     if wider:
         report.add(
@@ -237,7 +240,7 @@ def _wider(joint: JointDraft, known: KnownAxis, unit: str) -> Iterator[str]:
 
 
 def _lines(draft: GroupDraft, changed: JointDraft, figures: str) -> str:
-    """All joints as they are to be written, with other figures for one of them."""
+    """Return all joint lines, with other figures for one of them."""
     lines = ["joints:"]
     for joint in draft.joints:
         sign = f", sign: {joint.sign}" if joint.sign < 0 and joint is not changed else ""
@@ -251,7 +254,7 @@ def _lines(draft: GroupDraft, changed: JointDraft, figures: str) -> str:
 def _against_urdf(
     draft: GroupDraft, joint: JointDraft, path: KeyPath, report: DraftFindings
 ) -> None:
-    """A range that mirrors the URDF's, of an arm that is not known."""
+    """Report a range that mirrors the URDF's, of an unknown arm."""
     if joint.described and is_mirror((joint.lower, joint.upper), joint.described):
         lower, upper = joint.described
         report.error(
@@ -269,7 +272,7 @@ def _against_urdf(
 
 
 def is_mirror(own: Range, of: Range) -> bool:
-    """Whether a range is another one the other way round."""
+    """True if a range is another one mirrored."""
     (lower, upper), (low, high) = own, of
     if lower is None or upper is None or low is None or high is None:
         return False

@@ -1,4 +1,4 @@
-"""A group while it is put together: YAML and URDF both fill it, `build.py` judges it.
+"""Mutable draft of a group; YAML and URDF fill it, `build.py` checks it.
 
 Figures are in the units of the controller: deg, mm, deg/s, mm/s (and /s²).
 """
@@ -15,7 +15,7 @@ Path = tuple[str | int, ...]
 
 @dataclass(slots=True)
 class JointDraft:
-    """One joint, as far as it is known."""
+    """One joint, possibly incomplete."""
 
     name: str
     axis: str = ""
@@ -29,12 +29,12 @@ class JointDraft:
     source: str = ""
     unsure: tuple[str, ...] = ()
     described: tuple[float, float] | None = None
-    """The range that the URDF has."""
+    """Range in the URDF."""
 
 
 @dataclass(slots=True)
 class GroupDraft:
-    """One group, as far as it is known."""
+    """One group, possibly incomplete."""
 
     name: str
     model: str = ""
@@ -48,19 +48,19 @@ class GroupDraft:
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
     external_units: tuple[str, ...] = ()
     urdf_chain: list[ChainLink] = field(default_factory=list)
-    """The chain of the URDF, where one is read."""
+    """Chain of the URDF, if one is read."""
     names: tuple[str, ...] = ()
-    """What the description and its file are called."""
+    """Names of the description and its file."""
     held_axes: tuple[float, ...] = ()
-    """Where the axes without a joint stand (rad), in their order."""
+    """Positions of the axes without a joint (rad), in their order."""
     arm: str = ""
-    """The variant that it was recognised as, by its axes in space."""
+    """The variant recognised by its axes in space."""
     ignored: tuple[str, ...] = ()
-    """Joints of the URDF that move by themselves, are part of the arm and drive no axis."""
+    """Actuated joints of the URDF that are part of the arm and drive no axis."""
 
 
 class DraftFindings:
-    """Collects findings with places; what lies in a part already found faulty is not repeated."""
+    """Collects findings with places; skips parts already found faulty."""
 
     def __init__(self, root: MappingNode, removed: Iterable[Path]) -> None:
         self.root = root
@@ -72,11 +72,11 @@ class DraftFindings:
         return any(path[: len(known)] == known for known in self._removed)
 
     def mute(self, path: Path) -> None:
-        """Nothing more about what lies under `path`: its cause has been reported."""
+        """Skip later findings under `path`: their cause has been reported."""
         self._removed.add(path)
 
     def span(self, path: Path, *, key: bool = False) -> Span:
-        """Place of the value (or key) at `path` or of the nearest part that exists."""
+        """Return the place of the value (or key) at `path`, or of its parent."""
         at_key, at_value = place_of(self.root, path)
         return at_key if key else at_value
 
@@ -92,7 +92,7 @@ class DraftFindings:
         key: bool = False,
         notes: tuple[str, ...] = (),
     ) -> None:
-        """One finding at a path of the configuration."""
+        """Add a finding at a path of the configuration."""
         if not self.is_faulty(path):
             span = self.span(path, key=key)
             self.found.append(
@@ -109,7 +109,7 @@ class DraftFindings:
         *,
         key: bool = False,
     ) -> None:
-        """One error at a path of the configuration."""
+        """Add an error at a path of the configuration."""
         self.add(code, Severity.ERROR, message, path, label, help, key=key)
 
     @property

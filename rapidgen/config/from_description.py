@@ -1,4 +1,7 @@
-"""A robot description becomes the text of a configuration; what stays open is marked `???`."""
+"""Create a configuration text from a robot description.
+
+Open values are marked `???`.
+"""
 
 import math
 import re
@@ -33,7 +36,7 @@ _EXTERNAL = tuple(f"eax_{letter}" for letter in "abcdef")
 
 @dataclass(frozen=True, slots=True)
 class DescriptionChoices:
-    """What a person says beside the description."""
+    """Answers of the user in addition to the description."""
 
     joints: Mapping[str, str] = field(default_factory=dict)
     ignore: tuple[str, ...] = ()
@@ -41,27 +44,27 @@ class DescriptionChoices:
     held_axes: tuple[str, ...] = ()
     coupling: float | None = None
     speed: float | None = None
-    """deg/s and mm/s for axes of which nothing says a speed"""
+    """deg/s and mm/s for axes without a speed"""
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    """deg or mm by joint; "" is for turning axes of which nothing says a range"""
+    """deg or mm by joint; "" is for turning axes without a range"""
     controller: str = ""
     robotware: str = ""
-    """Where either is empty, what a robot of its type comes with."""
+    """If either is empty, the values of the robot's type."""
 
 
 @dataclass(slots=True)
 class JointLine:
-    """One joint of the file that is made."""
+    """One joint of the generated file."""
 
     name: str
     axis: str
     keys: list[str] = field(default_factory=list)
     comment: str = ""
     is_known: bool = False
-    """Has figures of a known variant."""
+    """True if a known variant has its figures."""
 
     def text(self, width: int) -> str:
-        """As it is written."""
+        """Return the line as written to the file."""
         keys = ", ".join([f"axis: {self.axis}", *self.keys])
         body = f"{yaml_text(self.name)}: {{{keys}}}"
         return f"{body:<{width}}  # {self.comment}" if self.comment else body
@@ -69,7 +72,7 @@ class JointLine:
 
 @dataclass(slots=True)
 class GroupText:
-    """One group of the file that is made."""
+    """One group of the generated file."""
 
     name: str
     head: list[str]
@@ -86,9 +89,9 @@ def describe(
     value: schema.UrdfKeys,
     answers: DescriptionChoices,
 ) -> tuple[schema.UrdfKeys, list[GroupText], Mapping[str, Path]]:
-    """The groups of a description, and the packages that were used.
+    """Return the groups of a description, and the packages used.
 
-    Raises DiagnosticError for what is no description, no tree or no robot of ABB.
+    Raises DiagnosticError for a text without description, tree or ABB robot.
     """
     value = _with_macro(urdf, value)
     expected = request(value, folder, package_paths, None)
@@ -101,7 +104,7 @@ def describe(
     claimed = bool(said or answers.tips) or mentions_abb(*names, *around, description.text)
     cell = replace(read_cell(graph, names, said), around=around, is_claimed=claimed)
     faults = [d for d in result if d.severity is Severity.ERROR]
-    # What moves behind an arm is a gripper, and left out.
+    # Joints after the end of an arm belong to a gripper and are left out.
     left = {*answers.ignore, *(joint.name for arm in cell.arms for joint in arm.behind)}
     faults += [
         check_axis(joint, None)
@@ -120,7 +123,7 @@ def describe(
 
 
 def _with_macro(urdf: Path, value: schema.UrdfKeys) -> schema.UrdfKeys:
-    """A file that only defines macros is called through the one that is a robot's."""
+    """Return the request with the robot's macro, for a file of macros only."""
     text, _ = read_xml(urdf)
     defined = macros(text)
     if value.macro or not defined or "<link" in text.split("<xacro:macro", 1)[0]:
@@ -153,7 +156,7 @@ def _check_names(cell: Cell, answers: DescriptionChoices) -> None:
 
 
 def _chosen(cell: Cell, answers: DescriptionChoices) -> list[Arm]:
-    """The arms that the tips lead to, else all."""
+    """Return the arms that the tips lead to, else all."""
     if not answers.tips:
         return list(cell.arms)
     made = []
@@ -248,13 +251,16 @@ def _name(arm: Arm, arms: Sequence[Arm], number: int) -> str:
 
 
 def _side(name: str) -> str:
-    """l or r, as a joint of one of two arms says it: joint_1_l, robl_joint_1, left_1."""
+    """Return l or r from a joint name of one of two arms.
+
+    Examples: joint_1_l, robl_joint_1, left_1.
+    """
     hit = _SIDE.search(name.lower())
     return (hit[1] or hit[2]) if hit else ""
 
 
 def _tasks(name: str, arms: Sequence[Arm], variant: Variant | None) -> list[str]:
-    """Task and unit where they are not the first robot's and the second's: both arms of a YuMi."""
+    """Return non-default task and unit names: both arms of a YuMi."""
     if name in ("rob_l", "rob_r"):
         arm = name[-1].upper()
         return [f"task: T_ROB_{arm}", f"mechanical_unit: ROB_{arm}"]
@@ -353,7 +359,7 @@ def _coupling(
 
 
 def _positioners(cell: Cell) -> list[str]:
-    """External units beside the robot, with where they carry their work objects."""
+    """Return external units, with the frame of their work objects."""
     if not cell.positioners:
         return []
     units = [f"STN_{n}" for n in range(1, len(cell.positioners) + 1)]

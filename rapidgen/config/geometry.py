@@ -1,7 +1,8 @@
-"""The axes of an arm as lines in space, at the controller's zero; and two arms compared.
+"""Axes of an arm as lines in space, and comparison of two arms.
 
-Points are m in the root of the chain, directions unit vectors in the controller's sense. Arms are
-laid upon each other by their axes 1 and 2, so that it does not matter where a base stands.
+Lines are those at the controller's zero. Points are m in the root of the chain, directions unit
+vectors in the controller's sense. Arms are aligned by their axes 1 and 2, so that the position of a
+base does not matter.
 """
 
 import math
@@ -21,7 +22,7 @@ IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One axis: a point on it, its direction, and what it is called."""
+    """One axis: a point on it, its direction and its name."""
 
     axis: str
     point: Vector
@@ -31,7 +32,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class ArmAxes:
-    """The axes of the arm along the chain, and where the chain ends, with which orientation."""
+    """The axes of an arm along the chain, and the end of the chain."""
 
     lines: tuple[Line, ...]
     end: Vector
@@ -40,10 +41,10 @@ class ArmAxes:
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """How far one arm is from another: `axis` is off most, by `distance` m or `angle` rad.
+    """Difference of two arms: `axis` with `distance` (m) or `angle` (rad).
 
     `turned` are the axes that turn the other way, `end` is the distance of the two flanges and
-    `facing` the angle (rad) between them, 0 where one is not known.
+    `facing` the angle (rad) between them, 0 if one is not known.
     """
 
     axis: str
@@ -55,18 +56,18 @@ class Difference:
 
 
 def apply(m: Matrix, v: Vector) -> Vector:
-    """Matrix times vector."""
+    """Return matrix times vector."""
     return (dot(m[0], v), dot(m[1], v), dot(m[2], v))
 
 
 def times(a: Matrix, b: Matrix) -> Matrix:
-    """Matrix product."""
+    """Return the matrix product."""
     x, y, z = (apply(a, (b[0][i], b[1][i], b[2][i])) for i in range(3))
     return ((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2]))
 
 
 def turn(axis: Vector, angle: float) -> Matrix:
-    """Rotation about a unit vector."""
+    """Return the rotation about a unit vector."""
     c, s = math.cos(angle), math.sin(angle)
     x, y, z = axis
     k = 1 - c
@@ -78,7 +79,7 @@ def turn(axis: Vector, angle: float) -> Matrix:
 
 
 def from_rpy(rpy: Vector) -> Matrix:
-    """Fixed axes x, y, z, as in a URDF."""
+    """Return the rotation for fixed axes x, y, z, as in a URDF."""
     roll, pitch, yaw = rpy
     return times(
         turn((0.0, 0.0, 1.0), yaw),
@@ -87,7 +88,10 @@ def from_rpy(rpy: Vector) -> Matrix:
 
 
 def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> ArmAxes:
-    """The arm of a group where the controller says 0 for every axis, along its or another chain."""
+    """Return the axes of a group's arm with all controller axes at 0.
+
+    `chain` replaces the group's own chain.
+    """
     joints = {joint.name: joint for joint in draft.joints}
     at = {
         name: -joint.sign * joint.offset * (0.001 if joint.unit == "mm" else math.pi / 180)
@@ -115,7 +119,7 @@ def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> ArmAxes:
 def _along(
     chain: Sequence[ChainLink], at: dict[str, float]
 ) -> tuple[list[tuple[ChainLink, Vector, Vector]], Vector, Matrix]:
-    """Each joint's place and direction along a chain, and its end with its orientation."""
+    """Return each joint's place and direction, and the chain's end pose."""
     place: Vector = (0.0, 0.0, 0.0)
     turned = IDENTITY
     result = []
@@ -131,15 +135,15 @@ def _along(
 
 
 def distance(a: Line, b: Line) -> float:
-    """Between an axis and the point that the other one has on it."""
+    """Return the distance of an axis from the other one's point."""
     way = subtract(a.point, b.point)
     return norm(subtract(way, scale(b.direction, dot(way, b.direction))))
 
 
 def frame(first: Line, second: Line) -> tuple[Matrix, Vector]:
-    """The frame of an arm: origin on axis 1, z along it, axis 2 across along y.
+    """Return the frame of an arm: origin on axis 1, z along it, y along axis 2.
 
-    Where both are parallel x points from the first to the second.
+    If both are parallel, x points from the first to the second.
     """
     z = first.direction
     way = subtract(second.point, first.point)
@@ -160,7 +164,10 @@ def frame(first: Line, second: Line) -> tuple[Matrix, Vector]:
 
 
 def in_axis_frame(arm: ArmAxes, flips: tuple[int, int] = (1, 1)) -> ArmAxes:
-    """The arm seen from the frame of its first two axes, either of them reversed on demand."""
+    """Return the arm in the frame of its first two axes.
+
+    `flips` reverses either of them.
+    """
     first, second = (
         Line(line.axis, line.point, scale(line.direction, flip), line.slides)
         for line, flip in zip(arm.lines, flips, strict=False)
@@ -182,7 +189,7 @@ def in_axis_frame(arm: ArmAxes, flips: tuple[int, int] = (1, 1)) -> ArmAxes:
 
 
 def compare(arm: ArmAxes, known: ArmAxes) -> Difference | None:
-    """How an arm differs from a known one; None when they have other axes."""
+    """Return the difference of two arms; None for other axes."""
     if [line.axis for line in arm.lines] != [line.axis for line in known.lines]:
         return None
     if len(arm.lines) < 2:
@@ -216,7 +223,7 @@ def _difference(current: ArmAxes, there: ArmAxes) -> Difference:
 
 
 def _apart(a: Matrix | None, b: Matrix | None) -> float:
-    """Angle from one orientation to another one."""
+    """Return the angle between two orientations."""
     if a is None or b is None:
         return 0.0
     trace = sum(dot(row, other) for row, other in zip(a, b, strict=True))

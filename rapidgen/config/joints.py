@@ -1,4 +1,4 @@
-"""The joints of a group in SI units, with what is wrong or doubtful about them."""
+"""Joints of a group in SI units, with their errors and warnings."""
 
 import math
 
@@ -9,13 +9,16 @@ from rapidgen.config.plausibility import axis_doubts
 from rapidgen.diagnostics import Severity
 
 MAX_JOINTS = 10
-"""Joints that a message of simple_message holds."""
+"""Maximum number of joints in a simple_message message."""
 
 
 def joints_of(
     keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: DraftFindings
 ) -> tuple[model.Joint, ...]:
-    """The sound joints; RG007, RG013, RG014 and RG037 say what the others lack."""
+    """Return the valid joints; report the others.
+
+    Codes: RG007, RG013, RG014 and RG037.
+    """
     where: KeyPath = (*path, "joints")
     if not draft.joints:
         report.error(
@@ -55,7 +58,7 @@ def joints_of(
 
 
 def _check_radians(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
-    """Four and more turning axes that all stay within 7: radians, not degrees."""
+    """Report four or more turning axes within 7: radians, not degrees."""
     turning = [joint for joint in draft.joints if joint.unit != "mm"]
     ends = [end for joint in turning for end in (joint.lower, joint.upper) if end is not None]
     if len(turning) >= 4 and len(ends) == 2 * len(turning) and max(map(abs, ends)) <= 7:
@@ -129,5 +132,8 @@ def _si(value: float, unit: str) -> float:
 
 
 def inwards(lower: float, upper: float) -> tuple[float, float]:
-    """Limits rounded inwards to 0.01 (deg or mm); noise below 1e-6 does not count."""
+    """Return limits rounded inwards to 0.01 (deg or mm).
+
+    Noise below 1e-6 is ignored.
+    """
     return math.ceil(lower * 100 - 1e-4) / 100, math.floor(upper * 100 + 1e-4) / 100

@@ -1,7 +1,7 @@
-"""One tree out of several: a shipped model, the user's file over it, overrides over both.
+"""Merge a shipped model, the user's file and overrides into one tree.
 
-Group keys at the top of a file belong to its only group; here they move under `groups`. A key that
-says `null` counts as absent.
+Group keys at the top of a file belong to its only group; here they move under `groups`. A key with
+the value `null` counts as absent.
 """
 
 import re
@@ -23,20 +23,20 @@ Entries = dict[str, tuple[Span, Node]]
 Overrides = Mapping[str, object] | Sequence[str]
 
 DEFAULT_GROUP = "rob1"
-_SHARED_KEYS = ("model",)  # a key of a file as well as of a group: at the top it is the file's
+_SHARED_KEYS = ("model",)  # a key of a file and of a group: at the top it is the file's
 _KEY = re.compile(r'"([^"]*)"|([^."]+)')
 
 
 @dataclass(slots=True)
 class Layer:
-    """A tree in canonical form (`groups` only) and what was found on the way."""
+    """A tree in canonical form (`groups` only), with findings."""
 
     root: MappingNode
     found: list[Diagnostic] = field(default_factory=list)
 
 
 def prune(node: Node) -> Node:
-    """The tree without keys that have no value."""
+    """Return the tree without keys that have no value."""
     if isinstance(node, MappingNode):
         return MappingNode(
             {
@@ -52,13 +52,16 @@ def prune(node: Node) -> Node:
 
 
 def group_names(root: MappingNode) -> tuple[str, ...]:
-    """Names of the groups of a canonical tree."""
+    """Return the names of the groups of a canonical tree."""
     entry = root.entries.get("groups")
     return tuple(entry[1].entries) if entry and isinstance(entry[1], MappingNode) else ()
 
 
 def canonical(root: MappingNode, known: tuple[str, ...]) -> Layer:
-    """`root` with its group keys moved under `groups`; `known` are the groups below it."""
+    """Return `root` with its group keys moved under `groups`.
+
+    `known` are the groups below it.
+    """
     pruned = prune(root)
     assert isinstance(pruned, MappingNode)
     top = {k: v for k, v in pruned.entries.items() if k not in GROUP_KEYS or k in _SHARED_KEYS}
@@ -88,7 +91,7 @@ def canonical(root: MappingNode, known: tuple[str, ...]) -> Layer:
 
 
 def merge(base: MappingNode, over: MappingNode, path: tuple[str, ...] = ()) -> MappingNode:
-    """`over` upon `base`: mappings are joined key by key, everything else is replaced."""
+    """Merge `over` into `base`: mappings key by key, the rest is replaced."""
     entries = dict(base.entries)
     if len(path) == 2 and path[0] == "groups":
         entries = _adopt(entries, over)
@@ -104,7 +107,7 @@ def merge(base: MappingNode, over: MappingNode, path: tuple[str, ...] = ()) -> M
 
 
 def _adopt(entries: Entries, over: MappingNode) -> Entries:
-    """A joint of a new name on an axis that the model has is that joint, renamed."""
+    """Rename a joint of the model whose axis the upper layer names anew."""
     known, given = entries.get("joints"), over.entries.get("joints")
     if not known or not given:
         return entries
@@ -129,7 +132,7 @@ def _adopt(entries: Entries, over: MappingNode) -> Entries:
 
 
 def _renamed(node: Node, names: dict[str, str]) -> Node:
-    """A chain with other joint names."""
+    """Return a chain with other joint names."""
     if isinstance(node, SequenceNode):
         return SequenceNode(tuple(_renamed(item, names) for item in node.items), node.span)
     if isinstance(node, MappingNode):
@@ -154,7 +157,7 @@ def _axis(joint: Node) -> str:
 
 
 def _settle(entries: Entries, over: MappingNode) -> Entries:
-    """A figure that the upper layer gives is no longer an unsure one of the lower layer."""
+    """Mark figures that the upper layer gives as certain."""
     if "unsure" not in entries or "unsure" in over.entries:
         return entries
     place, unsure = entries["unsure"]
@@ -169,7 +172,10 @@ def _settle(entries: Entries, over: MappingNode) -> Entries:
 
 
 def override_tree(overrides: Overrides) -> tuple[MappingNode, tuple[tuple[str, bytes], ...]]:
-    """`--set` texts, or a mapping of key paths to values, as one raw tree with its inputs."""
+    """Return `--set` texts or a mapping of key paths as one raw tree.
+
+    The inputs come with it.
+    """
     root = MappingNode({}, Span("--set", 1, 1))
     inputs: list[tuple[str, bytes]] = []
     findings: list[Diagnostic] = []
@@ -212,7 +218,7 @@ def override_tree(overrides: Overrides) -> tuple[MappingNode, tuple[tuple[str, b
 
 
 def _split(key: str) -> list[str]:
-    """`a.b."c.d"` to its parts; nothing when it is not such a path."""
+    """Split `a.b."c.d"` into its parts; return nothing for another text."""
     parts, at = [], 0
     while at < len(key):
         hit = _KEY.match(key, at)

@@ -1,4 +1,7 @@
-"""`load_config`: a file or a shipped name becomes a checked, frozen model, or all its faults."""
+"""Load a file or a shipped model as a checked, frozen configuration.
+
+All errors are reported at once.
+"""
 
 import logging
 import math
@@ -30,10 +33,9 @@ def load_config(
     """Read and check a configuration.
 
     An argument with a suffix or a separator is a path, else the name of a shipped model.
-    `overrides` are "key.path=value" texts or a mapping of key paths to values;
-    `package_paths` are folders in which `$(find PACKAGE)` of a xacro file looks.
-    Raises DiagnosticError with everything that is wrong; warnings and notes are in the
-    result's `diagnostics`.
+    `overrides` are "key.path=value" texts or a mapping of key paths to values; `package_paths` are
+    folders for `$(find PACKAGE)` of a xacro file. Raises DiagnosticError with all errors; warnings
+    and notes are in the result's `diagnostics`.
     """
     assembly = assemble(path_or_name, overrides)
     assembly.root, open_lines = extract_placeholders(assembly.root)
@@ -65,7 +67,7 @@ def load_config(
 
 
 def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:
-    """The groups of a shipped model as its file has them."""
+    """Return the groups of a shipped model as its file has them."""
     assembly = assemble(name, ())
     valid = validate(assembly.root)
     return [
@@ -75,7 +77,7 @@ def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:
 
 
 def in_order(findings: list[Diagnostic]) -> list[Diagnostic]:
-    """Findings by place; those without one come first."""
+    """Return findings by place; those without one come first."""
     return sorted(
         dict.fromkeys(findings),
         key=lambda d: (d.span.path, d.span.line, d.span.column) if d.span else ("", 0, 0),
@@ -90,7 +92,7 @@ def _read_urdf(
     assembly: Assembly,
     report: DraftFindings,
 ) -> None:
-    from rapidgen.config.urdf.group import complete  # heavy: only where a URDF is read
+    from rapidgen.config.urdf.group import complete  # slow import, only for URDF
 
     place = report.span(("groups", draft.name, "urdf", "file"))
     folder = assembly.path.parent
@@ -152,7 +154,7 @@ def _link(step: schema.ChainStepKeys) -> ChainLink:
 def _report_unknown(
     drafts: list[GroupDraft], groups: dict[str, schema.GroupKeys], report: DraftFindings
 ) -> None:
-    """A joint that the model does not have needs an axis of its own; else it is misspelt."""
+    """Report a misspelt joint: not in the model, and without an axis."""
     for draft in drafts:
         if not draft.known or groups[draft.name].urdf:
             continue
@@ -174,7 +176,7 @@ def _report_unknown(
 
 
 def _report_wider(drafts: list[GroupDraft], report: DraftFindings) -> None:
-    """A limit beyond the shipped model's is said: ranges are never widened silently."""
+    """Report limits beyond the shipped model's."""
     for draft in drafts:
         for joint in draft.joints:
             for figure, sign in (("lower", -1), ("upper", 1), ("speed", 1)):
@@ -193,7 +195,7 @@ def _report_wider(drafts: list[GroupDraft], report: DraftFindings) -> None:
 
 
 def _report_unsure(draft: GroupDraft, keys: schema.GroupKeys, report: DraftFindings) -> None:
-    """One warning for each group that says which figures lack a sure source."""
+    """Report which figures of each group lack a reliable source."""
     parts = [f"{joint.name} {'/'.join(joint.unsure)}" for joint in draft.joints if joint.unsure]
     parts += keys.unsure
     if parts:

@@ -1,4 +1,4 @@
-"""The model as plain JSON data and back, exactly: floats keep every bit."""
+"""The model as plain JSON data and back; floats keep every bit."""
 
 import dataclasses
 import types
@@ -12,19 +12,19 @@ from rapidgen.diagnostics import refusal
 
 
 def to_manifest(config: RobotConfig) -> Members:
-    """The configuration as dicts, lists, texts and numbers, without its path and inputs."""
+    """Return the configuration as JSON data, without path and inputs."""
     return members(_out(config))
 
 
 def group_to_manifest(group: GroupConfig) -> Members:
-    """One group of it, likewise."""
+    """Return one group as JSON data."""
     return members(_out(group))
 
 
 def group_from_manifest(data: Json, path: Path) -> GroupConfig:
-    """What `group_to_manifest` gave.
+    """Return the group from `group_to_manifest`.
 
-    TypeError, ValueError: it is something else.
+    TypeError, ValueError: invalid data.
     """
     made = _in(GroupConfig, data, "group", path)
     assert isinstance(made, GroupConfig)
@@ -46,7 +46,10 @@ def _out(value: object) -> Json:
 
 
 def from_manifest(data: Json, path: Path = Path("manifest.json")) -> RobotConfig:
-    """The configuration that `to_manifest` wrote; anything else raises DiagnosticError (RG019)."""
+    """Return the configuration from `to_manifest`.
+
+    Other data raise DiagnosticError (RG019).
+    """
     try:
         made = _in(RobotConfig, data, "configuration", path)
     except (TypeError, ValueError) as fault:

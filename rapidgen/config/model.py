@@ -1,8 +1,8 @@
-"""The checked configuration of one robot controller: frozen, complete, in SI units.
+"""The checked configuration of one controller: frozen, in SI units.
 
-Everything after `config` reads this and nothing else. Angles are rad, lengths m, times s
-unless a name says otherwise; `limits` are those of the controller's axis (after sign, offset
-and, for coupled robots, in ABB's coupled sense), rounded inwards.
+All packages above `config` read only this. Angles are rad, lengths m, times s unless a name says
+otherwise; `limits` are those of the controller's axis (after sign, offset and, for coupled robots,
+in ABB's coupled sense), rounded inwards.
 """
 
 from dataclasses import dataclass, field
@@ -12,8 +12,9 @@ from typing import Literal
 from rapidgen.diagnostics import Diagnostic
 
 SPARSE = {"sparse": True}
-"""Of a field that a manifest leaves out while it is empty: what only some robots have does not
-change the BUILD_ID of the others."""
+"""Marks a field that a manifest omits while it is empty: a feature of some robots does not change
+the BUILD_ID of the others.
+"""
 AxisKind = Literal["revolute", "prismatic"]
 Generation = Literal[5, 6, 7, 8]
 
@@ -41,9 +42,10 @@ class Joint:
 
 @dataclass(frozen=True, slots=True)
 class KeptAxis:
-    """A robot axis that no joint drives: it is held where it stands when motion is accepted.
+    """A robot axis without a joint, held at its position during motion.
 
-    `must_stand`: only if it stands at `value` (rad); else 0 is just what a simulation assumes.
+    `must_stand`: the driver accepts motion only if the axis is at `value` (rad); else a simulation
+    assumes 0.
     """
 
     axis: str
@@ -98,7 +100,7 @@ class Tool:
 
 @dataclass(frozen=True, slots=True)
 class Payload:
-    """What the robot carries: loaddata of the customer's program; load0: nothing is said of it."""
+    """Payload: loaddata of a user program; load0: not specified."""
 
     name: str = "load0"
     with_moves: bool = False
@@ -107,7 +109,7 @@ class Payload:
 
 @dataclass(frozen=True, slots=True)
 class RoutineParameter:
-    """A parameter of a routine; `inout`: its value then is a result."""
+    """A parameter of a routine; `inout`: its value is also a result."""
 
     name: str
     type: Literal["num", "bool", "string", "robtarget", "jointtarget"]
@@ -116,8 +118,10 @@ class RoutineParameter:
 
 @dataclass(frozen=True, slots=True)
 class UserRoutine:
-    """A procedure of the customer's that a program may call; `call` is what late binding finds.
-    One that `returns` something is a function, which the module that calls it is linked to."""
+    """A user procedure that a program may call; `call` is its late-bound name.
+
+    One that `returns` a value is a function; a module that calls it must be linked to it.
+    """
 
     name: str
     call: str
@@ -127,8 +131,10 @@ class UserRoutine:
 
 @dataclass(frozen=True, slots=True)
 class UserDatum:
-    """A PERS of the customer's that clients may read, and write where `access` says so; `name` is
-    MODULE:DATUM."""
+    """A user PERS that clients may read, and write if `access` allows it.
+
+    `name` is MODULE:DATUM.
+    """
 
     name: str
     type: Literal["num", "bool", "string"]
@@ -148,7 +154,7 @@ class WorkObject:
 
 @dataclass(frozen=True, slots=True)
 class Ports:
-    """TCP ports of one motion group; `control` is the paired client's own connection, 0: none."""
+    """TCP ports of one motion group; `control` 0: no control port."""
 
     motion: int = 11000
     control: int = 11001
@@ -157,8 +163,10 @@ class Ports:
 
 @dataclass(frozen=True, slots=True)
 class Positioner:
-    """A mechanical unit that carries work objects: from the root of the robot's chain to its
-    user frame. Its joints are external axes of the group."""
+    """A mechanical unit with work objects: chain from root to user frame.
+
+    Its joints are external axes of the group.
+    """
 
     unit: str
     chain: tuple[ChainLink, ...]
@@ -186,7 +194,7 @@ class GroupConfig:
     """Mechanical units of the external axes."""
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
     tools: tuple[Tool, ...] = field(default=(), metadata=SPARSE)
-    """Further ones, for motion programs."""
+    """Additional tools for motion programs."""
     work_objects: tuple[WorkObject, ...] = field(default=(), metadata=SPARSE)
     routines: tuple[UserRoutine, ...] = field(default=(), metadata=SPARSE)
     data: tuple[UserDatum, ...] = field(default=(), metadata=SPARSE)
@@ -195,12 +203,12 @@ class GroupConfig:
     max_payload: float = field(default=0.0, metadata=SPARSE)
     """kg; 0: not known."""
     unit_group: str = field(default="", metadata=SPARSE)
-    """Name of the mechanical unit group, where a backup tells another than the unit's."""
+    """Name of the mechanical unit group, if a backup has another than the unit's."""
 
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryPolicy:
-    """What the motion server accepts.
+    """Acceptance rules of the motion server.
 
     Tolerances are rad (m for prismatic axes).
     """
@@ -210,15 +218,15 @@ class TrajectoryPolicy:
     start_tolerance: float = 0.00873
     start_tolerance_linear: float = 0.005
     pose_tolerance: float = 0.001
-    """m between a pose and what its joints reach on the controller."""
+    """m between a pose and the pose of its joints on the controller."""
     too_fast: Literal["refuse", "slow_down"] = "refuse"
     min_segment: float = 0.1
     approach_speed: float = 0.1
-    """Fraction of the axis speeds for the first point's approach, where one is allowed."""
+    """Fraction of the axis speeds for the motion to the first point, if allowed."""
     ring: int = 128
-    """Places for points between motion server and motion task; one stays free."""
+    """Size of the ring between motion server and motion task; one place stays free."""
     preload: float = 0.5
-    """s of points of a stream that wait in the ring before the robot moves."""
+    """s of buffered points of a stream before the robot moves."""
     corners: Literal["zone", "tight"] = "tight"
 
 
@@ -248,18 +256,18 @@ class RobotConfig:
     receive_timeout: float = 0.0
     commissioning: bool = False
     profile: Literal["basic", "full"] = "full"
-    """`basic`: trajectories that come whole, STOP and the state; nothing for the paired client."""
+    """`basic`: whole trajectories, STOP and state only; no features for the paired client."""
     """Background tasks NORMAL instead of SEMISTATIC, so that they can be stopped and edited."""
     call_main: bool = True
     """False: the motion task's own `main` calls the driver's entry routine."""
     signals: tuple[ExposedSignal, ...] = ()
     multimove: bool = field(default=False, metadata=SPARSE)
-    """One robot on a controller with MultiMove; with several groups there is no other way."""
+    """One robot on a controller with MultiMove; several groups always mean MultiMove."""
     cfg_header: tuple[tuple[str, int, int], ...] = field(default=(), metadata=SPARSE)
-    """(domain, digits) in the first line of the controller's cfg files, where they were given."""
+    """(domain, digits) in the first line of the controller's cfg files, if given."""
     generations: tuple[Generation, ...] = ()
-    """RobotWare generations that the robot exists for; empty: not known."""
+    """RobotWare generations of the robot; empty: not known."""
     inputs: tuple[tuple[str, bytes], ...] = field(default=(), compare=False)
-    """Texts the configuration was made from (name, bytes): BUILD_ID hashes them."""
+    """Source texts of the configuration (name, bytes): BUILD_ID hashes them."""
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
-    """Warnings and notes found while loading (unsure figures among them), to be shown."""
+    """Warnings and notes found while loading, uncertain figures among them."""

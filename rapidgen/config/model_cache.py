@@ -1,9 +1,9 @@
-"""Shipped models as they were checked, kept like Python keeps its compiled files: beside the code.
+"""Cache of checked shipped models, next to the code.
 
-Checking a YAML file needs its schema, which takes longer to make than a small program to run. The
-file in robots/ stays the only source: what is kept holds for its very bytes and for the code that
-read it, and is not written where Python itself may write nothing (`PYTHONDONTWRITEBYTECODE`, an
-installation that cannot be written).
+It follows Python's cache of compiled files. Checking a YAML file needs its schema, which takes
+longer to create than a small program to run. The file in robots/ stays the only source: an entry is
+valid for its exact bytes and for the code that read it. The cache is not written where Python
+itself must not write (`PYTHONDONTWRITEBYTECODE`, a read-only installation).
 """
 
 import json
@@ -21,9 +21,9 @@ _FOLDER = Path(__file__).parent
 
 
 def shipped_groups(name: str) -> tuple[GroupConfig, ...]:
-    """The motion groups of a shipped model by name.
+    """Return the motion groups of a shipped model by name.
 
-    DiagnosticError RG009: there is none.
+    DiagnosticError RG009: unknown name.
     """
     source = find_shipped(name)
     if source.stem != name:
@@ -35,7 +35,7 @@ def shipped_groups(name: str) -> tuple[GroupConfig, ...]:
         if result["key"] == key:
             return tuple(group_from_manifest(group, source) for group in result["groups"])
     except (OSError, ValueError, KeyError, TypeError):
-        pass  # Not there, of another time, or damaged: it is made anew.
+        pass  # Missing, outdated or damaged: it is created again.
     from rapidgen.config.load import load_config
 
     groups = load_config(name).groups
@@ -45,9 +45,12 @@ def shipped_groups(name: str) -> tuple[GroupConfig, ...]:
 
 
 def _key(source: Path) -> str:
-    """Of the file's bytes, and of the code as Python tells its own: size and time."""
+    """Return a key of the file's bytes, and of the code's size and time.
+
+    Python identifies its compiled code in the same way.
+    """
     data = source.read_bytes()
-    # No digest of hashlib's: it loads OpenSSL, which a short run does not need.
+    # No digest of hashlib: it loads OpenSSL, which a short run does not need.
     parts = [__version__, source.name, f"{len(data)} {zlib.crc32(data)}"]
     for entry in sorted(os.scandir(_FOLDER), key=lambda entry: entry.name):
         if entry.name.endswith(".py"):
@@ -57,7 +60,7 @@ def _key(source: Path) -> str:
 
 
 def _keep(path: Path, result: object) -> None:
-    """Write it whole or not at all."""
+    """Write the file atomically."""
     half = path.with_name(f"{path.name}.{os.getpid()}")
     try:
         path.parent.mkdir(exist_ok=True)

@@ -1,15 +1,15 @@
-"""Lines that a person still has to fill in: a value "???" is refused by its place (RG022)."""
+"""Placeholders: a value "???" is rejected with its place (RG022)."""
 
 from rapidgen.config.validate import shown
 from rapidgen.config.yaml_tree import MappingNode, Node, ScalarNode, SequenceNode
 from rapidgen.diagnostics import Diagnostic, error
 
 OPEN = '"???"'
-"""As it is written: without quotes it would begin a key between braces."""
+"""As written: without quotes it would begin a key between braces."""
 
 
 def extract_placeholders(root: MappingNode) -> tuple[MappingNode, list[Diagnostic]]:
-    """The tree without its open values, and a finding for each."""
+    """Return the tree without placeholders, and a finding for each."""
     findings: list[Diagnostic] = []
 
     def walk(node: Node, path: tuple[str, ...]) -> Node | None:

@@ -1,8 +1,8 @@
-"""What a load, a frame or an axis can be, and which figures are in another unit than ABB's.
+"""Plausible loads, frames and axes, and figures in the wrong unit.
 
-One rule for the configuration, the description of a cell and the running program. Bounds are in SI
-units. Without a source they are our own: wide enough for every robot of ABB, narrow enough for a
-figure in m, rad or g.
+The configuration, the cell file and the running program share these rules. Bounds are in SI units.
+Without a source they are our own: wide enough for every robot of ABB, narrow enough for a figure in
+m, rad or g.
 """
 
 import math
@@ -17,23 +17,23 @@ Part = Literal["mass", "centre", "inertia"]
 Vector: TypeAlias = tuple[float, float, float]
 
 _OVERLOAD = 5.0
-"""Times the payload that no robot holds: g instead of kg, or another robot's tool."""
+"""Multiple of the payload that no robot holds: g instead of kg, or another robot's tool."""
 LARGEST_PAYLOAD = 1000.0
-"""kg, more than the 800 of the IRB 8700, where the payload is not known."""
+"""kg, more than the 800 of the IRB 8700, if the payload is not known."""
 _LONGEST_REACH = 4.2
-"""m, that of the IRB 8700, where the reach is not known."""
+"""m, that of the IRB 8700, if the reach is not known."""
 _SMALL = 0.001
-"""m: no tool, centre of gravity or work object is that near; m instead of mm are."""
+"""m: no tool, centre of gravity or work object is that near; it is in m instead of mm."""
 _SMALL_MASS = 0.01
-"""kg, up to which a load stands for none, as that of tool0."""
+"""kg, up to which a load is a dummy, as that of tool0."""
 _MEASURED = 1.05
 """Ratio by which measured moments of inertia may miss the triangle inequality."""
 _ROUND = 1e-6
 """kg m²: moments are written with six decimals."""
 _ANGLE = 1e-3
-"""rad: rounding of an angle as people write it."""
+"""rad: usual rounding of an angle."""
 _STROKE = 10.0
-"""mm, shorter than any linear axis; m instead of mm are."""
+"""mm, shorter than any linear axis: it is in m instead of mm."""
 _SLOWEST_TURN, _FASTEST_TURN = 1.0, 5000.0
 """deg/s; the fastest known is axis 4 of the IRB 910SC, 2400."""
 _SLOWEST_LINEAR, _FASTEST_LINEAR = 10.0, 20_000.0
@@ -46,23 +46,23 @@ _FAR_TOOL, _FAR_OBJECT = 3.0, 10.0
 
 @dataclass(frozen=True, slots=True)
 class Arm:
-    """What an arm can do; 0: not known."""
+    """Payload and reach of an arm; 0: not known."""
 
     name: str = ""
     payload: float = 0.0
     """kg"""
     reach: float = 0.0
-    """m, with the ways of the axes that carry it"""
+    """m, including the travel of the axes that carry it"""
 
     @property
     def longest(self) -> float:
-        """Its reach, or that of the largest robot (m)."""
+        """Return its reach, or that of the largest robot (m)."""
         return self.reach or _LONGEST_REACH
 
 
 @dataclass(frozen=True, slots=True)
 class Doubt:
-    """A figure that cannot be (`impossible`), or hardly."""
+    """An impossible (`impossible`) or implausible figure."""
 
     part: Part
     impossible: bool
@@ -71,14 +71,14 @@ class Doubt:
 
 
 def arm_of(group: GroupConfig) -> Arm:
-    """The arm of a group."""
+    """Return the arm of a group."""
     ways = sum(j.upper - j.lower for j in group.joints if j.kind == "prismatic")
     reach = length_of(group.chain)
     return Arm(group.model or group.name, group.max_payload, reach + ways if reach else 0.0)
 
 
 def length_of(chain: Iterable[ChainLink]) -> float:
-    """Length (m) of a chain behind its first joint."""
+    """Return the length (m) of a chain after its first joint."""
     inside, length = False, 0.0
     for step in chain:
         length += math.hypot(*step.xyz) if inside else 0.0
@@ -87,14 +87,14 @@ def length_of(chain: Iterable[ChainLink]) -> float:
 
 
 def load_doubts(mass: float, centre: Vector, inertia: Vector, arm: Arm) -> Iterator[Doubt]:
-    """What cannot be of a load: kg, m and kg m²."""
+    """Yield doubts about a load: kg, m and kg m²."""
     yield from mass_doubts(mass, arm)
     yield from _centre_doubts(mass, centre, arm)
     yield from _inertia_doubts(mass, inertia, arm)
 
 
 def mass_doubts(mass: float, arm: Arm) -> Iterator[Doubt]:
-    """What cannot be of a mass in kg, or hardly."""
+    """Yield doubts about a mass in kg."""
     if mass < 0:
         yield Doubt("mass", True, f"a load of {mass:g} kg", "a mass is more than 0")
     elif arm.payload and mass > arm.payload:
@@ -174,7 +174,7 @@ def _inertia_doubts(mass: float, inertia: Vector, arm: Arm) -> Iterator[Doubt]:
 
 
 def frame_doubt(position: Vector, arm: Arm, *, tool: bool) -> tuple[bool, str, str] | None:
-    """Whether a frame cannot be (or hardly), why, and what to do.
+    """Return whether a frame is impossible or implausible, why, and a fix.
 
     `tool`: of a tool, or of a work object that is held, from the flange; else in the world.
     """
@@ -194,14 +194,17 @@ def frame_doubt(position: Vector, arm: Arm, *, tool: bool) -> tuple[bool, str, s
 
 
 def is_radians(angle: float) -> bool:
-    """Whether an angle in deg is a multiple of 45 degrees in rad: 1.5708, 0.785."""
+    """True if an angle in deg is a multiple of 45 degrees in rad.
+
+    Examples: 1.5708, 0.785.
+    """
     eighths = angle / (math.pi / 4)
     near = round(eighths)
     return 0 < abs(near) <= 8 and abs(angle - near * math.pi / 4) < _ANGLE
 
 
 def axis_doubts(draft: JointDraft) -> Iterator[tuple[str, str, str]]:
-    """Key, reason and what to do for figures of an axis in another unit than ABB's."""
+    """Yield key, reason and fix for axis figures in the wrong unit."""
     unit = "mm" if draft.unit == "mm" else "deg"
     speed, lower, upper = draft.speed, draft.lower, draft.upper
     if unit == "deg" and is_radians(draft.offset):

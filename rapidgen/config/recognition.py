@@ -1,8 +1,9 @@
-"""Which variant a chain of joints is, whatever its zero posture, its senses and its names.
+"""Recognise the variant of a chain of joints.
 
-Distance and angle between neighbouring axes do not depend on where the joints stand. Where they
-are a variant's, the joints are turned one after the other until each axis lies where the variant
-has it; that gives signs and zeros. Axes 1 and 6 have no zero in this: the file's is kept.
+Zero posture, senses and names do not matter. Distance and angle between neighbouring axes do not
+depend on the joint positions. If they are a variant's, the joints are turned one after the other
+until each axis is where the variant has it; that gives signs and zeros. Axes 1 and 6 have no zero
+in this: the file's is kept.
 """
 
 import math
@@ -22,18 +23,18 @@ from rapidgen.config.variant_library import (
 from rapidgen.config.vectors import Vector, add, cross, dot, norm, scale, subtract, unit
 
 _ROUGH = 0.01
-"""m by which the axes of a careless export may be off, where its name says what it is."""
+"""m by which axes of an imprecise export may be off, if its name gives the type."""
 _EXACT = math.radians(0.06)
-"""A zero this near to a multiple of 15 degrees is that multiple."""
+"""A zero this close to a multiple of 15 degrees is that multiple."""
 _STEP = math.radians(15)
 _SCARA = [False, False, True, False]
 _WITHOUT_LAST = 3
-"""Axes of a SCARA whose export leaves out axis 4: that one turns about the quill, unseen."""
+"""Axes of a SCARA whose export omits axis 4, which turns about the quill without visible effect."""
 
 
 @dataclass(frozen=True, slots=True)
 class Alignment:
-    """How joints drive a variant's axes: controller value = sign * joint value + offset (rad)."""
+    """Mapping of joints to axes: controller = sign * joint + offset (rad)."""
 
     variant: Variant
     others: tuple[str, ...]
@@ -42,13 +43,13 @@ class Alignment:
     signs: tuple[int, ...]
     offsets: tuple[float, ...]
     certain: bool
-    """No other senses fit as well."""
+    """True if no other senses fit as well."""
     rough: bool
-    """Some axis is farther off than sources differ: only the file's own name tells."""
+    """True if some axis is farther off than sources differ: only the file's name tells."""
 
 
 def align(lines: Sequence[Line], *names: str) -> Alignment | None:
-    """The variant whose axes these are, in the order of the chain; None: no known one."""
+    """Return the variant with these axes in chain order, or None."""
     return _aligned(lines, names, SAME_PLACE) or (
         _aligned(lines, names, _ROUGH) if family(*names) else None
     )
@@ -57,7 +58,7 @@ def align(lines: Sequence[Line], *names: str) -> Alignment | None:
 def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Alignment | None:
     expected = [_of_size(v.skeleton, len(lines)) for v in variants()]
     if len(lines) == _WITHOUT_LAST and [line.slides for line in lines] == [False, False, True]:
-        # Where the quill turns is where it slides: with axis 4 left out that tells the forearm.
+        # The quill turns where it slides: if axis 4 is omitted, that gives the forearm.
         lines = [replace(line, slides=False) for line in lines]
     known = {
         v.name: skeleton
@@ -95,7 +96,10 @@ def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Al
 
 
 def _of_size(known: ArmAxes, size: int) -> ArmAxes | None:
-    """A variant's axes where an arm has as many, or a SCARA's without its last one; else None."""
+    """Return a variant's axes if the number of axes fits.
+
+    A SCARA may lack its last one.
+    """
     if len(known.lines) == size:
         return known
     if size != _WITHOUT_LAST or [line.slides for line in known.lines] != _SCARA:
@@ -122,14 +126,14 @@ def _effort(values: Sequence[float]) -> float:
 def _plainness(
     result: tuple[tuple[int, ...], tuple[float, ...]], first: Vector
 ) -> tuple[float, bool, int]:
-    """Zeros of the file first, then an arm that stands upright in it, then its senses."""
+    """Return a sort key: zeros of the file, upright arm, senses."""
     signs, values = result
     upright = first[2] * signs[0] > -1e-6
     return round(_effort(values), 2), not upright, sum(sign < 0 for sign in signs)
 
 
 def _is_like(lines: Sequence[Line], known: Sequence[Line], within: float) -> bool:
-    """Whether neighbouring axes have the distances and angles of a variant's."""
+    """True if neighbouring axes have the distances and angles of a variant."""
     if [line.slides for line in lines] != [line.slides for line in known] or len(lines) < 3:
         return False
     return all(
@@ -155,7 +159,7 @@ def _neighbours(lines: Sequence[Line]) -> Iterator[tuple[float, float]]:
 def _postures(
     lines: Sequence[Line], known: ArmAxes, within: float
 ) -> Iterator[tuple[tuple[int, ...], tuple[float, ...]]]:
-    """Signs, and the joint values at which the axes lie as the variant's do at its zero."""
+    """Yield signs and joint values that align the axes with the variant's."""
     there = in_axis_frame(known).lines
     for flips in product((1, -1), (1, -1)):
         current = in_axis_frame(ArmAxes(tuple(lines), (0.0, 0.0, 0.0)), flips).lines
@@ -172,7 +176,10 @@ def _postures(
 def _turned(
     current: Sequence[Line], there: Sequence[Line], place: int, within: float
 ) -> Iterator[tuple[tuple[float, ...], Sequence[Line]]]:
-    """Values of the joints from `place` on but for the last one, and the axes as they then lie."""
+    """Yield values of the joints from `place` on, and the turned axes.
+
+    The last joint is left out.
+    """
     if place == len(current) - 1:
         yield (), current
         return
@@ -187,7 +194,7 @@ def _turned(
 
 
 def _values(about: Line, line: Line, expected: Line) -> Iterator[float]:
-    """Values of a joint that may bring the next axis to where it is wanted."""
+    """Yield joint values that may bring the next axis to its place."""
     yield 0.0
     if about.slides:
         return
@@ -211,7 +218,7 @@ def _values(about: Line, line: Line, expected: Line) -> Iterator[float]:
 
 
 def _angle(about: Line, first: Vector, second: Vector) -> float | None:
-    """From one direction to another about an axis."""
+    """Return the angle between two directions about an axis."""
     axis = about.direction
     a = subtract(first, scale(axis, dot(first, axis)))
     b = subtract(second, scale(axis, dot(second, axis)))

@@ -1,4 +1,4 @@
-"""The models, found by name: `robots/*.yaml`, and the known variants that are known enough."""
+"""Find models by name: `robots/*.yaml` and well-known variants."""
 
 from collections.abc import Iterable
 from difflib import SequenceMatcher
@@ -10,20 +10,23 @@ from rapidgen._data import data_folder
 from rapidgen.diagnostics import Span, refusal, suggest
 
 _ALIKE: Final = 0.5
-"""Of the letters before a robot's figures."""
+"""Required similarity of the letters before a robot's figures."""
 
 
 def shipped_names() -> tuple[str, ...]:
-    """Names of all shipped models, sorted."""
+    """Return the names of all shipped models, sorted."""
     return tuple(sorted(path.stem for path in data_folder("robots").glob("*.yaml")))
 
 
 def find_shipped(name: str, span: Span | None = None) -> Path:
-    """File of a model; an unknown name raises DiagnosticError (RG009)."""
+    """Return the file of a model.
+
+    An unknown name raises DiagnosticError (RG009).
+    """
     known = shipped_names()
     if name in known:
         return data_folder("robots") / f"{name}.yaml"
-    # What is known of other variants takes a while to read.
+    # Reading the variant library takes time.
     from rapidgen.config import variant_model
 
     variant = variant_model.named(name)
@@ -50,7 +53,10 @@ def find_shipped(name: str, span: Span | None = None) -> Path:
 
 
 def _alike(name: str, known: Iterable[str]) -> list[str]:
-    """Those that `name` may be a slip of: another maker's robot has other letters, like figures."""
+    """Return the names that `name` may misspell.
+
+    Another maker's robot has other letters, but similar figures.
+    """
     letters = _letters(name)
     return [
         one
@@ -64,5 +70,5 @@ def _letters(name: str) -> str:
 
 
 def is_path(text: str) -> bool:
-    """True for what names a file: it has a suffix or a separator; else it is a shipped name."""
+    """True if the text is a file name: it has a suffix or a separator."""
     return "/" in text or "\\" in text or "." in text

@@ -1,8 +1,8 @@
-"""Field rules of the configuration's schema, and the validator made from them.
+"""Field rules of the configuration's schema, and their validator.
 
-The schema is plain dataclasses. Loading needs only pydantic-core, whose schema `core` writes
-down itself: importing and building full pydantic models would take as long as all the rest of
-a build. `rapidgen schema` lets pydantic read the same classes, through the two hooks of `Rule`.
+The schema consists of plain dataclasses. Loading needs only pydantic-core, whose schema `core`
+builds itself: importing and building full pydantic models would take as long as the rest of a
+build. `rapidgen schema` lets pydantic read the same classes, through the two hooks of `Rule`.
 """
 
 import dataclasses
@@ -17,8 +17,9 @@ Hint: TypeAlias = object
 """A type as an annotation holds it: a class, or one of typing's forms."""
 
 _LARGEST = 1e6
-"""No angle, length, speed or acceleration of a robot is beyond it (deg, mm, kg, s), and a num
-holds such a figure to a tenth [K §2.13]."""
+"""Maximum angle, length, speed or acceleration of a robot (deg, mm, kg, s); a num holds such a
+figure to a tenth [K §2.13].
+"""
 
 _LEAVES: dict[Hint, CoreSchema] = {
     str: {"type": "str", "strict": True},
@@ -37,7 +38,7 @@ _BOUNDS = ("gt", "ge", "lt", "le", "min_length", "max_length", "pattern")
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """What a field means (`doc`) and which values it takes."""
+    """Meaning (`doc`) and allowed values of a field."""
 
     doc: str = ""
     gt: float | None = None
@@ -48,12 +49,12 @@ class Rule:
     max_length: int | None = None
     pattern: str | None = None
     before: Callable[[object], object] | None = None
-    """Turns what the file says into the value; raises ValueError."""
+    """Converts the file's value; raises ValueError."""
     json: CoreSchema | None = None
-    """JSON schema of what `before` reads."""
+    """JSON schema of the input of `before`."""
 
     def apply(self, schema: CoreSchema) -> CoreSchema:
-        """The core schema narrowed by this rule."""
+        """Return the core schema narrowed by this rule."""
         if schema["type"] == "nullable":
             return {**schema, "schema": self.apply(schema["schema"])}
         value = {name: getattr(self, name) for name in _BOUNDS}
@@ -79,7 +80,7 @@ class Rule:
 
 
 def core(hint: Hint) -> CoreSchema:
-    """Core schema of a type that the configuration uses."""
+    """Return the core schema of a type that the configuration uses."""
     if hint is Any:
         return {"type": "any"}
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)

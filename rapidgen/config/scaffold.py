@@ -1,4 +1,4 @@
-"""Configurations to start from: commented, and checked before they are written."""
+"""Generate initial configurations: commented, checked before written."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -45,7 +45,7 @@ _GROUP_OPTIONS = """# ports: {motion: 11000, control: 11001, state: 11002}
 
 
 def from_model(name: str, message: DescriptionChoices | None = None) -> str:
-    """Configuration text for a shipped model, or for a known variant."""
+    """Return the configuration text of a shipped model or a known variant."""
     find_shipped(name)
     variant = named(name)
     if variant:
@@ -70,7 +70,10 @@ def from_model(name: str, message: DescriptionChoices | None = None) -> str:
 
 
 def _from_variant(variant: Variant, message: DescriptionChoices) -> str:
-    """What the list does not say of the controller and the speeds is said, or left open."""
+    """Return the configuration text of a variant.
+
+    Controller and speeds come from the user, or stay open.
+    """
     lines = [
         f"# ABB {variant.name}, from public sources: `rapidgen robots show {model_name(variant)}`.",
         f"model: {model_name(variant)}",
@@ -90,7 +93,7 @@ def _delivered(config: RobotConfig) -> tuple[str, str]:
 
 
 def _of_family(known: str) -> tuple[str, str]:
-    """Controller and RobotWare of a type of which a shipped model says that IRC5 is none."""
+    """Return controller and RobotWare of a type that IRC5 does not support."""
     for variant in variants():
         if known and variant.model and variant.family == known:
             config = load_config(variant.model)
@@ -100,7 +103,7 @@ def _of_family(known: str) -> tuple[str, str]:
 
 
 def _controller(message: DescriptionChoices, own: tuple[str, str]) -> list[str]:
-    """What a person says, completed by what the robot comes with."""
+    """Return the user's controller keys, completed by the robot's defaults."""
     if message.controller:
         is_omnicore = message.controller == "omnicore"
     elif message.robotware:
@@ -134,10 +137,10 @@ def from_urdf(
     macro_arguments: Mapping[str, str] | None = None,
     answers: DescriptionChoices | None = None,
 ) -> str:
-    """Configuration text for a robot description; `folder` is where the file will lie.
+    """Return the configuration text of a robot description.
 
-    What cannot be known is marked `???`. Raises DiagnosticError for what is no description of a
-    robot of ABB.
+    `folder` is the folder of the new file. Unknown values are marked `???`. Raises DiagnosticError
+    for a description without an ABB robot.
     """
     message = answers or DescriptionChoices()
     if not str(urdf).isprintable():
@@ -194,7 +197,10 @@ def _relative(path: Path, folder: Path) -> str:
 
 
 def assignments(words: Sequence[str]) -> dict[str, str]:
-    """NAME=VALUE words; anything else raises DiagnosticError (RG020)."""
+    """Parse NAME=VALUE words.
+
+    Raises DiagnosticError (RG020).
+    """
     made = {}
     for word in words:
         name, equals, value = word.partition("=")
@@ -205,7 +211,10 @@ def assignments(words: Sequence[str]) -> dict[str, str]:
 
 
 def ranges(words: Sequence[str]) -> dict[str, tuple[float, float]]:
-    """LOWER..UPPER or NAME=LOWER..UPPER, by name; anything else raises DiagnosticError (RG020)."""
+    """Parse LOWER..UPPER or NAME=LOWER..UPPER words, by name.
+
+    Raises DiagnosticError (RG020).
+    """
     made = {}
     for word in words:
         name, _, figures = word.rpartition("=")
@@ -223,10 +232,10 @@ def ranges(words: Sequence[str]) -> dict[str, tuple[float, float]]:
 def write_new(
     path: Path, text: str, *, package_paths: Sequence[Path] = (), force: bool = False
 ) -> tuple[Diagnostic, ...]:
-    """Write a new configuration and load it; its warnings.
+    """Write a new configuration, load it, and return its warnings.
 
-    Raises DiagnosticError when the file exists (RG020, unless `force`), cannot be written
-    (RG001), or does not load: then it is there to be mended, and the exit code is 1.
+    Raises DiagnosticError when the file exists (RG020, unless `force`), cannot be written (RG001),
+    or does not load: then the file stays there for correction, and the exit code is 1.
     """
     if path.exists() and not force:
         raise refusal(

@@ -1,8 +1,7 @@
-"""The configuration file: names, types, ranges and the words of the reference.
+"""Schema of the configuration file: names, types, ranges, descriptions.
 
-Units are ABB's: degrees, mm, mm/s, kg, s. `build.py` turns them into the SI model. Every field
-is optional here where a shipped model or a URDF may supply it; what is missing in the end is
-said by `build.py`.
+Units are ABB's: degrees, mm, mm/s, kg, s. `build.py` turns them into the SI model. Every field is
+optional here if a shipped model or a URDF may supply it; `build.py` reports missing values.
 """
 
 import re
@@ -55,11 +54,11 @@ FORMS = {
     _BIND: ("lan, service or an IPv4 address", "such as 192.168.125.1"),
     _DIGITS: ("two numbers with a colon", 'such as "6:0", from the first line of a saved cfg'),
 }
-"""Each pattern of the schema in words, and what its parts may be."""
+"""Each pattern of the schema in words, and its allowed parts."""
 
 
 def _robotware(value: object) -> object:
-    """6, 6.10 and "6.15.03" to (main version, minor version)."""
+    """Convert 6, 6.10 and "6.15.03" to (main version, minor version)."""
     text = value.text if isinstance(value, Number) else value
     if isinstance(text, bool) or not isinstance(text, str | int | float):
         raise ValueError("write a RobotWare version such as 6.15")
@@ -73,7 +72,7 @@ def _robotware(value: object) -> object:
 
 
 def _held_axes(value: object) -> object:
-    """[rax_5] to {rax_5: None}; {rax_5: 30} stays."""
+    """Convert [rax_5] to {rax_5: None}; {rax_5: 30} stays."""
     return dict.fromkeys(value) if isinstance(value, list) else value
 
 
@@ -92,7 +91,7 @@ def _unturned() -> list[float]:
 
 
 class StrictModel:
-    """For pydantic, where it reads these classes: no further keys."""
+    """Base class; pydantic rejects unknown keys."""
 
     __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid"}
 

@@ -1,4 +1,4 @@
-"""The schema for people and editors: JSON schema, and the tables of docs/start/configuration.md."""
+"""JSON schema, and the tables of docs/start/configuration.md."""
 
 import dataclasses
 import json
@@ -41,7 +41,10 @@ CELL_SECTIONS = (
 
 
 def json_schema() -> Members:
-    """JSON schema (2020-12) of a configuration file; group keys may stand at the top."""
+    """Return the JSON schema (2020-12) of a configuration file.
+
+    Group keys are allowed at the top.
+    """
     made = _schema_of(SECTIONS, "rapidgen configuration")
     group = made["$defs"]["GroupKeys"]["properties"]
     made["properties"] = {**group, **made["properties"]}
@@ -49,19 +52,19 @@ def json_schema() -> Members:
 
 
 def cell_schema() -> Members:
-    """JSON schema (2020-12) of the description of a cell."""
+    """Return the JSON schema (2020-12) of a cell file."""
     return _schema_of(CELL_SECTIONS, "rapidgen cell")
 
 
 def _schema_of(sections: tuple[type, ...], title: str) -> dict[str, Any]:
-    """`sections` begin with the top of the file."""
+    """Return the schema of `sections`, the top of the file first."""
     from pydantic import TypeAdapter
 
     written = json.dumps(TypeAdapter(sections[0]).json_schema())
     made = json.loads(re.sub(r"\b(\w+Keys)\b", lambda result: _shown(result[0]), written))
     parts = {_shown(sections[0].__name__): made, **made["$defs"]}
     for section in sections:
-        # pydantic drops the words beside a reference to another part.
+        # pydantic drops the words next to a reference to another part.
         for key in dataclasses.fields(section):
             value = parts[_shown(section.__name__)]["properties"][key.name]
             value.setdefault("description", _doc(key.type))
@@ -73,12 +76,12 @@ def _schema_of(sections: tuple[type, ...], title: str) -> dict[str, Any]:
 
 
 def _shown(name: str) -> str:
-    """Name of a part in the schema that editors read: without the suffix of the class."""
+    """Return the editor's name of a part: without the class suffix."""
     return name if name == schema.GroupKeys.__name__ else name.removesuffix("Keys")
 
 
 def reference(sections: tuple[type, ...] = SECTIONS) -> str:
-    """Markdown tables of every key, in the order of `sections`."""
+    """Return Markdown tables of every key, in the order of `sections`."""
     return "\n".join(_section(part) for part in sections)
 
 

@@ -1,4 +1,4 @@
-"""Where a value stands in the file that a checked configuration was read from."""
+"""Find the source location of a value of a checked configuration."""
 
 from rapidgen.config.assemble import display_path, keys_of
 from rapidgen.config.model import RobotConfig
@@ -9,7 +9,10 @@ KeyPath = tuple[str | int, ...]
 
 
 def place_of_value(config: RobotConfig, group: str, path: KeyPath, value: str) -> Span | None:
-    """Place of a group's `value`; None where the file does not have it, as with `--set`."""
+    """Return the place of a group's `value`, or None.
+
+    A value from `--set` has no place.
+    """
     data = next((data for name, data in config.inputs if name == config.path.name), None)
     if data is None:
         return None

@@ -1,4 +1,4 @@
-"""Tools, work objects and their frames in SI units; the customer's routines."""
+"""Tools, work objects and frames in SI units; user routines."""
 
 import math
 
@@ -36,9 +36,9 @@ def _metres(values: list[float]) -> tuple[float, float, float]:
 def placement_of(
     frame: schema.FrameKeys, path: KeyPath, report: DraftFindings, arm: Arm, *, tool: bool = False
 ) -> model.Placement:
-    """A frame in m; of a `tool` it begins at the flange.
+    """Return a frame in m; of a `tool` it begins at the flange.
 
-    RG071: hardly a frame of that arm.
+    RG071: implausible for that arm.
     """
     position = _metres(frame.position)
     doubt = frame_doubt(position, arm, tool=tool)
@@ -53,7 +53,7 @@ def placement_of(
 
 
 def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings, arm: Arm) -> model.Tool:
-    """The tool of the moves."""
+    """Return the tool of the moves."""
     load = tool.load
     is_named = not report.is_faulty((*path, "name"))
     if is_named and tool.name == "tool0" and tool != schema.ToolKeys():
@@ -81,7 +81,10 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings, arm: Ar
 
 
 def load_of(load: schema.LoadKeys, path: KeyPath, report: DraftFindings, arm: Arm) -> model.Load:
-    """A load. RG070: it can hardly be one, or not one for that arm."""
+    """Return a load.
+
+    RG070: implausible, or for that arm.
+    """
     x, y, z = load.inertia
     centre = _metres(load.centre)
     for doubt in load_doubts(load.mass, centre, (x, y, z), arm):
@@ -98,7 +101,7 @@ def load_of(load: schema.LoadKeys, path: KeyPath, report: DraftFindings, arm: Ar
 def work_object_of(
     value: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings, arm: Arm
 ) -> model.WorkObject:
-    """The work object of the moves."""
+    """Return the work object of the moves."""
     is_named = not report.is_faulty((*path, "name"))
     if is_named and value.name == "wobj0" and value != schema.WorkObjectKeys():
         report.error(
@@ -124,7 +127,7 @@ def routine_of(
     report: DraftFindings,
     has_chain: bool,
 ) -> model.UserRoutine:
-    """A procedure or function that a program may call."""
+    """Return a user routine that a program may call."""
     for number, parameter in enumerate(value.parameters):
         if parameter.type == "robtarget" and not has_chain:
             report.error(
@@ -158,9 +161,9 @@ def routine_of(
 def data_of(
     keys: schema.GroupKeys, path: KeyPath, report: DraftFindings
 ) -> tuple[model.UserDatum, ...]:
-    """What clients may read and write.
+    """Return the data that clients may read and write.
 
-    The control server does it, and finds a datum by the part of its name that is one in the whole
+    The control server accesses a datum by its name without the module, which must be unique in the
     task.
     """
     if keys.data and keys.ports.control == 0:

@@ -1,4 +1,7 @@
-"""As many findings as a person reads: the first of each kind, and how many more there are."""
+"""Limit the number and length of findings.
+
+The first of each kind are kept, with the number of the others.
+"""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -9,11 +12,11 @@ _OF_A_KIND = 8
 _TOGETHER = 30
 _MESSAGE, _LABEL, _HELP = 300, 100, 900
 _WHOLE = 3000
-"""Characters of all texts, beyond which only messages are kept."""
+"""Total characters above which only messages are kept."""
 
 
 def limit_findings(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
-    """The findings with their texts cut where a hostile file made them long."""
+    """Return the findings, with long texts of a hostile file truncated."""
     saved: list[Diagnostic] = []
     counts: dict[str, int] = {}
     first: dict[str, Diagnostic] = {}
@@ -40,7 +43,7 @@ def limit_findings(findings: Iterable[Diagnostic]) -> list[Diagnostic]:
 
 
 def truncate(text: str, most: int) -> str:
-    """A text, cut in its middle where it is longer."""
+    """Return a text, truncated in its middle if too long."""
     if len(text) <= most:
         return text
     half = most // 2 - 3

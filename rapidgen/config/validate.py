@@ -1,7 +1,7 @@
-"""Schema faults with their places: pydantic's findings become diagnostics (RG005..RG007).
+"""Validate the schema: pydantic's findings become diagnostics.
 
-A faulty part is taken out and the rest is validated again, so that one fault in a file does not
-hide those that only a later step can see.
+Codes RG005..RG007. A faulty part is removed and the rest is validated again, so that one fault in a
+file does not hide those that only a later step can see.
 """
 
 import dataclasses
@@ -22,14 +22,14 @@ from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
 _MOST_ADVISED = 200
-"""Findings with advice; more than are ever shown."""
+"""Maximum number of findings with advice; more are never shown."""
 _SCHEMA = "`rapidgen schema{}` has all keys, and what each takes"
 T = TypeVar("T")
 
 
 @dataclass(slots=True)
 class Validated:
-    """The configuration as far as it is sound; `removed` are the paths taken out as faulty."""
+    """The valid part of a configuration; `removed` are the faulty paths."""
 
     configuration: ConfigurationKeys
     found: list[Diagnostic] = field(default_factory=list)
@@ -42,7 +42,7 @@ def validate(root: MappingNode) -> Validated:
 
 
 def valid_subset(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic], set[Path]]:
-    """A tree as `kind` of the schema, as far as it is sound; faults, and the paths taken out."""
+    """Return the valid part of a tree as `kind`, faults, removed paths."""
     data = to_python(root)
     validator = SchemaValidator(core(kind))
     findings: list[Diagnostic] = []
@@ -56,12 +56,12 @@ def valid_subset(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic],
         for item in faults:
             path, is_key = _real_path(data, item["loc"])
             if item["type"] == "missing":
-                # What was taken out as faulty is no second fault.
+                # A removed faulty part is not a second fault.
                 if item["loc"] not in removed:
                     findings.append(_missing(root, item["loc"]))
                 path = path if len(path) < len(item["loc"]) else path[:-1]
             elif path not in paths:
-                # More are counted and not shown: to look for what was meant would take long.
+                # Further findings are only counted: a search for similar names would take long.
                 advise = len(findings) < _MOST_ADVISED
                 findings.append(_translate(root, kind, path, is_key, item, advise))
             paths.add(path)
@@ -71,7 +71,10 @@ def valid_subset(root: MappingNode, kind: type[T]) -> tuple[T, list[Diagnostic],
 
 
 def _real_path(data: Json, loc: tuple[str | int, ...]) -> tuple[Path, bool]:
-    """The part of `loc` that leads through the data (unions and keys add parts of their own)."""
+    """Return the part of `loc` that is a path in the data.
+
+    Unions and keys add parts of their own.
+    """
     node = data
     path: list[str | int] = []
     for part in loc:
@@ -93,16 +96,16 @@ def _remove(data: Json, path: Path) -> None:
         try:
             data = _part(data, part)
         except (KeyError, IndexError, TypeError):
-            return  # an outer part went already
+            return  # an outer part is already removed
     if isinstance(data, dict):
         data.pop(str(last), None)
     elif isinstance(data, list):
-        # An element of a list cannot be missing: the whole list goes with it.
+        # An element of a list cannot be missing: the whole list is removed.
         data.clear()
 
 
 def shown(root: MappingNode, path: Path) -> str:
-    """A path as a user may write it: the only group's keys stand at the top."""
+    """Return a path as users write it: the only group's keys are at the top."""
     if len(path) > 2 and path[0] == "groups" and len(group_names(root)) == 1:
         path = path[2:]
     return ".".join(str(part) for part in path)
@@ -148,12 +151,12 @@ def _translate(
 
 
 def _form(item: ErrorDetails) -> tuple[str, str]:
-    """What a pattern of the schema asks for, in words; and what its parts may be."""
+    """Return a pattern's meaning in words, and its allowed parts."""
     return FORMS[item["ctx"]["pattern"]]
 
 
 def _short(value: object) -> str:
-    """A text of the file as a message may hold it."""
+    """Return a value of the file as a message shows it."""
     text = str(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
 
@@ -210,7 +213,7 @@ def _reason(item: ErrorDetails, is_key: bool) -> str:
 
 @cache
 def _keys_at(kind: type, path: Path) -> tuple[str, ...]:
-    """Keys that the schema knows at a path of the canonical tree."""
+    """Return the schema's keys at a path of the canonical tree."""
     if not path and kind is ConfigurationKeys:
         return tuple(dict.fromkeys((*TOP_KEYS, *GROUP_KEYS)))
     hint: Hint = kind
@@ -221,11 +224,11 @@ def _keys_at(kind: type, path: Path) -> tuple[str, ...]:
 
 
 _POINT_LIMIT = ("max_points", "point_limit", "max_traj_length")
-"""What else the limit is called; the last in abb_driver (ROS_common, MAX_TRAJ_LENGTH)."""
+"""Other names of the limit; the last in abb_driver (ROS_common, MAX_TRAJ_LENGTH)."""
 
 
 def _belongs(name: str, value: Path) -> str:
-    """Where a key stands that was given at another path; empty if nowhere, or at several places."""
+    """Return the correct path of a key; empty if unknown or ambiguous."""
     if name.lower() in _POINT_LIMIT:
         return "the limit of points is `capacity:` in `trajectory:`"
     if value and name in TOP_KEYS:

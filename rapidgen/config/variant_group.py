@@ -1,7 +1,7 @@
-"""An arm that is no shipped model, as a motion group: from what the library knows of its variant.
+"""Create a motion group from the library, for an arm without a model.
 
-Good enough to run programs on, where a backup names the type; a driver is built from a file of the
-robot's own, which says every figure with its source (`rapidgen new`).
+The result is good enough to run programs, if a backup names the type. A driver needs a
+configuration file of the robot that gives every figure with its source (`rapidgen new`).
 """
 
 import math
@@ -16,16 +16,16 @@ _TYPE = re.compile(
 """-use_robot_type of MOC.cfg: ROB1_4600_2.55_40, ROB1_910SC_0.55_3, ROB1_15000_0_95_5."""
 _NAME = re.compile(r"[IC]RB (\w+)-([\d.]+)/([\d.]+)")
 _SETTLE = 0.25
-"""s from standstill to full speed; no source tells accelerations."""
+"""s from standstill to full speed; no source gives accelerations."""
 ASSUMED_SPEED = 100.0
-"""deg/s of an axis whose speed no source tells: as large arms have it.
+"""deg/s of an axis without a source for its speed: typical of large arms.
 
-Times are a guess then.
+Times are estimates then.
 """
 
 
 def variants_of(robot_type: str) -> tuple[Variant | None, tuple[Variant, ...]]:
-    """The very variant of a type in MOC.cfg, and all variants of its number."""
+    """Return the exact variant of a type in MOC.cfg, and all similar ones."""
     requested = _TYPE.match(robot_type)
     if requested is None:
         return None, ()
@@ -44,14 +44,15 @@ def variants_of(robot_type: str) -> tuple[Variant | None, tuple[Variant, ...]]:
 
 
 def variant_named(name: str) -> Variant | None:
-    """The variant of that name, such as `IRB 1300-11/0.9`."""
+    """Return the variant of that name, such as `IRB 1300-11/0.9`."""
     return next((v for v in variants() if v.name.casefold() == name.casefold()), None)
 
 
 def group_of(variant: Variant, name: str = "rob1") -> GroupConfig | None:
-    """A group with the axes of a variant; None where its geometry needs more than a chain.
+    """Return a group with the axes of a variant, or None.
 
-    Six axes in a row, whose flange looks along x at zero, as ABB's arms with a wrist have it.
+    None if its geometry needs more than a chain. Six axes in a row, whose flange points along x at
+    zero, as in ABB's arms with a wrist.
     """
     lines = variant.skeleton.lines
     last = lines[-1].direction

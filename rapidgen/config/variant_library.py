@@ -1,8 +1,7 @@
-"""What is known of ABB's arms, variant by variant: axes in space, ranges, speeds, coupling.
+"""Library of ABB's arm variants: axes, ranges, speeds, coupling.
 
-`robots/variants.json` holds it, in mm and degrees, every arm where the controller says 0. The
-shipped models are in it as their own files have them (held by a test); the others have their
-sources there.
+`robots/variants.json` holds it, in mm and degrees, with every controller axis at 0. The shipped
+models have the figures of their own files (checked by a test); the others list their sources there.
 """
 
 import json
@@ -25,7 +24,7 @@ _FAMILY = re.compile(r"(?:[ic]rb|gofa|yumi)[_ -]?(\d{2,5})(?!\d)", re.IGNORECASE
 
 @dataclass(frozen=True, slots=True)
 class KnownAxis:
-    """One axis of a variant: range and speed in deg or mm, None where no source says."""
+    """One axis of a variant: range and speed in deg or mm; None: no source."""
 
     axis: str
     lower: float | None
@@ -36,7 +35,7 @@ class KnownAxis:
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """One arm: `model` is the shipped model that has it, with its group."""
+    """One arm; `model` is its shipped model with its group."""
 
     name: str
     model: str
@@ -49,20 +48,20 @@ class Variant:
     sources: tuple[tuple[str, str], ...]
     unsure: tuple[str, ...]
     disagreements: tuple[str, ...]
-    """Figures that its sources have differently; the narrower or lower one is used."""
+    """Figures that differ between its sources; the narrower or lower one is used."""
 
     @property
     def family(self) -> str:
-        """The number of the type: 1600 of an IRB 1600-6/1.2."""
+        """Return the number of the type: 1600 of an IRB 1600-6/1.2."""
         return family(self.name)
 
     def axis(self, name: str) -> KnownAxis | None:
-        """An axis by name."""
+        """Return an axis by name."""
         return next((axis for axis in self.axes if axis.axis == name), None)
 
 
 def family(*names: str) -> str:
-    """The number of an ABB type in one of the names (model, robot, file), else empty."""
+    """Return the number of an ABB type in a name (model, robot, file)."""
     for name in names:
         hit = _FAMILY.search(name)
         if hit:
@@ -72,27 +71,30 @@ def family(*names: str) -> str:
 
 @cache
 def variants() -> tuple[Variant, ...]:
-    """All variants, those of shipped models first."""
+    """Return all variants, those of shipped models first."""
     path = data_folder("robots") / "variants.json"
     return tuple(_variant(entry) for entry in items(json.loads(path.read_text(encoding="utf-8"))))
 
 
 def of_model(model: str, group: str) -> Variant | None:
-    """The variant that a group of a shipped model is."""
+    """Return the variant of a shipped model's group."""
     own = [v for v in variants() if v.model == model]
     return next((v for v in own if v.group == group), own[0] if len(own) == 1 else None)
 
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """A variant whose axes lie where the arm's do."""
+    """A variant with the axes of the arm."""
 
     variant: Variant
     difference: Difference
 
 
 def closeness(variant: Variant, *names: str) -> tuple[int, bool]:
-    """How much of a variant's name is in other names: its figures, and whether it is shipped."""
+    """Return a measure of how well names match a variant.
+
+    It counts the matching figures, and prefers a shipped variant.
+    """
     own = {figure.replace(".", "").strip("0") for figure in re.findall(r"[\d.]+", variant.name)}
     message = {figure.replace(".", "").strip("0") for name in names for figure in _figures(name)}
     return len((own & message) - {""}), bool(variant.model)
@@ -103,7 +105,10 @@ def _figures(name: str) -> list[str]:
 
 
 def recognise(arm: ArmAxes, *names: str) -> Match | None:
-    """The variant that an arm is, by its axes in space; of equal ones the one that is named."""
+    """Return the variant of an arm, by its axes in space.
+
+    Among equal ones the named one wins.
+    """
     hits = []
     for variant in variants():
         result = compare(arm, variant.skeleton)
@@ -168,7 +173,7 @@ def _matrix(value: Json) -> Matrix:
 
 
 def entry(name: str, draft: GroupDraft, sources: dict[str, str], unsure: list[str]) -> Members:
-    """What the file says of the arm of a group."""
+    """Return the library entry of a group's arm."""
     arm = skeleton(draft)
     joints = {joint.axis: joint for joint in draft.joints}
     axes: list[Json] = []

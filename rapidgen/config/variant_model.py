@@ -1,7 +1,8 @@
-"""Known variants as models: the configuration that robots/variants.json makes of one.
+"""Configurations of known variants, from robots/variants.json.
 
-Only of an arm with six axes whose dimensions and ranges two public sources have, and whose coupling
-is known; what another one lacks is said. Speeds that no source has stay open (RG022).
+Only for an arm with six axes whose dimensions and ranges are in two public sources, and whose
+coupling is known; for others the missing figures are reported. Speeds without a source stay open
+(RG022).
 """
 
 import re
@@ -16,7 +17,10 @@ _SIX = tuple(f"rax_{n}" for n in range(1, 7))
 
 
 def model_name(variant: Variant) -> str:
-    """What `model:` calls a variant: irb6700_155_285 is the IRB 6700-155/2.85 (m by 100)."""
+    """Return the `model:` name of a variant.
+
+    irb6700_155_285 is the IRB 6700-155/2.85 (m by 100).
+    """
     head, _, tail = variant.name.partition("/")
     reach = re.match(r"\d+(\.\d+)?", tail)
     if reach:
@@ -27,12 +31,12 @@ def model_name(variant: Variant) -> str:
 
 
 def names() -> tuple[str, ...]:
-    """Models that are variants of the list."""
+    """Return the variants of the library that are models."""
     return tuple(model_name(v) for v in variants() if not v.model and not missing_figures(v))
 
 
 def named(name: str) -> Variant | None:
-    """The variant that has a model's or a type's name and is no shipped model."""
+    """Return the variant with a model's or type's name, if not shipped."""
     expected = name.casefold().replace(" ", "")
     for variant in variants():
         own = (model_name(variant), variant.name.casefold().replace(" ", ""))
@@ -42,7 +46,7 @@ def named(name: str) -> Variant | None:
 
 
 def missing_figures(variant: Variant) -> list[str]:
-    """What keeps a variant from being a model."""
+    """Return the figures that a variant lacks for a model."""
     sources = dict(variant.sources)
     result = []
     if tuple(axis.axis for axis in variant.axes) != _SIX:
@@ -57,12 +61,12 @@ def missing_figures(variant: Variant) -> list[str]:
 
 
 def label(name: str) -> str:
-    """What findings call the configuration of a variant in place of a file."""
+    """Return the file label of a variant's configuration in findings."""
     return f"model {name}"
 
 
 def model_text(variant: Variant) -> str:
-    """A variant as the files of shipped models are."""
+    """Return a variant's text in the form of the shipped models."""
     lines = [f"description: ABB {variant.name}", "joints:"]
     for axis in variant.axes:
         figures = {"axis": axis.axis}
@@ -83,7 +87,7 @@ def model_text(variant: Variant) -> str:
         step = f"joint: joint_{line.axis[-1]}, xyz: {_mm(subtract(line.point, last))}, "
         lines.append(f"  - {{{step}axis: {_row(line.direction)}}}")
         last = line.point
-    # tool0 of all shipped models: z along axis 6, x down where every axis is at 0.
+    # tool0 of all shipped models: z along axis 6, x down, with every axis at 0.
     lines.append(f"  - {{xyz: {_mm(subtract(variant.skeleton.end, last))}, rpy: [0, 90, 0]}}")
     lines.append("source:")
     lines += [f'  {what}: "{source}"' for what, source in variant.sources]

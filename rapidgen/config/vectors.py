@@ -1,4 +1,7 @@
-"""Vectors of three numbers as plain tuples: for single ones, without arrays."""
+"""Vectors of three numbers as plain tuples.
+
+For single vectors they are faster than arrays.
+"""
 
 import math
 from typing import TypeAlias
@@ -7,27 +10,27 @@ Vector: TypeAlias = tuple[float, float, float]
 
 
 def add(a: Vector, b: Vector) -> Vector:
-    """Sum."""
+    """Return the sum."""
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
 def subtract(a: Vector, b: Vector) -> Vector:
-    """Difference."""
+    """Return the difference."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def scale(a: Vector, by: float) -> Vector:
-    """A multiple."""
+    """Return a multiple."""
     return (a[0] * by, a[1] * by, a[2] * by)
 
 
 def dot(a: Vector, b: Vector) -> float:
-    """Inner product."""
+    """Return the inner product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """Cross product."""
+    """Return the cross product."""
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -36,10 +39,13 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def norm(a: Vector) -> float:
-    """Length."""
+    """Return the length."""
     return math.sqrt(dot(a, a))
 
 
 def unit(a: Vector) -> Vector:
-    """The direction of a vector. ZeroDivisionError for the zero vector."""
+    """Return the direction of a vector.
+
+    ZeroDivisionError for the zero vector.
+    """
     return scale(a, 1 / norm(a))

@@ -1,4 +1,4 @@
-"""Texts in YAML that is written: who reads it as YAML 1.1 or 1.2 reads the same text."""
+"""Write texts as YAML that YAML 1.1 and 1.2 read alike."""
 
 import json
 import re
@@ -9,19 +9,19 @@ Scalar: TypeAlias = str | int | float | bool
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_/.-]*")
 _WORDS = frozenset(["y", "n", "yes", "no", "on", "off", "true", "false", "null"])
-"""What one of the two takes for something else than a text."""
+"""Words that YAML 1.1 or 1.2 does not read as a text."""
 _ESCAPED = {'"': '\\"', "\\": "\\\\"}
 
 
 def yaml_text(text: str) -> str:
-    """A text as a key or a value: plain where it stays a text so, else in double quotes."""
+    """Return a text as a key or a value, quoted if necessary."""
     if _PLAIN.fullmatch(text) and text.lower() not in _WORDS:
         return text
     return '"' + "".join(map(_escaped, text)) + '"'
 
 
 def yaml_flow(value: Scalar | Sequence[Scalar] | Mapping[str, Scalar]) -> str:
-    """Scalars, a list or a mapping of them, in one line."""
+    """Return scalars, or a list or mapping of them, in one line."""
     if isinstance(value, str):
         return yaml_text(value)
     if isinstance(value, Mapping):

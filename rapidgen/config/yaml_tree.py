@@ -1,8 +1,8 @@
-"""YAML 1.2 text to a tree whose every key and value knows its place.
+"""Parse YAML 1.2 text to a tree with the place of each key and value.
 
-The events of ruamel.yaml are read one by one, so that duplicate keys, tags, alias bombs and
-other hostile input end with one finding instead of an object graph. Plain scalars follow the
-core schema of YAML 1.2 (§10.3.2): `on` and `1:30` are texts, `9E9` is a number.
+The events of ruamel.yaml are read one by one, so that duplicate keys, tags, alias bombs and other
+hostile input end with one finding instead of an object graph. Plain scalars follow the core schema
+of YAML 1.2 (§10.3.2): `on` and `1:30` are texts, `9E9` is a number.
 """
 
 import re
@@ -24,7 +24,7 @@ _INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _INF = re.compile(r"[-+]?\.(inf|Inf|INF)")
 _UNREADABLE = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
-"""Control characters and lone surrogates: no name, no text for people."""
+"""Control characters and lone surrogates."""
 _CONSTANTS: dict[str, bool | float | None] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
     **dict.fromkeys(("true", "True", "TRUE"), True),
@@ -73,7 +73,10 @@ Node = ScalarNode | SequenceNode | MappingNode
 
 
 def read_bytes(path: Path, displayed: str) -> bytes:
-    """The file's bytes, or one finding that says why not (RG001, RG002)."""
+    """Return the file's bytes.
+
+    Raises one finding (RG001, RG002).
+    """
     try:
         return read_foreign(path, MAX_BYTES)
     except TooLarge:
@@ -90,9 +93,9 @@ def read_bytes(path: Path, displayed: str) -> bytes:
 
 
 def data_of(data: bytes, displayed: str) -> Json:
-    """Plain data of YAML within the limits of a configuration.
+    """Return plain data of YAML within the limits of a configuration.
 
-    Raises DiagnosticError (RG002 to RG004) for what cannot be read.
+    Raises DiagnosticError (RG002 to RG004).
     """
     root, faults = parse(decode(data, displayed), displayed)
     doubles = [fault for fault in faults if fault.code == "RG004"]
@@ -102,7 +105,7 @@ def data_of(data: bytes, displayed: str) -> Json:
 
 
 def decode(data: bytes, displayed: str) -> str:
-    """UTF-8 text; anything else is one finding with its place (RG002)."""
+    """Return UTF-8 text; raise one finding with its place (RG002)."""
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
@@ -121,15 +124,15 @@ _CLOSE: Final = {"{": "}", "[": "]", '"': '"', "'": "'"}
 
 
 def parse(text: str, displayed: str, *, at: Span | None = None) -> tuple[Node, list[Diagnostic]]:
-    """The tree of one YAML document and the faults that do not hinder it (duplicate keys).
+    """Return the tree of one YAML document and its non-fatal faults.
 
-    `at` is the place given to everything when the text is not a file's (an override).
-    Raises DiagnosticError (RG002, RG003) for what is no tree.
+    Non-fatal faults are duplicate keys. `at` is the place given to everything if the text is not a
+    file's (an override). Raises DiagnosticError (RG002, RG003).
     """
     from ruamel.yaml import YAML
     from ruamel.yaml.error import YAMLError
 
-    # Lines cost the most: without values there is no other limit on them.
+    # Lines take most time: without values there is no other limit on them.
     if text.count("\n") > MAX_LINES:
         message = f"{displayed} has more than {MAX_LINES:,} lines"
         help = "a configuration has a few hundred: is this the right file?"
@@ -168,9 +171,9 @@ def _syntax(fault: Any, text: str, displayed: str, at: Span | None) -> Diagnosti
 
 
 class _Builder:
-    """Events to nodes, with limits.
+    """Converts events to nodes, with limits.
 
-    A stack of its own: depth costs no Python frames.
+    It has its own stack: depth takes no Python frames.
     """
 
     def __init__(self, events: Iterator[Any], displayed: str, at: Span | None) -> None:
@@ -322,7 +325,7 @@ def _duplicate(key: str, place: Span, first: Span) -> Diagnostic:
 
 
 def from_python(value: object, span: Span) -> Node:
-    """A tree for a value given from Python; every part has the one place `span`."""
+    """Return a tree for a Python value; every part has the place `span`."""
     if isinstance(value, dict):
         entries = {str(k): (span, from_python(v, span)) for k, v in value.items()}
         return MappingNode(entries, span)
@@ -334,7 +337,7 @@ def from_python(value: object, span: Span) -> Node:
 
 
 def to_python(node: Node) -> Json:
-    """Plain dicts, lists and scalars."""
+    """Return plain dicts, lists and scalars."""
     if isinstance(node, MappingNode):
         return {key: to_python(value) for key, (_, value) in node.entries.items()}
     if isinstance(node, SequenceNode):
@@ -343,7 +346,7 @@ def to_python(node: Node) -> Json:
 
 
 def place_of(root: Node, path: tuple[str | int, ...]) -> tuple[Span, Span]:
-    """Places (key or item, value) of what `path` leads to, or of the nearest that exists."""
+    """Return the places (key or item, value) at `path`, or nearest to it."""
     node, key = root, root.span
     for part in path:
         if isinstance(node, MappingNode) and part in node.entries:

@@ -1,4 +1,4 @@
-"""Every finding that a user sees: code, place, reason and mend, and how it is shown."""
+"""Findings for users: code, place, reason and help, and their rendering."""
 
 from rapidgen.diagnostics.model import (
     Diagnostic,

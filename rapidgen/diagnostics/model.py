@@ -1,6 +1,6 @@
-"""The one shape of a finding.
+"""Data of a finding.
 
-Nothing here formats text for a terminal: see render.py.
+This module formats no text for a terminal: see render.py.
 """
 
 import sys
@@ -12,7 +12,10 @@ from rapidgen._compat import StrEnum
 
 
 class Severity(StrEnum):
-    """How much a finding weighs. Only `ERROR` makes a command fail."""
+    """Severity of a finding.
+
+    Only `ERROR` makes a command fail.
+    """
 
     ERROR = "error"
     WARNING = "warning"
@@ -45,8 +48,8 @@ class Label:
 class Diagnostic:
     """One finding.
 
-    `message` is a terse phrase without a full stop; `label` says what is wrong at the
-    marked place; `help` says what to do; `notes` add facts, such as the rule's source.
+    `message` is a short phrase without a full stop; `label` explains the marked place; `help` says
+    what to do; `notes` add facts, such as the rule's source.
     """
 
     code: str
@@ -70,7 +73,7 @@ def error(
     related: Sequence[Label] = (),
     severity: Severity = Severity.ERROR,
 ) -> Diagnostic:
-    """A finding: the one way to make one.
+    """Create an error.
 
     `at` is its place, `help` says what to do.
     """
@@ -83,11 +86,10 @@ def _beside(d: Diagnostic) -> list[str]:
 
 
 class DiagnosticError(Exception):
-    """A user's fault that ends what was under way.
+    """A user error that ends an operation.
 
-    The only exception commands show.
-
-    `exit_code` is 2 for bad input or usage and 1 for a refusal or a failure.
+    Commands show only this exception. `exit_code` is 2 for bad input or usage and 1 for a rejection
+    or a failure.
     """
 
     def __init__(
@@ -95,7 +97,8 @@ class DiagnosticError(Exception):
     ) -> None:
         result = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
         super().__init__("; ".join(f"{d.code}: {d.message}" for d in result))
-        # Python shows these below a traceback: whoever calls no command sees place and mend, too.
+        # Python shows these notes below a traceback: callers of the library also see place and
+        # help.
         if sys.version_info >= (3, 11):
             for line in dict.fromkeys(line for d in result for line in _beside(d)):
                 self.add_note(line)
@@ -103,7 +106,7 @@ class DiagnosticError(Exception):
         self.exit_code = exit_code
 
     def __reduce__(self) -> tuple[object, ...]:
-        # Worker processes hand it on; an Exception would take its text for the diagnostics.
+        # Worker processes pass it on; an Exception would take its text for the diagnostics.
         return type(self), (self.diagnostics,), {"exit_code": self.exit_code}
 
 
@@ -118,13 +121,13 @@ def refusal(
     related: Sequence[Label] = (),
     exit_code: int = 2,
 ) -> DiagnosticError:
-    """One error that ends what was under way, to be raised."""
+    """Create an exception with one error."""
     result = error(code, at, message, help, label=label, notes=notes, related=related)
     return DiagnosticError(result, exit_code=exit_code)
 
 
 def suggest(word: str, known: Sequence[str]) -> str:
-    """A "did you mean" sentence for `word`, or an empty text when nothing is close."""
+    """Return a "did you mean" sentence for `word`, or an empty text."""
     folded = {name.casefold(): name for name in known}
     close = get_close_matches(word.casefold(), list(folded), n=1, cutoff=0.6)
     return f"did you mean '{folded[close[0]]}'?" if close else ""

@@ -1,4 +1,7 @@
-"""Text of diagnostics in the formats of `--format`: full, concise, json, github."""
+"""Text of diagnostics in the formats of `--format`.
+
+Formats: full, concise, json, github.
+"""
 
 import json
 import re
@@ -11,9 +14,9 @@ from rapidgen.diagnostics.model import Diagnostic, Severity, Span
 
 _COLOURS = {Severity.ERROR: "1;31", Severity.WARNING: "1;33", Severity.INFO: "1;36"}
 _LARGEST = 20_000_000
-"""Bytes of a file that is shown in parts: as much as the largest that is read as text."""
+"""Maximum bytes of a file that is shown in parts: that of text files."""
 _TAB = "    "
-# Whatever a file or a robot says may be shown; it must not steer the terminal.
+# Texts of files and robots may be shown; they must not control the terminal.
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
 
 
@@ -27,7 +30,7 @@ class Format(StrEnum):
 
 
 def read_lines(path: str) -> list[str]:
-    """Lines of a file for showing; an unreadable file has none."""
+    """Return lines of a file for display; none if unreadable."""
     try:
         data = read_foreign(path, _LARGEST)
     except OSError:
@@ -46,9 +49,10 @@ def render(
     lines_of: Callable[[str], Sequence[str]] = read_lines,
     colour: bool = False,
 ) -> str:
-    """All diagnostics as one text that ends with a newline (empty when there is none).
+    """Return all diagnostics as one text that ends with a newline.
 
-    `json` is one array, also when empty; line and column are `null` without a place.
+    The text is empty if there is no diagnostic. `json` is one array, also when empty; line and
+    column are `null` without a place.
     """
     result = list(diagnostics)
     if format is Format.JSON:
@@ -72,7 +76,10 @@ def _clean(text: str) -> str:
 
 
 def as_data(diagnostics: Iterable[Diagnostic]) -> list[Json]:
-    """Diagnostics as data: line and column from 1, in letters, `None` without a place."""
+    """Return diagnostics as data.
+
+    Line and column count from 1, in characters; `None` without a place.
+    """
     return [_as_json(d) for d in diagnostics]
 
 

@@ -1,4 +1,4 @@
-"""Model to files: `build` makes them, `compare` and `write` bring them to a folder."""
+"""Generate files from a configuration, compare and write them."""
 
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,10 @@ __all__ = ["Change", "Output", "OutputFile", "build", "compare", "make_system", 
 
 
 def build(config: "RobotConfig", cell: "Cell | None" = None) -> Output:
-    """All files for one controller: see `rapidgen.generate.builder.build`, which needs Jinja."""
+    """Return all files for one controller.
+
+    See `rapidgen.generate.builder.build`, which needs Jinja.
+    """
     from rapidgen.generate import builder
 
     return builder.build(config, cell)
@@ -30,10 +33,12 @@ def make_system(
     without: "Collection[str]" = (),
     open_words: bool = True,
 ) -> "System":
-    """The controller that the output makes, as `system.read_folder` without the disk: loaded
-    onto a delivered controller, or onto `under`; the other two as in `read_folder`.
+    """Return the controller that the output gives, without the disk.
 
-    Raises DiagnosticError RG720..RG723 for a cfg file that it would not load.
+    As `system.read_folder`: loaded onto a delivered controller, or onto `under`; the other two as
+    in `read_folder`.
+
+    Raises DiagnosticError RG720..RG723 for a cfg file that a controller rejects.
     """
     from rapidgen.generate import builder
 

@@ -1,7 +1,4 @@
-"""A configuration becomes files.
-
-Everything is made in memory; nothing here touches the disk.
-"""
+"""Generate the files of a configuration in memory."""
 
 import hashlib
 import json
@@ -37,18 +34,20 @@ from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cf
 from rapidgen.system.build_loading import BaseController, additions, delivered, of_backup, onto
 from rapidgen.system.cfg_reader import ModuleEntry
 
-# In the place of the build's id until all is there that it depends on; as long as one.
+# Placeholder of the build's id, of equal length, until all its inputs exist.
 _UNKNOWN = "{build---id}"
 
 
 def build(config: RobotConfig, cell: Cell | None = None) -> Output:
-    """All files for one controller; for `cell`, to which `config` was fitted, what it lacks.
+    """Return all files for one controller; for `cell`, the missing parts.
 
-    Raises DiagnosticError: RG012 (a motion task has the name of one of ours), RG101 (a name or
+    `config` must be fitted to `cell`.
+
+    Raises DiagnosticError: RG012 (a motion task has the name of a generated one), RG101 (a name or
     text of the configuration does not fit into RAPID),
     RG105 (the first line of a cfg file is not known for this RobotWare), RG106 (a name is taken in
-    RAPID), RG110 (the cell has something in another way), RG112 (its program has a name that ours
-    needs), RG113 (it does not declare data that it should), RG720..RG723 (it would not load the
+    RAPID), RG110 (the cell has a conflicting instance), RG112 (its program has a name that the
+    driver needs), RG113 (it does not declare required data), RG720..RG723 (it would not load the
     files).
     """
     check_tasks(config)
@@ -89,7 +88,7 @@ def make_system(
     without: Collection[str] = (),
     open_words: bool = True,
 ) -> System:
-    """The controller that the output makes, as `system.read_folder` without the disk."""
+    """Return the controller that the output gives, without the disk."""
     modules = {}
     for file in output.files:
         if file.kind == "module":
@@ -110,7 +109,7 @@ def make_system(
 
 
 def make_build_id(config: RobotConfig, files: Iterable[OutputFile]) -> str:
-    """12 hexadecimal digits over what is generated and what it was generated from."""
+    """Return 12 hexadecimal digits over the generated files and their inputs."""
     digest = hashlib.sha256()
     parts: list[bytes] = [
         __version__.encode(),
@@ -134,7 +133,7 @@ def _modules(config: RobotConfig, group: GroupConfig, renderer: Renderer) -> lis
         return renderer.render(f"{module}.{kind}.j2", **context, **more)
 
     result = {module: render(module) for module in names if module != layout.COMMON}
-    # What the others name is declared there; it has some uses of its own.
+    # The names of the other modules are declared there; it uses some itself.
     own = render(layout.COMMON, constants=(), reasons=())
     used = used_constants(rendered.text for rendered in (*result.values(), own))
     result[layout.COMMON] = render(layout.COMMON, **used)
@@ -149,7 +148,7 @@ def _modules(config: RobotConfig, group: GroupConfig, renderer: Renderer) -> lis
             for role in layout.roles(config, group)
             if module in role.modules
         )
-        # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
+        # Controllers write CR LF and read both; LF keeps line counts and diffs simple.
         data = rendered.text.encode("ascii", errors="replace")
         files.append(OutputFile(path, data, "module", tasks, rendered.lines))
     faults += naming(config, group, [file.data.decode("ascii", errors="replace") for file in files])
@@ -171,7 +170,7 @@ def _head(
         "name": config.name,
         "build_id": build_id,
         "robotware": list(config.robotware),
-        # What a controller may refuse as a whole.
+        # Files that a controller may reject as a whole.
         "optional": [f.path for f in files if f.path in OPEN_FILES],
         **({"cell_signals": dict(used)} if used else {}),
         "groups": {

@@ -1,7 +1,7 @@
-"""Routines and data of the configuration in the program of a cell: what is called has to be there.
+"""Check that a cell's program has the configured routines and data.
 
 Late binding finds a procedure when it is called, and RAPID can ask for data by name, not for
-routines: in a backup it is seen before.
+routines. In a backup the check is possible before.
 """
 
 from collections.abc import Iterator
@@ -14,10 +14,9 @@ from rapidgen.system import System
 
 
 def check_routines(config: RobotConfig, cell: System) -> None:
-    """Refuse routines and data that a module of the cell, which is there, does not have, or has
-    with other parameters and types.
+    """Reject missing routines and data, and wrong parameters and types.
 
-    A module that is not there may be loaded later: the driver refuses what needs it. Raises
+    A missing module may be loaded later: the driver rejects the use until then. Raises
     DiagnosticError RG114.
     """
     faults = [fault for group in config.groups for fault in _faults(group, cell)]
@@ -69,7 +68,10 @@ def _of_routine(routine: UserRoutine, module: Module) -> Iterator[Diagnostic]:
 
 
 def _takes(own: RoutineParameter, foreign: Parameter) -> bool:
-    """Whether a parameter takes what the driver gives, a variable; a result is none of IN."""
+    """True if a parameter takes the driver's variable.
+
+    An IN parameter gives no result.
+    """
     modes = ("INOUT", "VAR") if own.inout else ("", "INOUT", "VAR")
     return (foreign.type.casefold(), foreign.dimensions) == (own.type, 0) and foreign.mode in modes
 

@@ -1,4 +1,4 @@
-"""The names that templates see, all in RAPID's units (deg, mm, s) and as RAPID literals."""
+"""Names for templates, in RAPID's units (deg, mm, s) and literals."""
 
 import math
 import re
@@ -28,7 +28,7 @@ from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.instructions import MOST_SIGNALS
 from rapidgen.wire.simple_message.spec import MOST_ARGUMENTS, ReplyCode
 
-# Those of a program's own values, as they are before a program gave any.
+# Frames of a program's own values, before a program sets any.
 _OWN_TOOL = Tool("ROS_own_tool", load=Load(1.0, (0.0, 0.0, 0.001)))
 _OWN_WORK_OBJECT = WorkObject("ROS_own_wobj")
 # Clients that the state port serves at a time.
@@ -36,27 +36,28 @@ STATE_CLIENTS = 3
 # A multiple of every ring's size within the integers that a num counts exactly, 2^23 [K §2.13].
 WRAP = 2**22
 _HEADER_AND_PREFIX = spec.PREFIX_BYTES + spec.HEADER_BYTES
-# Speed that rounding to single on the way must not push a point over.
+# Slack for the rounding to single on the wire.
 _SPEED_MARGIN = 1.001
 _DEFAULT_TCP_SPEED = 5.0
-# Part of an axis' acceleration that a tight corner may take: ABB publishes none, so those of the
+# Part of an axis' acceleration that a tight corner may use: ABB publishes none, so those of the
 # configuration are estimates.
 _TURN_SHARE = 0.3
 _MM = 1000.0
-# deg that a pose may be turned away for each mm of its tolerance.
+# deg of rotation allowed for each mm of a pose's tolerance.
 _TURN_PER_MM = 0.2
-# Axes of a kind have one part of a corner's zone.
+# Axes of a kind share one component of a corner's zone.
 _SUMS = (
     {"name": "turning", "field": "zone_ori", "least": "SMALLEST_TURN"},
     {"name": "swinging", "field": "zone_reax", "least": "SMALLEST_TURN"},
     {"name": "sliding", "field": "zone_leax", "least": "SMALLEST_CORNER"},
 )
-# What the controller says of movement is believed for so long, s, and for so many messages.
+# The driver believes the controller's movement report for this time, s, and this number of
+# messages.
 _BELIEF = 10.0
 _BELIEF_MESSAGES = 5
-# Of these the driver writes nothing into the event log.
+# The driver writes no event for these reasons.
 _ON_THE_WIRE_ALONE = {spec.Reason.NONE, spec.Reason.SUPERSEDED, spec.Reason.POWER_FAILURE}
-# Of a robtarget on the wire: numbers in m, and without a unit.
+# Numbers of a robtarget on the wire: in m, and without a unit.
 _TARGET_PARTS = (
     *((f"trans.{axis}", " / 1000") for axis in "xyz"),
     *((f"rot.q{n}", "") for n in range(1, 5)),
@@ -69,7 +70,7 @@ _FACTORS = (
 
 
 def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[str, object]:
-    """What the modules of one motion group are rendered from, but for `used_constants`."""
+    """Return the context of one group's modules, without `used_constants`."""
     x = layout.suffix(config, group)
     joints = [_joint(config, group, n) for n in range(1, len(group.joints) + 1)]
     roles = layout.roles(config, group)
@@ -118,9 +119,9 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "slow_down": config.trajectory.too_fast == "slow_down",
         "commissioning": config.commissioning,
         "full": config.profile == "full",
-        # The motion server asks what pose joints reach.
+        # The motion server asks for the pose of joints.
         "calculates": config.profile == "full" or group.tcp_speed_limit < _DEFAULT_TCP_SPEED,
-        # Without its geometry no client can tell the joints of a pose.
+        # Without its geometry no client can compute the joints of a pose.
         "cartesian": bool(group.chain),
         "two_sided": JointMap.of(group).two_sided,
         "state_period": config.state_period,
@@ -138,7 +139,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "tload": f" \\TLoad:={payload['name']}" if payload["with_moves"] else "",
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
-        # UnpackRawBytes has \ASCII no more on RobotWare 7; of PackRawBytes nobody tells.
+        # UnpackRawBytes has no \ASCII on RobotWare 7; for PackRawBytes there is no source.
         "text_by_bytes": config.robotware[0] >= 7,
         "slots": STATE_CLIENTS + 1,
         "feedback_wrap": literal(spec.FEEDBACK_WRAP),
@@ -155,7 +156,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "most_arguments": MOST_ARGUMENTS,
         "most_targets": _most(group, "robtarget"),
         "most_places": _most(group, "jointtarget"),
-        # Some routine leaves a target.
+        # Some routine returns a target.
         "target_results": any(
             p.inout and p.type.endswith("target") for r in group.routines for p in r.parameters
         ),
@@ -169,13 +170,13 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
 
 
 def _near(tolerance: float) -> dict[str, str]:
-    """How far a pose may be from what its joints reach: mm, and the cosine of half an angle."""
+    """Return the tolerance of a pose: mm, and the cosine of half an angle."""
     angle = math.radians(_TURN_PER_MM * tolerance * _MM)
     return {"near": literal(tolerance * _MM), "unturned": literal(round(math.cos(angle / 2), 6))}
 
 
 def _frames(group: GroupConfig) -> dict[str, object]:
-    """Tools and work objects by number; those of a program's own values come behind the others."""
+    """Return tools and work objects by number; a program's own come last."""
     tools = [_tool(tool, n) for n, tool in enumerate((group.tool, *group.tools))]
     wobjs = [
         _work_object(wobj, n) for n, wobj in enumerate((group.work_object, *group.work_objects))
@@ -187,23 +188,29 @@ def _frames(group: GroupConfig) -> dict[str, object]:
 
 
 def _tight(config: RobotConfig, group: GroupConfig) -> bool:
-    """Corners have sizes of their own: that needs the TCP's speed, so the group's geometry."""
+    """True if corners have individual sizes.
+
+    They need the TCP's speed, so the group's geometry.
+    """
     policy = config.trajectory
     return policy.corners == "tight" and policy.zone != "fine" and bool(group.chain)
 
 
 def _one_build(role: layout.TaskRole) -> list[str]:
-    """The constants that have to equal ROS_BUILD_ID for a task to be of one build."""
+    """Return the constants that must equal ROS_BUILD_ID in a task."""
     return [_build_constant(module) for module in role.modules if module != layout.COMMON]
 
 
 def _build_constant(module: str) -> str:
-    """ROS_motionServer: ROS_BUILD_MOTION_SERVER."""
+    """Return the constant of a module.
+
+    ROS_motionServer: ROS_BUILD_MOTION_SERVER.
+    """
     return "ROS_BUILD_" + re.sub(r"(?<=[a-z])(?=[A-Z])", "_", module.removeprefix("ROS_")).upper()
 
 
 def _streams(config: RobotConfig, joints: list[dict[str, object]]) -> dict[str, object]:
-    """What batches of points look like to RAPID."""
+    """Return the layout of point batches for RAPID."""
     return {
         "preload": config.trajectory.preload,
         "words": messages.point_values(len(joints)),
@@ -219,14 +226,14 @@ def _streams(config: RobotConfig, joints: list[dict[str, object]]) -> dict[str, 
 
 
 def _weighted(words: int) -> list[str]:
-    """What the words of a point add to a checksum, in pieces that fit a line."""
+    """Return the checksum terms of a point's words, in line-sized pieces."""
     terms = [f"{2 ** (words - n)} * word_{n}" for n in range(1, words)]
     terms.append(f"word_{words}")
     return [" + ".join(terms[at : at + 6]) for at in range(0, words, 6)]
 
 
 def _exposed(config: RobotConfig) -> list[dict[str, object]]:
-    """Signals that SIGNAL reaches, by number."""
+    """Return the signals of SIGNAL, by number."""
     return [
         {
             "n": n,
@@ -241,7 +248,7 @@ def _exposed(config: RobotConfig) -> list[dict[str, object]]:
 
 
 _FORMS = {
-    # Of a parameter's type: what stands for it in RAPID, and who reads it.
+    # For a parameter's type: its RAPID variable, and its reader.
     "num": ("numbers{{{}}}", "take_num"),
     "bool": ("yes_{}", "take_bool"),
     "string": ("texts{{{}}}", "take_text"),
@@ -251,7 +258,7 @@ _FORMS = {
 
 
 def _routines(group: GroupConfig) -> list[dict[str, object]]:
-    """The customer's procedures and functions, by number."""
+    """Return the user's procedures and functions, by number."""
     return [_routine(routine, n) for n, routine in enumerate(group.routines, 1)]
 
 
@@ -284,7 +291,7 @@ def _routine(routine: UserRoutine, n: int) -> dict[str, object]:
 
 
 def _place(routine: UserRoutine, k: int) -> int:
-    """Where the value of a parameter is kept: a target among those of its kind."""
+    """Return the place of a parameter's value, among those of its kind."""
     kind = routine.parameters[k - 1].type
     if kind in ("robtarget", "jointtarget"):
         return sum(parameter.type == kind for parameter in routine.parameters[:k])
@@ -292,13 +299,16 @@ def _place(routine: UserRoutine, k: int) -> int:
 
 
 def _most(group: GroupConfig, kind: str) -> int:
-    """Parameters of a kind that one routine has, at most."""
+    """Return the maximum number of parameters of a kind in one routine."""
     counts = (sum(p.type == kind for p in routine.parameters) for routine in group.routines)
     return max(counts, default=0)
 
 
 def _data(group: GroupConfig) -> list[dict[str, object]]:
-    """The customer's data, by number; a name without its module, as GetDataVal wants it."""
+    """Return the user's data, by number.
+
+    A name has no module, as in GetDataVal.
+    """
     return [
         {
             "n": n,
@@ -312,9 +322,9 @@ def _data(group: GroupConfig) -> list[dict[str, object]]:
 
 
 def used_constants(texts: Iterable[str]) -> dict[str, object]:
-    """Constants of the wire that some text names, in the order of the specification.
+    """Return the wire constants that some text names, in specified order.
 
-    And the reasons that the driver can give, with their texts.
+    Also the driver's reasons, with their texts.
     """
     words: set[str] = set()
     for text in texts:
@@ -328,14 +338,14 @@ def used_constants(texts: Iterable[str]) -> dict[str, object]:
 
 
 def _reasons(constants: list[dict[str, object]]) -> list[dict[str, str]]:
-    """Reasons that the driver can write into the event log, with their texts."""
+    """Return the reasons in the driver's event log, with their texts."""
     known = {constant["name"] for constant in constants}
     named = [(f"ROS_REASON_{r.name}", r.text) for r in spec.Reason if r not in _ON_THE_WIRE_ALONE]
     return [{"name": name, "text": text} for name, text in named if name in known]
 
 
 def to_rapid(joint: Joint, value: float) -> float:
-    """rad to deg, m to mm."""
+    """Convert rad to deg, m to mm."""
     return math.degrees(value) if joint.kind == "revolute" else value * _MM
 
 
@@ -366,19 +376,19 @@ def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]
 
 
 def _robot_axes(group: GroupConfig) -> list[str]:
-    """Members of a robjoint: the variable of each joint, else where the axis stands."""
+    """Return the members of a robjoint: joint variables or fixed values."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
     return [joints.get(f"rax_{n}", f"ROS_kept_{n}") for n in range(1, 7)]
 
 
 def _external_axes(group: GroupConfig) -> list[str]:
-    """Members of an extjoint: the variable of each joint, 9E9 where is none."""
+    """Return the members of an extjoint: joint variables or 9E9."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
     return [joints.get(f"eax_{letter}", "9E9") for letter in "abcdef"]
 
 
 def _kept(config: RobotConfig, axis: KeptAxis) -> dict[str, object]:
-    """A robot axis that no joint drives."""
+    """Return the context of a robot axis without a joint."""
     return {
         "n": int(axis.axis[-1]),
         "field": f"robax.{axis.axis}",
@@ -388,7 +398,7 @@ def _kept(config: RobotConfig, axis: KeptAxis) -> dict[str, object]:
 
 
 def data_of_another(group: GroupConfig) -> list[tuple[str, str, str]]:
-    """(type, name, value) of the data that a module of the customer's declares."""
+    """Return (type, name, value) of data that a user module declares."""
     data = (
         *(("tooldata", _tool(tool)) for tool in (group.tool, *group.tools)),
         *(("wobjdata", _work_object(wobj)) for wobj in (group.work_object, *group.work_objects)),
@@ -398,17 +408,17 @@ def data_of_another(group: GroupConfig) -> list[tuple[str, str, str]]:
 
 
 def tool_literal(tool: Tool) -> str:
-    """A tool as RAPID's tooldata."""
+    """Return a tool as RAPID's tooldata."""
     return f"[{_bool(tool.held)},{_frame(tool.frame)},{load_literal(tool.load)}]"
 
 
 def work_object_literal(wobj: WorkObject) -> str:
-    """A work object as RAPID's wobjdata."""
+    """Return a work object as RAPID's wobjdata."""
     return f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
 
 
 def load_literal(load: Load) -> str:
-    """A load as RAPID's loaddata."""
+    """Return a load as RAPID's loaddata."""
     inertia = ",".join(literal(v) for v in load.inertia)
     return f"[{literal(load.mass)},{_list(load.centre, _MM)},{_list(load.axes)},{inertia}]"
 
@@ -433,7 +443,10 @@ def _payload(payload: Payload) -> dict[str, object]:
 def _datum(
     name: str, kind: str, declared: bool, value: str, *, elsewhere: bool
 ) -> dict[str, object]:
-    """What our modules call a datum; `source` is the one of another module that it is a copy of."""
+    """Return the context of a datum in the generated modules.
+
+    `source` is the datum of another module that it copies.
+    """
     return {
         "name": f"{kind}_now" if elsewhere else name,
         "source": name if elsewhere else "",
@@ -443,7 +456,7 @@ def _datum(
 
 
 def _in_lines(value: str, in_use: int) -> str:
-    """A record's value behind `in_use` characters, broken behind commas where the line is full."""
+    """Return a record's value after `in_use` characters, split at commas."""
     lines, room = [""], MAX_LINE - in_use
     for part in re.findall("[^,]+,?", value):
         if len(lines[-1]) + len(part) > room:

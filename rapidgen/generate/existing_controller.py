@@ -1,7 +1,7 @@
-"""A build for a controller that exists: what its backup has is used, what it lacks is written.
+"""Build for an existing controller: reuse its backup, add the rest.
 
-From the backup come the release, the digits of the cfg headers, the motion tasks, mechanical
-units and unit groups, signals, and whether the user's program has a `main` (then it calls ours).
+From the backup come the release, the digits of the cfg headers, the motion tasks, mechanical units
+and unit groups, signals, and whether the user's program has a `main` (then it calls the driver).
 """
 
 from collections.abc import Collection, Iterable, Iterator
@@ -37,7 +37,10 @@ class Cell:
 
 
 def read_cell(folder: Path | str) -> Cell:
-    """The cell in a backup. Raises DiagnosticError RG701..RG712."""
+    """Return the cell in a backup.
+
+    Raises DiagnosticError RG701..RG712.
+    """
     notes: list[Diagnostic] = []
     system = read_backup(folder, notes=notes)
     cfg = backup_cfg(Path(folder), system.robotware, notes)
@@ -48,9 +51,9 @@ def read_cell(folder: Path | str) -> Cell:
 
 
 def fit(config: RobotConfig, cell: Cell) -> RobotConfig:
-    """The configuration with the cell's names and release.
+    """Return the configuration with the cell's names and release.
 
-    Raises DiagnosticError RG111 where its groups are not the cell's.
+    Raises DiagnosticError RG111 if its groups are not the cell's.
     """
     robotware = cell.system.robotware
     if (config.controller == "omnicore") != (robotware[0] >= _OMNICORE_SINCE):
@@ -78,7 +81,7 @@ def fit(config: RobotConfig, cell: Cell) -> RobotConfig:
 
 
 def _groups(config: RobotConfig, cell: Cell) -> tuple[GroupConfig, ...]:
-    """Each group with the motion task that moves its mechanical unit, or that has its name."""
+    """Return each group with its motion task, by mechanical unit or name."""
     units = _units(cell.system)
     fitted = []
     for group in config.groups:
@@ -112,7 +115,10 @@ def _groups(config: RobotConfig, cell: Cell) -> tuple[GroupConfig, ...]:
 
 
 def _units(system: System) -> dict[str, str]:
-    """The robot of each motion task: of its unit group, or of MOC where there are no groups."""
+    """Return the robot of each motion task.
+
+    It comes from its unit group, or from MOC without groups.
+    """
     robots = {group.name.casefold(): group.robot for group in system.groups}
     only = system.robot_types[0][0] if system.robot_types else ""
     return {
@@ -132,7 +138,10 @@ def _check_external(group: GroupConfig, cell: Cell) -> None:
 
 
 def _has_main(task: TaskSpec, ours: Collection[str]) -> bool:
-    """Whether the user's program has the task's entry; a driver that is there does not count."""
+    """True if the user's program has the task's entry.
+
+    An existing driver does not count.
+    """
     entry = task.entry.casefold()
     return any(
         routine.name.casefold() == entry
@@ -150,9 +159,9 @@ def _unfit(message: str, help: str) -> DiagnosticError:
 
 
 def missing(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> tuple[tuple[str, CfgText], ...]:
-    """What of the files the cell lacks; a file of which it has everything is left out.
+    """Return the parts of the files that the cell lacks; omit empty files.
 
-    Raises DiagnosticError RG110 for what it has in another way.
+    Raises DiagnosticError RG110 for conflicts.
     """
     given = tuple(texts)
     faults = [fault for _, text in given for fault in _conflicts(text, cell)]
@@ -171,7 +180,7 @@ def missing(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> tuple[tuple[str
 
 
 def used_signals(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> dict[str, str]:
-    """Signals of the files that the cell has, with their types."""
+    """Return the files' signals that the cell has, with their types."""
     names = (i.text("Name") for _, text in texts for i in text.instances("EIO_SIGNAL"))
     result = {name: cell.cfg.signal(name) for name in names}
     return {name: old.text("SignalType") for name, old in result.items() if old is not None}
@@ -181,7 +190,7 @@ def _lacking(text: CfgText, section: Section, cell: Cell) -> Iterator[Instance]:
     for instance in section.instances:
         old = _existing(text, section, instance, cell)
         if section.name == "FIREWALL_MANAGEMENT" and old is not None:
-            # It is replaced: what the cell opened stays open.
+            # The instance is replaced: what the cell opened stays open.
             merged = _merged(old, instance)
             if not _same(merged, old):
                 yield merged
@@ -196,17 +205,20 @@ def _existing(text: CfgText, section: Section, instance: Instance, cell: Cell) -
 
 
 def _conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
-    """What exists in another way, and modules of the same name: abb_driver's, an older build's."""
+    """Yield conflicts, and modules of the same name from other drivers.
+
+    Those are abb_driver's, or an older build's.
+    """
     for section in text.sections:
         for instance in section.instances:
             old = _existing(text, section, instance, cell)
             if old is None or section.name == "FIREWALL_MANAGEMENT":
                 continue
             if section.name == "EIO_SIGNAL":
-                # A signal of the same type is used, whatever else its instance says.
+                # A signal of the same type is used, whatever its other attributes.
                 same = old.text("SignalType").upper() == instance.text("SignalType").upper()
             elif section.name == "CAB_EXEC_HOOKS":
-                # Its order is the cell's.
+                # The cell decides the order.
                 same = True
             else:
                 same = _same(old, instance)
@@ -218,7 +230,10 @@ def _conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
 
 
 def _module_conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
-    """Modules of ours that tasks of ours would have twice, from another file of the cell."""
+    """Report generated modules that a task would have twice.
+
+    The second comes from another file of the cell.
+    """
     entries = tuple(zip(text.instances("CAB_TASK_MODULES"), modules_of(text), strict=True))
     ours = {_name(instance): entry.file.casefold() for instance, entry in entries}
     tasks = {task.casefold() for _, entry in entries for task in entry.tasks}
@@ -228,7 +243,7 @@ def _module_conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
     for instance, entry in foreign:
         name = _name(instance)
         if ours.get(name) == entry.file.casefold():
-            # This build's, from before; the backup has a copy of it in RAPID.
+            # An earlier load of this build; the backup has a copy of it in RAPID.
             told.add(name)
             continue
         everywhere = entry.all_tasks or entry.all_motion_tasks or entry.shared
@@ -274,7 +289,7 @@ def _conflict(cell: Cell, domain: str, section: str, name: str, line: int) -> Di
 
 
 def _in_order(hook: Instance, cell: Cell) -> Instance:
-    """A hook with a -SeqNo that no hook of the same event in its task has."""
+    """Return a hook with a -SeqNo that is unique for its event and task."""
     shelf, task = hook.text("Shelf").casefold(), hook.text("Task").casefold()
     in_use = {
         old.number("SeqNo")
@@ -311,9 +326,9 @@ def _values(instance: Instance) -> dict[str, tuple[str, ...]]:
 
 
 def check_link_conflicts(system: System, output: Output) -> None:
-    """Refuse a driver whose modules do not link beside the cell's program.
+    """Reject a driver whose modules do not link with the cell's program.
 
-    A global name of the program hides a predefined one, or clashes with a global one of ours.
+    A global name of the program hides a predefined one, or clashes with a global one of the driver.
     Raises DiagnosticError RG112.
     """
     ours = {file.path for file in output.files if file.kind == "module"}
@@ -336,10 +351,10 @@ def check_link_conflicts(system: System, output: Output) -> None:
 
 
 def check_data(config: RobotConfig, cell: System) -> None:
-    """Refuse data declared elsewhere that the motion tasks of a cell do not declare as PERS.
+    """Reject external data that a cell's motion task does not declare.
 
-    The driver names them in tasks of its own, too: one object for all that declare it so [K §14.4].
-    Raises DiagnosticError RG113.
+    They must be PERS. The driver also names them in its other tasks: all declarations share one
+    object [K §14.4]. Raises DiagnosticError RG113.
     """
     faults = []
     for group in config.groups:

@@ -1,4 +1,4 @@
-"""What a driver answers to HELLO: who it is, what it can do, and within which limits."""
+"""Contents of the driver's HELLO reply: identity, features, limits."""
 
 import re
 
@@ -12,7 +12,7 @@ from rapidgen.wire.simple_message.spec import Feature, ReplyCode
 
 
 def features(config: RobotConfig, group: GroupConfig) -> Feature:
-    """What the driver of a group can do beyond the standard messages."""
+    """Return the features of a group's driver beyond the standard messages."""
     result = Feature.PROGRESS
     if config.profile == "basic":
         return result
@@ -25,9 +25,9 @@ def features(config: RobotConfig, group: GroupConfig) -> Feature:
 
 
 def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[str, object]:
-    """The reply to HELLO as pack instructions, in the order of the specification.
+    """Return the HELLO reply as pack instructions, in specified order.
 
-    The first of a field that is not zero has its `label`, for people who read the module.
+    The first nonzero value of a field has its `label`, for readers of the module.
     """
     joints = group.joints
     policy, streams = config.trajectory, config.profile == "full"

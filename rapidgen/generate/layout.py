@@ -1,7 +1,7 @@
-"""What goes where: tasks, their modules, and the System that the cfg files are written from.
+"""Layout of tasks and modules, and the System for the cfg files.
 
-The structure (one reader, one supervisor, one state server and the motion task for each motion
-group) and its reasons are in docs/develop/driver-design.md.
+docs/develop/driver-design.md gives the structure (one reader, one supervisor, one state server and
+the motion task for each motion group) and its reasons.
 """
 
 from dataclasses import dataclass, replace
@@ -24,17 +24,17 @@ INSTRUCTIONS, PROGRAMS, EXECUTION = "ROS_instructions", "ROS_programs", "ROS_exe
 DATA = "ROS_data"
 
 OF_FULL = (STREAM, INSTRUCTIONS, PROGRAMS, EXECUTION)
-"""What the profile `basic` does not have."""
+"""Modules that the profile `basic` lacks."""
 
 
 @dataclass(frozen=True, slots=True)
 class TaskRole:
-    """One task of a motion group; the motion task's name is the group's own."""
+    """One task of a motion group; the group gives the motion task's name."""
 
     name: str
     task: str
     modules: tuple[str, ...]
-    """In loading order: what a module uses comes before it."""
+    """In loading order: a module comes after those that it uses."""
 
 
 ROLES = (
@@ -63,7 +63,7 @@ SYSTEM_MODULES = (COMMON, EVENTS, INSTRUCTIONS, LIMITS, MESSAGES, SOCKET)
 
 
 def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
-    """The tasks of a group, with the modules that its profile has."""
+    """Return the tasks of a group, with the modules of its profile."""
     left_out = () if config.profile == "full" else OF_FULL
     if not group.data:
         left_out = (*left_out, DATA)
@@ -75,7 +75,7 @@ def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
 
 
 def modules(config: RobotConfig, group: GroupConfig) -> tuple[str, ...]:
-    """Modules of a group, each once: those that several tasks load first."""
+    """Return the modules of a group, each once; shared ones come first."""
     used = dict.fromkeys(m for role in roles(config, group) for m in role.modules)
     return (
         *(m for m in SYSTEM_MODULES if m in used),
@@ -86,23 +86,23 @@ def modules(config: RobotConfig, group: GroupConfig) -> tuple[str, ...]:
 FOLDER = "rapidgen"
 """Folder of the modules in HOME: one that no other driver uses."""
 EVENT_ORDER = 50
-"""-SeqNo of our event routines: a cell's own may come before them, and after."""
+"""-SeqNo of the driver's event routines: a cell's own may come before them, and after."""
 
 
 def suffix(config: RobotConfig, group: GroupConfig) -> str:
-    """What tells names of this group from those of the others: nothing when it is the only one."""
+    """Return the suffix of this group's names; empty for a single group."""
     if len(config.groups) == 1:
         return ""
     return f"_{config.groups.index(group) + 1}"
 
 
 def task_name(config: RobotConfig, group: GroupConfig, role: TaskRole) -> str:
-    """Name of the task that plays `role` for a group."""
+    """Return the name of the task with `role` in a group."""
     return (role.task + suffix(config, group)) if role.task else group.task
 
 
 def module_file(config: RobotConfig, group: GroupConfig, module: str) -> str:
-    """Path of a module below HOME.
+    """Return the path of a module below HOME.
 
     Groups have a folder each: their PERS differ in name.
     """
@@ -113,12 +113,15 @@ def module_file(config: RobotConfig, group: GroupConfig, module: str) -> str:
 
 
 def signal_name(config: RobotConfig, group: GroupConfig, signal: StatusSignal) -> str:
-    """Name of a status signal, for a group where it has its own."""
+    """Return the name of a status signal, with the group's suffix if needed."""
     return signal.base + (suffix(config, group) if signal.of else "")
 
 
 def open_signals(config: RobotConfig) -> frozenset[str]:
-    """Status signals whose system output no file of this RobotWare was seen to have."""
+    """Return status signals without a confirmed system output.
+
+    No file of this RobotWare had it.
+    """
     return frozenset(
         signal_name(config, group, signal)
         for group in config.groups
@@ -128,11 +131,14 @@ def open_signals(config: RobotConfig) -> frozenset[str]:
 
 
 def make_system(config: RobotConfig, build_id: str) -> System:
-    """The tasks with empty modules (`target` tells their files), signals and event routines."""
+    """Return tasks with empty modules, signals and event routines.
+
+    `target` gives the files of the modules.
+    """
     return System(
         name=config.name,
         tasks=tuple(
-            # As on a controller: its own motion tasks, and then those that were added.
+            # As on a controller: its own motion tasks come first, then the added tasks.
             sorted(
                 (
                     _task(config, group, role)
@@ -162,7 +168,10 @@ def make_system(config: RobotConfig, build_id: str) -> System:
 
 
 def _restarts(config: RobotConfig) -> tuple[EventRoutine, ...]:
-    """Who takes messages has to know when it was stopped, where the program stops it, too."""
+    """Return event routines for tasks that receive messages.
+
+    They must know when they were stopped, also where the program stops them.
+    """
     if not config.commissioning:
         return ()
     return tuple(
@@ -175,22 +184,28 @@ def _restarts(config: RobotConfig) -> tuple[EventRoutine, ...]:
 
 
 def unit_group(group: GroupConfig) -> str:
-    """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_l of ROB_L."""
+    """Return the usual name of a mechanical unit group.
+
+    rob1 of ROB_1, rob_l of ROB_L.
+    """
     return _robot(group).lower()
 
 
 def _robot(group: GroupConfig) -> str:
-    """What the ARMs of a robot begin with: rob1 of ROB_1, rob_L of ROB_L."""
+    """Return the prefix of a robot's ARM names.
+
+    rob1 of ROB_1, rob_L of ROB_L.
+    """
     head, _, tail = group.mechanical_unit.partition("_")
     return f"{head.lower()}{tail}" if tail.isdigit() else f"{head.lower()}_{tail}".rstrip("_")
 
 
 def arm(group: GroupConfig, joint: Joint) -> str:
-    """Name of the ARM in the controller's MOC that holds the limits of a joint, empty: not known.
+    """Return the ARM in the controller's MOC with a joint's limits.
 
-    Robot axes have the unit's name and their number, also the seventh axis of a YuMi arm [code]:
-    rob1_1, rob_R_7. The arm of an external axis has its unit's name (backups of controllers), as
-    far as each unit has one axis.
+    Empty: not known. Robot axes have the unit's name and their number, also the seventh axis of a
+    YuMi arm [code]: rob1_1, rob_R_7. The arm of an external axis has its unit's name (backups of
+    controllers), as far as each unit has one axis.
     """
     kind, _, letter = joint.axis.partition("_")
     if kind == "rax":
@@ -213,8 +228,8 @@ def _task(config: RobotConfig, group: GroupConfig, role: TaskRole) -> TaskSpec:
     return TaskSpec(
         name=task_name(config, group, role),
         type="NORMAL" if motion else background,
-        # A state server that dies takes nothing with it; without reader or supervisor the
-        # robot must not go on.
+        # A state server that ends affects no other task; without reader or supervisor the robot
+        # must not continue.
         trust="SysFail" if motion else "NoSafety" if role.name == "state" else "SysStop",
         entry="main",
         motion=motion,
@@ -226,13 +241,13 @@ def _task(config: RobotConfig, group: GroupConfig, role: TaskRole) -> TaskSpec:
 
 
 def is_multimove(config: RobotConfig) -> bool:
-    """Whether the controller has mechanical unit groups that its tasks name."""
+    """True if the controller has mechanical unit groups that tasks name."""
     return config.multimove or len(config.groups) > 1
 
 
 def _signals(config: RobotConfig) -> tuple[SignalSpec, ...]:
-    # Levels that files show for a signal without a device that a system output drives: a backup
-    # of 6.13, a file that ABB ships for 7.
+    # Levels in files for a signal without a device that a system output drives: a backup of 6.13, a
+    # file that ABB ships for 7.
     access = "All" if config.robotware[0] >= 7 else "ReadOnly"
     names = (
         signal_name(config, group, signal) for group in config.groups for signal in STATUS_SIGNALS

@@ -1,4 +1,4 @@
-"""Limits of RAPID text that a configuration could push generated text over [K §2.1, 2.3, 2.13]."""
+"""RAPID text limits that a configuration could exceed [K §2.1, 2.3, 2.13]."""
 
 import re
 
@@ -13,7 +13,7 @@ _ESCAPE = re.compile(r'""|\\\\|\\[0-9A-Fa-f]{2}')
 
 
 def lint(path: str, text: str) -> list[Diagnostic]:
-    """Faults of one rendered module: all RG101.
+    """Return the faults of one rendered module: all RG101.
 
     All text is ASCII: with another character, in a comment too, a controller (a virtual one of
     6.15) did not load the module, and its task failed.

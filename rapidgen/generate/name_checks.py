@@ -1,4 +1,4 @@
-"""Names of the configuration that RAPID, or a generated module, has given away already."""
+"""Check configured names against RAPID's and the generated modules'."""
 
 import re
 
@@ -17,7 +17,10 @@ _THEIR_TYPES = frozenset({"tooldata", "wobjdata", "loaddata"})
 
 
 def check_tasks(config: RobotConfig) -> None:
-    """Raise DiagnosticError RG012 for a motion task with the name of one of the driver's tasks."""
+    """Reject a motion task with the name of a driver task.
+
+    Raises DiagnosticError RG012.
+    """
     ours = {
         layout.task_name(config, group, role).casefold()
         for group in config.groups
@@ -41,9 +44,9 @@ def check_tasks(config: RobotConfig) -> None:
 
 
 def naming(config: RobotConfig, group: GroupConfig, modules: list[str]) -> list[Diagnostic]:
-    """Names of tool, work object and payload that cannot stand beside these modules: RG106.
+    """Return names of tool, work object and payload that clash: RG106.
 
-    RAPID compares names without case; a name of a routine's hides one of its module [K §2.3, 2.12].
+    RAPID compares names without case; a name of a routine hides one of its module [K §2.3, 2.12].
     """
     names = {
         "tool": (group.tool.name, "tool0"),

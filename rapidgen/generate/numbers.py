@@ -1,11 +1,11 @@
-"""Numbers as RAPID literals: a num is an IEEE single, so that is what is written [K §2.13]."""
+"""RAPID number literals: a num is an IEEE single [K §2.13]."""
 
 import math
 import struct
 
 
 def single(value: float) -> float:
-    """`value` rounded to an IEEE single.
+    """Return `value` rounded to an IEEE single.
 
     Raises OverflowError outside its range.
     """
@@ -13,7 +13,7 @@ def single(value: float) -> float:
 
 
 def literal(value: float) -> str:
-    """The shortest decimal literal that reads back as the same num.
+    """Return the shortest decimal literal that reads as the same num.
 
     The sign, if any, is an operator in RAPID: it may stand only at the start of an expression.
     """
@@ -31,9 +31,9 @@ def literal(value: float) -> str:
 
 
 def inward(value: float, *, up: bool) -> float:
-    """A limit in deg or mm with at most 4 decimals that does not lie outside `value`.
+    """Return a limit in deg or mm, rounded to 4 decimals inside `value`.
 
-    A figure that is only off by the float error of a conversion to SI and back is that figure.
+    A value that differs only by the float error of a conversion to SI and back is not changed.
     """
     near = round(value, 3)
     if abs(near - value) < 2e-5:

@@ -1,4 +1,4 @@
-"""The generated folder: build it in memory, compare it with one on disk, put it there whole."""
+"""The generated folder: create in memory, compare, write atomically."""
 
 import hashlib
 import json
@@ -42,7 +42,7 @@ class Output:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A file that differs: `old` is None when it is new, `new` None when it is to go."""
+    """A changed file: `old` is None when new, `new` None when removed."""
 
     path: str
     old: bytes | None
@@ -80,7 +80,10 @@ def manifest_file(files: list[OutputFile], head: Members) -> OutputFile:
 
 
 def _rows(value: Json) -> str:
-    """A list or an object with one member a line: it reads and compares well."""
+    """Return a list or an object with one member a line.
+
+    This is easy to read and compare.
+    """
     if isinstance(value, dict):
         rows = [
             f"    {json.dumps(k)}: {json.dumps(v, ensure_ascii=True)}" for k, v in value.items()
@@ -91,7 +94,7 @@ def _rows(value: Json) -> str:
 
 
 def compare(output: Output, folder: Path) -> list[Change]:
-    """What `write` would change in `folder`, which need not exist."""
+    """Return what `write` would change in `folder`, which need not exist."""
     new = {f.path: f.data for f in output.files}
     old = _read(folder)
     return [
@@ -102,15 +105,15 @@ def compare(output: Output, folder: Path) -> list[Change]:
 
 
 def write(output: Output, folder: Path) -> None:
-    """Replace `folder` by the output: whole, or not at all.
+    """Replace `folder` by the output completely, or not at all.
 
-    Raises DiagnosticError: RG102 (the folder holds other things), RG103 (it cannot be written).
+    Raises DiagnosticError: RG102 (the folder holds other files), RG103 (it cannot be written).
     """
     if folder.exists():
         _refuse_foreign(folder, output)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
-        # A sibling, so that it lies on the same file system and can be renamed into place.
+        # A sibling is on the same file system and can be renamed into place.
         scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
     except OSError as fault:
         raise _unwritable(folder, fault) from fault
@@ -133,7 +136,7 @@ def write(output: Output, folder: Path) -> None:
 
 
 def _refuse_foreign(folder: Path, output: Output) -> None:
-    """RG102 where replacing `folder` would take away what no build put there."""
+    """Report RG102 if `folder` has files that no build wrote."""
     if not _is_ours(folder):
         raise _foreign(
             f"{folder} was not made by rapidgen and is not empty",
@@ -155,7 +158,7 @@ def _refuse_foreign(folder: Path, output: Output) -> None:
 
 
 def _built(folder: Path) -> set[str]:
-    """Files that the manifest lists; none where it cannot be read."""
+    """Return the files that the manifest lists; none if unreadable."""
     try:
         listed = json.loads(read_foreign(folder / MANIFEST, MAX_COMPARED, below=folder))["files"]
         return {str(entry["path"]) for entry in listed}
@@ -177,7 +180,7 @@ def _read(folder: Path) -> dict[str, bytes]:
     result = {}
     if folder.is_dir() and _is_ours(folder):
         for path in sorted(folder.rglob("*")):
-            with suppress(OSError):  # no regular file, or one that no build has written
+            with suppress(OSError):  # not a regular file, or not written by a build
                 data = read_foreign(path, MAX_COMPARED, below=folder)
                 result[path.relative_to(folder).as_posix()] = data
     return result

@@ -1,7 +1,7 @@
-"""The cfg files of a build: what is loaded on top of what a controller has.
+"""The cfg files of a build, loaded in addition to the controller's.
 
 Rows that no controller's file was seen to have go into files of their own, `*_open.cfg`: a
-controller may refuse them as a whole, and the driver serves and stops without them.
+controller may reject them as a whole, and the driver works without them.
 """
 
 from dataclasses import replace
@@ -18,7 +18,7 @@ _SERVICE_PORT = "192.168.125.1"
 
 
 def cfg_files(config: RobotConfig, system: System) -> tuple[tuple[str, CfgText], ...]:
-    """Name and content of each file, in the order of loading.
+    """Return name and content of each file, in the order of loading.
 
     Raises DiagnosticError RG105 when the first line of a file is not known for this RobotWare.
     """
@@ -55,10 +55,10 @@ def cfg_files(config: RobotConfig, system: System) -> tuple[tuple[str, CfgText],
 
 
 def _firewall(config: RobotConfig) -> CfgText:
-    """RAPID's sockets through the firewall of RobotWare 7, whose WAN counts as a public net.
+    """Return the firewall rule for RAPID's sockets on RobotWare 7.
 
-    The instance is there on every controller: loading replaces it (files that ABB ships, backups
-    of 7.5 and 7.6).
+    Its WAN counts as a public net. The instance exists on every controller: loading replaces it
+    (files that ABB ships, backups of 7.5 and 7.6).
     """
     public = config.bind not in ("service", _SERVICE_PORT)
     rule = Instance(

@@ -1,4 +1,4 @@
-"""What the README of a generated folder tells: tables of tasks, ports, joints and signals."""
+"""Contents of a generated folder's README: tasks, ports, joints, signals."""
 
 import math
 
@@ -14,7 +14,7 @@ _TRUST = {"SysFail": "SysFail", "SysStop": "SysStop", "NoSafety": "None (no safe
 
 
 def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[str, object]:
-    """What README.md.j2 is rendered from."""
+    """Return the context of README.md.j2."""
     major, minor = config.robotware
     opened = layout.open_signals(config)
     return {
@@ -74,12 +74,12 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
 
 
 def _address(group: GroupConfig) -> str:
-    """How a group is named on the command line."""
+    """Return a group's address for the command line."""
     return f"ROBOT:{group.ports.motion},{group.ports.state}"
 
 
 def _elsewhere(group: GroupConfig) -> list[dict[str, str]]:
-    """What the modules name and the customer's own have to declare in the motion task."""
+    """Return the data that the user's motion task has to declare."""
     result = [(t.name, "PERS tooldata") for t in (group.tool, *group.tools) if t.elsewhere]
     result += [
         (w.name, "PERS wobjdata") for w in (group.work_object, *group.work_objects) if w.elsewhere
@@ -91,7 +91,7 @@ def _elsewhere(group: GroupConfig) -> list[dict[str, str]]:
 
 
 def _open_files(config: RobotConfig) -> tuple[str, ...]:
-    """Domains with rows that the controller may refuse."""
+    """Return domains with rows that the controller may reject."""
     if not layout.open_signals(config):
         return ()
     return ("EIO", "SYS") if config.robotware[0] >= SIGNALS_IN_SYS else ("EIO",)

@@ -1,7 +1,7 @@
-"""Templates to text, with a map from each line of the text to the line of its template.
+"""Render templates to text, with a line map to the templates.
 
-The map is made of marks in Unicode's private use area, put at the start of every template line
-that can produce text and stripped after rendering; so the output does not depend on them.
+The map uses marks in Unicode's private use area. They are put at the start of every template line
+that can produce text and removed after rendering, so that the output does not depend on them.
 """
 
 import os
@@ -45,18 +45,18 @@ class Renderer:
         )
 
     def add_filter(self, name: str, function: Callable[..., object]) -> None:
-        """Make `function` known to templates."""
+        """Register `function` as a template filter."""
         self._environment.filters[name] = function
 
     def render(self, template: str, **context: object) -> RenderedText:
-        """One template as text."""
+        """Return one template as text."""
         return unmarked(self._environment.get_template(template).render(**context))
 
 
 def _compiled() -> jinja2.BytecodeCache | None:
-    """Compiled templates in the user's cache folder, as Python keeps compiled modules.
+    """Return the cache of compiled templates in the user's cache folder.
 
-    Compiling is a third of a build. Jinja keys an entry by the text of its template.
+    Compiling is a third of a build. Jinja uses the text of a template as the key of its entry.
     """
     base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
     folder = os.path.join(base, "rapidgen", f"templates-{__version__}")
@@ -77,7 +77,7 @@ class _Loader(jinja2.FileSystemLoader):
 
 
 def marked(source: str, template: str) -> str:
-    """Template text with a mark at the start of each line outside tags.
+    """Return template text with a mark at each line start outside tags.
 
     A line that holds only a block or a comment gets none: it would keep Jinja from trimming it.
     """
@@ -97,7 +97,7 @@ def marked(source: str, template: str) -> str:
 
 
 def unmarked(text: str) -> RenderedText:
-    """The text without marks, and the map that they gave."""
+    """Return the text without marks, and the line map."""
     lines: list[tuple[int, str, int]] = []
     place: tuple[str, int] | None = None
     out = []
@@ -105,7 +105,7 @@ def unmarked(text: str) -> RenderedText:
         marks = _MARK.findall(line)
         if marks:
             result = (marks[0][0], int(marks[0][1]))
-            # A run of lines that follow their template one by one needs one entry only.
+            # A run of consecutive template lines needs only one entry.
             if place is None or result != place:
                 lines.append((number, *result))
             place = result

@@ -1,8 +1,8 @@
-"""From a line of generated RAPID to the line of its template, and that template's text.
+"""Map lines of generated RAPID to lines of their templates.
 
-A build has the map of its lines beside the files; templates come with the program. A folder may
-have been built by another version, or name other files as its templates: what does not fit is told
-of by name and line alone.
+A build stores the map of its lines with the files; the templates come with the program. A folder
+may have been built by another version, or name other files as its templates: then only name and
+line of the template are shown.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,7 +16,7 @@ Line = tuple[int, str, int]
 
 @dataclass(frozen=True, slots=True)
 class TextOrigin:
-    """What made a text. Without `templates`: not those of this version."""
+    """Templates of a text; no `templates`: not those of this version."""
 
     lines: tuple[Line, ...]
     templates: Mapping[str, str] = field(default_factory=dict)
@@ -24,7 +24,7 @@ class TextOrigin:
 
 
 def origin_of(text: str, lines: Sequence[Line]) -> TextOrigin:
-    """What made a text whose build mapped its lines so."""
+    """Return the templates of a text with this line map."""
     known = {path.name: path for path in data_folder("templates").glob("*.j2")}
     names = dict.fromkeys(template for _, template, _ in lines)
     if not known.keys() >= names.keys():
@@ -36,7 +36,7 @@ def origin_of(text: str, lines: Sequence[Line]) -> TextOrigin:
 
 
 def _fit(text: str, lines: Sequence[Line], templates: Mapping[str, str]) -> bool:
-    """Whether what templates have without tags is what the text has."""
+    """True if the text agrees with the templates' lines without tags."""
     made = text.splitlines()
     written = {name: template.splitlines() for name, template in templates.items()}
     for line, template, number in lines:

@@ -1,4 +1,4 @@
-"""Virtual outputs that show a status of the controller to RAPID, and how a release spells it.
+"""Virtual outputs with a status of the controller, and their spelling.
 
 docs/rapid/cfg.md has the source of each row.
 """
@@ -13,27 +13,27 @@ class StatusSignal:
     """A signal and the system output that drives it."""
 
     base: str
-    """Its name; abb_driver's, so that a controller that ran it keeps its signals."""
+    """Its name, as in abb_driver, so that an upgraded controller keeps its signals."""
     function: str
     """The RAPID function (without ROS_) that reads it."""
     text: str
     spelled: Mapping[int, str]
-    """Status in SYSSIG_OUT, from which RobotWare on."""
+    """Status in SYSSIG_OUT, by first RobotWare version."""
     seen: frozenset[int]
-    """Generations of which somebody's cfg file has the status so; the others are open."""
+    """Generations with a cfg file that has the status; the others are open."""
     one_when_well: bool = False
-    """It is 1 while the robot waits for work: one that was never 1 may have nothing behind it."""
+    """True if it is 1 while the robot waits for work: one that was never 1 may have no source."""
     by_routines: bool = False
-    """Event routines of the motion task see its end, too."""
+    """True if event routines of the motion task also see its end."""
     of: Literal["", "unit", "task"] = ""
-    """What it is the status of: the controller, or a group's mechanical unit or motion task."""
+    """Subject of the status: the controller, or a group's mechanical unit or motion task."""
 
     def status(self, generation: int) -> str:
-        """How RobotWare of a generation spells it."""
+        """Return the spelling of a RobotWare generation."""
         return self.spelled[max(since for since in self.spelled if since <= generation)]
 
     def is_open(self, generation: int) -> bool:
-        """Whether no file of that generation was seen with it."""
+        """True if no file of that generation had it."""
         return generation not in self.seen
 
 

@@ -1,4 +1,4 @@
-"""cfg text, a backup, a generated folder or loose files become one frozen `System`; and back."""
+"""Convert cfg text, backups, folders and files to a `System`, and back."""
 
 from importlib import import_module
 from pathlib import Path
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
         TaskSpec,
     )
 
-# Most users need one of these files; a build should not pay for reading backups.
+# Most users need one of these files; a build should not load the reader of backups.
 _FILES = {
     name: file
     for file, names in {
@@ -85,7 +85,7 @@ def __getattr__(name: str) -> object:
 
 
 def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "System":
-    """Whatever lies at `path`: a generated folder, a backup, a folder of modules, or a module.
+    """Read a generated folder, a backup, a module folder or a module.
 
     Raises DiagnosticError RG701..RG712.
     """

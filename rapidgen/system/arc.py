@@ -12,7 +12,7 @@ _SECTIONS: Final = ("ARC_EQUIP_IO_DI", "ARC_EQUIP_IO_DO", "ARC_EQUIP_IO_AO", "AR
 
 
 def arc_signals(proc: CfgText) -> tuple[ArcSignals, ...]:
-    """The equipment by instance; an empty name is no signal."""
+    """Return the equipment by instance; an empty name is no signal."""
     result: dict[str, list[tuple[str, str]]] = {}
     for section in _SECTIONS:
         for instance in proc.instances(section):

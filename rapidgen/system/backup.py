@@ -1,9 +1,9 @@
-"""An ABB backup folder: BACKINFO, HOME, RAPID/TASKn/{PROGMOD,SYSMOD}, SYSPAR.
+"""Read an ABB backup folder.
 
-CAB_TASKS of SYSPAR/SYS.cfg in order are TASK1..n, unless BACKINFO/backinfo.txt names the tasks
-of the folders (`>>TASK1: (T_ROB1,...)`); what it lists below was loaded, and nothing else in the
-folder [code]. RobotWare is the version in backinfo.txt or system.xml, else the one in the cfg
-header.
+It has BACKINFO, HOME, RAPID/TASKn/{PROGMOD,SYSMOD} and SYSPAR. CAB_TASKS of SYSPAR/SYS.cfg in order
+are TASK1..n, unless BACKINFO/backinfo.txt names the tasks of the folders (`>>TASK1: (T_ROB1,...)`).
+The files that it lists were loaded, and no others of the folder [code]. RobotWare is the version in
+backinfo.txt or system.xml, else the one in the cfg header.
 """
 
 import re
@@ -32,17 +32,17 @@ _VERSIONS = (
     re.compile(rb">>PRODUCTS_ID:\s*\D{0,80}?(\d+)\.(\d+)", re.I),
 )
 _DEFAULT = (6, 0)
-"""Where neither the backup nor a header tells."""
+"""If neither the backup nor a header gives it."""
 _READ = ("SYS", "EIO")
-"""Domains without which there is no controller."""
+"""Required domains."""
 _INFO_FILES = ("BACKINFO/backinfo.txt", "BACKINFO/version.xml", "system.xml", "BACKINFO/system.xml")
 
 
 def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) -> System:
-    """The system in a backup; `notes` collects what could not be taken over.
+    """Return the system in a backup; `notes` collects ignored parts.
 
-    Raises DiagnosticError: RG701..RG708 for damaged or hostile content, RG712 when the folder
-    is no backup.
+    Raises DiagnosticError: RG701..RG708 for damaged or hostile content, RG712 when the folder is
+    not a backup.
     """
     folder = Path(folder)
     collected: list[Diagnostic] = [] if notes is None else notes
@@ -101,14 +101,17 @@ def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str]
 
 
 def _cameras(sio: CfgText) -> tuple[str, ...]:
-    """COM_APP instances of type CAMERA, as a backup of a controller with a camera has one [cfg]."""
+    """Return cameras: COM_APP instances of type CAMERA [cfg]."""
     rows = sio.instances("COM_APP")
     return tuple(row.text("Name") for row in rows if row.text("Type").upper() == "CAMERA")
 
 
 def _udp_devices(sio: CfgText) -> tuple[UdpDevice, ...]:
-    """COM_TRP of type UDPUC, whose address is spelt with one d, and UDPUC_HOST, where a port that
-    is left out is 6510 [cfg: MCUBE 6.03, rparak 6.x, GoFa 7.6; manual 3HAC073318]."""
+    """Return UDPUC devices of SIO.
+
+    COM_TRP of type UDPUC, whose address is spelt with one d, and UDPUC_HOST, whose default port is
+    6510 [cfg: MCUBE 6.03, rparak 6.x, GoFa 7.6; manual 3HAC073318].
+    """
     rows = [row for row in sio.instances("COM_TRP") if row.text("Type").upper() == "UDPUC"]
     rows += sio.instances("UDPUC_HOST")
     return tuple(
@@ -122,9 +125,10 @@ def _udp_devices(sio: CfgText) -> tuple[UdpDevice, ...]:
 
 
 def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]) -> ControllerCfg:
-    """All domains of a backup, to load files onto; `notes` get what our rules say of them.
+    """Return all cfg domains of a backup, to load files onto.
 
-    Raises DiagnosticError: RG701..RG706 for damaged or hostile content of SYS and EIO.
+    `notes` get the rules' findings. Raises DiagnosticError: RG701..RG706 for damaged or hostile
+    content of SYS and EIO.
     """
     result = [_cfg(folder, "SYS.cfg")]
     if is_there(inside(folder, "SYSPAR/EIO.cfg")):
@@ -137,7 +141,7 @@ def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]
 
 
 def _further(folder: Path, domain: str, notes: list[Diagnostic]) -> CfgText | None:
-    """A domain that programs run without: where it cannot be read, that is a note."""
+    """Return an optional domain; a read error becomes a note."""
     path = inside(folder, f"SYSPAR/{domain}.cfg")
     if not is_there(path):
         return None
@@ -149,7 +153,7 @@ def _further(folder: Path, domain: str, notes: list[Diagnostic]) -> CfgText | No
 
 
 def is_backup(folder: Path) -> bool:
-    """Whether `folder` looks like an ABB backup."""
+    """True if `folder` looks like an ABB backup."""
     return is_there(inside(folder, "SYSPAR/SYS.cfg"))
 
 
@@ -160,14 +164,14 @@ def _names(rows: bytes) -> frozenset[str]:
 def _saved(
     folder: Path, number: int, listed: Mapping[int, frozenset[str]], notes: list[Diagnostic]
 ) -> tuple[ModuleFile, ...]:
-    """The modules in the folder of a task: those that backinfo.txt lists, where it lists any.
+    """Return the modules in a task's folder, those of backinfo.txt if listed.
 
     Folders into which one backup is copied over another keep modules of the earlier one.
     """
     names = listed.get(number, frozenset())
     loaded: list[ModuleFile] = []
     left: list[str] = []
-    # System modules are there before a program is loaded [K §9].
+    # System modules are loaded before a program [K §9].
     for place in ("SYSMOD", "PROGMOD"):
         for path in module_files(inside(folder, f"RAPID/TASK{number}/{place}")):
             if names and path.name.casefold() not in names:

@@ -1,4 +1,4 @@
-"""A build's cfg files loaded onto what they are for: the controller that comes of it."""
+"""Load a build's cfg files onto their target controller."""
 
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -14,21 +14,21 @@ from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
 Load = Callable[[TaskSpec, tuple[ModuleEntry, ...], str], tuple[ModuleFile, ...]]
-"""Modules of a task, those that it has and what the entries of a cfg file add."""
+"""Return a task's modules, with those that the entries of a cfg file add."""
 
 
 @dataclass(frozen=True, slots=True)
 class BaseController:
-    """A controller before anything is loaded onto it: its cfg, and its tasks with their modules."""
+    """A controller before loading: its cfg, and its tasks with modules."""
 
     cfg: ControllerCfg
     system: System
     common: tuple[ModuleFile, ...] = ()
-    """Modules that it loads into every task, also into one that is added."""
+    """Modules loaded into every task, including added ones."""
 
 
 def of_backup(cfg: ControllerCfg, system: System) -> BaseController:
-    """The controller that a backup was made of."""
+    """Return the controller of a backup."""
     sys = cfg.domain("SYS")
     loaded = {m.name.casefold(): m for task in system.tasks for m in task.modules}
     names = [
@@ -40,12 +40,12 @@ def of_backup(cfg: ControllerCfg, system: System) -> BaseController:
 
 
 def module_stem(file: str) -> str:
-    """Name of a module file without its folder and ending."""
+    """Return the name of a module file without folder and suffix."""
     return file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
 
 
 def delivered(manifest: Members) -> BaseController:
-    """A controller as it is delivered, for what a manifest tells of it.
+    """Return a delivered controller, as a manifest describes it.
 
     Raises DiagnosticError RG711.
     """
@@ -65,7 +65,7 @@ def delivered(manifest: Members) -> BaseController:
         major, minor = map(whole, items(manifest["robotware"]))
         multimove = bool(configuration.get("multimove"))
         cfg = base_system((major, minor), robots, multimove=multimove, digits=header)
-        # Built for a cell: its signals that the build uses without bringing them.
+        # Built for a cell: its signals that the build uses but does not add.
         used = members(manifest.get("cell_signals") or {}).items()
         signals = "".join(f' -Name "{name}" -SignalType "{text(kind)}"\n' for name, kind in used)
         if signals:
@@ -79,7 +79,7 @@ def delivered(manifest: Members) -> BaseController:
 def additions(
     manifest: Members, texts: Mapping[str, bytes], without: Collection[str], folder: Path
 ) -> tuple[CfgFileLoad, ...]:
-    """A build's cfg files in their order.
+    """Return a build's cfg files in order.
 
     Raises DiagnosticError RG701, RG702, RG711.
     """
@@ -91,7 +91,8 @@ def additions(
     for name, data in texts.items():
         if name not in without:
             file = parse_cfg(data, path=str(folder / name))
-            # Services of the firewall exist on a delivered controller: they are set, not added.
+            # Services of the firewall exist on a delivered controller: they are replaced, not
+            # added.
             result.append(CfgFileLoad(file, name in optional, file.domain == "SIO", data.isascii()))
     return tuple(result)
 
@@ -104,9 +105,9 @@ def onto(
     open_words: bool = True,
     notes: list[Diagnostic] | None = None,
 ) -> System:
-    """The controller with the files loaded onto it, in mode "add".
+    """Return the controller with the files loaded in mode "add".
 
-    Raises DiagnosticError RG720..RG723 for a file that no controller loads.
+    Raises DiagnosticError RG720..RG723 for a file that a controller rejects.
     """
     files = tuple(source)
     loaded = add(under.cfg, files, open_words=open_words)

@@ -1,10 +1,10 @@
-"""ABB's cfg text (SYS, EIO, SIO, MOC, ...): parse to frozen data and write it back.
+"""ABB's cfg text (SYS, EIO, SIO, MOC, ...): parse and write.
 
 Layout as real controllers save it: a header line `DOMAIN:CFG_1.0:<major>:<minor>::`, `#` lines
-between sections, `SECTION:` on a line of its own, instances of `-Attribute value` pairs that a
-`\\` at the end of a line continues, text in double quotes, numbers bare, and a true boolean as a
-bare `-Flag` (a false one is left out). What controllers read is looser (files that ABB ships):
-no blank lines, any indentation, `# text` anywhere between lines, LF; RobotWare 7 ends a file with
+between sections, `SECTION:` on a line of its own, instances of `-Attribute value` pairs that a `\\`
+at the end of a line continues, text in double quotes, numbers bare, and a true boolean as a bare
+`-Flag` (a false one is left out). Controllers read a looser format (files that ABB ships): no blank
+lines, any indentation, `# text` anywhere between lines, LF; RobotWare 7 ends a file with
 `#CTRL_SIGNATURE:...`. Names have no case.
 """
 
@@ -38,25 +38,25 @@ class Attribute:
 
 @dataclass(frozen=True, slots=True)
 class Instance:
-    """One instance of a section; `line` is where it starts (0 when it was not read)."""
+    """One instance of a section; `line` is its first line (0: not from a file)."""
 
     attributes: tuple[Attribute, ...]
     line: int = 0
 
     def text(self, name: str, default: str = "") -> str:
-        """First value of an attribute as text; a flag gives an empty text."""
+        """Return the first value of an attribute as text; empty for a flag."""
         for attribute in self.attributes:
             if attribute.name.casefold() == name.casefold():
                 return str(attribute.values[0]) if attribute.values else ""
         return default
 
     def number(self, name: str, default: float = 0.0) -> float:
-        """First value of an attribute as a number, also when it is written in quotes."""
+        """Return the first value of an attribute as a number, also if quoted."""
         text = self.text(name)
         return float(text) if _NUMBER.match(text) else default
 
     def flag(self, name: str) -> bool:
-        """Whether a boolean is set: a bare flag, or a written TRUE."""
+        """True if a boolean is set: a bare flag, or a written TRUE."""
         for attribute in self.attributes:
             if attribute.name.casefold() == name.casefold():
                 return not attribute.values or str(attribute.values[0]).upper() in ("TRUE", "1")
@@ -84,16 +84,19 @@ class CfgText:
     """Of the file that it was read from, for `cfg_bytes`."""
 
     def instances(self, name: str) -> Iterator[Instance]:
-        """Instances of every section with this name (in any case), in order."""
+        """Yield instances of every section with this name, in order.
+
+        Case is ignored.
+        """
         for section in self.sections:
             if section.name.casefold() == name.casefold():
                 yield from section.instances
 
 
 def parse_cfg(data: bytes | str, *, path: str = "") -> CfgText:
-    """The cfg file in `data`.
+    """Parse a cfg file.
 
-    Raises DiagnosticError: RG701 (no header), RG702 (text that is no cfg).
+    Raises DiagnosticError: RG701 (no header), RG702 (not a cfg text).
     """
     text, encoding = (data, "utf-8") if isinstance(data, str) else _decode(data)
     lines = _LINE_END.split(text)
@@ -128,7 +131,7 @@ def parse_cfg(data: bytes | str, *, path: str = "") -> CfgText:
 
 
 def write_cfg(cfg: CfgText) -> str:
-    """The file as text with LF line ends; reading it gives the same sections back.
+    """Return the file as text with LF; parsing gives the same sections.
 
     Raises DiagnosticError RG703 for a text that the format cannot hold (quote, line end).
     """
@@ -150,9 +153,9 @@ def write_cfg(cfg: CfgText) -> str:
 
 
 def cfg_bytes(cfg: CfgText) -> bytes:
-    """`write_cfg` in the encoding that the file was read in, with its byte order mark.
+    """Return `write_cfg` in the file's encoding, with byte order mark.
 
-    Raises DiagnosticError RG703, also for a letter that this encoding does not have.
+    Raises DiagnosticError RG703, also for a character that this encoding lacks.
     """
     text = write_cfg(cfg)
     try:
@@ -167,7 +170,7 @@ def cfg_bytes(cfg: CfgText) -> bytes:
 
 
 def _decode(data: bytes) -> tuple[str, str]:
-    """The text, and the encoding that it is in."""
+    """Return the text and its encoding."""
     encoding = "utf-8-sig" if data.startswith(BOM_UTF8) else "utf-8"
     try:
         return data.decode(encoding), encoding
@@ -176,7 +179,7 @@ def _decode(data: bytes) -> tuple[str, str]:
 
 
 def _logical_lines(lines: list[str], start: int) -> Iterator[tuple[int, str]]:
-    """Lines with their continuations joined, numbered from 1."""
+    """Yield lines with their continuations joined, numbered from 1."""
     index = start
     while index < len(lines):
         number = index + 1
@@ -207,7 +210,7 @@ def _attributes(line: str, path: str, number: int) -> tuple[Attribute, ...]:
 
 
 def scalar(word: str) -> Scalar:
-    """A bare word as a value: a number where it is one."""
+    """Return a bare word as a value: a number if it is one."""
     if not _NUMBER.match(word) or isinf(float(word)):
         return word
     return int(word) if re.fullmatch(r"[+-]?\d{1,18}", word) else float(word)

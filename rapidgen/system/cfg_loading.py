@@ -1,8 +1,8 @@
-"""A cfg file is loaded onto a controller in mode "add", as strictly as controllers answer.
+"""Load a cfg file onto a controller in mode "add", with its checks.
 
-Events are those that a controller gave: 120003 (digits of the header), 120006 (an instance that
-exists), 71391 (a system input or output) [real 6.03]. Where a controller refuses without a known
-event, or nobody has tried, the strictest reading is taken and marked [mem].
+Events are those of a real controller: 120003 (digits of the header), 120006 (an instance that
+exists), 71391 (a system input or output) [real 6.03]. If the event of a rejection is not known, or
+there is no trial, the strictest reading is taken and marked [mem].
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -15,8 +15,8 @@ from rapidgen.system.cfg_schema import sections
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.instance_rules import Place, faults_of
 
-# What makes two instances the same one, where it is not the name. [mem] The same file, routine
-# or signal may stand in several instances (RARO, VInRoS): the rest tells them apart.
+# Attributes that identify an instance, if not the name. [mem] The same file, routine or signal may
+# be in several instances (RARO, VInRoS): the other attributes distinguish them.
 _IDENTITY = {
     "CAB_TASK_MODULES": ("File", "Task"),
     "CAB_EXEC_HOOKS": ("Routine", "Shelf", "Task"),
@@ -28,36 +28,36 @@ _IDENTITY = {
 
 @dataclass(frozen=True, slots=True)
 class CfgFileLoad:
-    """A file to be loaded.
+    """A file to load.
 
-    `optional`: it may be refused whole, and the rest stays.
+    `optional`: the controller may reject it as a whole.
     """
 
     file: CfgText
     optional: bool = False
     replace: bool = False
-    """Mode "replace": instances that exist are taken out first."""
+    """Mode "replace": existing instances are removed first."""
     ascii: bool = True
-    """Whether its text is ASCII."""
+    """True if its text is ASCII."""
 
 
 @dataclass(frozen=True, slots=True)
 class LoadResult:
-    """The controller with what it took, and what it said."""
+    """The controller after loading, with its messages."""
 
     cfg: ControllerCfg
     faults: tuple[Diagnostic, ...] = ()
-    """Of files that had to be taken: nothing was loaded."""
+    """Of required files: nothing was loaded."""
     notes: tuple[Diagnostic, ...] = ()
-    """Of optional files, which were left out whole."""
+    """Of optional files, which were omitted as a whole."""
 
 
 def add(
     base: ControllerCfg, files: Iterable[CfgFileLoad], *, open_words: bool = False
 ) -> LoadResult:
-    """Load the files onto a controller, those that may be refused after the others.
+    """Load the files onto a controller, optional ones last.
 
-    `open_words`: statuses whose spelling on RobotWare 7 nobody has shown are taken.
+    `open_words`: accept statuses without a confirmed spelling on RobotWare 7.
     """
     source = tuple(files)
     needed = [addition for addition in source if not addition.optional]
@@ -73,7 +73,10 @@ def add(
 
 
 def faults_within(cfg: ControllerCfg, *, open_words: bool = False) -> tuple[Diagnostic, ...]:
-    """The same rules for what a controller has already; it loaded, so these are notes."""
+    """Apply the same rules to an existing controller, as notes.
+
+    The controller loaded its own cfg, so these are not errors.
+    """
     findings: list[Diagnostic] = []
     for text in cfg.domains:
         findings += _header(cfg, text)
@@ -87,7 +90,7 @@ def faults_within(cfg: ControllerCfg, *, open_words: bool = False) -> tuple[Diag
 def _loaded(
     base: ControllerCfg, files: Iterable[CfgFileLoad], open_words: bool
 ) -> tuple[ControllerCfg, tuple[Diagnostic, ...]]:
-    """The files together: one may name what another brings."""
+    """Load the files together: one may name instances of another."""
     cfg = base
     faults: list[Diagnostic] = []
     for addition in files:
@@ -127,7 +130,7 @@ def _header(base: ControllerCfg, text: CfgText) -> Iterator[Diagnostic]:
         )
         return
     expected = base.domain(text.domain).version
-    # ABB's own examples on a 7.6 (DAP) name no digits at all.
+    # ABB's own examples on a 7.6 (DAP) have no digits at all.
     if text.version is not None and expected is not None and text.version != expected:
         yield error(
             "RG720",
@@ -156,7 +159,7 @@ def _not_ascii(text: CfgText) -> Diagnostic:
 
 
 def _existing(cfg: ControllerCfg, text: CfgText) -> Iterator[tuple[str, Instance, Instance]]:
-    """(section, instance of the file, the one that exists)"""
+    """Yield (section, instance of the file, existing instance)"""
     for section in text.sections:
         there = {
             identity(section.name, old): old for old in cfg.instances(text.domain, section.name)
@@ -178,7 +181,7 @@ def _twice(text: CfgText) -> Iterator[tuple[str, Instance, Instance]]:
 
 
 def identity(section: str, instance: Instance) -> tuple[str, ...]:
-    """What tells an instance from the others of its section, without case."""
+    """Return the identifying attributes of an instance, without case."""
     return tuple(instance.text(n).casefold() for n in _IDENTITY.get(section, ("Name",)))
 
 
@@ -194,7 +197,7 @@ def _exists(text: CfgText, section: str, new: Instance, old: Instance) -> Diagno
 
 
 def identity_text(section: str, instance: Instance) -> tuple[str, ...]:
-    """`identity` as it is written."""
+    """Return `identity` as written."""
     return tuple(instance.text(n) for n in _IDENTITY.get(section, ("Name",)))
 
 

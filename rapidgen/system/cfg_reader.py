@@ -1,7 +1,7 @@
-"""From cfg instances to the parts of the system model; compose.py goes the other way.
+"""Convert cfg instances to parts of the system model.
 
-Attribute names and their defaults are those of cfg files of real controllers; the ones that
-are only remembered are marked [mem].
+cfg_writer.py converts them back. Attribute names and their defaults are those of cfg files of real
+controllers; the ones that are only remembered are marked [mem].
 """
 
 import re
@@ -25,11 +25,11 @@ from rapidgen.system.model import (
     TrustLevel,
 )
 
-# [mem] The file says "None" where the pendant shows NoSafety.
+# [mem] The file has "None" where the pendant shows NoSafety.
 _TRUST_TEXT: dict[str, str] = {"NONE": "NoSafety", "NOSAFETY": "NoSafety"}
 _MAX_ACTORS = 5
 _MAX_BIT = 1 << 16
-"""Bits of a device; a map beyond is no map."""
+"""Maximum bit of a device; a larger map is invalid."""
 DEFAULT_QUEUE = QueueSpec()
 
 
@@ -46,7 +46,10 @@ class ModuleEntry:
     installed: bool = False
 
     def loads_into(self, task: TaskSpec) -> bool:
-        """Whether `task` loads this file (a shared module is seen by every task)."""
+        """True if `task` loads this file.
+
+        Every task sees a shared module.
+        """
         return (
             self.all_tasks
             or self.shared
@@ -61,7 +64,7 @@ MAX_MODULES = 2_000
 
 
 def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
-    """CAB_TASKS in order, without modules.
+    """Return CAB_TASKS in order, without modules.
 
     Raises RG708 for a fault in one, or too many.
     """
@@ -90,7 +93,7 @@ def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
 
 
 def modules_of(cfg: CfgText) -> tuple[ModuleEntry, ...]:
-    """CAB_TASK_MODULES in order, which is the order of loading.
+    """Return CAB_TASK_MODULES in order, which is the order of loading.
 
     Raises RG708 for too many.
     """
@@ -114,7 +117,7 @@ def modules_of(cfg: CfgText) -> tuple[ModuleEntry, ...]:
 
 
 def events_of(cfg: CfgText) -> tuple[EventRoutine, ...]:
-    """CAB_EXEC_HOOKS in order."""
+    """Return CAB_EXEC_HOOKS in order."""
     return tuple(
         EventRoutine(
             instance.text("Routine"),
@@ -129,7 +132,7 @@ def events_of(cfg: CfgText) -> tuple[EventRoutine, ...]:
 
 
 def groups_of(cfg: CfgText) -> tuple[MechanicalUnitGroup, ...]:
-    """MECHANICAL_UNIT_GROUP in order."""
+    """Return MECHANICAL_UNIT_GROUP in order."""
     return tuple(
         MechanicalUnitGroup(
             _name(cfg, instance),
@@ -146,7 +149,10 @@ def groups_of(cfg: CfgText) -> tuple[MechanicalUnitGroup, ...]:
 
 
 def signals_of(cfg: CfgText) -> tuple[SignalSpec, ...]:
-    """EIO_SIGNAL in order (`-Device` on RobotWare 6, `-Unit` on 5)."""
+    """Return EIO_SIGNAL in order.
+
+    The device is `-Device` on RobotWare 6, `-Unit` on 5.
+    """
     result = []
     for instance in cfg.instances("EIO_SIGNAL"):
         kind = _word(cfg, instance, "SignalType", instance.text("SignalType"), SignalType)
@@ -168,7 +174,10 @@ def signals_of(cfg: CfgText) -> tuple[SignalSpec, ...]:
 
 
 def outputs_of(*cfgs: CfgText) -> tuple[SystemOutput, ...]:
-    """SYSSIG_OUT in order: in EIO with -Signal, on RobotWare 7 in SYS with -Name."""
+    """Return SYSSIG_OUT in order.
+
+    In EIO with -Signal, on RobotWare 7 in SYS with -Name.
+    """
     return tuple(
         SystemOutput(
             instance.text("Status"),
@@ -182,7 +191,7 @@ def outputs_of(*cfgs: CfgText) -> tuple[SystemOutput, ...]:
 
 
 def inputs_of(*cfgs: CfgText) -> tuple[SystemInput, ...]:
-    """SYSSIG_IN in order, where `outputs_of` finds SYSSIG_OUT."""
+    """Return SYSSIG_IN in order, from the domain of SYSSIG_OUT."""
     return tuple(
         SystemInput(
             instance.text("Action"),
@@ -196,7 +205,7 @@ def inputs_of(*cfgs: CfgText) -> tuple[SystemInput, ...]:
 
 
 def crosses_of(cfg: CfgText) -> tuple[CrossConnection, ...]:
-    """EIO_CROSS in order: up to five actors."""
+    """Return EIO_CROSS in order: up to five actors."""
     result = []
     for instance in cfg.instances("EIO_CROSS"):
         actors = []
@@ -217,7 +226,10 @@ def crosses_of(cfg: CfgText) -> tuple[CrossConnection, ...]:
 
 
 def _few(cfg: CfgText, section: str, limit: int) -> list[Instance]:
-    """The instances of a section: what is done for each of them takes time."""
+    """Return the instances of a section, limited in number.
+
+    Processing each of them takes time.
+    """
     result = list(cfg.instances(section))
     if len(result) > limit:
         raise _fault(cfg, result[limit], f"{section} has more than {limit:,} instances")
@@ -232,7 +244,7 @@ def _name(cfg: CfgText, instance: Instance) -> str:
 
 
 def _word(cfg: CfgText, instance: Instance, attribute: str, word: str, kind: object) -> str:
-    """`word` in the spelling of the Literal type `kind`."""
+    """Return `word` in the spelling of the Literal type `kind`."""
     known = {str(value).casefold(): str(value) for value in get_args(kind)}
     match = known.get(word.casefold())
     if match is None:
@@ -246,7 +258,10 @@ def _word(cfg: CfgText, instance: Instance, attribute: str, word: str, kind: obj
 
 
 def _bits(mapped: str) -> tuple[int, ...]:
-    """Bits in a map such as `0-7` or `0-3,8`, the first one least significant [mem]."""
+    """Return the bits of a map such as `0-7` or `0-3,8`.
+
+    The first one is least significant [mem].
+    """
     if not re.fullmatch(r"[\d\s,-]+", mapped):
         return ()
     result: list[int] = []
@@ -269,7 +284,7 @@ def _fault(cfg: CfgText, instance: Instance, label: str, help: str = "") -> Diag
 
 
 def with_cfg(system: System, sys: CfgText, eio: CfgText) -> System:
-    """`system` with signals, event routines and unit groups of its two domains."""
+    """Return `system` with signals, event routines and unit groups."""
     return replace(
         system,
         signals=signals_of(eio),

@@ -1,8 +1,8 @@
-"""Sections, attributes and words of cfg files, by release, each with who has shown it.
+"""Sections, attributes and words of cfg files, by release, with sources.
 
 Sources: backups of controllers of RobotWare 5.15 (KRAKER), 5.61 (MCUBE), 6.03-6.14 and 7.5-7.6,
-ABB's own files for 7.x (RARO, the DAP example on HOME of a 7.6); docs/rapid/cfg.md names
-them. What nobody has shown is not here, and is refused in a generated file.
+ABB's own files for 7.x (RARO, the DAP example on HOME of a 7.6); docs/rapid/cfg.md names them.
+Unconfirmed words are not listed, and are rejected in a generated file.
 """
 
 from collections.abc import Mapping
@@ -14,14 +14,14 @@ Argument = Literal["", "unit", "task"]
 
 @dataclass(frozen=True, slots=True)
 class SystemSignal:
-    """A status or an action: what its signal may be and which arguments go where."""
+    """A status or an action: its signal type and its arguments."""
 
     name: str
     argument: Argument = ""
-    """What it is about: a mechanical unit in Arg1, a task in Arg2 (an input: Arg6, Arg7)."""
+    """Its subject: a mechanical unit in Arg1, a task in Arg2 (an input: Arg6, Arg7)."""
     needed: bool = False
     others: tuple[str, ...] = ()
-    """Further attributes that were seen with it."""
+    """Other attributes seen with it."""
     kind: str = "DO"
 
 
@@ -33,7 +33,7 @@ OUTPUTS_TO_6 = _table(
     # Statuses without an argument: backups 5.61-6.14.
     *map(SystemSignal, ("CycleOn", "EmStop", "AutoOn", "MotOnState", "MotorOn", "MotOffState")),
     *map(SystemSignal, ("RunchOk", "ProdExecError", "RegainDistError", "PFError")),
-    # Backups and ABB's files give a task always.
+    # Backups and ABB's files always give a task.
     SystemSignal("Error", "task", needed=True),
     SystemSignal("TaskExecuting", "task", needed=True),
     SystemSignal("PPMoved", "task", others=("Arg3",)),
@@ -47,7 +47,7 @@ OUTPUTS_7 = _table(
     SystemSignal("TCPSpeed", "unit", kind="AO"),
 )
 OPEN_7 = _table(
-    # Nobody has shown how RobotWare 7 spells these in a file.
+    # The spelling in RobotWare 7 files is unconfirmed.
     *map(SystemSignal, ("MotOnState", "EmStop")),
     SystemSignal("MechUnitNotMoving", "unit"),
     SystemSignal("TaskExecuting", "task", needed=True),
@@ -83,7 +83,7 @@ _CROSS = "Name Res Act1 Act1_invert" + "".join(
     f" Oper{n} Act{n + 1} Act{n + 1}_invert" for n in range(1, 5)
 )
 _COMMON = {
-    # [mem] The message queue's three and BindRef (5.61) are no part of a delivered file.
+    # [mem] The message queue's three and BindRef (5.61) are not part of a delivered file.
     ("SYS", "CAB_TASKS"): f"{_TASKS} BindRef RmqType RmqMaxMsgSize RmqMaxNoOfMsg",
     ("SYS", "CAB_TASK_MODULES"): "File ModName Task AllTask AllMotionTask Shared Hidden Install",
     ("SYS", "CAB_EXEC_HOOKS"): "Routine Shelf Task AllTask AllMotionTask SeqNo",
@@ -96,7 +96,7 @@ _COM_TRP = "Name Type PhyChannel RemoteAdress RemotePortNumber"
 
 
 def sections(main: int, *, multimove: bool) -> Mapping[tuple[str, str], frozenset[str]]:
-    """Attributes, without case, of the sections that a driver's files may have."""
+    """Return the allowed attributes of sections, without case."""
     rows = dict(_COMMON)
     if multimove:
         rows["SYS", "MECHANICAL_UNIT_GROUP"] = _GROUP

@@ -1,4 +1,4 @@
-"""From the system model to cfg text, as interpret.py reads it."""
+"""Convert the system model to cfg text, as cfg_reader.py reads it."""
 
 from collections.abc import Iterable
 from typing import TypeAlias
@@ -25,10 +25,10 @@ SIGNALS_IN_SYS = 7
 
 
 def sys_cfg(system: System, *, on_top: bool = False) -> CfgText:
-    """The SYS domain: tasks, their modules, event routines and mechanical unit groups.
+    """Return the SYS domain: tasks, modules, event routines, unit groups.
 
-    From RobotWare 7 on system outputs and inputs are here, too (files that ABB ships). `on_top`:
-    to be loaded into a controller, whose motion tasks and mechanical units are its own.
+    From RobotWare 7 on it also has system outputs and inputs (files that ABB ships). `on_top`: to
+    be loaded into a controller, which has its own motion tasks and mechanical units.
     """
     modules: dict[str, list[str]] = {}
     files: dict[str, ModuleFile] = {}
@@ -56,7 +56,10 @@ def sys_cfg(system: System, *, on_top: bool = False) -> CfgText:
 
 
 def eio_cfg(system: System) -> CfgText:
-    """The EIO domain: signals, system outputs and inputs (to RobotWare 6), cross connections."""
+    """Return the EIO domain: signals, system I/O, cross connections.
+
+    System outputs and inputs are here up to RobotWare 6.
+    """
     unit = "Unit" if system.robotware[0] <= 5 else "Device"
     sections = [
         _section("EIO_SIGNAL", (_signal(signal, unit) for signal in system.signals)),
@@ -72,7 +75,10 @@ def _text(domain: str, system: System, sections: Iterable[Section]) -> CfgText:
 
 
 def _system_signals(system: System, key: str) -> Iterable[Section]:
-    """SYSSIG_OUT and SYSSIG_IN; `key` is the attribute that names the signal."""
+    """Return SYSSIG_OUT and SYSSIG_IN.
+
+    `key` is the attribute with the signal's name.
+    """
     outputs = (
         _instance(
             ("Status", o.status),
@@ -127,7 +133,7 @@ def _task(task: TaskSpec) -> Instance:
 
 
 def _module(file: ModuleFile, tasks: Iterable[str]) -> list[Instance]:
-    """One instance for each task, but one for all of a shared module."""
+    """Return one instance for each task, but one for all of a shared module."""
     head = (("File", file.target), ("ModName", file.name))
     built_in = (("Install",),) if file.installed else ()
     if file.shared:

@@ -1,4 +1,4 @@
-"""The cfg of one controller, all domains: what a file is loaded onto."""
+"""The cfg of one controller, all domains, onto which files are loaded."""
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
@@ -14,53 +14,56 @@ class ControllerCfg:
     domains: tuple[CfgText, ...]
 
     def domain(self, name: str) -> CfgText:
-        """One domain; an empty one where the controller has no file of it."""
+        """Return one domain; an empty one if the controller has no such file."""
         for text in self.domains:
             if text.domain == name:
                 return text
         return CfgText(name, (self.robotware[0], 0), ())
 
     def instances(self, domain: str, section: str) -> Iterator[Instance]:
-        """Instances of a section."""
+        """Yield the instances of a section."""
         return self.domain(domain).instances(section)
 
     def names(self, domain: str, section: str) -> frozenset[str]:
-        """Names of a section's instances, without case (HONG: rob_R and rob_r are one)."""
+        """Return the names of a section's instances, without case.
+
+        HONG: rob_R and rob_r are one.
+        """
         result = (instance.text("Name") for instance in self.instances(domain, section))
         return frozenset(name.casefold() for name in result if name)
 
     @property
     def tasks(self) -> frozenset[str]:
-        """Names of the tasks, without case."""
+        """Return the names of the tasks, without case."""
         return self.names("SYS", "CAB_TASKS")
 
     @property
     def unit_groups(self) -> frozenset[str]:
-        """Names of mechanical unit groups, without case; empty without 604-1."""
+        """Return mechanical unit groups, without case; empty without 604-1."""
         return self.names("SYS", "MECHANICAL_UNIT_GROUP")
 
     @property
     def units(self) -> frozenset[str]:
-        """Names of the mechanical units, without case."""
+        """Return the names of the mechanical units, without case."""
         sections = ("ROBOT", "SINGLE", "MECHANICAL_UNIT")
         return frozenset().union(*(self.names("MOC", section) for section in sections))
 
     def signal(self, name: str) -> Instance | None:
-        """The signal of this name, found without case."""
+        """Return the signal of this name, found without case."""
         for instance in self.instances("EIO", "EIO_SIGNAL"):
             if instance.text("Name").casefold() == name.casefold():
                 return instance
         return None
 
     def plus(self, file: CfgText) -> "ControllerCfg":
-        """With the sections of a file behind its own."""
+        """Return the cfg with the sections of a file appended."""
         own = self.domain(file.domain)
         merged = replace(own, sections=(*own.sections, *file.sections))
         others = tuple(text for text in self.domains if text.domain != file.domain)
         return replace(self, domains=(*others, merged))
 
     def without(self, domain: str, gone: Collection[Instance]) -> "ControllerCfg":
-        """Without these instances of a domain."""
+        """Return the cfg without these instances of a domain."""
         own = self.domain(domain)
         sections = tuple(
             Section(s.name, tuple(i for i in s.instances if i not in gone)) for s in own.sections

@@ -1,4 +1,7 @@
-"""A generated folder: manifest.json, SYS.cfg, EIO.cfg and HOME (docs/reference/driver.md)."""
+"""Generated folder: manifest.json, SYS.cfg, EIO.cfg and HOME.
+
+See docs/reference/driver.md.
+"""
 
 import hashlib
 import json
@@ -27,7 +30,7 @@ FORMAT = 1
 
 
 def read_manifest(folder: Path) -> Members:
-    """manifest.json of a generated folder.
+    """Read manifest.json of a generated folder.
 
     Raises DiagnosticError: RG704 (no such file), RG711 (not a manifest, or of a later format).
     """
@@ -59,14 +62,16 @@ def read_folder(
     open_words: bool = True,
     notes: list[Diagnostic] | None = None,
 ) -> System:
-    """The controller that a generated folder makes: its cfg files loaded onto a delivered
-    controller of its release, or onto the one of `backup`. An edited module is taken as it is.
+    """Return the controller of a generated folder.
+
+    Its cfg files are loaded onto a delivered controller of its release, or onto the one of
+    `backup`. An edited module is taken as it is.
 
     `without` names cfg files that are not loaded; one that the manifest calls optional may be
-    refused, which `notes` tell. `open_words`: as `adding.add`.
+    rejected, which `notes` report. `open_words`: as `cfg_loading.add`.
 
-    Raises DiagnosticError: RG701..RG711 for a folder that is damaged or hostile, RG712 for a
-    backup that is none, RG720..RG723 for a cfg file that no controller loads.
+    Raises DiagnosticError: RG701..RG711 for a folder that is damaged or hostile, RG712 for an
+    invalid backup, RG720..RG723 for a cfg file that a controller rejects.
     """
     folder = Path(folder)
     manifest = read_manifest(folder)
@@ -106,7 +111,7 @@ def _under(manifest: Members, backup: Path | str | None, notes: list[Diagnostic]
 
 
 def _origins(folder: Path, manifest: Members) -> dict[str, Origin]:
-    """Line maps by file name; a file that was edited since has none that could be trusted."""
+    """Return line maps by file name; none for an edited file."""
     digests = {
         entry.get("path"): entry.get("sha256")
         for entry in items(manifest["files"])
@@ -131,7 +136,7 @@ def _origins(folder: Path, manifest: Members) -> dict[str, Origin]:
 
 
 def expand_lines(runs: Sequence[tuple[int, str, int]], count: int) -> Origin:
-    """One entry a line; the manifest names only the first line of each run."""
+    """Return one entry a line; the manifest has one for each run."""
     ends = [line for line, _, _ in runs[1:]] + [count + 1]
     return tuple(
         (line, template, start + line - first)
@@ -141,5 +146,5 @@ def expand_lines(runs: Sequence[tuple[int, str, int]], count: int) -> Origin:
 
 
 def is_generated(folder: Path) -> bool:
-    """Whether `folder` looks like one that `rapidgen build` wrote."""
+    """True if `folder` looks like one that `rapidgen build` wrote."""
     return is_there(folder / MANIFEST)

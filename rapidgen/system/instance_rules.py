@@ -1,4 +1,4 @@
-"""What an instance of a cfg file must be, beyond its attributes' names: words and references."""
+"""Rules for cfg instances beyond attribute names: words, references."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
@@ -32,20 +32,20 @@ class Place:
     open_words: bool = False
 
     def span(self) -> Span:
-        """Where the instance starts."""
+        """Return the start of the instance."""
         return Span(self.file.path, max(self.instance.line, 1), 1)
 
     def fault(self, message: str, help: str, *, code: str = "RG723") -> Diagnostic:
-        """Something that no event is known for."""
+        """Return a fault without a known event."""
         marker = " [mem]" if code == "RG723" else ""
         return error(code, self.span(), f"{self.section}: {message}{marker}", help)
 
     def system_signal(self, message: str, help: str) -> Diagnostic:
-        """A fault in a system input or output."""
+        """Return a fault in a system input or output."""
         return self.fault(f"event 71391: {message}", help, code="RG722")
 
     def unknown_section(self) -> Diagnostic:
-        """The release has no such section in this domain."""
+        """Return a fault: the release has no such section in this domain."""
         message = f"{self.file.domain} of RobotWare {self.cfg.robotware[0]} has no such section"
         if self.section.startswith("SYSSIG_"):
             where = "SYS" if self.cfg.robotware[0] >= 7 else "EIO"
@@ -53,7 +53,7 @@ class Place:
         return self.fault(message, "look at a backup of the release for the section's name")
 
     def unknown_attributes(self, known: Collection[str]) -> Iterator[Diagnostic]:
-        """Attributes that no file of the release has shown."""
+        """Yield attributes that no file of the release has."""
         for attribute in self.instance.attributes:
             if attribute.name.casefold() in known:
                 continue
@@ -65,7 +65,7 @@ class Place:
                 yield self.fault(message, suggest(attribute.name, sorted(known)))
 
     def word(self, attribute: str, known: Collection[str]) -> Iterator[Diagnostic]:
-        """A word that must be one of a list, where it is given."""
+        """Check that a given word is in a list."""
         value = self.instance.text(attribute)
         if value and value.casefold() not in {word.casefold() for word in known}:
             yield self.fault(
@@ -74,7 +74,7 @@ class Place:
             )
 
     def named(self, attribute: str, known: Collection[str], what: str) -> Iterator[Diagnostic]:
-        """A name that must exist, where it is given; names have no case."""
+        """Check that a given name exists; names have no case."""
         for source in self.instance.attributes:
             if source.name.casefold() != attribute.casefold():
                 continue
@@ -87,7 +87,7 @@ class Place:
 
 
 def faults_of(place: Place) -> Iterator[Diagnostic]:
-    """What is wrong with an instance."""
+    """Yield the faults of an instance."""
     rule = _RULES.get(place.section)
     if rule is not None:
         yield from rule(place)
@@ -124,7 +124,7 @@ def _module(place: Place) -> Iterator[Diagnostic]:
 
 
 def _hook(place: Place) -> Iterator[Diagnostic]:
-    # A routine that is missing is event 10051 at each start, and no refusal [real 6.16].
+    # A missing routine is event 10051 at each start; the file is accepted [real 6.16].
     if not place.instance.text("Routine"):
         yield place.fault("-Routine is missing", "name a routine")
     if not place.instance.text("Shelf"):
@@ -200,7 +200,7 @@ def _system_signal(
 
 
 def _driven(place: Place, row: SystemSignal) -> Iterator[Diagnostic]:
-    """The signal exists and is of the kind that the status or action takes."""
+    """Check that the signal exists and has the type of the status or action."""
     named = "Name" if place.cfg.robotware[0] >= 7 else "Signal"
     name = place.instance.text(named)
     signal = place.cfg.signal(name)

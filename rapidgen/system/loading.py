@@ -1,4 +1,4 @@
-"""Module files as bytes, with the name that they declare."""
+"""Module files as bytes, with their declared names."""
 
 import os
 import re
@@ -23,7 +23,7 @@ Origin = tuple[tuple[int, str, int], ...]
 
 
 def module_name(data: bytes, fallback: str) -> str:
-    """Name in the module's own text, else `fallback`."""
+    """Return the name in the module's own text, else `fallback`."""
     match = _MODULE.search(data)
     return match[1].decode("latin-1") if match else fallback
 
@@ -36,18 +36,21 @@ def load_module(
     shared: bool = False,
     installed: bool = False,
 ) -> ModuleFile:
-    """One module file. Raises RG704 or RG705."""
+    """Load one module file.
+
+    Raises RG704 or RG705.
+    """
     data = read_limited(path)
     name = module_name(data, path.stem)
     return ModuleFile(name, str(path), data, target, origin, shared, installed)
 
 
 def expand(path: Path) -> list[Path]:
-    """Module files that `path` stands for: itself, those of a folder, or those of a program.
+    """Return the module files of `path`: a file, a folder or a program.
 
     A folder without modules may have them in SYSMOD and PROGMOD, as a backup keeps a task.
 
-    Raises RG704 (nothing there) and RG709 (no modules in it).
+    Raises RG704 (path does not exist) and RG709 (no modules).
     """
     if path.is_dir():
         programs = [p for p in sorted(path.glob("*.pgf")) if not p.name.startswith("._")]
@@ -56,7 +59,7 @@ def expand(path: Path) -> list[Path]:
             shelves = [inside(path, name) for name in ("SYSMOD", "PROGMOD")]
             result = [file for one in shelves if any(module_files(one)) for file in expand(one)]
         if len(programs) == 1:
-            # Tasks get their system modules from the configuration: a program names none.
+            # The configuration gives tasks their system modules: a program names none.
             named = expand(programs[0])
             adjacent = (p for p in result if p.suffix.casefold() in (".sys", ".sysx"))
             result = [*named, *(p for p in adjacent if p not in named)]
@@ -87,11 +90,11 @@ def load_entries(
     notes: list[Diagnostic] | None,
     origins: dict[str, Origin] | None = None,
 ) -> tuple[ModuleFile, ...]:
-    """`loaded` and then what CAB_TASK_MODULES adds to `task`.
+    """Return `loaded` and the modules that CAB_TASK_MODULES adds.
 
-    A file that is not in the folder is a warning RG710 when `notes` collects them (a real
-    backup names options' files that it does not carry), else an error; so is a second file with a
-    module of the same name, RG714.
+    A missing file is a warning RG710 when `notes` collects them (a real backup names options' files
+    that it does not contain), else an error. The same applies to a second file with a module of the
+    same name, RG714.
     """
     modules = list(loaded)
     known = {module.name.casefold() for module in loaded}
@@ -141,7 +144,7 @@ def load_entries(
 def _note(
     notes: list[Diagnostic] | None, code: str, place: Span | None, message: str, help: str
 ) -> None:
-    """A warning where they are collected, else an error, which is raised."""
+    """Add a warning to `notes`, or raise an error without them."""
     severity = Severity.ERROR if notes is None else Severity.WARNING
     fault = error(code, place, message, help, severity=severity)
     if notes is None:

@@ -1,4 +1,4 @@
-"""Loose module, program and cfg files: one task or several."""
+"""Systems of single module, program and cfg files, with one or more tasks."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -18,8 +18,11 @@ _TASK = re.compile(r"T_\w+", re.I)
 
 
 def task_folders(folder: Path) -> dict[str, list[Path]]:
-    """Folders with modules, at or below one that is named like a task: T_ROB_L beside T_ROB_R, as
-    programs of several tasks are published. None where the folder has modules of its own."""
+    """Return module folders by task, at or below one named like a task.
+
+    Programs of several tasks are published as T_ROB_L next to T_ROB_R. The result is empty if the
+    folder has modules of its own.
+    """
     if any(module_files(folder)):
         return {}
     result: dict[str, list[Path]] = {}
@@ -40,10 +43,10 @@ def read_files(
     robotware: tuple[int, int] = UNTOLD,
     home: Path | None = None,
 ) -> System:
-    """A system of loose files: modules, folders of modules, `.pgf` programs and `.cfg` files.
+    """Return a system of modules, folders, `.pgf` and `.cfg` files.
 
-    A plain sequence is one task, T_ROB1. A task that SYS.cfg describes is as described there;
-    of the others every task named like T_ROB1 (or the first, when none is) has a robot.
+    A plain sequence is one task, T_ROB1. SYS.cfg describes the tasks that it lists; of the others
+    every task named like T_ROB1 (or the first, if none is) has a robot.
 
     Raises DiagnosticError: RG701..RG709.
     """

@@ -1,4 +1,4 @@
-"""What a controller is made of, whatever it was read from: frozen data, no I/O.
+"""Parts of a controller, independent of their source: frozen data.
 
 Names and values are those of ABB's cfg files (domains SYS and EIO).
 """
@@ -28,7 +28,7 @@ class ModuleFile:
     origin: tuple[tuple[int, str, int], ...] = ()
     """Line map of a generated file: (RAPID line, template, template line), ascending."""
     shared: bool = False
-    """Installed once for all tasks, which have its data in common [K §14]."""
+    """Installed once for all tasks, which share its data [K §14]."""
     installed: bool = False
     """Built in: outermost scope, data outlive PP to main [K §13].
 
@@ -41,9 +41,9 @@ class QueueSpec:
     """A task's message queue (RmqType, RmqMaxMsgSize, RmqMaxNoOfMsg); the defaults are [mem]."""
 
     open: bool = True
-    """False: RmqType is None, and nobody finds the queue.
+    """False: RmqType is None, and no task can find the queue.
 
-    A task that does not say has one.
+    By default a task has one.
     """
     max_size: int = 400
     max_messages: int = 5
@@ -150,11 +150,11 @@ class ArcSignals:
 
 @dataclass(frozen=True, slots=True)
 class UdpDevice:
-    """COM_TRP of type UDPUC (RobotWare 6), UDPUC_HOST (7): whom a controller sends datagrams to."""
+    """A UDP device: COM_TRP of type UDPUC (RobotWare 6), UDPUC_HOST (7)."""
 
     name: str
     address: str = ""
-    """Empty: nobody tells."""
+    """Empty: not configured."""
     port: int = 6510
 
     def __str__(self) -> str:
@@ -175,18 +175,18 @@ class System:
     groups: tuple[MechanicalUnitGroup, ...] = ()
     robotware: tuple[int, int] = UNTOLD
     robotware_told: bool = True
-    """Whether the minor version is known; without it the second number is 0."""
+    """True if the minor version is known; else the second number is 0."""
     home: Path | None = None
-    """Folder whose files HOME: starts with; it is copied, never written."""
+    """Folder with the initial files of HOME:; it is copied, never written."""
     home_below: Path | None = None
-    """HOME of the controller that a build is loaded onto: `home` is copied over it."""
+    """HOME of the controller onto which a build is loaded; `home` is copied over it."""
     build_id: str = ""
     """BUILD_ID of a generated folder, else empty."""
     robot_types: tuple[tuple[str, str], ...] = ()
-    """(mechanical unit, -use_robot_type of MOC), where a backup tells them."""
+    """(mechanical unit, -use_robot_type of MOC), if a backup has them."""
     arc: tuple[ArcSignals, ...] = ()
-    """Of PROC.cfg, where a backup has it."""
+    """Of PROC.cfg, if a backup has it."""
     cameras: tuple[str, ...] = ()
     """Names of cameras: COM_APP of SIO.cfg, or of a cell."""
     udp_devices: tuple[UdpDevice, ...] | None = None
-    """Of SIO.cfg; None: there is no configuration that tells."""
+    """Of SIO.cfg; None: there is no SIO configuration."""

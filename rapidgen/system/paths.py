@@ -1,4 +1,4 @@
-"""Reading files of a folder that somebody else made: nothing outside it, nothing endless."""
+"""Read untrusted folders: no file outside, no endless file."""
 
 import os
 from collections.abc import Iterator
@@ -13,10 +13,10 @@ MODULE_SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
 
 
 def read_limited(path: Path, *, below: Path | None = None) -> bytes:
-    """A regular file's bytes; `below`: the folder that it has to lie in, links followed.
+    """Return a regular file's bytes.
 
-    Raises DiagnosticError: RG704 (cannot be read), RG705 (too large or no regular file), RG706 (a
-    link that leaves the folder).
+    `below`: the folder that must contain it, links followed. Raises DiagnosticError: RG704 (cannot
+    be read), RG705 (too large or not a regular file), RG706 (a link that leaves the folder).
     """
     try:
         return read_foreign(path, MAX_FILE, below=below)
@@ -40,15 +40,15 @@ def read_limited(path: Path, *, below: Path | None = None) -> bytes:
 
 
 def is_there(path: Path) -> bool:
-    """Whether a name stands for a file, or for a pipe or device, which `read_limited` refuses."""
+    """True for a file, or for a pipe or device, which `read_limited` rejects."""
     return os.path.exists(path) and not os.path.isdir(path)
 
 
 def inside(root: Path, relative: str) -> Path:
-    """The file that `relative` (with `/` or `\\`) names under `root`, found without case.
+    """Return the file `relative` under `root`, found without case.
 
-    Raises DiagnosticError RG706 when the way leaves `root`, also through a symbolic link.
-    The file need not exist.
+    The separator is `/` or `\\`. Raises DiagnosticError RG706 when the path leaves `root`, also
+    through a symbolic link. The file need not exist.
     """
     parts = PurePosixPath(relative.replace("\\", "/")).parts
     if any(part in ("..", "/") or ":" in part or "\0" in part for part in parts):
@@ -61,7 +61,7 @@ def inside(root: Path, relative: str) -> Path:
     path = root
     for part in parts:
         path = _entry(path, part)
-    # A loop of links leads nowhere; reading it says so.
+    # A loop of links has no target; reading it reports that.
     if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(root)):
         raise refusal(
             "RG706",
@@ -73,7 +73,7 @@ def inside(root: Path, relative: str) -> Path:
 
 
 def home_file(home: Path, target: str) -> Path:
-    """The file of `HOME:/x` (or `HOME:x`) in the folder that stands for HOME:."""
+    """Return the file of `HOME:/x` (or `HOME:x`) in the folder for HOME:."""
     head, _, remaining = target.partition(":")
     if head.strip().upper() != "HOME" or not remaining:
         raise refusal(
@@ -86,10 +86,10 @@ def home_file(home: Path, target: str) -> Path:
 
 
 def module_files(folder: Path) -> Iterator[Path]:
-    """Module files directly in a folder, sorted without case; macOS leaves a ._NAME beside a file
-    that it copies, which is no module.
+    """Yield the module files of a folder, sorted without case.
 
-    Raises DiagnosticError: RG705 (too many entries), RG706 (a link that leaves the folder).
+    macOS leaves a ._NAME next to a file that it copies, which is no module. Raises DiagnosticError:
+    RG705 (too many entries), RG706 (a link that leaves the folder).
     """
     if not folder.is_dir():
         return
@@ -102,7 +102,10 @@ def module_files(folder: Path) -> Iterator[Path]:
 
 
 def _entry(folder: Path, name: str) -> Path:
-    """`name` in `folder`; controllers compare names without case, most file systems do not."""
+    """Return `name` in `folder`, found without case.
+
+    Controllers compare names without case, most file systems do not.
+    """
     exact = folder / name
     # Not Path.exists: it raises for a name that is too long.
     if not os.path.exists(exact) and folder.is_dir():

@@ -1,8 +1,7 @@
-"""What the first line of a cfg file says for a release of RobotWare: the digits of its domain.
+"""Header digits of a cfg file, by release of RobotWare and domain.
 
-A file whose digits are not those of the controller is refused with event 120003 (log of a
-controller with RobotWare 6.03). Sources: backups of 5.15, 5.61 and 6.03 to 6.14, files that ABB
-ships for RobotWare 7.
+A controller rejects a file with other digits with event 120003 (log of a controller with RobotWare
+6.03). Sources: backups of 5.15, 5.61 and 6.03 to 6.14, files that ABB ships for RobotWare 7.
 """
 
 from collections.abc import Mapping
@@ -10,9 +9,9 @@ from collections.abc import Mapping
 from rapidgen.diagnostics import refusal
 
 UNTOLD = (6, 0)
-"""Some RobotWare 6; nobody has said which."""
+"""Some RobotWare 6 of unknown minor version."""
 ANY_MINOR = 99
-"""Of a release: all of its line."""
+"""Minor version that means all of a release line."""
 _SAME: Mapping[tuple[int, str], tuple[int, int]] = {
     (5, "SYS"): (5, 0),
     (5, "MOC"): (5, 0),
@@ -25,31 +24,34 @@ _SAME: Mapping[tuple[int, str], tuple[int, int]] = {
     (7, "SIO"): (7, 0),
     (7, "MOC"): (7, 0),
 }
-"""Domains that begin alike in every release of a number that was seen."""
+"""Domains with the same digits in every known release of a number."""
 _SEEN: Mapping[tuple[int, int, str], tuple[int, int]] = {
     (5, 15, "EIO"): (5, 0),
     (5, 15, "SIO"): (5, 0),
     (5, 61, "EIO"): (5, 60),
     (5, 61, "SIO"): (5, 60),
 }
-"""Domains in which releases of one number differ."""
+"""Domains whose digits differ between releases of one number."""
 
 
 def known_digits(domain: str, robotware: tuple[int, int]) -> tuple[int, int] | None:
-    """The digits in the header of a domain's file, or None where no such file was seen."""
+    """Return the header digits of a domain, or None if not known."""
     major, minor = robotware
     return _SAME.get((major, domain)) or _SEEN.get((major, minor, domain))
 
 
 def digits(domain: str, robotware: tuple[int, int]) -> tuple[int, int]:
-    """The same for text that no controller loads: what is not known is taken as the plain one."""
+    """Return the header digits, with a default for unknown ones.
+
+    For text that no controller loads.
+    """
     return known_digits(domain, robotware) or (robotware[0], 0)
 
 
 def release(text: str) -> tuple[int, int]:
-    """A release as people write it: 6.15, or 6, which means all of that line (minor 99).
+    """Parse a release: 6.15, or 6, which means all of that line.
 
-    Raises DiagnosticError RG901.
+    The minor version is 99 then. Raises DiagnosticError RG901.
     """
     major, dot, minor = text.partition(".")
     numbers = major.isdecimal() and (minor.isdecimal() or not dot)

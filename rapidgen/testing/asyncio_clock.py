@@ -1,14 +1,14 @@
-"""asyncio on the virtual clock: unchanged clients talk to a controller without waiting.
+"""asyncio on the virtual clock, for unchanged clients.
 
 `VirtualLoop` is an event loop whose selector is the scheduler: when asyncio has nothing to do,
-simulated time passes. `asyncio.sleep`, `timeout`, `open_connection` work as they are; the
-network is the controller's own in memory. That nothing is ahead and nobody can be woken is told
-as `Deadlock` instead of hanging.
+simulated time passes. `asyncio.sleep`, `timeout`, `open_connection` work unchanged; the network is
+the controller's own in memory. If no event is ahead and no task can continue, `Deadlock` is raised
+instead of a hang.
 
     with VirtualController(...) as controller:
         run(controller, client_coroutine())
 
-The few private names of asyncio that this needs are pinned by a test.
+A test pins the few private names of asyncio that this needs.
 """
 
 import asyncio
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 HIGH_WATER = BUFFER
-"""Bytes that a transport holds before it asks its writer to pause."""
+"""Bytes that a transport buffers before it asks its writer to pause."""
 
 _ERRORS: dict[NetworkReason, type[OSError]] = {
     NetworkReason.REFUSED: ConnectionRefusedError,
@@ -52,7 +52,7 @@ def run(controller: VirtualController, main: Awaitable[_T]) -> _T:
 
 
 class _SchedulerSelector(selectors.BaseSelector):
-    """What BaseEventLoop waits in: lets simulated time pass.
+    """Selector of BaseEventLoop that lets simulated time pass.
 
     It watches no files.
     """
@@ -66,19 +66,19 @@ class _SchedulerSelector(selectors.BaseSelector):
         return []
 
     def register(self, fileobj: "FileDescriptorLike", events: int, data: object = None) -> NoReturn:
-        """UnsupportedOperation: files are not watched on the virtual clock."""
+        """Raise UnsupportedOperation: files are not watched on the virtual clock."""
         raise UnsupportedOperation("files are not watched on the virtual clock")
 
     def unregister(self, fileobj: "FileDescriptorLike") -> NoReturn:
-        """UnsupportedOperation: there is nothing to be taken back."""
+        """Raise UnsupportedOperation: no file is registered."""
         raise UnsupportedOperation("files are not watched on the virtual clock")
 
     def get_map(self) -> "Mapping[FileDescriptorLike, selectors.SelectorKey]":
-        """Nothing is registered."""
+        """Return an empty mapping."""
         return {}
 
     def close(self) -> None:
-        """Nothing to give back."""
+        """Do nothing: there are no resources."""
 
 
 class VirtualLoop(asyncio.BaseEventLoop):
@@ -92,7 +92,7 @@ class VirtualLoop(asyncio.BaseEventLoop):
         self._clock_resolution = 1e-9
 
     def time(self) -> float:
-        """Simulated seconds."""
+        """Return the simulated seconds."""
         return self._scheduler.now * 1e-9
 
     def pass_time(self, timeout: float | None) -> None:
@@ -110,10 +110,10 @@ class VirtualLoop(asyncio.BaseEventLoop):
             raise Deadlock(f"asyncio waits for something that cannot happen\n{where}")
 
     def _process_events(self, event_list: list[tuple[selectors.SelectorKey, int]]) -> None:
-        """There are none: transports are woken by the scheduler's events."""
+        """Do nothing: the scheduler's events wake transports."""
 
     def _write_to_self(self) -> None:
-        """Another thread called `call_soon_threadsafe`: make the scheduler look."""
+        """Let the scheduler look, after `call_soon_threadsafe` of a thread."""
         self._scheduler.post(lambda: None)
 
     async def create_connection(  # type: ignore[override]
@@ -134,7 +134,7 @@ class VirtualLoop(asyncio.BaseEventLoop):
             raise _os_error(fault) from fault
         protocol = protocol_factory()
         transport = MemoryTransport(self, network, endpoint, protocol)
-        # As every event loop promises: `connection_made` has been called.
+        # As in every event loop: `connection_made` has been called.
         await asyncio.sleep(0)
         return transport, protocol
 
@@ -236,7 +236,7 @@ class MemoryTransport(asyncio.Transport):
     # -- asyncio.Transport ----------------------------------------------------------------------
 
     def write(self, data: bytes | bytearray | memoryview) -> None:
-        """Send now what there is room for, keep the rest."""
+        """Send what fits now, and buffer the rest."""
         if self._lost or not data:
             return
         self._buffer += data
@@ -250,23 +250,23 @@ class MemoryTransport(asyncio.Transport):
             self._protocol.pause_writing()
 
     def close(self) -> None:
-        """Send what is left, then close."""
+        """Send the buffered bytes, then close."""
         if not self._closing:
             self._closing = True
             self._wake()
 
     def abort(self) -> None:
-        """Close at once."""
+        """Close immediately."""
         if not self._lost:
             self._buffer.clear()
             self._lose(None)
 
     def is_closing(self) -> bool:
-        """Whether `close` was called or the connection is lost."""
+        """True after `close` or a lost connection."""
         return self._closing
 
     def pause_reading(self) -> None:
-        """Leave what arrives in the network."""
+        """Leave arriving bytes in the network."""
         self._reading = False
 
     def resume_reading(self) -> None:
@@ -275,20 +275,20 @@ class MemoryTransport(asyncio.Transport):
         self._wake()
 
     def is_reading(self) -> bool:
-        """Whether data are given to the protocol."""
+        """True if the protocol gets data."""
         return self._reading and not self._closing
 
     def get_write_buffer_size(self) -> int:
-        """Bytes that are not sent yet."""
+        """Return the number of bytes not sent yet."""
         return len(self._buffer)
 
     def set_write_buffer_limits(self, high: int | None = None, low: int | None = None) -> None:
-        """When the writer is asked to pause, and when to go on."""
+        """Set the limits at which the writer pauses and resumes."""
         self._high_water = HIGH_WATER if high is None else high
         self._low_water = self._high_water // 4 if low is None else low
 
     def can_write_eof(self) -> bool:
-        """The network closes both directions at once."""
+        """Return False: the network closes both directions at once."""
         return False
 
     def set_protocol(self, protocol: asyncio.BaseProtocol) -> None:
@@ -296,7 +296,7 @@ class MemoryTransport(asyncio.Transport):
         self._protocol = protocol
 
     def get_protocol(self) -> asyncio.BaseProtocol:
-        """The protocol that gets the data."""
+        """Return the protocol that gets the data."""
         return self._protocol
 
 

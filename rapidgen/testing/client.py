@@ -1,10 +1,10 @@
-"""A client of a program under test: bytes to a port and back, on the controller's own clock.
+"""TCP client of a program under test, on the controller's own clock.
 
     client = Client(controller, 5000)
     client.send(b"MOVE 10\\n")
     assert client.receive(until=b"\\n") == b"OK\\n"
 
-Nothing is threaded: simulated time passes inside of these calls, until what is asked for is there.
+There are no threads: simulated time passes inside these calls, until the requested data is there.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ class Client:
     ) -> None:
         """Connect as soon as the program listens.
 
-        TimeoutError: it never does, and why.
+        TimeoutError: it never does; the message gives the reason.
         """
         self._controller = controller
         self._timeout = timeout
@@ -35,7 +35,10 @@ class Client:
         self._until(lambda: self._endpoint.connected, f"port {port} does not answer", timeout)
 
     def send(self, data: bytes) -> None:
-        """Send bytes. ConnectionError: the program has closed the connection."""
+        """Send bytes.
+
+        ConnectionError: the program has closed the connection.
+        """
         _bytes("send", data)
         left = data
         while left:
@@ -48,10 +51,11 @@ class Client:
                 self._controller.run_for(0.001)
 
     def receive(self, count: int = 0, *, until: bytes = b"", timeout: float | None = None) -> bytes:
-        """`count` bytes; or what comes up to and with `until`; or what comes first, if neither.
+        """Return `count` bytes, the bytes up to `until`, or the next bytes.
 
-        What comes behind is kept. b"" when the program has closed the connection and nothing is
-        left; TimeoutError, with where the tasks stand, when it does not come.
+        `until` is included. Later bytes are kept. b"" when the program has closed the connection
+        and nothing is left. TimeoutError, with the positions of the tasks, when the bytes do not
+        arrive.
         """
         _bytes("receive until", until)
         finished = False

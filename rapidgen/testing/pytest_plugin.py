@@ -54,7 +54,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """One test for each seed."""
+    """Parametrize a test over its seeds."""
     marker = metafunc.definition.get_closest_marker(MARK)
     if marker is None or "virtual_seed" not in metafunc.fixturenames:
         return
@@ -71,7 +71,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 @pytest.fixture
 def virtual_seed(request: pytest.FixtureRequest) -> int:
-    """The seed of this test's controllers."""
+    """Return the seed of this test's controllers."""
     if hasattr(request, "param"):
         return int(request.param)
     chosen = request.config.getoption("--virtual-seed")
@@ -82,10 +82,10 @@ def virtual_seed(request: pytest.FixtureRequest) -> int:
 def virtual_controller(
     virtual_seed: int,
 ) -> "Iterator[Callable[..., VirtualController]]":
-    """Makes virtual controllers: `virtual_controller(target, **options)`.
+    """Create virtual controllers: `virtual_controller(target, **options)`.
 
-    `target` is what `rapidgen sim` takes (a shipped name, a configuration, a generated folder, a
-    backup, a module, a folder of modules), a list of module files, a mapping from task to such a
+    `target` is an argument of `rapidgen sim` (a shipped name, a configuration, a generated folder,
+    a backup, a module, a folder of modules), a list of module files, a mapping from task to such a
     list, or a `System`. `robot`, `entry`, `cell` and `start` are those of `rapidgen run`, all other
     options those of `VirtualController`. All are closed after the test.
     """
@@ -121,7 +121,7 @@ def virtual_controller(
 
 @pytest.fixture
 def virtual_cell(tmp_path: Path) -> "Callable[[str], Path]":
-    """Makes the file of a cell from its YAML text: `cell=virtual_cell("signals: ...")`."""
+    """Create a cell file from its YAML text: `cell=virtual_cell("signals: ...")`."""
 
     def make(text: str) -> Path:
         path = tmp_path / f"cell_{len(list(tmp_path.glob('cell_*.yaml')))}.yaml"
@@ -133,7 +133,7 @@ def virtual_cell(tmp_path: Path) -> "Callable[[str], Path]":
 
 @pytest.fixture
 def virtual_faults(tmp_path: Path) -> "Callable[[str], FaultPlan]":
-    """Makes a plan of what goes wrong from its YAML text, for the option `faults`."""
+    """Create a fault plan from its YAML text, for the option `faults`."""
     from rapidgen.controller.faults import read_plan
 
     def make(text: str) -> "FaultPlan":
@@ -146,7 +146,10 @@ def virtual_faults(tmp_path: Path) -> "Callable[[str], FaultPlan]":
 
 @pytest.fixture
 def virtual_client() -> "Iterator[Callable[..., Client]]":
-    """Makes clients: `virtual_client(controller, port)`, see `rapidgen.testing.client`."""
+    """Create clients: `virtual_client(controller, port)`.
+
+    See `rapidgen.testing.client`.
+    """
     from rapidgen.testing.client import Client
 
     made: list[Client] = []

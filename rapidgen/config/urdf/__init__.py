@@ -1,1 +1,1 @@
-"""URDF and xacro without ROS: read, check, and map joints to controller axes."""
+"""Read URDF and xacro without ROS, check, and map joints to axes."""

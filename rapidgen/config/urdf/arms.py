@@ -1,4 +1,4 @@
-"""The arms of a description: which joints are an arm's axes, what carries it, what hangs on it."""
+"""Find the arms of a description, their carriers and their grippers."""
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -30,40 +30,40 @@ _DELTA = re.compile(r"irb[_ -]?(340|360|390)", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Arm:
-    """One robot of a description: its joints along the chain with what is known of them."""
+    """One robot of a description: its joints along the chain."""
 
     joints: tuple[UrdfJoint, ...]
     axes: tuple[str, ...]
-    """As the joints; empty: not known."""
+    """Axis of each joint; empty: not known."""
     alignment: Alignment | None
     under: tuple[UrdfJoint, ...] = ()
     """Joints that carry the robot: a track, a gantry."""
     behind: tuple[UrdfJoint, ...] = ()
-    """Joints that hang on it: grippers."""
+    """Joints after the flange: grippers."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """All that moves in a description."""
+    """All actuated parts of a description."""
 
     graph: Graph
     arms: tuple[Arm, ...]
     positioners: tuple[tuple[UrdfJoint, ...], ...] = ()
     names: tuple[str, ...] = ()
-    """What the robot and its file are called."""
+    """Names of the robot and its file."""
     around: tuple[str, ...] = ()
-    """The folders that the file lies in, the packages that its meshes come from."""
+    """Folders of the file, packages of its meshes."""
     is_claimed: bool = False
-    """Something says that it is a robot of ABB: a name in it, a folder, or a person."""
+    """True if a name, a folder or the user says that it is an ABB robot."""
 
 
 def mentions_abb(*texts: str) -> bool:
-    """Whether a name or a text speaks of ABB or of one of its robots."""
+    """True if a text names ABB or one of its robots."""
     return any(map(_ABB.search, texts))
 
 
 def lines_of(graph: Graph, joints: Sequence[UrdfJoint]) -> list[Line]:
-    """The axes of joints of one chain in space, all joints at 0."""
+    """Return the axes of one chain's joints in space, all joints at 0."""
     place: Vector = (0.0, 0.0, 0.0)
     turned = IDENTITY
     result = {}
@@ -75,9 +75,9 @@ def lines_of(graph: Graph, joints: Sequence[UrdfJoint]) -> list[Line]:
 
 
 def read_cell(graph: Graph, names: tuple[str, ...], message: Mapping[str, str]) -> Cell:
-    """The arms of a checked description, and the positioners beside them.
+    """Return the arms of a checked description, and its positioners.
 
-    `message` are the axes of joints that a person named, "" of one that is to be ignored.
+    `message` are the axes of joints that the user named, "" of a joint to ignore.
     """
     moving = [j for j in graph.robot.joints if j.is_actuated and message.get(j.name) != ""]
     if len(moving) > MOST_MOVING:
@@ -125,7 +125,7 @@ def _arm(
             if result:
                 return Arm(window, result.axes, result, tuple(sound[:begin]))
     inner = [j for j in sound if not message.get(j.name, "").startswith("eax")]
-    # A joint that cannot move is no axis where the others are an arm.
+    # A fixed joint is not an axis if the others form an arm.
     able = _by_order([j for j in inner if not j.has_empty_range])
     arm = able if able and all(able.axes) else _by_order(inner)
     if arm is None:
@@ -136,7 +136,10 @@ def _arm(
 
 
 def _by_order(chain: Sequence[UrdfJoint]) -> Arm | None:
-    """An arm of no known variant: only six turning joints, or a SCARA's, tell their axes."""
+    """Return an arm of an unknown variant.
+
+    Only the axes of six turning joints, or of a SCARA, are unambiguous.
+    """
     kinds = "".join("P" if j.kind == "prismatic" else "R" for j in chain)
     hit = re.search(r"R{6,}", kinds)
     if hit:
@@ -145,7 +148,7 @@ def _by_order(chain: Sequence[UrdfJoint]) -> Arm | None:
         if len(joints) == 6:
             return Arm(joints, ROBOT_AXES, None, under)
         return Arm(joints, ("",) * len(joints), None, under)
-    hit = re.search(r"RRPR?", kinds)  # some exports leave a SCARA's axis 4 out
+    hit = re.search(r"RRPR?", kinds)  # some exports omit a SCARA's axis 4
     if hit:
         joints = tuple(chain[hit.start() : hit.end()])
         return Arm(joints, ROBOT_AXES[: len(joints)], None, tuple(chain[: hit.start()]))
@@ -157,7 +160,7 @@ def _by_order(chain: Sequence[UrdfJoint]) -> Arm | None:
 
 
 def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
-    """Why a description holds no robot that a driver could be made for (RG059)."""
+    """Explain why a description has no suitable robot (RG059)."""
     graph = cell.graph
     message = " ".join(cell.names)
     maker = _other_maker(cell)
@@ -209,9 +212,9 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
 
 
 def _other_maker(cell: Cell) -> str:
-    """What names another maker: the robot or its file, else folders and the packages of meshes.
+    """Return a name of another maker, from robot, file, folders, packages.
 
-    Not where that says ABB, or where an arm lies as one of ABB does.
+    Empty if the name contains ABB, or if an arm has the axes of an ABB robot.
     """
     if any(arm.alignment for arm in cell.arms) or mentions_abb(*cell.names):
         return ""
@@ -226,7 +229,7 @@ def _words(names: Iterable[str]) -> str:
 
 
 def _arms_mimic(cell: Cell) -> UrdfJoint | None:
-    """A turning joint that follows another one where an arm has too few of its own."""
+    """Return a turning joint that mimics another, in an incomplete arm."""
     graph = cell.graph
     if any(arm.alignment or len(arm.joints) >= 6 or all(arm.axes) for arm in cell.arms):
         return None
@@ -238,7 +241,7 @@ def _arms_mimic(cell: Cell) -> UrdfJoint | None:
 
 
 def _is_parallel(graph: Graph) -> bool:
-    """Three or more moving branches of two joints and more that begin on one link."""
+    """True for three or more actuated branches of two joints on one link."""
     moving = [j for j in graph.robot.joints if j.is_actuated]
     first: dict[str, set[str]] = {}
     for chain in graph.chains(moving):

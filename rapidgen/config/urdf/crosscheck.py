@@ -1,4 +1,4 @@
-"""What a URDF says against what is known of the model: coupling by its name, and ranges."""
+"""Compare a URDF with the known model: coupling by name, and ranges."""
 
 import math
 import re
@@ -21,7 +21,7 @@ _CLOSE = 0.6
 
 
 def family(*names: str) -> str:
-    """The number of an ABB type in one of the names (model, robot, file), else empty."""
+    """Return the number of an ABB type in a name (model, robot, file)."""
     for name in names:
         hit = _FAMILY.search(name)
         if hit:
@@ -32,7 +32,7 @@ def family(*names: str) -> str:
 def check_coupling(
     draft: GroupDraft, robot: UrdfRobot, file: str, place: Span | None
 ) -> Iterator[Diagnostic]:
-    """A lever robot needs `coupling`, a serial one has none (RG047)."""
+    """Check that a lever robot has `coupling` and a serial one not (RG047)."""
     known = family(draft.model, robot.name, file)
     axes = {joint.axis for joint in draft.joints if joint.axis.startswith("rax_")}
     who = f"IRB {known}" if known in COUPLED else ""
@@ -64,7 +64,7 @@ def check_coupling(
 
 
 def check_joint(draft: JointDraft, joint: UrdfJoint, group: GroupDraft) -> str:
-    """Notes the URDF's range with the joint; how it differs from the model's, as a phrase."""
+    """Record the URDF's range; describe its difference from the model."""
     if joint.lower is None or joint.upper is None or joint.kind == "continuous":
         return ""
     factor = 1000.0 if joint.kind == "prismatic" else 180 / math.pi
@@ -83,7 +83,7 @@ def check_joint(draft: JointDraft, joint: UrdfJoint, group: GroupDraft) -> str:
 
 
 def differences(phrases: list[str], place: Span | None) -> Iterator[Diagnostic]:
-    """One warning for all ranges that differ from the model's (RG049)."""
+    """Yield one warning for all ranges that differ from the model's (RG049)."""
     if phrases:
         yield error(
             "RG049",

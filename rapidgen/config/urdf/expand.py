@@ -1,4 +1,7 @@
-"""xacro to URDF, within limits (`sandbox.py`); every file read is remembered."""
+"""Expand xacro to URDF within limits (`sandbox.py`).
+
+The result lists every file that was read.
+"""
 
 import re
 import sys
@@ -33,13 +36,13 @@ from rapidgen.diagnostics import (
 )
 
 _ROBOT_JOINTS = 4
-"""A macro with fewer joints is a part, not a robot."""
+"""Minimum number of joints of a robot macro; one with fewer is a part."""
 _WORLD = "world"
-"""Where a macro's `parent` is unless given."""
+"""Default of a macro's `parent`."""
 _NAMED = re.compile(r"""<(joint|link)\b[^>]*?\bname\s*=\s*["']([^"']*)["']""")
 _NAMESPACE = "http://www.ros.org/wiki/xacro"
 _DEEPEST = 1000
-"""Calls of Python that an expansion may nest: what a fresh interpreter allows."""
+"""Maximum nesting of Python calls in an expansion: that of a new interpreter."""
 _LONGEST_REASON = 300
 _MOST_BYTES = 4_000_000
 """Bytes of all files of a xacro description."""
@@ -47,7 +50,7 @@ _MOST_BYTES = 4_000_000
 
 @dataclass(slots=True)
 class Description:
-    """An expanded robot description with the files it came from."""
+    """An expanded robot description and its source files."""
 
     path: Path
     text: str
@@ -59,7 +62,7 @@ class Description:
     _places: dict[str, list[tuple[re.Pattern[str], Span]]] = field(default_factory=dict)
 
     def origin(self, name: str, tag: str) -> Span | None:
-        """Where an element that was expanded is written, as far as its name tells."""
+        """Return the source of an expanded element, found by its name."""
         if not self._places:
             self._places[""] = []
             for path, text in self.sources:
@@ -75,7 +78,7 @@ class Description:
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What to read and how; `place` is where the configuration asks for it."""
+    """What to read, and how; `place` is the configuration's request."""
 
     path: Path
     packages: Packages
@@ -86,7 +89,10 @@ class Request:
 
 
 def expand(request: Request) -> Description:
-    """Read a description; raises DiagnosticError (RG031..RG033, RG056, RG060, RG061)."""
+    """Read a description.
+
+    Raises DiagnosticError (RG031..RG033, RG056, RG060, RG061).
+    """
     text, data = read_xml(request.path, place=request.place)
     if not is_xacro(request.path, text):
         made = Description(request.path, text, False, [(request.path.name, data)])
@@ -229,7 +235,10 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
 
 @contextmanager
 def _bounded_depth() -> Iterator[None]:
-    """RAPID's own depth needs a larger limit, at which Python 3.10 runs out of its C stack."""
+    """Limit the recursion depth of an expansion.
+
+    RAPID's own depth needs a larger limit, at which Python 3.10 runs out of its C stack.
+    """
     limit, depth = sys.getrecursionlimit(), 0
     frame: FrameType | None = sys._getframe()
     while frame is not None:
@@ -248,7 +257,7 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
     name = at.name
     place = request.place
     if at.name != request.path.name:
-        place = Span(str(at), 1, 1)  # xacro keeps no lines
+        place = Span(str(at), 1, 1)  # xacro keeps no line numbers
     if isinstance(inner, DiagnosticError):
         return inner.diagnostics[0]
     if isinstance(inner, PackageNotFound):
@@ -310,7 +319,7 @@ def _macro_only(request: Request, defined: tuple[Macro, ...]) -> Diagnostic:
 
 
 def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
-    """A document that includes the file and calls the macro."""
+    """Return a document that includes the file and calls the macro."""
     macro = next((m for m in defined if m.name == request.macro), None)
     if macro is None:
         known = [m.name for m in defined]

@@ -1,14 +1,14 @@
-"""Expressions of xacro, evaluated by an allow-list on the syntax tree.
+"""Evaluate expressions of xacro by an allow-list on the syntax tree.
 
 xacro evaluates `${...}` and `$(eval ...)` with Python's `eval`, from which any code can be reached.
 This module interprets the expression instead. It knows plain data, operators, subscripts,
 conditional expressions, comprehensions, xacro's own functions and those of `math`. Anything else is
-an error. There is no attribute access but to keys of dictionaries, to namespaces, and to the few
-methods of text and dictionaries that are listed below.
+an error. Attribute access is limited to keys of dictionaries, namespaces, and the few methods of
+text and dictionaries that are listed below.
 
-The size of every value is limited when it is made, and functions whose cost grows faster than
-their arguments have limits of their own, so no step of an expression takes long. An `Allowance`
-limits the CPU time and the number of items made of all expressions of one description together.
+The size of every value is limited when it is made. Functions whose cost grows faster than their
+arguments have limits of their own, so no step of an expression takes long. An `Allowance` limits
+the CPU time and the number of items made of all expressions of one description together.
 """
 
 import ast
@@ -131,14 +131,17 @@ def _multiply(left: Data, right: Data) -> Data:
 def _remainder(left: Data, right: Data) -> Data:
     if isinstance(left, str):
         _check_format(left)
-        # Each place of the format may take the whole of what is given.
+        # Each field of the format may produce the whole value.
         if left.count("%") * size_of(right) > MAX_TEXT and not isinstance(right, tuple):
             raise ExpressionError("a text of the expression is too long")
     return operator.mod(left, right)
 
 
 def _check_format(text: str) -> None:
-    """A width of a format takes memory: three digits are enough for any robot."""
+    """Check the widths of a format; three digits are enough for any robot.
+
+    A width takes memory.
+    """
     if re.search(r"%[^a-zA-Z%]*(\*|\d{4})", text):
         raise ExpressionError("a format of the expression is too wide")
 
@@ -207,14 +210,17 @@ def _round(number: Data, digits: Data = None) -> Data:
 
 
 def _sum(items: Iterable[Data], start: Data = 0) -> Data:
-    # Lists would be copied once for each of them.
+    # Python would copy lists once for each of them.
     if not isinstance(start, int | float):
         raise ExpressionError("'sum' takes numbers")
     return sum(cast(Iterable[float], items), start)
 
 
 def _product(function: Function) -> Function:
-    """A function whose result may have the bits of all its arguments together."""
+    """Return a function that limits the bits of its result.
+
+    The result may have the bits of all its arguments together.
+    """
 
     def limited(*arguments: Data, **named: Data) -> Data:
         numbers = [*arguments, *named.values()]
@@ -228,7 +234,7 @@ def _product(function: Function) -> Function:
 
 
 def _listed(function: Callable[..., Iterable[Data]]) -> Function:
-    """A function of iterators, as a list: lists have a size."""
+    """Return a function with a list as result: lists have a size."""
     return lambda *arguments: list(function(*arguments))
 
 
@@ -269,7 +275,7 @@ _PYTHON: dict[str, Data] = {
     "False": False,
 }
 PLAIN: dict[str, Data] = {**_MATH, **_PYTHON, "true": True, "false": False}
-"""Names that are known without a namespace."""
+"""Names without a namespace."""
 NAMESPACES: dict[str, Mapping[str, Data]] = {"math": _MATH, "python": _PYTHON}
 
 _TEXT_METHODS = frozenset(
@@ -307,7 +313,10 @@ class Expressions:
     """Evaluates expressions whose names a function looks up."""
 
     def __init__(self, functions: Mapping[str, Data], allowance: Allowance) -> None:
-        """`functions` are those of xacro: by plain name, and as the namespace `xacro`."""
+        """Create an evaluator with `functions` of xacro.
+
+        They are available by plain name, and as the namespace `xacro`.
+        """
         own: dict[str, Data] = {"map": self._map, "filter": self._filter}
         self._plain = {**PLAIN, **own, **functions}
         python = {**NAMESPACES["python"], **own}
@@ -340,7 +349,7 @@ class Expressions:
         return _Evaluation(self, names, {}).value(tree.body)
 
     def _map(self, function: Function, *lists: Iterable[Data]) -> list[Data]:
-        """A list, each of whose items is taken from the allowance as it is made."""
+        """Return a list; each item is charged to the allowance when made."""
         return [self._allowance.take(function(*items)) for items in zip(*lists, strict=False)]
 
     def _filter(self, function: Function | None, items: Iterable[Data]) -> list[Data]:
@@ -374,7 +383,7 @@ class _Evaluation:
     def value(self, node: ast.expr) -> Data:
         """Return the value of a part."""
         allowance = self._rules._allowance
-        # What a name or a key stands for was counted when it was made.
+        # The value of a name or a key was counted when it was made.
         if isinstance(node, ast.Name | ast.Attribute | ast.Constant):
             allowance.spend()
             return self._value(node)
@@ -520,7 +529,7 @@ class _Evaluation:
 
 
 class _Method:
-    """A method of text, list or dictionary, which can be called and nothing else."""
+    """A method of text, list or dictionary that can only be called."""
 
     def __init__(self, function: Function) -> None:
         self.function = function

@@ -1,4 +1,4 @@
-"""The shape of a description: which joint hangs on which, and what no robot can be."""
+"""Joint tree of a description, and its structural errors."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -13,10 +13,10 @@ class Graph:
 
     robot: UrdfRobot
     above: dict[str, UrdfJoint]
-    """link: the joint that it is the child of"""
+    """link: its parent joint"""
 
     def path_to(self, link: str) -> tuple[UrdfJoint, ...]:
-        """All joints from the root to a link."""
+        """Return all joints from the root to a link."""
         path: list[UrdfJoint] = []
         while link in self.above:
             path.append(self.above[link])
@@ -24,15 +24,15 @@ class Graph:
         return tuple(reversed(path))
 
     def ancestors(self, joint: UrdfJoint) -> tuple[UrdfJoint, ...]:
-        """Joints between the root and a joint, without it."""
+        """Return the joints between the root and a joint, without it."""
         return self.path_to(joint.parent)
 
     def below(self, link: str) -> tuple[UrdfJoint, ...]:
-        """Joints that hang on a link."""
+        """Return the joints attached to a link."""
         return tuple(j for j in self.robot.joints if j.parent == link)
 
     def chains(self, among: Iterable[UrdfJoint]) -> tuple[tuple[UrdfJoint, ...], ...]:
-        """The joints of `among` as paths from the root, one for each that ends a path."""
+        """Return the joints of `among` as maximal paths from the root."""
         expected = {joint.name: joint for joint in among}
         inner = {a.name for joint in expected.values() for a in self.ancestors(joint)}
         ends = [joint for joint in expected.values() if joint.name not in inner]
@@ -41,7 +41,10 @@ class Graph:
         )
 
     def tip_link(self, joint: UrdfJoint) -> str:
-        """The flange behind a joint: `tool0` or `flange` over joints that stand, else its link."""
+        """Return the flange after a joint: `tool0`, `flange`, or its link.
+
+        Only fixed joints lead there.
+        """
         result, queue = [joint.child], [joint.child]
         while queue:
             for fixed in self.below(queue.pop()):
@@ -56,7 +59,10 @@ class Graph:
 
 
 def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagnostic]]:
-    """The graph and its faults (RG042, RG051, RG053); errors among them mean it is no tree."""
+    """Return the graph and its faults (RG042, RG051, RG053).
+
+    Errors among them mean that it is not a tree.
+    """
     findings: list[Diagnostic] = []
     links, names = set(robot.links), {joint.name for joint in robot.joints}
     above: dict[str, UrdfJoint] = {}
@@ -128,7 +134,7 @@ def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> Iterator[Diagnostic
 
 
 def check_axis(joint: UrdfJoint, place: Span | None) -> Diagnostic:
-    """RG053 for a joint that is to drive an axis, with an axis of length 0."""
+    """Return RG053 for a joint with an axis of length 0."""
     return error(
         "RG053",
         joint.span or place,

@@ -1,4 +1,4 @@
-"""One group's `urdf:` section: read it, map its joints, complete the draft."""
+"""Process one group's `urdf:` section: read, map joints, complete."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import dropwhile, pairwise
@@ -28,10 +28,9 @@ def complete(
     elsewhere: frozenset[str],
     place: Span | None,
 ) -> tuple[Found, list[tuple[str, bytes]]]:
-    """Complete `draft` from its URDF; findings, and the files that were read.
+    """Complete `draft` from its URDF; return findings and files.
 
-    `folder` is where relative paths of the configuration start; `elsewhere` are the joints
-    that other groups drive.
+    `folder` is the base of relative paths; `elsewhere` are the joints that other groups drive.
     """
     return complete_from(draft, value, request(value, folder, package_paths, place), elsewhere)
 
@@ -39,7 +38,7 @@ def complete(
 def complete_from(
     draft: GroupDraft, value: schema.UrdfKeys, expected: Request, elsewhere: frozenset[str]
 ) -> tuple[Found, list[tuple[str, bytes]]]:
-    """`complete` for a request that is made already."""
+    """Complete a draft for an existing request."""
     place = expected.place
     try:
         description = expand(expected)
@@ -64,7 +63,7 @@ def complete_from(
         draft.names = (robot.name, description.path.name)
         draft.urdf_chain = chain(graph, draft, value.tip or "")
         if not draft.chain or any(j.sign < 0 or j.offset for j in draft.joints):
-            # A chain is in the sense of the URDF, so that of a model is not the one with signs.
+            # The chain has the URDF's sense, so that a model's signs do not apply.
             draft.chain = draft.urdf_chain
     return result, description.inputs
 
@@ -72,7 +71,7 @@ def complete_from(
 def request(
     value: schema.UrdfKeys, folder: Path, package_paths: Sequence[Path], place: Span | None
 ) -> Request:
-    """What to read, with paths relative to the configuration's folder."""
+    """Return the request, with paths relative to the configuration's folder."""
     path = folder / value.file
     explicit = {name: (folder / where).resolve() for name, where in value.packages.items()}
     return Request(
@@ -95,7 +94,7 @@ def _texts(values: Mapping[str, object]) -> dict[str, str]:
 def _candidates(
     graph: Graph, value: schema.UrdfKeys, elsewhere: frozenset[str], place: Span | None
 ) -> tuple[list[UrdfJoint], Found]:
-    """Joints that move by themselves and concern this group."""
+    """Return the actuated joints that concern this group."""
     robot = graph.robot
     names = [joint.name for joint in robot.joints]
     findings: Found = []
@@ -141,7 +140,7 @@ def _map(
     elsewhere: frozenset[str],
     place: Span | None,
 ) -> Found:
-    """Settle which joint is which axis: as the configuration says, else as inferred."""
+    """Map joints to axes: as configured, else inferred."""
     robot = graph.robot
     named = [joint for joint in draft.joints if robot.joint(joint.name)]
     if not named:
@@ -169,7 +168,10 @@ def _map(
 
 
 def _complete(draft: GroupDraft, mapping: dict[str, str]) -> None:
-    """Axes of joints that are given figures only; with them the joints that are not named."""
+    """Assign axes to joints with figures only.
+
+    With them, unnamed joints get theirs.
+    """
     for joint in draft.joints:
         joint.axis = joint.axis or mapping.get(joint.name, "")
     if all(mapping.get(joint.name) == joint.axis for joint in draft.joints):
@@ -230,7 +232,10 @@ def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Iterator[Diag
 
 
 def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
-    """Robot axes stand in one chain, in order; external axes may be anywhere."""
+    """Check that the robot axes are in one chain, in order.
+
+    External axes may be anywhere.
+    """
     by_axis = {joint.axis: graph.robot.joint(joint.name) for joint in draft.joints}
     robot_axes = [by_axis[axis] for axis in ROBOT_AXES if by_axis.get(axis)]
     findings: Found = []
@@ -279,7 +284,7 @@ def _fill(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
 
 
 def _path(graph: Graph, draft: GroupDraft, tip: str) -> tuple[UrdfJoint, ...]:
-    """All joints from the root to the flange."""
+    """Return all joints from the root to the flange."""
     by_axis = {joint.axis: joint.name for joint in draft.joints}
     last = next(
         (by_axis[axis] for axis in reversed(ROBOT_AXES) if axis in by_axis), draft.joints[-1].name
@@ -290,7 +295,7 @@ def _path(graph: Graph, draft: GroupDraft, tip: str) -> tuple[UrdfJoint, ...]:
 
 
 def _ignored(path: Sequence[UrdfJoint], draft: GroupDraft) -> tuple[UrdfJoint, ...]:
-    """Joints of the arm that move by themselves and drive no axis."""
+    """Return actuated joints of the arm that drive no axis."""
     axes = {joint.name: joint.axis for joint in draft.joints}
     arm = dropwhile(lambda joint: not axes.get(joint.name, "").startswith("rax"), path)
     return tuple(
@@ -301,10 +306,10 @@ def _ignored(path: Sequence[UrdfJoint], draft: GroupDraft) -> tuple[UrdfJoint, .
 
 
 def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[ChainLink]:
-    """The kinematic chain from the root to the flange, in the URDF's sense.
+    """Return the kinematic chain from root to flange, in the URDF's sense.
 
-    A turning joint that mimics a mapped one follows it; a sliding one stands still. Joints of the
-    arm that drive nothing stand where `held_axes` says.
+    A turning joint that mimics a mapped one follows it; a sliding one is fixed. Joints of the arm
+    without an axis are fixed at their `held_axes` values.
     """
     mapped = {joint.name for joint in draft.joints}
     path = _path(graph, draft, tip)

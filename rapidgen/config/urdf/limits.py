@@ -1,4 +1,4 @@
-"""Limits and speeds of URDF joints as controller figures, and the figures that cannot be."""
+"""Convert URDF limits and speeds to controller figures, with checks."""
 
 import math
 from collections.abc import Iterator
@@ -16,14 +16,14 @@ FAST_TURN = 45.0
 PLACEHOLDER_SPEED = 50.0
 LONG = 100.0
 INDEPENDENT = 18000.0
-"""deg: range given to a continuous external axis, which a warning says."""
+"""deg: range of a continuous external axis; a warning reports it."""
 SHORT = 0.001
 LOOKS_LIKE_MM = 50.0
 _ROUNDING = 0.15
 
 
 def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagnostic]:
-    """Complete `draft` from the URDF where the configuration says nothing; findings."""
+    """Complete `draft` from the URDF; return findings."""
     span = joint.span or place
     findings: list[Diagnostic] = []
     linear = joint.kind == "prismatic"
@@ -55,7 +55,10 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
 
 
 def _open(draft: JointDraft, joint: UrdfJoint, *, of_range: bool = True) -> str:
-    """Lines for the range of a joint, and for its speed where the description has none either."""
+    """Return placeholder lines for a joint's range, and for its speed.
+
+    The speed is included if the description has none.
+    """
     figures = {} if draft.axis else {"axis": OPEN}
     if of_range:
         figures |= {"lower": OPEN, "upper": OPEN}
@@ -137,13 +140,13 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
 
 
 def _keep(draft: JointDraft, lower: float | None, upper: float | None) -> None:
-    """An end that the configuration has stays: the URDF completes the other one."""
+    """Keep the configured end of a range; the URDF gives the other one."""
     draft.lower = draft.lower if lower is None else lower
     draft.upper = draft.upper if upper is None else upper
 
 
 def _rounded(draft: JointDraft, span: Span | None) -> Iterator[Diagnostic]:
-    """3.1416 rad is 180.0004 deg: a limit that someone rounded outwards."""
+    """Report a limit that was rounded outwards: 3.1416 rad is 180.0004 deg."""
     if draft.unit == "mm" or draft.lower is None or draft.upper is None:
         return
     lower, upper = draft.lower, draft.upper

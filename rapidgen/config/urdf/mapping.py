@@ -1,7 +1,7 @@
-"""Which joint drives which controller axis: inferred only where nothing else is possible.
+"""Map joints to controller axes, inferred only if unambiguous.
 
-Six turning joints in one chain whose names end in 1 to 6 in that order are rax_1..rax_6.
-Everything else is an error that prints the candidates and the lines to paste.
+Six turning joints in one chain whose names end in 1 to 6 in that order are rax_1..rax_6. Everything
+else is an error that lists the candidates and the lines to paste.
 """
 
 import re
@@ -21,7 +21,10 @@ _USUAL = ("joint_", "joint", "j", "axis", "axis_", "a")
 
 
 def number_of(name: str) -> tuple[str, int, str] | None:
-    """Prefix, number and suffix of a joint's name: `arm_joint_3_l` is (arm_joint_, 3, _l)."""
+    """Return prefix, number and suffix of a joint's name.
+
+    `arm_joint_3_l` is (arm_joint_, 3, _l).
+    """
     hit = _NUMBER.match(name)
     return (hit["prefix"], int(hit["number"]), hit["suffix"]) if hit else None
 
@@ -29,7 +32,10 @@ def number_of(name: str) -> tuple[str, int, str] | None:
 def infer(
     graph: Graph, joints: Sequence[UrdfJoint], place: Span | None
 ) -> tuple[dict[str, str], list[Diagnostic]]:
-    """Axis by joint name for `joints` (actuated, not ignored), or the findings that say why not."""
+    """Return axes by joint name, or findings.
+
+    `joints` are actuated and not ignored.
+    """
     if not joints:
         return {}, [
             error(
@@ -62,9 +68,9 @@ def infer(
 
 
 def paste(graph: Graph, joints: Sequence[UrdfJoint], *, ignore: Sequence[str] = ()) -> str:
-    """YAML lines that settle the mapping: axes by the order of the chain and the arm's shape.
+    """Return YAML lines with the mapping, by chain order and arm shape.
 
-    Where neither tells, the line is open and refused until it is filled in (RG022).
+    An ambiguous line is a placeholder, which is rejected until filled in (RG022).
     """
     axes: dict[str, str] = {}
     signs: dict[str, str] = {}
@@ -94,7 +100,7 @@ def _shape(
     chains: tuple[tuple[UrdfJoint, ...], ...],
     place: Span | None,
 ) -> Diagnostic | None:
-    """Too many, too few, or branching: which pitfall it is."""
+    """Report too many, too few or branching joints."""
     own = {joint.name for joint in joints}
     arms = [a for a in read_cell(graph, (), {}).arms if own >= {j.name for j in a.joints}]
     if len(arms) > 1:
@@ -182,7 +188,7 @@ def _shape(
 
 
 def unmapped(graph: Graph, left: Sequence[UrdfJoint], place: Span | None) -> Diagnostic:
-    """The finding for joints that a given mapping leaves out."""
+    """Report the joints that a given mapping omits."""
     first = left[0]
     names = ", ".join(joint.name for joint in left[:_MOST_LINES])
     code, what = "RG043", f"{names}: neither mapped nor ignored"
@@ -205,7 +211,10 @@ def _is_gripper(graph: Graph, joint: UrdfJoint) -> bool:
 
 
 def _outside(graph: Graph, joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
-    """Joints that are not among six turning ones, numbered 1 to 6 along one chain."""
+    """Return joints that are not among six turning ones of one chain.
+
+    Their names must be numbered 1 to 6.
+    """
     numbers = {j.name: parts[1] if (parts := number_of(j.name)) else 0 for j in joints}
     six = [j for j in joints if 1 <= numbers[j.name] <= 6 and _turns(j)]
     if sorted(numbers[j.name] for j in six) != [1, 2, 3, 4, 5, 6]:
@@ -222,7 +231,7 @@ def _turns(joint: UrdfJoint) -> bool:
 
 
 def _numbers(graph: Graph, chain: Sequence[UrdfJoint], place: Span | None) -> Diagnostic | None:
-    """Six in one chain: do the names count 1 to 6 along it?"""
+    """Check that the names of six joints in one chain count 1 to 6."""
     sliding = next((j for j in chain if not _turns(j)), None)
     if sliding:
         return error(

@@ -1,7 +1,7 @@
-"""`$(find PACKAGE)` without ROS: where a package's folder is.
+"""Find the folder of a package for `$(find PACKAGE)` without ROS.
 
-Order: the configuration's `packages`, `--package-path`, AMENT_PREFIX_PATH, ROS_PACKAGE_PATH,
-then upwards from the robot file. A package is known by the name in its package.xml.
+Order: the configuration's `packages`, `--package-path`, AMENT_PREFIX_PATH, ROS_PACKAGE_PATH, then
+upwards from the robot file. The name in its package.xml identifies a package.
 """
 
 import os
@@ -19,17 +19,17 @@ _SKIPPED = frozenset({".git", "build", "log", "node_modules", "__pycache__", "me
 
 
 def is_package(folder: Path) -> bool:
-    """Whether a folder is a ROS package."""
+    """True if a folder is a ROS package."""
     return (folder / "package.xml").is_file()
 
 
 class PackageNotFound(LookupError):
-    """No folder for a package; the message lists where it was looked for."""
+    """No folder found for a package; the message lists the search paths."""
 
 
 @dataclass
 class Packages:
-    """Finds packages; remembers which were used and which were found twice."""
+    """Find packages; remember those used and those found twice."""
 
     explicit: Mapping[str, Path]
     paths: Sequence[Path]
@@ -40,17 +40,18 @@ class Packages:
     _scans: dict[Path, dict[str, list[Path]]] = field(default_factory=dict)
 
     def find(self, name: str) -> Path:
-        """Folder of a package; raises PackageNotFound.
+        """Return the folder of a package.
 
-        It is absolute: xacro takes a relative one from the folder of the file that includes.
+        Raises PackageNotFound. The path is absolute: xacro takes a relative one from the folder of
+        the including file.
         """
         self.used[name] = self._find(name).absolute()
         return self.used[name]
 
     def allows(self, file: Path) -> bool:
-        """Whether a description may read a file: it is below one of the named folders.
+        """True if a description may read a file, by its folder.
 
-        These are the folder of the description (of its package, if it is in one), the packages
+        Allowed folders are that of the description (of its package, if it is in one), the packages
         that were configured or found, and `--package-path`. A link to another place is followed
         only within a colcon workspace, which consists of links (`--symlink-install`).
         """
@@ -129,13 +130,13 @@ def _folders(root: Path, depth: int) -> Iterator[Path]:
 
 
 def package_of(folder: Path) -> Path | None:
-    """The package that a folder lies in, links followed."""
+    """Return the package of a folder, links followed."""
     real = folder.resolve()
     return next((f for f in (real, *real.parents) if (f / "package.xml").is_file()), None)
 
 
 def package_name(folder: Path) -> str:
-    """What package.xml in a folder calls the package; empty: there is none."""
+    """Return the name in a folder's package.xml, or an empty text."""
     try:
         with open_foreign(folder / "package.xml") as stream:
             hit = _NAME.search(stream.read(20_000))

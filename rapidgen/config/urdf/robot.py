@@ -1,7 +1,7 @@
-"""URDF text to joints and links, read by yourdfpy with meshes off; our checks stand before it.
+"""Read URDF text with yourdfpy, after our own checks.
 
-yourdfpy accepts loops, duplicates, NaN and unknown types (and ends with Python's own errors on
-others), so whatever it takes for granted is checked on the XML first. No mesh is opened.
+Meshes are off. yourdfpy accepts loops, duplicates, NaN and unknown types (and raises Python's own
+errors on others). Its assumptions are therefore checked on the XML first. No mesh is opened.
 """
 
 import gc
@@ -37,7 +37,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class UrdfJoint:
-    """One joint as the file has it: rad, m, s; None is what the file leaves out.
+    """One joint of the file: rad, m, s; None is an omitted value.
 
     The offset of a mimic joint is part of its `xyz` and `rpy`.
     """
@@ -58,21 +58,24 @@ class UrdfJoint:
 
     @property
     def is_actuated(self) -> bool:
-        """Moves by itself: neither fixed nor a mimic."""
+        """True if the joint moves by itself: neither fixed nor a mimic."""
         return self.kind != "fixed" and not self.mimic
 
     @property
     def has_zero_axis(self) -> bool:
-        """An axis of length 0: nothing can turn about it, or slide along it."""
+        """True for an axis of length 0, which allows no motion."""
         return self.axis == (0.0, 0.0, 0.0)
 
     @property
     def has_empty_range(self) -> bool:
-        """Moves by itself, in a range of nothing: a joint kept for its place, or no range yet."""
+        """True if the range of an actuated joint is empty.
+
+        Such a joint keeps a place, or its range is not set.
+        """
         return self.is_actuated and self.lower is not None and self.lower == self.upper
 
     def moved(self, amount: float) -> tuple[Vector, Vector]:
-        """xyz and rpy of the joint turned by `amount` (rad), as one fixed step."""
+        """Return xyz and rpy of the joint turned by `amount` (rad), as one step."""
         step = _moved(_matrix(self.xyz, self.rpy), self.axis, amount, slides=False)
         return _vector(step[:3, 3]), _rpy(step)
 
@@ -86,12 +89,15 @@ class UrdfRobot:
     joints: tuple[UrdfJoint, ...]
 
     def joint(self, name: str) -> UrdfJoint | None:
-        """A joint by name."""
+        """Return a joint by name."""
         return next((j for j in self.joints if j.name == name), None)
 
 
 def read_robot(description: Description, place: Span | None) -> UrdfRobot:
-    """The robot of a description; raises DiagnosticError (RG031, RG051, RG053, RG060)."""
+    """Return the robot of a description.
+
+    Raises DiagnosticError (RG031, RG051, RG053, RG060).
+    """
     from lxml import etree
 
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
@@ -141,7 +147,10 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
 
 
 def _skeleton(root: "Element") -> "Element":
-    """The robot with links and joints only: no geometry, so that no mesh is even looked at."""
+    """Return the robot with links and joints only.
+
+    Without geometry, no mesh is read.
+    """
     from lxml import etree
 
     made = etree.Element("robot", name=root.get("name"))
@@ -157,9 +166,9 @@ def _skeleton(root: "Element") -> "Element":
 
 
 def _yourdfpy() -> ModuleType:
-    """The module.
+    """Return the module.
 
-    It brings trimesh and scipy: collecting garbage meanwhile costs a tenth.
+    It imports trimesh and scipy: garbage collection during the import takes a tenth of its time.
     """
     enabled = gc.isenabled()
     gc.disable()
@@ -204,7 +213,7 @@ def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
 
 
 def _moved(matrix: "Matrix | None", axis: Vector, amount: float, *, slides: bool) -> "Matrix":
-    """A joint's origin with the joint itself moved by `amount`."""
+    """Return a joint's origin with the joint itself moved by `amount`."""
     import numpy as np
 
     step = np.eye(4)
@@ -242,7 +251,7 @@ def _unit(values: Vector) -> Vector:
 
 
 def _rpy(matrix: "Matrix") -> Vector:
-    """Roll, pitch, yaw about fixed axes of a rotation matrix."""
+    """Return roll, pitch, yaw about fixed axes of a rotation matrix."""
     cosine = math.hypot(matrix[0, 0], matrix[1, 0])
     pitch = math.atan2(-matrix[2, 0], cosine)
     if cosine < 1e-9:
@@ -255,7 +264,7 @@ def _rpy(matrix: "Matrix") -> Vector:
 
 
 def _structure(root: "Element", span_of: "PlaceOf", name: str) -> Iterator[Diagnostic]:
-    """What yourdfpy takes for granted: names, parent and child, numbers, known types."""
+    """Check assumptions of yourdfpy: names, parent, child, numbers, types."""
     seen: dict[tuple[str, str], int] = {}
     for element in root:
         if element.tag not in ("link", "joint"):

@@ -1,10 +1,10 @@
-"""xacro without its ways to code, files and time: private names of it are replaced while it runs.
+"""Run xacro without access to code, other files and long runs.
 
-xacro has no hooks for this. The names are held by a test and the pin `xacro>=2.1.1,<3`. Neither
-xacro nor this module is thread-safe.
+Private names of xacro are replaced while it runs, because it has no hooks for this. A test and the
+pin `xacro>=2.1.1,<3` check the names. Neither xacro nor this module is thread-safe.
 
-What a description can do is: compute (`expressions.py`), call macros, and read files below the
-folders of `Packages.allows`. It cannot read environment variables, and it ends within some seconds.
+A description can compute (`expressions.py`), call macros, and read files below the folders of
+`Packages.allows`. It cannot read environment variables, and it ends within some seconds.
 """
 
 import glob
@@ -45,8 +45,8 @@ def restricted(
 ) -> Iterator[None]:
     """Run xacro with limits.
 
-    `find` gives the folder of a package, `read` the text of a file, and `allowed` says whether a
-    file may be read. Names of xacro are as before when the context ends.
+    `find` returns the folder of a package, `read` the text of a file, and `allowed` is True for a
+    file that may be read. The names of xacro are restored when the context ends.
     """
     import xacro
     from xacro import substitution_args
@@ -85,7 +85,7 @@ def restricted(
     def fatal(*words: object) -> None:
         raise ExpressionError(" ".join(map(str, words)))
 
-    # Messages of a description are not shown: they may contain anything.
+    # Messages of a description are not shown: their content is not trusted.
     functions: dict[str, object] = {
         "abs_filename": xacro.abs_filename_spec,
         "arg": argument,
@@ -184,7 +184,7 @@ def restricted(
 
 
 class _Names(Mapping[str, object]):
-    """The properties of a description, without the functions that xacro gives to all of them."""
+    """The properties of a description, without xacro's common functions."""
 
     def __init__(self, symbols: object, functions: Mapping[str, object]) -> None:
         self._symbols, self._functions = symbols, functions

@@ -1,7 +1,7 @@
 """Files of a robot description as checked XML text.
 
-XML from elsewhere is read with limits: no document type, hence no entities, at most 20 MB.
-xacro is expanded within limits (`sandbox.py`); plain URDF is only data.
+Untrusted XML is read with limits: no document type, hence no entities, at most 20 MB. xacro is
+expanded within limits (`sandbox.py`); plain URDF is only data.
 """
 
 import re
@@ -27,17 +27,20 @@ class Macro:
     name: str
     parameters: tuple[tuple[str, bool], ...]
     joints: int = 0
-    """How many joints it writes."""
+    """Number of joints that it creates."""
 
     @property
     def shown(self) -> str:
-        """As in its definition: `name(a, b=)`."""
+        """Return its signature: `name(a, b=)`."""
         names = [f"{name}=" if has else name for name, has in self.parameters]
         return f"{self.name}({', '.join(names)})"
 
 
 def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
-    """Text and bytes of an XML file; raises DiagnosticError (RG060)."""
+    """Return text and bytes of an XML file.
+
+    Raises DiagnosticError (RG060).
+    """
     try:
         data = read_foreign(path, MAX_BYTES)
     except OSError as fault:
@@ -69,11 +72,11 @@ def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
 
 
 class _Declared(Exception):
-    """A document type; nothing behind it is read."""
+    """A document type was found; the rest is not read."""
 
 
 def _doctype(text: str) -> int:
-    """Line of a document type; 0: there is none before the root."""
+    """Return the line of a document type; 0: none before the root."""
 
     def declared(*_: object) -> None:
         raise _Declared
@@ -81,7 +84,7 @@ def _doctype(text: str) -> int:
     parser = expat.ParserCreate("utf-8")
     parser.StartDoctypeDeclHandler = declared
     try:
-        with suppress(expat.ExpatError):  # said where the text is read
+        with suppress(expat.ExpatError):  # reported where the text is read
             parser.Parse(text.encode(), True)
     except _Declared:
         return parser.CurrentLineNumber
@@ -89,7 +92,7 @@ def _doctype(text: str) -> int:
 
 
 def xml_fault(data: bytes) -> str:
-    """Why bytes are no XML that is read here; empty: they are."""
+    """Return why bytes are not accepted as XML; empty: they are."""
 
     def declared(*_: object) -> None:
         raise _Declared
@@ -100,18 +103,18 @@ def xml_fault(data: bytes) -> str:
         parser.Parse(data, True)
     except _Declared:
         return "it has a document type"
-    except (expat.ExpatError, LookupError, ValueError) as fault:  # or its encoding is unknown
+    except (expat.ExpatError, LookupError, ValueError) as fault:  # or an unknown encoding
         return f"it is not well-formed XML: {fault}"
     return ""
 
 
 def is_xacro(path: Path, text: str) -> bool:
-    """True for what xacro has to expand first."""
+    """True if xacro has to expand the file."""
     return path.suffix == ".xacro" or "xmlns:xacro" in text or "<xacro:" in text
 
 
 def macros(text: str) -> tuple[Macro, ...]:
-    """Macros that a xacro text defines, in order."""
+    """Return the macros that a xacro text defines, in order."""
     result = []
     plain = _without_comments(text)
     for hit in _MACRO.finditer(plain):
@@ -132,7 +135,7 @@ def _parameters(text: str) -> tuple[tuple[str, bool], ...]:
 
 
 def declared_arguments(texts: list[str]) -> set[str]:
-    """Names of all xacro arguments that the texts declare or use."""
+    """Return all xacro arguments that the texts declare or use."""
     names: set[str] = set()
     for text in texts:
         names.update(_ARG.findall(text))
@@ -141,9 +144,10 @@ def declared_arguments(texts: list[str]) -> set[str]:
 
 
 def _without_comments(text: str) -> str:
-    """The text with blanks in the place of comments, so that lines and columns stay.
+    """Return the text with comments replaced by blanks.
 
-    No regular expression: one that does not find an end looks for it again from each beginning.
+    Lines and columns stay. A regular expression that does not find an end would search again from
+    each start.
     """
     parts, at = [], 0
     while (begin := text.find("<!--", at)) >= 0 and (end := text.find("-->", begin + 4)) >= 0:
@@ -153,7 +157,7 @@ def _without_comments(text: str) -> str:
 
 
 def unexpanded(text: str, displayed: str) -> list[Diagnostic]:
-    """What expansion should have replaced (pitfall 3 of the field: RG033)."""
+    """Report unexpanded parts (pitfall 3 of the field: RG033)."""
     findings = []
     for hit in re.finditer(
         r"\$\{[^$}]*\}|\$\([^$)]*\)|<(xacro:)?(macro|include|property|if|unless)[\s>/]",

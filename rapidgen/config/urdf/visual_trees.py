@@ -1,4 +1,4 @@
-"""How the robots of a configuration look: the trees of their descriptions with what is drawn."""
+"""Visuals of a configuration's robots: trees of their descriptions."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -23,8 +23,10 @@ class Tree:
 
 
 def trees(path: Path, overrides: Overrides = ()) -> dict[str, Tree]:
-    """Descriptions of a configuration that `load_config` takes, by group; groups that ask for the
-    same share one."""
+    """Return the descriptions of a configuration, by group.
+
+    `load_config` must accept the configuration; groups with the same request share one description.
+    """
     assembly = assemble(path, overrides)
     made: dict[str, Tree] = {}
     result: dict[str, Tree] = {}

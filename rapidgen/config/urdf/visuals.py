@@ -1,9 +1,9 @@
-"""What a robot description draws: the visuals of its links [ROS: urdf/XML/link].
+"""Visuals of the links of a robot description [ROS: urdf/XML/link].
 
-A mesh is looked for as ROS does: `package://PACKAGE/PATH`, `file://PATH`, or from the description's
-folder on. It lies in its package, in the description's package or folder, or in the configuration's
-folder, and is read from nowhere else. A link may lead out of a package to the same package's
-sources: `colcon build --symlink-install` makes such.
+A mesh is found as in ROS: `package://PACKAGE/PATH`, `file://PATH`, or relative to the description's
+folder. It must be in its package, in the description's package or folder, or in the configuration's
+folder. A link may lead out of a package to the same package's sources: `colcon build
+--symlink-install` makes such.
 """
 
 import math
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = frozenset({".stl", ".dae", ".obj"})
 MOST = 2000
-"""Visuals of a description; what is beyond is not drawn."""
+"""Maximum number of visuals in a description; further ones are not drawn."""
 Kind: TypeAlias = Literal["box", "cylinder", "sphere", "mesh"]
 Vector = tuple[float, float, float]
 _SIZES: Mapping[Kind, tuple[str, ...]] = {
@@ -33,7 +33,7 @@ _SIZES: Mapping[Kind, tuple[str, ...]] = {
 
 
 class NoMesh(Exception):
-    """A mesh that is not read; the text says why."""
+    """A mesh cannot be read; the text gives the reason."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,17 +46,19 @@ class Visual:
     xyz: Vector
     rpy: Vector
     colour: tuple[float, ...] = ()
-    """Empty: the description says none."""
+    """Empty: not in the description."""
     mesh: Path | None = None
     fault: str = ""
-    """Why there is no mesh."""
+    """Reason of a missing mesh."""
 
 
 def visuals(
     description: Description, packages: Packages, folder: Path
 ) -> dict[str, tuple[Visual, ...]]:
-    """The visuals of each link that has some, of a description that `read_robot` takes; `folder` is
-    the configuration's."""
+    """Return the visuals of each link that has some.
+
+    `read_robot` must accept the description; `folder` is the configuration's.
+    """
     from lxml import etree
 
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
@@ -105,9 +107,9 @@ def _visuals(
 
 
 def mesh_file(name: str, description: Path, packages: Packages, folder: Path) -> Path:
-    """The file of a mesh that a description names; `folder` is the configuration's.
+    """Return the file of a mesh in a description.
 
-    NoMesh: it is not there, or not to be read.
+    `folder` is the configuration's. Raises NoMesh if the file is missing or not allowed.
     """
     home = package_of(description.parent) or description.resolve().parent
     inner = description.resolve().is_relative_to(folder.resolve())
@@ -128,7 +130,10 @@ def mesh_file(name: str, description: Path, packages: Packages, folder: Path) ->
 
 
 def mesh_beside(name: str, folder: Path) -> Path:
-    """A mesh in a folder or below. NoMesh."""
+    """Return a mesh in a folder or below it.
+
+    Raises NoMesh.
+    """
     return _within([folder], folder / name, name)
 
 
@@ -156,7 +161,7 @@ def _colour(material: "Element") -> tuple[float, ...]:
 
 
 def _numbers(element: "Element | None", name: str, count: int) -> tuple[float, ...]:
-    """Finite numbers of an attribute; empty where it has none or others."""
+    """Return the finite numbers of an attribute, or an empty tuple."""
     try:
         values = tuple(
             float(word) for word in (element.get(name, "") if element is not None else "").split()

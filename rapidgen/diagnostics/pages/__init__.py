@@ -1,4 +1,7 @@
-"""Pages of the diagnostic codes: a file for each range of codes, a section for each code."""
+"""Pages of the diagnostic codes: one file for each family of codes.
+
+A file has a section for each code.
+"""
 
 import re
 from functools import cache

@@ -1,4 +1,4 @@
-"""Controllers as they are delivered: the cfg that a generated folder is loaded onto."""
+"""The cfg of delivered controllers, onto which a folder is loaded."""
 
 from rapidgen.system.base.factory_cfg import Robot, base_system
 from rapidgen.system.base.releases import header_digits

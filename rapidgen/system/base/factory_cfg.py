@@ -1,7 +1,7 @@
-"""What stands in the cfg of a delivered controller, as far as a driver's cfg meets it.
+"""The cfg of a delivered controller, as far as a driver's cfg needs it.
 
-Written as controllers write it, each line with the backups and files that show it. Names of
-motion tasks and mechanical units are the cell's.
+Written as controllers write it, each line with the backups and files that show it. The cell gives
+the names of motion tasks and mechanical units.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,13 +14,13 @@ from rapidgen.system.controller_cfg import ControllerCfg
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """A motion task, the robot that it moves and the further mechanical units that go with it."""
+    """A motion task with its robot and additional mechanical units."""
 
     task: str
     unit: str
     external: tuple[str, ...] = ()
     group: str = ""
-    """Name of its mechanical unit group, where it is not made of the unit's."""
+    """Name of its mechanical unit group, if not derived from the unit's."""
 
 
 # RW 5.15-6.13 without 604-1: the motion task has these three and nothing more (PANIN, PAULA,
@@ -38,8 +38,8 @@ _MISC = """
 """
 # All backups name six planners and more, whatever they use.
 _PLANNERS = "\n".join(f'      -name "motion_planner_{n}"' for n in range(1, 7))
-# RW 7.5.2, 7.6.1: services of the firewall are instances of a delivered controller. The name
-# alone is a closed one; a GoFa that was set up has some of them open.
+# RW 7.5.2, 7.6.1: services of the firewall are instances of a delivered controller. The name alone
+# means closed; a configured GoFa has some of them open.
 _FIREWALL = """
 FIREWALL_MANAGEMENT:
       -Name "RapidSockets"
@@ -57,10 +57,10 @@ def base_system(
     multimove: bool = False,
     digits: Mapping[str, tuple[int, int]] | None = None,
 ) -> ControllerCfg:
-    """The cfg of a delivered controller with these robots.
+    """Return the cfg of a delivered controller with these robots.
 
-    Two robots and more mean MultiMove (604-1); `multimove` says so of one robot. `digits` are
-    those of the headers, of the domains in which they are known better than from the release.
+    Two robots and more mean MultiMove (604-1); `multimove` means so for one robot. `digits` are the
+    header digits of domains where they are known better than from the release.
     """
     arms = {robot.unit.casefold(): robot for robot in robots}
     yumi = arms.keys() == set(_PLANNER_ORDER)
@@ -99,13 +99,19 @@ def base_system(
 
 
 def unit_group(unit: str) -> str:
-    """Name of a robot's mechanical unit group: rob1 of ROB_1 (MCUBE), rob_r of ROB_R (HONG)."""
+    """Return the name of a robot's mechanical unit group.
+
+    rob1 of ROB_1 (MCUBE), rob_r of ROB_R (HONG).
+    """
     head, _, tail = unit.lower().partition("_")
     return head + tail if tail.isdigit() else f"{head}_{tail}".rstrip("_")
 
 
 def _mechanics(robots: Sequence[Robot], units: Sequence[str]) -> str:
-    """ROBOT and SINGLE name the mechanical units (all backups; tracks: EBRUUN; YuMi: HONG)."""
+    """Return ROBOT and SINGLE, which name the mechanical units.
+
+    All backups; tracks: EBRUUN; YuMi: HONG.
+    """
     named = "ROBOT:\n" + _lines([f'-name "{robot.unit}"' for robot in robots])
     if units:
         named += "\nSINGLE:\n" + _lines([f'-name "{unit}"' for unit in units])

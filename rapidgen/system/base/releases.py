@@ -1,8 +1,8 @@
-"""The digits in the header line of a cfg file, by release and domain.
+"""Digits in the header line of a cfg file, by release and domain.
 
-A file whose digits differ is refused with event 120003 [real 6.03, MCUBE]. Between RobotWare 5.15
-and 5.61 the digits of EIO and SIO changed; 60 reads like the release that brought it, so what
-lies between counts by that, which no controller has confirmed [mem].
+A controller rejects a file with other digits with event 120003 [real 6.03, MCUBE]. Between
+RobotWare 5.15 and 5.61 the digits of EIO and SIO changed; 60 reads like the release that brought
+it. The releases between count as the later one, which no controller has confirmed [mem].
 """
 
 from typing import Literal
@@ -14,7 +14,7 @@ _OF_DEVICES: tuple[Domain, ...] = ("EIO", "SIO")
 
 
 def header_digits(robotware: tuple[int, int], domain: Domain) -> tuple[int, int]:
-    """Digits that a controller of this release writes and wants.
+    """Return the digits that a controller of this release requires.
 
     5.15: KRAKER; 5.61: MCUBE 2017-04-13; 6.03 to 6.14: all backups; 7.6: a GoFa's backup.
     """

@@ -1,6 +1,6 @@
-"""What bodies say, however they are written: items with fields, links, a fault.
+"""Contents of RWS bodies, independent of syntax: items, links, faults.
 
-Shapes are those that three generations of controllers really gave [VC 6.16, VC 7.21, real 7.21].
+Shapes are those of three generations of controllers [VC 6.16, VC 7.21, real 7.21].
 """
 
 import re
@@ -23,16 +23,16 @@ Syntax = Literal["xhtml", "json", "hal"]
 
 
 def whole(text: str) -> int:
-    """A whole number of at most 18 digits; 0 where the text is none."""
+    """Return a whole number of at most 18 digits; 0 for another text."""
     return int(text) if re.fullmatch(r"[+-]?[0-9]{1,18}", text) else 0
 
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """One thing of a body: its class, its title, its fields as texts, in order.
+    """One item of a body: class, title and fields as texts, in order.
 
-    `within` are items inside it (arguments of an event, attributes of a cfg instance); `links`
-    are by their `rel`.
+    `within` are items inside it (arguments of an event, attributes of a cfg instance); `links` are
+    by their `rel`.
     """
 
     kind: str
@@ -42,17 +42,17 @@ class Item:
     within: tuple["Item", ...] = ()
 
     def text(self, name: str, default: str = "") -> str:
-        """A field, or `default`."""
+        """Return a field, or `default`."""
         return self.fields.get(name, default)
 
     def whole(self, name: str) -> int:
-        """A field as a whole number; 0 where it is none."""
+        """Return a field as a whole number; 0 if it is not one."""
         return whole(self.fields.get(name, ""))
 
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """Why a request was refused: ABB's code, and the words with it."""
+    """Reason of a rejected request: ABB's code and its text."""
 
     code: int
     message: str = ""
@@ -60,9 +60,9 @@ class Fault:
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """What an answer holds.
+    """Contents of an answer.
 
-    `next` is where a collection goes on, relative to `base`.
+    `next` is the address of the rest of a collection, relative to `base`.
     """
 
     items: tuple[Item, ...] = ()
@@ -71,18 +71,18 @@ class Body:
     here: str = ""
     next: str = ""
     collection: bool = False
-    """Whether HAL gives the items as embedded resources."""
+    """True if HAL gives the items as embedded resources."""
     links: Mapping[str, str] = field(default_factory=dict)
     fault: Fault | None = None
 
     def first(self, kind: str) -> Item | None:
-        """The first item of a class."""
+        """Return the first item of a class."""
         return next(iter(self.all(kind)), None)
 
     def all(self, *kinds: str) -> tuple[Item, ...]:
-        """Items of any of these classes."""
+        """Return the items of any of these classes."""
         return tuple(item for item in self.items if item.kind in kinds)
 
 
 class Unreadable(ValueError):
-    """Bytes are no body of Robot Web Services."""
+    """Bytes that are not a body of Robot Web Services."""

@@ -1,7 +1,8 @@
-"""Codes of refusals: ABB's names, as the manual of RWS 1.0 has them [code: a RobotWare 6 client].
+"""RWS error codes with ABB's names.
 
-One code means different things by verb, and RobotWare 6 and 7 give it with other HTTP statuses:
-whoever reads one looks at status, code and path together.
+Source: the manual of RWS 1.0 [code: a RobotWare 6 client]. One code has different meanings by verb,
+and RobotWare 6 and 7 give it with other HTTP statuses: a client must look at status, code and path
+together.
 """
 
 OK = 294_912
@@ -73,5 +74,5 @@ CODES: dict[str, int] = {name: code for code, name in NAMES.items()}
 
 
 def name_of(code: int) -> str:
-    """ABB's name of a code, or the number."""
+    """Return ABB's name of a code, or the number."""
     return NAMES.get(code, str(code))

@@ -1,4 +1,4 @@
-"""Subscriptions on the wire: what is asked for, what the answer says, and events."""
+"""Subscriptions on the wire: requests, answers and events."""
 
 import re
 from collections.abc import Iterable, Sequence
@@ -21,14 +21,17 @@ _TWINS = {"rap-value-ev": ("rap-data",)}
 
 @dataclass(frozen=True, slots=True)
 class WantedResource:
-    """A resource and its priority: 0 each 5 s, 1 each 200 ms, 2 at once."""
+    """A resource and its priority.
+
+    0 each 5 s, 1 each 200 ms, 2 immediately.
+    """
 
     resource: str
     priority: int = 1
 
 
 def write_wanted(expected: Sequence[WantedResource]) -> list[tuple[str, str]]:
-    """The form that asks for a subscription."""
+    """Return the form that requests a subscription."""
     fields: list[tuple[str, str]] = []
     for i, one in enumerate(expected, 1):
         fields += [("resources", str(i)), (str(i), one.resource), (f"{i}-p", str(one.priority))]
@@ -36,11 +39,11 @@ def write_wanted(expected: Sequence[WantedResource]) -> list[tuple[str, str]]:
 
 
 def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[WantedResource]:
-    """What a form asks for.
+    """Return the resources of a subscription form.
 
     Indices may begin at 0, `resources` may come once for all.
 
-    ValueError: nothing is asked for, or at no priority.
+    ValueError: no resource, or one without priority.
     """
     result = dict(pairs)
     numbers = sorted(int(key) for key in result if key.isdecimal())
@@ -56,9 +59,9 @@ def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[WantedResource]:
 
 
 def write_opened(number: int, poll: str, items: Iterable[Item]) -> bytes:
-    """The body of 201: the group, the websocket's address, what everything is now.
+    """Return the body of 201: group, websocket address, current values.
 
-    The address stands in an open and a close tag, which a client's regular expression wants.
+    The address is in an open and a close tag, which a client's regular expression requires.
     """
     inside = "".join(_event(item) for item in items)
     return (
@@ -70,7 +73,7 @@ def write_opened(number: int, poll: str, items: Iterable[Item]) -> bytes:
 
 
 def write_events(items: Iterable[Item]) -> bytes:
-    """An event as it comes over the websocket: one line."""
+    """Return an event as one line, for the websocket."""
     inside = "".join(_event(item) for item in items)
     return (
         '<?xml version="1.0" encoding="utf-8"?><html xmlns="http://www.w3.org/1999/xhtml"><head>'
@@ -84,14 +87,18 @@ def _event(item: Item) -> str:
 
 
 def read_events(data: bytes) -> tuple[Item, ...]:
-    """Events of a message. Unreadable: it is none."""
+    """Return the events of a message.
+
+    Unreadable: not an event message.
+    """
     return xhtml.read(data).items
 
 
 def read_opened(body: Body, location: str) -> tuple[str, str]:
-    """(group, path of the websocket) of a 201; ValueError: it tells neither.
+    """Return (group, path of the websocket) of a 201.
 
-    Only paths are taken: a controller's idea of its own address is not followed.
+    ValueError: one is missing. Only paths are taken: a controller's idea of its own address is not
+    followed.
     """
     match = re.search(r"/poll/([\w-]{1,64})$", location or body.here)
     if match is None:

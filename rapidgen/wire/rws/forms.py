@@ -1,4 +1,4 @@
-"""Forms and paths as they are sent: percent encoding by segment, `$` and `;` as they are."""
+"""Forms and paths: percent encoding by segment; `$` and `;` stay."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -13,20 +13,23 @@ _SAFE = "$-_.!~*'(),:@"
 
 
 def form_type(generation: Generation) -> str:
-    """Content-Type of a form; RWS 2.0 refuses one without its version (406)."""
+    """Return the Content-Type of a form.
+
+    RWS 2.0 rejects one without its version (406).
+    """
     return FORM if generation is Generation.ONE else f"{FORM};v=2.0"
 
 
 def write_form(fields: Fields) -> bytes:
-    """A form, percent-encoded; blanks as %20."""
+    """Return a form, percent-encoded; blanks as %20."""
     pairs = fields.items() if isinstance(fields, Mapping) else fields
     return "&".join(f"{quote(k, safe='')}={quote(v, safe='')}" for k, v in pairs).encode()
 
 
 def read_form(data: bytes | str) -> list[tuple[str, str]]:
-    """Fields in order; `Attr=[v,1]` may come raw.
+    """Return fields in order; `Attr=[v,1]` may come raw.
 
-    UnicodeDecodeError: no text of UTF-8.
+    UnicodeDecodeError: not a UTF-8 text.
     """
     text = data.decode() if isinstance(data, bytes) else data
     pairs = (part.partition("=") for part in text.split("&") if part)
@@ -34,19 +37,19 @@ def read_form(data: bytes | str) -> list[tuple[str, str]]:
 
 
 def segment(text: str) -> str:
-    """A name as one segment of a path."""
+    """Return a name as one segment of a path."""
     return quote(text, safe=_SAFE)
 
 
 def path_of(text: str) -> str:
-    """A path with several segments, each encoded."""
+    """Return a path with several segments, each encoded."""
     return "/".join(segment(part) for part in text.split("/"))
 
 
 def split_target(target: str) -> tuple[str, str, list[tuple[str, str]]]:
-    """A request target as decoded path, what follows a `;` in it, and the query's fields.
+    """Return a request target as path, text after `;`, and query fields.
 
-    A `;` that is written as %3B belongs to a name. Unreadable: it is no path.
+    A `;` written as %3B belongs to a name. Unreadable: not a path.
     """
     path, _, query = target.partition("?")
     if not path.startswith("/") or re.search(r"%(?![0-9A-Fa-f]{2})", path):

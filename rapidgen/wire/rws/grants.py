@@ -1,8 +1,8 @@
-"""Which grant of the user authorization system an operation takes, by UAS name.
+"""Grants of the user authorization system that operations require.
 
-Names and uses: ABB's OmniCore App SDK 1.2 and intellij-rapid [code]; a start and a stop from afar
-take a grant of their own on RobotWare 7 [real 7.21]. What ABB's manuals alone tell of the others
-is what their names say. Reading takes none, but files do.
+Names and uses: ABB's OmniCore App SDK 1.2 and intellij-rapid [code]; a remote start and stop
+require a grant of their own on RobotWare 7 [real 7.21]. For the others ABB's manuals give only the
+names. Reading requires none, except for files.
 """
 
 from rapidgen.wire.rws import operations as ops
@@ -12,7 +12,7 @@ from rapidgen.wire.rws.operations import RwsOperation
 _REMOTE_START = "UAS_REMOTE_START_STOP_IN_AUTO"
 _READ, _WRITE = "UAS_FILE_ACCESS_READ", "UAS_FILE_ACCESS_READ_WRITE"
 _FTP_READ, _FTP_WRITE = "UAS_FTP_READ", "UAS_FTP_WRITE"
-"""Access to files is called so on RobotWare 6 [code: App SDK]."""
+"""File access grants on RobotWare 6 [code: App SDK]."""
 
 GRANTS = (
     "UAS_BACKUP", "UAS_CALIBRATE", "UAS_CFG_WRITE", "UAS_CONTROLLER_PROPERTIES_WRITE",
@@ -66,14 +66,14 @@ _WRITING = (
 def missing(
     operation: RwsOperation, generation: Generation, granted: frozenset[str]
 ) -> tuple[str, ...]:
-    """Grants that somebody with these lacks for an operation."""
+    """Return the grants that a user lacks for an operation."""
     return tuple(
         g for g in needed(operation, generation) if g not in granted and not _more(g, granted)
     )
 
 
 def needed(operation: RwsOperation, generation: Generation) -> tuple[str, ...]:
-    """Grants that an operation takes."""
+    """Return the grants that an operation requires."""
     is_one = generation is Generation.ONE
     if operation in _READING:
         return (_FTP_READ if is_one else _READ,)
@@ -85,5 +85,5 @@ def needed(operation: RwsOperation, generation: Generation) -> tuple[str, ...]:
 
 
 def _more(grant: str, granted: frozenset[str]) -> bool:
-    """Whether another grant holds this one: who may write files may read them."""
+    """True if another grant includes this one: writing files includes reading."""
     return {_READ: _WRITE, _FTP_READ: _FTP_WRITE}.get(grant) in granted

@@ -15,12 +15,12 @@ _WITHIN = {
     "sys-energy-state-li": "mechunits",
     "sys-energy-mec-li": "axes",
 }
-"""Under which name items within an item stand; else `attrib` [mem]."""
+"""Key of items within an item; else `attrib` [mem]."""
 _Object = dict[str, object]
 
 
 def write_json(body: Body) -> bytes:
-    """A body as JSON of RWS 1.0: all items are in `_embedded._state`."""
+    """Return a body as JSON of RWS 1.0: all items are in `_embedded._state`."""
     embedded: _Object = {"_state": [_item(item) for item in body.items]}
     if body.fault is not None:
         embedded["status"] = {"code": body.fault.code, "msg": body.fault.message}
@@ -28,7 +28,10 @@ def write_json(body: Body) -> bytes:
 
 
 def write_hal(body: Body) -> bytes:
-    """A body as HAL: single things are in `state`, collections embedded as `resources`."""
+    """Return a body as HAL.
+
+    Single items are in `state`, collections embedded as `resources`.
+    """
     links = _links(body)
     if body.fault is not None:
         status: _Object = {"code": body.fault.code, "msg": body.fault.message}
@@ -44,7 +47,7 @@ def write_hal(body: Body) -> bytes:
 
 def _links(body: Body) -> dict[str, object]:
     links = {"base": body.base, "self": body.here, "next": body.next, **body.links}
-    # `&amp;` really stands in these texts [VC 7.21].
+    # These texts contain a literal `&amp;` [VC 7.21].
     return {rel: {"href": to.replace("&", "&amp;")} for rel, to in links.items() if to}
 
 
@@ -59,7 +62,10 @@ def _item(item: Item) -> _Object:
 
 
 def read(data: bytes) -> Body:
-    """A body from JSON of either generation. Unreadable: it is none."""
+    """Return a body from JSON of either generation.
+
+    Raises Unreadable.
+    """
     if len(data) > LARGEST:
         raise Unreadable(f"{len(data)} bytes")
     try:

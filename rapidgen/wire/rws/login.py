@@ -1,4 +1,4 @@
-"""How users prove who they are: HTTP's digest (RFC 7616 with MD5 and qop=auth), and Basic."""
+"""HTTP authentication: digest (RFC 7616 with MD5, qop=auth) and Basic."""
 
 import base64
 import hashlib
@@ -13,7 +13,7 @@ _PART = re.compile(r'(\w+)=(?:"((?:[^"\\]|\\.)*)"|([^\s,"]+))')
 
 @dataclass(frozen=True, slots=True)
 class Digest:
-    """What a client sends."""
+    """Authorization of a client."""
 
     user: str
     nonce: str
@@ -24,7 +24,7 @@ class Digest:
 
 
 def challenge(nonce: str, *, stale: bool = False) -> str:
-    """WWW-Authenticate."""
+    """Return WWW-Authenticate."""
     again = ", stale=true" if stale else ""
     return (
         f'Digest realm="{REALM}", domain="/", nonce="{nonce}", qop="auth", algorithm="MD5"{again}'
@@ -32,7 +32,7 @@ def challenge(nonce: str, *, stale: bool = False) -> str:
 
 
 def parse(header: str) -> Digest | None:
-    """An Authorization header; None: it is no digest with qop=auth."""
+    """Parse an Authorization header; None: not a digest with qop=auth."""
     scheme, _, remaining = header.partition(" ")
     result = {key.lower(): quoted or bare for key, quoted, bare in _PART.findall(remaining)}
     if scheme.lower() != "digest" or result.get("qop") != "auth" or result.get("realm") != REALM:
@@ -48,9 +48,9 @@ def parse(header: str) -> Digest | None:
 
 
 def is_right(sent: Digest, method: str, password: str) -> bool:
-    """Whether the response is that of this password.
+    """True if the response belongs to this password.
 
-    The user goes into it as it is.
+    The user name is used unchanged.
     """
     ha1 = _md5(f"{sent.user}:{REALM}:{password}")
     ha2 = _md5(f"{method}:{sent.uri}")
@@ -63,7 +63,10 @@ def _md5(text: str) -> str:
 
 
 def basic_user(header: str, users: Mapping[str, str]) -> str | None:
-    """Who an `Authorization: Basic` header names with the right password; None: nobody."""
+    """Return the user of an `Authorization: Basic` header, or None.
+
+    None: unknown user or wrong password.
+    """
     scheme, _, remaining = header.partition(" ")
     if scheme.lower() != "basic":
         return None

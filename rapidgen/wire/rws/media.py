@@ -1,7 +1,7 @@
-"""Media types: what an answer is written in, and what each generation wants to be asked for.
+"""Media types of answers, and their negotiation in each generation.
 
-RWS 1.0 looks at `?json=1` alone. RWS 2.0 refuses `*/*` and a type without its version with 406,
-but for files [VC 7.21, real 7.21]; a trailing `;` is tolerated [code: App SDK].
+RWS 1.0 looks at `?json=1` alone. RWS 2.0 rejects `*/*` and a type without its version with 406,
+except for files [VC 7.21, real 7.21]; a trailing `;` is tolerated [code: App SDK].
 """
 
 from collections.abc import Callable
@@ -12,14 +12,14 @@ from rapidgen.wire.rws.bodies import Body, Generation, Syntax, Unreadable
 HAL = "application/hal+json;v=2.0"
 XHTML = "application/xhtml+xml;v=2.0"
 HAL_21 = "application/hal+json;v=2.1"
-"""Asked for where the log is wanted newest first."""
+"""Requested where the log is read newest first."""
 CONTENT_TYPES: dict[Syntax, str] = {
     "xhtml": "application/xhtml+xml",
     "json": "application/json",
     "hal": HAL,
 }
 FILE_TYPES = ("text/plain;v=2.0", "application/octet-stream;v=2.0")
-"""What a file may be written as in RWS 2.0; else 415."""
+"""Media types of written files in RWS 2.0; else 415."""
 WRITERS: dict[Syntax, Callable[[Body], bytes]] = {
     "xhtml": xhtml.write,
     "json": json_bodies.write_json,
@@ -28,12 +28,12 @@ WRITERS: dict[Syntax, Callable[[Body], bytes]] = {
 
 
 def plain(value: str) -> str:
-    """A media type without blanks, case and a trailing semicolon."""
+    """Return a media type without blanks, case and a trailing semicolon."""
     return value.replace(" ", "").lower().rstrip(";")
 
 
 def wanted(generation: Generation, accept: str, query: dict[str, str]) -> Syntax | None:
-    """The syntax of the answer; None is 406."""
+    """Return the syntax of the answer; None is 406."""
     if generation is Generation.ONE:
         return "json" if query.get("json") == "1" else "xhtml"
     for requested in map(plain, accept.split(",")):
@@ -47,9 +47,10 @@ def wanted(generation: Generation, accept: str, query: dict[str, str]) -> Syntax
 
 
 def read(data: bytes, content_type: str) -> Body:
-    """A body, by its type; a 404 for a file says text/html and is JSON [VC 7.21].
+    """Read a body by its type.
 
-    Unreadable: it is neither XHTML nor JSON.
+    A 404 for a file says text/html and is JSON [VC 7.21]. Raises Unreadable if it is neither XHTML
+    nor JSON.
     """
     if data.lstrip()[:1] == b"{":
         return json_bodies.read(data)

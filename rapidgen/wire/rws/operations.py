@@ -1,8 +1,8 @@
-"""What can be asked of a controller: each operation once, as every generation spells it.
+"""RWS operations: each once, with the spelling of every generation.
 
 `METHOD /path[?action=name]`, or `?resource=name`; `{name}` is one segment, `{name*}` several. RWS
-1.0 has verbs as `?action=`, 2.0 as a last segment, with few exceptions. "-" is what a generation
-does not have.
+1.0 has verbs as `?action=`, 2.0 as a last segment, with few exceptions. "-" means that a generation
+lacks the operation.
 """
 
 import re
@@ -15,15 +15,15 @@ from rapidgen.wire.rws.forms import path_of, segment
 
 @dataclass(frozen=True, slots=True)
 class Route:
-    """How one generation spells an operation."""
+    """Spelling of an operation in one generation."""
 
     method: str
     path: str
     selector: str = ""
-    """`action=name` or `resource=name`: what of the path is meant."""
+    """`action=name` or `resource=name`: part of the path that is meant."""
 
     def fill(self, names: dict[str, str]) -> str:
-        """The request target for these names."""
+        """Return the request target for these names."""
         target = self.path
         for name, value in names.items():
             target = target.replace(f"{{{name}}}", segment(value))
@@ -32,11 +32,11 @@ class Route:
 
     @property
     def pattern(self) -> re.Pattern[str]:
-        """What decoded paths of this operation look like."""
+        """Return the pattern of decoded paths of this operation."""
         return re.compile(
             re.sub(
                 r"\\\{(\w+)(\\\*)?\\\}",
-                # Files and routines stand in names of cfg instances.
+                # Names of cfg instances contain files and routines.
                 lambda m: f"(?P<{m[1]}>{'.+' if m[2] or m[1] == 'instance' else '[^/]+'})",
                 re.escape(self.path),
             )
@@ -45,14 +45,14 @@ class Route:
 
 @dataclass(frozen=True, slots=True)
 class RwsOperation:
-    """One thing that can be asked; `eight` where RobotWare 8 differs from 7."""
+    """One operation; `eight` if RobotWare 8 differs from 7."""
 
     one: str
     two: str
     eight: str = ""
 
     def route(self, generation: Generation) -> Route | None:
-        """How a generation spells it; None: it has no such thing."""
+        """Return the spelling of a generation; None: not available."""
         return _route(self, generation)
 
 
@@ -73,7 +73,10 @@ def _same(text: str) -> RwsOperation:
 
 
 def _verb(path: str, one: str, two: str = "") -> RwsOperation:
-    """The rule of verbs; `two`: RWS 2.0 has another word for it."""
+    """Return the operation by the rule of verbs.
+
+    `two`: another word in RWS 2.0.
+    """
     return RwsOperation(f"POST {path}?action={one}", f"POST {path}/{two or one}")
 
 
@@ -292,7 +295,7 @@ VOLUMES = _same("GET /fileservice")
 READ_FILE = _same("GET /fileservice/{path*}")
 WRITE_FILE = _same("PUT /fileservice/{path*}")
 DELETE_FILE = _same("DELETE /fileservice/{path*}")
-# RWS 1.0 tells create, copy and rename apart by the form's `fs-action`.
+# RWS 1.0 distinguishes create, copy and rename by the form's `fs-action`.
 FILE_ACTION = RwsOperation("POST /fileservice/{path*}", "-")
 CREATE_FOLDER = RwsOperation("-", "POST /fileservice/{path*}/create")
 COPY_FILE = RwsOperation("-", "POST /fileservice/{path*}/copy")

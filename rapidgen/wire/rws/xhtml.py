@@ -1,4 +1,4 @@
-"""Bodies as XHTML, both ways: `li` are items, `span` their fields, `a` links."""
+"""Bodies as XHTML: `li` are items, `span` their fields, `a` links."""
 
 from collections.abc import Iterator
 from html import escape
@@ -11,27 +11,27 @@ from rapidgen.wire.rws.bodies import Body, Fault, Item, Unreadable
 
 _HEAD = '<?xml version="1.0" encoding="UTF-8"?><html xmlns="http://www.w3.org/1999/xhtml"><head>'
 LARGEST = 16_000_000
-"""Bytes of a body that is taken apart."""
+"""Maximum bytes of a body that is parsed."""
 _DEEPEST = 8
-"""Items within items."""
+"""Maximum depth of items within items."""
 _CONTROLS = (*range(9), 11, 12, *range(14, 32))
 _SURROGATES = range(0xD800, 0xE000)
 _FORBIDDEN = dict.fromkeys((*_CONTROLS, *_SURROGATES, 0xFFFE, 0xFFFF), "\N{REPLACEMENT CHARACTER}")
-"""What XML cannot hold; texts of RAPID may."""
+"""Characters that XML cannot hold; texts of RAPID may contain them."""
 
 
 def text(value: str) -> str:
-    """A value as text of an element."""
+    """Return a value as text of an element."""
     return escape(value.translate(_FORBIDDEN), quote=False)
 
 
 def quoted(value: str) -> str:
-    """A value as an attribute, with its quotes."""
+    """Return a value as an attribute, with its quotes."""
     return f'"{escape(value.translate(_FORBIDDEN))}"'
 
 
 def write(body: Body) -> bytes:
-    """A body as XHTML, UTF-8."""
+    """Return a body as XHTML, UTF-8."""
     if body.fault is not None:
         return write_fault(body.fault, body.title, body.base)
     links = {"self": body.here, **({"next": body.next} if body.next else {}), **body.links}
@@ -43,7 +43,10 @@ def write(body: Body) -> bytes:
 
 
 def write_fault(fault: Fault, title: str, base: str) -> bytes:
-    """A refusal. Errors of RWS 2.0 carry no title [VC 7.21]: leave it empty."""
+    """Return an error body.
+
+    Errors of RWS 2.0 have no title [VC 7.21]: leave it empty.
+    """
     named = f"<title>{text(title)}</title>" if title else ""
     return (
         f'{_HEAD}{named}<base href={quoted(base)}/></head><body><div class="status">'
@@ -57,7 +60,7 @@ def _links(links: dict[str, str]) -> str:
 
 
 def write_item(item: Item) -> str:
-    """One item."""
+    """Return one item."""
     spans = "".join(
         f"<span class={quoted(name)}>{text(value)}</span>" for name, value in item.fields.items()
     )
@@ -69,7 +72,10 @@ def write_item(item: Item) -> str:
 
 
 def read(data: bytes) -> Body:
-    """A body from XHTML. Unreadable: it is none, or larger than LARGEST."""
+    """Parse a body from XHTML.
+
+    Raises Unreadable, also if it is larger than LARGEST.
+    """
     if len(data) > LARGEST:
         raise Unreadable(f"{len(data)} bytes")
     try:
@@ -97,7 +103,10 @@ def read(data: bytes) -> Body:
 
 
 def _walk(root: Element) -> Iterator[tuple[Element, str]]:
-    """Elements outside items, in order; an item itself, not what is in it."""
+    """Yield elements outside items, in order.
+
+    An item itself, but not its contents.
+    """
     stack = [root]
     while stack:
         element = stack.pop()
@@ -128,7 +137,7 @@ def _read_item(element: Element, depth: int) -> Item:
     for child in element:
         tag = _tag(child)
         if tag == "span":
-            # RobotWare 6 writes `coldetstate ` with a blank behind it.
+            # RobotWare 6 writes `coldetstate ` with a trailing blank.
             fields[child.get("class", "").strip()] = "".join(child.itertext())
         elif tag == "a":
             links.setdefault(child.get("rel", ""), child.get("href", ""))

@@ -1,4 +1,7 @@
-"""simple_message as data, and what is derived from it. No I/O."""
+"""simple_message as data: specification, codec and derived texts.
+
+No I/O.
+"""
 
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -13,7 +16,7 @@ if TYPE_CHECKING:
         WireError,
     )
 
-# The generator needs the specification only, and should not pay for the codec.
+# The generator needs the specification only, and should not load the codec.
 _FILES = {
     **dict.fromkeys(("decode", "encode", "encode_reply"), "codec"),
     **dict.fromkeys(

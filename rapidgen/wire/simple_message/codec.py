@@ -27,7 +27,7 @@ _REPLY_BY_CLASS = {
 _HELLO = messages.HELLO.number
 _HELLO_VERSION = Packing(messages.HELLO.reply(ReplyCode.FAILURE).fields)
 
-# The path of every message: no enum is asked there.
+# Every message passes here: no enum look-up.
 _REPLY = int(Comm.REPLY)
 _ASKING = (int(Comm.TOPIC), int(Comm.REQUEST))
 _NO_REPLY = int(ReplyCode.NONE)
@@ -35,12 +35,12 @@ _make = tuple.__new__
 
 
 def number_of(content: Content) -> int:
-    """The message number of a topic or request."""
+    """Return the message number of a topic or request."""
     return _BY_CLASS[type(content)][0]
 
 
 def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
-    """A topic or request as one frame.
+    """Return a topic or request as one frame.
 
     Raises ContentError for a value its field cannot hold.
     """
@@ -49,7 +49,7 @@ def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
 
 
 def encode_reply(number: int, content: Content) -> bytes:
-    """The reply to a request of type `number` as one frame."""
+    """Return the reply to a request of type `number` as one frame."""
     if isinstance(content, messages.Acknowledged):
         return Frame(number, Comm.REPLY, ReplyCode.SUCCESS, b"").to_bytes()
     if isinstance(content, messages.Failure):
@@ -62,10 +62,10 @@ def encode_reply(number: int, content: Content) -> bytes:
 
 
 def decode(frame: Frame) -> Content:
-    """The content of a frame: a value of one of the classes of `messages`.
+    """Return the content of a frame, one of the classes of `messages`.
 
-    Raises ContentError for an unknown number, comm_type or reply_code, and for data whose
-    length does not fit; values are not judged (a float may be NaN).
+    Raises ContentError for an unknown number, comm_type or reply_code, and for data of a wrong
+    length; values are not checked (a float may be NaN).
     """
     number, comm, reply, data = frame
     if comm == _REPLY:
@@ -102,7 +102,7 @@ def _decode_reply(frame: Frame) -> Content:
         return messages.Acknowledged() if reply == ReplyCode.SUCCESS else messages.Failure()
     known = _REPLIES.get((number, reply, len(data)))
     if known is None and number == _HELLO and len(data) >= _HELLO_VERSION.size:
-        # Of another version, which its first field still tells.
+        # Of another version, which its first field still contains.
         return _make(messages.HelloRefusal, _HELLO_VERSION.unpack(data))
     if known is None:
         raise ContentError(f"reply to {_NAMES[number]} has {len(data)} bytes of data")

@@ -1,7 +1,7 @@
-"""How a message is declared: its fields are those of a NamedTuple, annotated with their types.
+"""Declaration of messages: NamedTuples with annotated fields.
 
-`name: Annotated[int, int32("what it says")]` is a field to Python's type checkers and to the
-wire alike. What else knows a message (codec, RAPID constants, docs/develop/protocol.md) asks here.
+`name: Annotated[int, int32("description")]` is a field to Python's type checkers and to the wire
+alike. The codec, the RAPID constants and docs/develop/protocol.md read these declarations.
 """
 
 from dataclasses import dataclass, replace
@@ -13,7 +13,7 @@ from rapidgen.wire.simple_message.spec import HEADER_BYTES, Port, ReplyCode
 Value = int | float | str | tuple[int, ...] | tuple[float, ...]
 """One field's value: a scalar, a text, or a tuple of `count` numbers."""
 Content = tuple[Value, ...]
-"""What a frame carries: one of the classes that `messages` declares."""
+"""Content of a frame: one of the classes that `messages` declares."""
 
 
 class Wire(StrEnum):
@@ -24,20 +24,20 @@ class Wire(StrEnum):
     FIXED = "fixed"
     """A fixed-point number: an int32 of steps of 1 / FIXED_SCALE.
 
-    Eight bytes at a time would be fewer to read, but what a controller makes of a ULINT above 2^52
-    is in no manual.
+    Eight bytes at a time would need fewer reads, but no manual says how a controller reads a ULINT
+    above 2^52.
     """
     CHAR = "char"
     """One byte of ASCII; a text is filled up with zero bytes."""
 
     @property
     def size(self) -> int:
-        """Bytes of one value."""
+        """Return the bytes of one value."""
         return 1 if self is Wire.CHAR else 4
 
 
 ANY = 0
-"""Count of a field that has as many values as the length of the message says."""
+"""Count of a field whose number of values follows from the message's length."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,56 +55,56 @@ class Field:
 
     @property
     def size(self) -> int:
-        """Bytes on the wire; of a field with the count ANY, those of no value."""
+        """Return the bytes on the wire; with the count ANY, those of no value."""
         return self.type.size * self.count
 
 
 def int32(text: str = "", count: int = 1) -> Field:
-    """Whole numbers."""
+    """Declare whole numbers."""
     return Field(Wire.INT32, count, "", text)
 
 
 def float32(unit: str, text: str = "", count: int = 1) -> Field:
-    """Numbers of a unit ("1": of none)."""
+    """Declare numbers with a unit ("1": none)."""
     return Field(Wire.FLOAT32, count, unit, text)
 
 
 def chars(count: int, text: str) -> Field:
-    """A text of at most so many bytes."""
+    """Declare a text of at most so many bytes."""
     return Field(Wire.CHAR, count, "", text)
 
 
 def fields_of(kind: type[Content]) -> tuple[Field, ...]:
-    """The fields that a class declares, in the order of the wire."""
+    """Return the fields that a class declares, in wire order."""
     return tuple(
         replace(hint.__metadata__[0], name=name) for name, hint in kind.__annotations__.items()
     )
 
 
 class _Data:
-    """What carries the fields of a class: `kind` names it."""
+    """Data with the fields of the class `kind`."""
 
     kind: type[Content]
 
     @cached_property
     def fields(self) -> tuple[Field, ...]:
-        """The fields of its data."""
+        """Return the fields of its data."""
         return fields_of(self.kind)
 
     @cached_property
     def size(self) -> int:
-        """Bytes of the data; the fewest where a field has any number of values."""
+        """Return the bytes of the data; the minimum for a variable field."""
         return sum(field.size for field in self.fields)
 
     @property
     def length(self) -> int:
-        """Value of the length field; the smallest where a field has any number of values."""
+        """Return the value of the length field; the minimum if variable."""
         return HEADER_BYTES + self.size
 
 
 @dataclass(frozen=True)
 class Reply(_Data):
-    """One reply to a request: what it carries and `when` it comes."""
+    """One reply to a request: its content, and `when` it is sent."""
 
     code: ReplyCode
     kind: type[Content]
@@ -115,9 +115,9 @@ class Reply(_Data):
 class MessageType(_Data):
     """One type of messages.
 
-    `name` is that of simple_message, `kind` the class that declares the fields, whose docstring
-    is the text of the page; `sender` is `client` or `controller`; `ports` are those on which it
-    travels; `since` is the protocol version that brought it (0: standard simple_message).
+    `name` is that of simple_message, `kind` the class that declares the fields, whose docstring is
+    the text of the page; `sender` is `client` or `controller`; `ports` are those on which it
+    travels; `since` is the first protocol version with it (0: standard simple_message).
     """
 
     name: str
@@ -130,15 +130,15 @@ class MessageType(_Data):
 
     @property
     def text(self) -> str:
-        """What it is, for people."""
+        """Return its description."""
         return " ".join((self.kind.__doc__ or "").split())
 
     @property
     def is_fixed(self) -> bool:
-        """Whether the length is always the same."""
+        """True if the length is always the same."""
         return all(field.count != ANY for field in self.fields)
 
     def reply(self, code: ReplyCode) -> Reply:
-        """The reply with this code, of which there is one."""
+        """Return the reply with this code, of which there is one."""
         (result,) = (reply for reply in self.replies if reply.code is code)
         return result

@@ -1,7 +1,7 @@
-"""Frames: how a byte stream falls into messages, whatever TCP split or merged.
+"""Frames: split a byte stream into messages, however TCP divides it.
 
-`length:int32` (bytes that follow), `msg_type`, `comm_type`, `reply_code` (int32 each), data;
-little endian.
+`length:int32` (bytes that follow), `msg_type`, `comm_type`, `reply_code` (int32 each), data; little
+endian.
 """
 
 from struct import Struct
@@ -12,25 +12,28 @@ from rapidgen.wire.simple_message import spec
 _HEAD = Struct("<4i")
 _HEAD_BYTES = spec.PREFIX_BYTES + spec.HEADER_BYTES
 _PREFIX = Struct("<i")
-# The path of every message: no look-up that can be made once.
+# Every message passes here: look-ups are done once in advance.
 _PREFIX_BYTES = spec.PREFIX_BYTES
 _MIN_LENGTH = spec.MIN_LENGTH
 
 
 class WireError(ValueError):
-    """Bytes that no speaker of this protocol sends."""
+    """Bytes that violate the protocol."""
 
 
 class FramingError(WireError):
-    """A length outside its bounds: nothing behind it can be trusted, the link must be dropped."""
+    """A length outside its bounds.
+
+    No later bytes can be trusted; the link must be dropped.
+    """
 
 
 class ContentError(WireError):
-    """The data of one frame does not fit its type; the frames behind it are still good."""
+    """The data of one frame does not fit its type; later frames are valid."""
 
 
 class Frame(NamedTuple):
-    """One frame: the header's three numbers and the data behind them."""
+    """One frame: the header's three numbers and the data."""
 
     number: int
     comm: int
@@ -38,7 +41,7 @@ class Frame(NamedTuple):
     data: bytes
 
     def to_bytes(self) -> bytes:
-        """The frame with its length, as it is on the wire."""
+        """Return the frame with its length, as on the wire."""
         length = spec.HEADER_BYTES + len(self.data)
         return _HEAD.pack(length, self.number, self.comm, self.reply) + self.data
 
@@ -47,9 +50,9 @@ _new_frame = tuple.__new__
 
 
 class FrameSplitter:
-    """Turns received bytes into frames; holds at most one incomplete frame.
+    """Splits received bytes into frames; holds at most one incomplete frame.
 
-    Feed what arrives, then take frames until there is none.
+    Call `feed` with received bytes, then `next` until it returns None.
     """
 
     def __init__(self, *, max_length: int = spec.MAX_LENGTH) -> None:
@@ -60,7 +63,7 @@ class FrameSplitter:
 
     @property
     def pending(self) -> int:
-        """Bytes of the frame that is not complete yet."""
+        """Return the bytes of the incomplete frame."""
         return len(self._buffer) - self._at
 
     def feed(self, data: bytes) -> None:
@@ -70,10 +73,10 @@ class FrameSplitter:
         self._at = 0
 
     def next(self) -> Frame | None:
-        """The next complete frame, or None.
+        """Return the next complete frame, or None.
 
-        Raises FramingError at a length below a header or above the largest message, and again
-        on each later call.
+        Raises FramingError at a length below a header or above the largest message, and again on
+        each later call.
         """
         if self._broken:
             raise FramingError(self._broken)
@@ -81,7 +84,7 @@ class FrameSplitter:
         available = len(buffer) - at
         if available < _PREFIX_BYTES:
             return None
-        # A wrong length is known from its first four bytes; nobody waits for the rest.
+        # A wrong length is known from its first four bytes, without waiting for the rest.
         (length,) = _PREFIX.unpack_from(buffer, at)
         if not _MIN_LENGTH <= length <= self._max_length:
             self._broken = f"length field is {length}, must be {_MIN_LENGTH} to {self._max_length}"

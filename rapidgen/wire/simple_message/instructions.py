@@ -1,4 +1,4 @@
-"""The instructions of a PROGRAM as words: what stands where, for client and page."""
+"""Instructions of a PROGRAM as words, for the client and the page."""
 
 from collections.abc import Sequence
 from struct import pack, unpack
@@ -34,23 +34,27 @@ OPERANDS: dict[Instruction, str] = {
     Instruction.WORK_OBJECT: "values of the program's own work object: position and orientation "
     "of its user frame, of its object frame",
 }
-"""Of each instruction the operands: position x, y, z in m, orientation w, x, y, z, a word each of
-the group's joints in rad or m."""
+"""Operands of each instruction: position x, y, z in m, orientation w, x, y, z, a word for each of
+the group's joints in rad or m.
+"""
 MODALS: dict[Modal, str] = {
     Modal.SPEED: "speeds of the TCP m/s, its orientation rad/s, external axes m/s and rad/s",
     Modal.ZONE: "1 stop point, 0 not; radii of the TCP, its orientation, external axes, m; of "
     "orientation rad, of linear m and of rotary external axes rad",
     Modal.FRAMES: "numbers of tool and work object; 0 the group's own, 1 the first other one, the "
-    "one behind the last that of TOOL or WORK_OBJECT",
+    "one after the last that of TOOL or WORK_OBJECT",
     Modal.SIGNALS: "how many, 1 to 8; of each its number, its value, where it is set (0 m from the "
     "beginning, 1 m before the end, 2 s before the end) and that distance",
 }
 MOST_SIGNALS = 8
-"""That are set on one move."""
+"""Maximum number of signals set on one move."""
 
 
 def fixed(values: Sequence[float]) -> list[int]:
-    """Fixed-point words. ValueError: one of them is none, or too large."""
+    """Return fixed-point words.
+
+    ValueError: a value is NaN or too large.
+    """
     if not all(-FIXED_LIMIT <= value <= FIXED_LIMIT for value in values):
         raise ValueError(f"{values} do not fit into words")
     return [round(value * FIXED_SCALE) for value in values]
@@ -66,8 +70,11 @@ def instruction(
     signals: Sequence[Sequence[float]] = (),
     arguments: Sequence[float | bool | str | tuple[float, ...]] = (),
 ) -> list[int]:
-    """The words of one instruction; `speed` (4), `zone` (7) and `frames` where they change, of each
-    of `signals` four. `arguments` are those of a routine, of a target its operands."""
+    """Return the words of one instruction.
+
+    `speed` (4), `zone` (7) and `frames` if they change; `signals` have four words each. `arguments`
+    are those of a routine; those of a target are its operands.
+    """
     first = int(kind)
     values: list[float] = []
     if speed is not None:
@@ -86,7 +93,10 @@ def instruction(
 
 
 def _argument(value: float | bool | str | tuple[float, ...]) -> Sequence[int]:
-    """The words of an argument. ValueError: it does not fit."""
+    """Return the words of an argument.
+
+    ValueError: it does not fit.
+    """
     if isinstance(value, tuple):
         return fixed(value)
     if isinstance(value, bool):

@@ -1,6 +1,6 @@
-"""The messages: each is declared here once, as a class with its fields and a row under it.
+"""The messages, each declared once: a class with its fields and a row.
 
-What needs more than a declaration is the driver's answer (templates/) and who asks (client/).
+The driver's answers are in templates/, the requests of the client in client/.
 """
 
 from typing import Annotated, NamedTuple
@@ -53,7 +53,7 @@ class Failure(NamedTuple):
 
 
 class NotDone(NamedTuple):
-    """Reply to what the control port is asked: it was not done."""
+    """Reply to a request on the control port: it was not done."""
 
     reason: Annotated[int, _REASON]
 
@@ -63,14 +63,14 @@ _NOT_DONE = Reply(ReplyCode.FAILURE, NotDone, "it was not done")
 
 
 class Ping(NamedTuple):
-    """Asks for a sign of life. abb_driver does not take it."""
+    """Asks for a reply, to check the connection. abb_driver does not accept it."""
 
 
 PING = MessageType("PING", 1, Ping, _CLIENT, (Port.MOTION,), replies=(_DONE,))
 
 
 class JointPosition(NamedTuple):
-    """Where the controller axes are."""
+    """Positions of the controller axes."""
 
     sequence: Annotated[int, int32("0 from abb_driver")]
     joints: Annotated[Joints, _POSITIONS]
@@ -82,7 +82,7 @@ JOINT_POSITION = MessageType("JOINT_POSITION", 10, JointPosition, _CONTROLLER, (
 class TrajectoryPoint(NamedTuple):
     """One point of a trajectory.
 
-    As a topic it is not answered. On the control port only STOP is taken.
+    As a topic it gets no reply. The control port accepts only STOP.
     """
 
     sequence: Annotated[int, int32("1, 2, 3, ... or a special sequence number")]
@@ -95,7 +95,7 @@ class TrajectoryPoint(NamedTuple):
 
 
 class Accepted(NamedTuple):
-    """Reply to an end frame: the trajectory was taken under this number."""
+    """Reply to an end frame: the driver accepted the trajectory under this number."""
 
     trajectory: Annotated[int, int32("number of the accepted trajectory, as in PROGRESS")]
 
@@ -127,7 +127,7 @@ JOINT_TRAJ_PT = MessageType(
 
 
 class StatusReport(NamedTuple):
-    """What the robot is doing. It carries no sequence number."""
+    """State of the robot. It carries no sequence number."""
 
     drives_powered: Annotated[int, int32("tri-state")]
     e_stopped: Annotated[int, int32("tri-state")]
@@ -144,7 +144,7 @@ STATUS = MessageType("STATUS", 13, StatusReport, _CONTROLLER, (Port.STATE,))
 class TrajectoryPointFull(NamedTuple):
     """A point with derivatives.
 
-    Neither abb_driver nor a rapidgen driver takes it.
+    Neither abb_driver nor a rapidgen driver accepts it.
     """
 
     robot_id: Annotated[int, int32()]
@@ -162,9 +162,9 @@ JOINT_TRAJ_PT_FULL = MessageType(
 
 
 class JointFeedback(NamedTuple):
-    """Where the axes are, with time and derivatives.
+    """Positions of the axes, with time and derivatives.
 
-    Only on connections that asked for it in HELLO.
+    Only on connections that requested it in HELLO.
     """
 
     robot_id: Annotated[int, int32("0")]
@@ -179,18 +179,21 @@ JOINT_FEEDBACK = MessageType("JOINT_FEEDBACK", 15, JointFeedback, _CONTROLLER, (
 
 
 class HelloRequest(NamedTuple):
-    """Who is there? Sent as a request on the state port, where abb_driver reads nothing and so
-    is not disturbed; no reply within a second means a plain simple_message driver. On the control
-    port it tells whose port that is. A reply of another length is one of another version: its
-    first field still says which."""
+    """Identification of client and driver.
+
+    Sent as a request on the state port, where abb_driver reads nothing and so is not disturbed; no
+    reply within a second means a plain simple_message driver. On the control port it identifies the
+    driver of that port. A reply of another length belongs to another version: its first field
+    contains the version.
+    """
 
     protocol: Annotated[int, int32("newest protocol version of the client")]
     client: Annotated[Version, int32("version of the client: major, minor, patch", 3)]
-    subscribe: Annotated[int, int32("features that the client wants on this connection, as bits")]
+    subscribe: Annotated[int, int32("features requested for this connection, as bits")]
 
 
 class HelloReply(NamedTuple):
-    """HELLO as a rapidgen driver answers it; limits are those of the controller axes."""
+    """HELLO reply of a rapidgen driver; limits are those of the controller axes."""
 
     protocol: Annotated[int, int32("protocol version of the driver")]
     driver: Annotated[
@@ -210,18 +213,18 @@ class HelloReply(NamedTuple):
     upper: Annotated[Joints, _POSITIONS]
     speed: Annotated[Joints, _VELOCITIES]
     control_port: Annotated[int, int32("TCP port of the control connection, 0 none")]
-    ring: Annotated[int, int32("points of a stream that the driver takes ahead")]
-    preload: Annotated[float, float32("s", "that it likes to have before it starts")]
+    ring: Annotated[int, int32("points of a stream that the driver buffers")]
+    preload: Annotated[float, float32("s", "buffered before it starts")]
     batch: Annotated[int, int32("points of one POINTS, 0 when it does not stream")]
-    signals: Annotated[int, int32("signals that SIGNAL reaches")]
+    signals: Annotated[int, int32("number of signals for SIGNAL")]
 
     def same_driver(self, other: "HelloReply") -> bool:
-        """Whether both are of one driver: the same build for the same joints."""
+        """True if both come from one driver: the same build for the same joints."""
         return (self.build_id, self.mapping) == (other.build_id, other.mapping)
 
 
 class HelloRefusal(NamedTuple):
-    """HELLO answered by a driver whose protocol version does not fit."""
+    """HELLO reply of a driver with another protocol version."""
 
     protocol: Annotated[int, int32("protocol version of the driver")]
 
@@ -234,16 +237,16 @@ HELLO = MessageType(
     (Port.STATE, Port.CONTROL),
     since=1,
     replies=(
-        Reply(ReplyCode.SUCCESS, HelloReply, "a rapidgen driver of a version that fits"),
-        Reply(ReplyCode.FAILURE, HelloRefusal, "the versions do not fit"),
+        Reply(ReplyCode.SUCCESS, HelloReply, "a rapidgen driver of the same version"),
+        Reply(ReplyCode.FAILURE, HelloRefusal, "the versions differ"),
     ),
 )
 
 
 class ProgressReport(NamedTuple):
-    """How far the newest trajectory is.
+    """Progress of the newest trajectory.
 
-    Only on connections that asked for it in HELLO.
+    Only on connections that requested it in HELLO.
     """
 
     trajectory: Annotated[int, int32("number of the newest trajectory, from 1; 0 follows 2^22 - 1")]
@@ -260,9 +263,9 @@ PROGRESS = MessageType("PROGRESS", 1301, ProgressReport, _CONTROLLER, (Port.STAT
 
 
 class Points(NamedTuple):
-    """Points of a trajectory without end. As a topic it is not answered."""
+    """Points of a trajectory without end. As a topic it gets no reply."""
 
-    # `bulk` makes and reads whole ones.
+    # `numpy_codec` encodes and decodes whole batches.
     stream: Annotated[int, int32("the client's number of the stream, 1 to 2^23 - 1")]
     flags: Annotated[int, int32("bits: 1 BEGIN, 2 END, 4 FLUSH")]
     first: Annotated[int, int32("index of the first point, from 0, modulo 2^23")]
@@ -275,7 +278,7 @@ class Points(NamedTuple):
 
 
 class PointsAccepted(NamedTuple):
-    """Reply to POINTS: all of them are in."""
+    """Reply to POINTS: the driver accepted all of them."""
 
     stream: Annotated[int, int32()]
     trajectory: Annotated[int, _TRAJECTORY]
@@ -309,31 +312,31 @@ POINTS = MessageType(
         Reply(
             ReplyCode.FAILURE,
             PointsRefused,
-            "points from `accepted` on are refused, and so is what follows them",
+            "points from `accepted` on are refused, and so are later ones",
         ),
     ),
 )
 
 
 class Stopped(NamedTuple):
-    """Where the robot stands after a halt, when its path is gone.
+    """Position of the robot after a halt, when its path is cleared.
 
-    Sent by itself.
+    Sent without a request.
     """
 
     trajectory: Annotated[int, int32("as in PROGRESS")]
     reached: Annotated[int, _REACHED]
     reason: Annotated[int, _REASON]
-    joints: Annotated[Joints, float32("rad, m", "where the axes stand", MAX_JOINTS)]
+    joints: Annotated[Joints, float32("rad, m", "positions of the axes", MAX_JOINTS)]
 
 
 STOPPED = MessageType("STOPPED", 1303, Stopped, _CONTROLLER, (Port.CONTROL,), since=2)
 
 
 class PauseRequest(NamedTuple):
-    """Holds a motion on its path, or lets it go on."""
+    """Holds a motion on its path, or resumes it."""
 
-    paused: Annotated[int, int32("1 stop on the path and keep it, 0 go on")]
+    paused: Annotated[int, int32("1 stop on the path and keep it, 0 resume")]
 
 
 PAUSE = MessageType("PAUSE", 1304, PauseRequest, _CLIENT, (Port.CONTROL,), 2, (_DONE, _NOT_DONE))
@@ -349,14 +352,14 @@ SPEED = MessageType("SPEED", 1305, SpeedRequest, _CLIENT, (Port.CONTROL,), 2, (_
 
 
 class HeartbeatRequest(NamedTuple):
-    """A sign of life of the client.
+    """Heartbeat of the client.
 
-    When the next one is late, or the connection breaks while one is awaited, the robot is stopped
-    (CLIENT_LOST).
+    When the next one is late, or the connection breaks while one is expected, the driver stops the
+    robot (CLIENT_LOST).
     """
 
     timeout: Annotated[
-        float, float32("s", "until the next one must come; 0: none is awaited any more")
+        float, float32("s", "until the next one must arrive; 0: none is expected")
     ]
 
 
@@ -387,10 +390,10 @@ class SignalRequest(NamedTuple):
 
 
 class SignalReply(NamedTuple):
-    """Reply to SIGNAL: the value as it was read, after any writing."""
+    """Reply to SIGNAL: the value after any write."""
 
     signal: Annotated[int, int32()]
-    value: Annotated[float, float32("1", "as it was read, after any writing")]
+    value: Annotated[float, float32("1", "value after any write")]
 
 
 SIGNAL = MessageType(
@@ -407,10 +410,10 @@ SIGNAL = MessageType(
 class EventReport(NamedTuple):
     """An event of the controller's log.
 
-    Only on connections that asked for it in HELLO.
+    Only on connections that requested it in HELLO.
     """
 
-    domain: Annotated[int, int32("of the event's number: 1 to 14; 0: so many were not told")]
+    domain: Annotated[int, int32("of the event's number: 1 to 14; 0: number of lost events")]
     number: Annotated[int, int32("within the domain")]
     type: Annotated[int, int32("1 state change, 2 warning, 3 error")]
     title: Annotated[str, chars(80, "in the controller's language")]
@@ -424,10 +427,10 @@ EVENT = MessageType("EVENT", 1308, EventReport, _CONTROLLER, (Port.STATE,), sinc
 class Instructions(NamedTuple):
     """Instructions of a program: moves to joints and to poses.
 
-    As a topic it is not answered.
+    As a topic it gets no reply.
     """
 
-    # `instructions` makes the words of one, `bulk` the frames.
+    # `instructions` encodes the words of one instruction, `numpy_codec` the frames.
     program: Annotated[int, int32("the client's number of the program, 1 to 2^23 - 1")]
     flags: Annotated[int, int32("bits: 1 BEGIN, 2 END, 8 WHOLE")]
     first: Annotated[int, int32("index of the first instruction, from 0, modulo 2^23")]
@@ -458,16 +461,18 @@ PROGRAM = MessageType(
 
 
 class ResultRequest(NamedTuple):
-    """What has come of the routine that a program called? The answer is that of the newest call
-    that has ended."""
+    """Asks for the result of a program's routine.
 
-    parameter: Annotated[int, int32("whose text is told, from 1; 0: no text")]
+    The answer is that of the newest call that has ended.
+    """
+
+    parameter: Annotated[int, int32("parameter whose text is requested, from 1; 0: no text")]
 
 
 class ResultReply(NamedTuple):
-    """Reply to RESULT: what the routine left in its parameters, or its error."""
+    """Reply to RESULT: the routine's output parameters, or its error."""
 
-    trajectory: Annotated[int, int32("whose call it was")]
+    trajectory: Annotated[int, int32("trajectory of the call")]
     error: Annotated[int, int32("ERRNO of the error that it raised, 0: none")]
     values: Annotated[
         tuple[float, ...],
@@ -478,7 +483,7 @@ class ResultReply(NamedTuple):
         ),
     ]
     text: Annotated[
-        str, chars(LONGEST_TEXT, "of the parameter that was asked for; of an error its name")
+        str, chars(LONGEST_TEXT, "of the requested parameter; of an error its name")
     ]
 
 
@@ -503,7 +508,7 @@ class DataRequest(NamedTuple):
 
 
 class DataReply(NamedTuple):
-    """Reply to DATA: the value as it was read, after any writing."""
+    """Reply to DATA: the value after any write."""
 
     datum: Annotated[int, int32()]
     value: Annotated[float, float32("1", "of a num, or 0 and 1 of a bool")]
@@ -522,16 +527,16 @@ DATA = MessageType(
 
 
 class TargetRequest(NamedTuple):
-    """What did the newest call that has ended leave in a parameter that is a target?"""
+    """Asks for a target parameter of the newest call that has ended."""
 
     joints: Annotated[int, int32("1 of a jointtarget, 0 of a robtarget")]
     parameter: Annotated[int, int32("which one of this type, from 1")]
 
 
 class TargetReply(NamedTuple):
-    """Reply to TARGET: the target as the routine left it, nothing of it is checked."""
+    """Reply to TARGET: the target of the routine, unchecked."""
 
-    trajectory: Annotated[int, int32("whose call it was")]
+    trajectory: Annotated[int, int32("trajectory of the call")]
     position: Annotated[tuple[float, ...], float32("m", "of a robtarget", 3)]
     orientation: Annotated[tuple[float, ...], float32("1", "w, x, y, z of a robtarget", 4)]
     configuration: Annotated[
@@ -558,15 +563,18 @@ MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, Mes
 
 
 def point_values(joint_count: int) -> int:
-    """Values of one point in POINTS: a duration and the joints."""
+    """Return the number of values of one point in POINTS.
+
+    They are a duration and the joints.
+    """
     return 1 + joint_count
 
 
 def points_length(count: int, joint_count: int) -> int:
-    """Value of the length field of a POINTS with so many points."""
+    """Return the length field of a POINTS with so many points."""
     return POINTS.length + count * point_values(joint_count) * Wire.FIXED.size
 
 
 def batch_points(joint_count: int) -> int:
-    """Points that fit in one POINTS: 35 for six axes, 22 for ten."""
+    """Return the points that fit in one POINTS: 35 for six axes, 22 for ten."""
     return (MAX_LENGTH - POINTS.length) // (point_values(joint_count) * Wire.FIXED.size)

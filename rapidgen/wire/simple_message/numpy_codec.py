@@ -1,6 +1,6 @@
-"""Trajectories to bytes by numpy: a million points a second.
+"""Encode trajectories with numpy: a million points a second.
 
-Import it where it is needed.
+Import it only where needed.
 """
 
 from collections.abc import Sequence as Rows
@@ -32,7 +32,7 @@ _TYPES = {Wire.INT32: "<i4", Wire.FLOAT32: "<f4"}
 FRAME_BYTES = spec.PREFIX_BYTES + messages.JOINT_TRAJ_PT.length
 
 
-def _frame_type() -> "np.dtype[np.void]":  # not to be subscripted in NumPy 1.21
+def _frame_type() -> "np.dtype[np.void]":  # cannot be subscripted in NumPy 1.21
     head = [(name, "<i4", ()) for name in ("length", "number", "comm", "reply")]
     fields = [
         (f.name, _TYPES[f.type], (f.count,) if f.count > 1 else ())
@@ -48,10 +48,11 @@ POINT_FRAME = _frame_type()
 def encode_trajectory(
     joints: npt.ArrayLike, durations: npt.ArrayLike, *, request_end: bool = True
 ) -> bytes:
-    """All frames of a trajectory: the first -1, the last -3, 1, 2, 3, ... between.
+    """Return all frames of a trajectory.
 
-    `joints` is (n, k) controller axis values, rad or m, n >= 2, k <= 10; `durations` (n,) s.
-    With `request_end` the end frame is a request, which the driver answers; a topic otherwise.
+    The first has the number -1, the last -3, 1, 2, 3, ... between. `joints` is (n, k) controller
+    axis values, rad or m, n >= 2, k <= 10; `durations` (n,) s. With `request_end` the end frame is
+    a request, which the driver answers; a topic otherwise.
     """
     positions = np.asarray(joints, dtype=np.float64)
     count, axes = positions.shape
@@ -73,7 +74,10 @@ def encode_trajectory(
 
 
 def decode_points(data: bytes) -> npt.NDArray[np.void]:
-    """Whole JOINT_TRAJ_PT frames as an array of POINT_FRAME: for sinks and recordings."""
+    """Return whole JOINT_TRAJ_PT frames as an array of POINT_FRAME.
+
+    For sinks and recordings.
+    """
     return np.frombuffer(data, dtype=POINT_FRAME)
 
 
@@ -85,9 +89,9 @@ _REQUEST, _TOPIC, _NONE = int(Comm.REQUEST), int(Comm.TOPIC), int(ReplyCode.NONE
 _HEAD = (spec.PREFIX_BYTES + spec.HEADER_BYTES) // _WORD.itemsize
 """Words before the data."""
 _VALUES = _HEAD + 4
-"""Words before the values: stream, flags, first and points enter the checksum too."""
-# 2^k modulo the checksum's modulus, for every place that a word of a message can have, in halves
-# whose products with a word of 32 bits can be added up in 64.
+"""Words before the values: stream, flags, first and points are part of the checksum."""
+# 2^k modulo the checksum's modulus, for every word position of a message, in halves whose products
+# with a word of 32 bits can be summed in 64.
 _HALF = 16
 _POWERS = np.array(
     [pow(2, k, CHECKSUM_MODULUS) for k in reversed(range(spec.MAX_MESSAGE_BYTES // 4))],
@@ -97,7 +101,10 @@ _POWERS_HIGH, _POWERS_LOW = _POWERS >> _HALF, _POWERS & ((1 << _HALF) - 1)
 
 
 class Batch(NamedTuple):
-    """What one POINTS frame holds: `durations` (n,) s, `joints` (n, k) rad or m."""
+    """Content of one POINTS frame.
+
+    `durations` (n,) s, `joints` (n, k) rad or m.
+    """
 
     stream: int
     flags: int
@@ -107,7 +114,7 @@ class Batch(NamedTuple):
 
 
 def checksums(words: Words) -> list[int]:
-    """The checksum of each row of (n, m) words, m <= 256.
+    """Return the checksum of each row of (n, m) words, m <= 256.
 
     It is linear, the sum of (word i + 2^31) * 2^(m-1-i), and so two sums of products of 32 and at
     most 16 bits, 256 of them: none reaches 2^57, and everything is exact in 64 bits.
@@ -121,9 +128,10 @@ def checksums(words: Words) -> list[int]:
 
 
 def pack_points(durations: npt.ArrayLike, joints: npt.ArrayLike) -> Words:
-    """(n, 1 + k) words of n points: `durations` (n,) s, `joints` (n, k) rad or m, k <= 10.
+    """Return (n, 1 + k) words of n points.
 
-    Raises ContentError for what a fixed-point number cannot hold.
+    `durations` (n,) s, `joints` (n, k) rad or m, k <= 10. Raises ContentError for values that a
+    fixed-point number cannot hold.
     """
     values = np.asarray(joints, dtype=np.float64)
     count, axes = values.shape
@@ -142,7 +150,7 @@ def pack_points(durations: npt.ArrayLike, joints: npt.ArrayLike) -> Words:
 def points_frame(
     stream: int, first: int, words: Words, *, flags: int = 0, request: bool = True
 ) -> bytes:
-    """Points `first`, `first` + 1, ... of a stream, packed, as one POINTS frame."""
+    """Return points `first`, `first` + 1, ... as one POINTS frame."""
     return _sealed([_unsealed(stream, first, words, flags, request)])[0]
 
 
@@ -156,10 +164,10 @@ def encode_points(
     batch: int | None = None,
     request: bool = True,
 ) -> list[bytes]:
-    """Points `first`, `first` + 1, ... of a stream as POINTS frames; a frame also for no point.
+    """Return points `first`, `first` + 1, ... of a stream as POINTS frames.
 
-    As `pack_points`; `batch` is how many points a frame takes, by default as many as fit. BEGIN
-    goes to the first frame, END and FLUSH to the last.
+    One frame for no point. As `pack_points`; `batch` is the number of points in a frame, by default
+    as many as fit. BEGIN goes to the first frame, END and FLUSH to the last.
     """
     words = pack_points(durations, joints)
     size = messages.batch_points(words.shape[1] - 1) if batch is None else batch
@@ -176,7 +184,7 @@ def encode_points(
 
 
 def _unsealed(stream: int, first: int, words: Words, flags: int, request: bool) -> bytes:
-    """A POINTS frame without its checksum."""
+    """Return a POINTS frame without its checksum."""
     comm = _REQUEST if request else _TOPIC
     return _batch(_POINTS, comm, (stream, flags, first % INDEX_WRAP, len(words)), words)
 
@@ -184,9 +192,9 @@ def _unsealed(stream: int, first: int, words: Words, flags: int, request: bool) 
 def program_frame(
     program: int, first: int, instructions: Rows[Rows[int]], *, flags: int = 0
 ) -> bytes:
-    """Instructions `first`, `first` + 1, ... of a program, as one PROGRAM frame.
+    """Return instructions `first`, `first` + 1, ... as one PROGRAM frame.
 
-    With BEGIN the first of them has where the program begins before its own words.
+    With BEGIN the first of them has the program's start position before its own words.
     """
     words = np.array([word for one in instructions for word in one], dtype=_WORD)
     head = (program, flags, first % INDEX_WRAP, len(instructions))
@@ -194,7 +202,10 @@ def program_frame(
 
 
 def _batch(number: int, comm: int, head: tuple[int, int, int, int], words: Words) -> bytes:
-    """A batch without its checksum; `head` has whose it is, flags, first and how many."""
+    """Return a batch without its checksum.
+
+    `head` holds stream, flags, first and count.
+    """
     length = messages.POINTS.length + words.nbytes
     if length > spec.MAX_LENGTH:
         raise ValueError(f"{head[-1]} points or instructions do not fit in one message")
@@ -202,7 +213,10 @@ def _batch(number: int, comm: int, head: tuple[int, int, int, int], words: Words
 
 
 def _sealed(frames: Rows[bytes]) -> list[bytes]:
-    """Frames with their checksums; only the last one may be of another length."""
+    """Return frames with their checksums.
+
+    Only the last one may have another length.
+    """
     result = []
     for same in (frames[:-1], frames[-1:]):
         if same:
@@ -213,9 +227,9 @@ def _sealed(frames: Rows[bytes]) -> list[bytes]:
 
 
 def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
-    """POINTS frames of a robot with `axes` joints, one or many, each whole.
+    """Decode POINTS frames of a robot with `axes` joints, each whole.
 
-    Raises ContentError for one that a driver would refuse as a whole: another type or length, a
+    Raises ContentError for one that a driver would reject as a whole: another type or length, a
     wrong checksum.
     """
     result: list[Batch] = []

@@ -1,4 +1,7 @@
-"""Fields of a declaration as packed bytes, and back. Knows no message."""
+"""Pack the fields of a declaration as bytes, and unpack them.
+
+This module knows no message.
+"""
 
 from collections.abc import Sequence
 from struct import Struct
@@ -12,7 +15,7 @@ _CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s", Wire.FIXED: "i"}
 
 
 def steps_of(value: float) -> int:
-    """A FIXED as the number of the wire.
+    """Return a FIXED as the number of the wire.
 
     Raises ContentError beyond FIXED_LIMIT, and for NaN.
     """
@@ -22,7 +25,7 @@ def steps_of(value: float) -> int:
 
 
 class Packing:
-    """Packs and unpacks the values of some fields, in their order; none of any count."""
+    """Packs and unpacks the values of fixed-count fields, in order."""
 
     def __init__(self, fields: Sequence[Field]) -> None:
         self.fields = tuple(fields)
@@ -46,7 +49,7 @@ class Packing:
         return tuple(places)
 
     def pack(self, values: Sequence[Value]) -> bytes:
-        """The values as bytes.
+        """Return the values as bytes.
 
         Raises ContentError when one does not fit its field.
         """
@@ -64,7 +67,10 @@ class Packing:
             raise ContentError(f"{self._names()}: {error}") from error
 
     def unpack(self, data: bytes, at: int = 0) -> tuple[Value, ...]:
-        """The values in `data` from byte `at` on; the caller has checked the length."""
+        """Return the values in `data` from byte `at` on.
+
+        The caller has checked the length.
+        """
         flat = self._struct.unpack_from(data, at)
         if self._is_flat:
             return flat
@@ -84,7 +90,10 @@ class Packing:
 
 
 class OpenPacking:
-    """The same with one field of FIXEDs whose count follows from the length of the data."""
+    """Packs fields with one variable number of FIXEDs.
+
+    Their number follows from the length of the data.
+    """
 
     def __init__(self, fields: Sequence[Field]) -> None:
         (place,) = (i for i, f in enumerate(fields) if f.count == ANY)
@@ -95,14 +104,14 @@ class OpenPacking:
         self._head = Packing(fields[:place])
         self._tail = Packing(fields[place + 1 :])
         self.size = self._head.size + self._tail.size
-        """Bytes without any of them."""
+        """Bytes without these values."""
 
     def fits(self, size: int) -> bool:
-        """Whether data may have so many bytes."""
+        """True if data may have so many bytes."""
         return size >= self.size and (size - self.size) % Wire.FIXED.size == 0
 
     def pack(self, values: Sequence[Value]) -> bytes:
-        """The values as bytes.
+        """Return the values as bytes.
 
         Raises ContentError when one does not fit its field.
         """
@@ -114,7 +123,7 @@ class OpenPacking:
         return self._head.pack(values[: self._place]) + middle + tail
 
     def unpack(self, data: bytes) -> tuple[Value, ...]:
-        """The values in `data`, whose length `fits`."""
+        """Return the values in `data`, whose length `fits`."""
         count = (len(data) - self.size) // Wire.FIXED.size
         steps = Struct(f"<{count}i").unpack_from(data, self._head.size)
         numbers = tuple(number / FIXED_SCALE for number in steps)

@@ -34,8 +34,8 @@ _RULES = """\
   once: STOP with a header alone, as abb_driver does.
 - A request of a type that a driver does not have is answered by FAILURE and a header alone: SIGNAL,
   DATA, RESULT and TARGET, too, where its configuration has no signals, data, routines or targets.
-- Every point is checked before anything moves. What was executed is a prefix of what was asked,
-  point for point; it is shorter only with a reported reason and point.
+- Every point is checked before anything moves. The robot executes a prefix of the commanded
+  points; it is shorter only with a reported reason and point.
 - No message is longer than 1,024 bytes: a ROS-Industrial node crashes on one.
 - A topic has reply_code 0: a ROS-Industrial node drops the connection otherwise.
 - HELLO goes to the state port, where abb_driver reads nothing. The reply comes between the
@@ -54,58 +54,58 @@ _STREAMS = f"""\
 - The checksum goes over the int32 words of the data before it, `stream` being the first: `c := 0`,
   then for each word `c := (2 * c + word + 2^31) MOD (2^31 - 19)`. Also eleven words at a time, the
   points of ten axes, are whole numbers below 2^44, which a RAPID dnum holds exactly (to 2^52).
-- BEGIN belongs to a first batch, whose `first` is 0; it supersedes what is under way, as sequence
-  -1 does, and it belongs to its connection. After END nothing follows. A batch without points is
-  a question for the reply, and carries END or FLUSH.
+- BEGIN belongs to a first batch, whose `first` is 0; it replaces the current trajectory, as
+  sequence -1 does, and it belongs to its connection. Nothing follows END. A batch without points
+  asks for the reply, and may carry END or FLUSH.
 - A client sends no more points than `room` of the last reply, at the beginning than `ring` of
-  HELLO. A point given to the planner makes room: `accepted` may always grow to `planned` + `ring`,
+  HELLO. A point given to the planner frees a place: `accepted` may always grow to `planned` + `ring`,
   for `planned` of a reply and of PROGRESS alike. `first` is the number of points that the driver
   has accepted.
-- Motion begins when `preload` seconds are there, or the ring is full, or END or FLUSH came.
-- A batch with a wrong checksum, a length that does not fit, a hole or more points than room is
+- Motion begins when `preload` seconds are buffered, or the ring is full, or after END or FLUSH.
+- A batch with a wrong checksum, a length that does not fit, a gap or more points than `room` is
   refused as a whole. At a fault in one point those before it are accepted. Either way the stream
   is cut: accepted points are executed in order, the last as a stop point, then it has FAILED with
   the reason and the point. Later batches of this stream are answered with the same refusal.
-- Without a next point the robot stops at the last one, on its path: STARVED. It goes on when
-  `preload` seconds are there again, or END or FLUSH came.
+- Without a next point the robot stops at the last one, on its path: STARVED. It resumes when
+  `preload` seconds are buffered again, or END or FLUSH arrived.
 
 ## Control connection
 
-Where HELLO tells a control port, STOP, {_CONTROL} have a connection of
+If HELLO reports a control port, STOP, {_CONTROL} have a connection of
 their own, which no point delays. STOP is JOINT_TRAJ_PT with the sequence number -4 there too; its
-reply says that the stop was taken, STOPPED where the robot stands then. PAUSE keeps the path;
-everything that halts a motion halts a paused one. Nothing starts again by itself.
+reply confirms the stop, STOPPED gives the position of the robot. PAUSE keeps the path;
+every event that halts a motion halts a paused one. No motion restarts by itself.
 """
 
 _PROGRAMS = """\
 ## Programs
 
-A program counts among the trajectories: it has a number and PROGRESS, and everything halts it that
-halts one. Where HELLO tells PROGRAMS, a PROGRAM carries a batch of its instructions as POINTS does
-points, with the same rules for BEGIN, END, `first`, checksum, room and order. Besides:
+A program counts among the trajectories: it has a number and PROGRESS, and the same events halt
+it. If HELLO reports PROGRAMS, a PROGRAM carries a batch of instructions as POINTS carries
+points, with the same rules for BEGIN, END, `first`, checksum, `room` and order. In addition:
 
-- Its words are int32. The first batch begins with where the robot stands, a word for each joint:
-  from there the client has checked it, and elsewhere it does not begin (START_TOO_FAR).
-- An instruction is a first word, a whole number: what it does, and bits for what it changes, which
-  then follows and holds until it is changed again; then its operands. All other words are `fixed`.
-  The first instruction brings speed and zone.
-- Whoever says WHOLE in every batch gets a program that is checked whole: nothing moves before END,
-  and it is refused whole. It may have as many instructions as the ring holds. Otherwise the robot
-  moves as soon as the first batch is accepted, and what is executed is a prefix.
-- A move to a pose says the joints at its end, too: the driver asks the controller what pose they
-  reach, and refuses a pose more than 1 mm or 0.2 degrees away (POSE_MISMATCH;
-  `pose_tolerance` of the configuration may say more). So their limits are
-  checked, and the configuration is theirs by the controller's own word.
+- Its words are int32. The first batch begins with the position of the robot, a word for each joint:
+  the client has checked the program from there, and elsewhere it does not start (START_TOO_FAR).
+- An instruction has a first word, a whole number: its kind, and a bit for each value that it
+  changes. These values follow and stay in force until changed; then come the operands. All other
+  words are `fixed`. The first instruction sets speed and zone.
+- With WHOLE in every batch the driver checks the whole program: nothing moves before END, and
+  the driver accepts or refuses all of it. It may have as many instructions as the ring holds.
+  Otherwise the robot moves as soon as the first batch is accepted, and a prefix is executed.
+- A move to a pose also contains the joints at its end: the driver asks the controller for their
+  pose, and refuses one more than 1 mm or 0.2 degrees away (POSE_MISMATCH;
+  `pose_tolerance` of the configuration may allow more). The driver checks the limits of the
+  joints, and the controller computes the configuration from them.
 - A circle begins where the move before ends. Two of its points closer than 0.1 mm, or seen from
   the first one less than 1 degree apart, and more than 240 degrees are refused (NO_CIRCLE): a
   controller would end the program there.
-- Without a next instruction the robot stops at the end of the last one that came (STARVED).
+- Without a next instruction the robot stops at the end of the last received one (STARVED).
 
 {}"""
 
 
 def protocol_markdown() -> str:
-    """The whole page."""
+    """Return the whole page."""
     parts = [
         _INTRODUCTION,
         _frame(),
@@ -142,7 +142,7 @@ def _frame() -> str:
     rows = [
         (0, "length", "int32", f"bytes that follow: {spec.MIN_LENGTH} to {spec.MAX_LENGTH}"),
         (4, "msg_type", "int32", "number of the message"),
-        (8, "comm_type", "int32", "what is asked of the receiver"),
+        (8, "comm_type", "int32", "communication type"),
         (12, "reply_code", "int32", "0 in topics and requests"),
         (16, "data", "", "by message type"),
     ]
@@ -205,12 +205,12 @@ def _programs() -> str:
         *((int(i), i.name, text) for i, text in OPERANDS.items()),
         *((f"+ {int(m)}", m.name, text) for m, text in MODALS.items()),
     ]
-    return _PROGRAMS.format(_table(("first word", "name", "words behind it"), rows))
+    return _PROGRAMS.format(_table(("first word", "name", "words after it"), rows))
 
 
 def _reserved() -> str:
     standard = _table(("number", "name"), [(number, name) for name, number in spec.RESERVED])
-    ranges = _table(("from", "to", "whose"), [(a, b, name) for name, a, b in spec.VENDOR_RANGES])
+    ranges = _table(("from", "to", "vendor"), [(a, b, name) for name, a, b in spec.VENDOR_RANGES])
     return (
         "## Numbers of others\n\nStandard messages that no ABB driver speaks:\n\n"
         f"{standard}\nRanges of the vendors:\n\n{ranges}"
@@ -242,7 +242,7 @@ def _versions() -> str:
         ),
         (
             "3",
-            f"{_new(3)}, where HELLO tells PROGRAMS; reasons 28 to 38, 50 to 52",
+            f"{_new(3)}, if HELLO reports PROGRAMS; reasons 28 to 38, 50 to 52",
             "values and checksum of POINTS are int32, no number of eight bytes is left; refused as "
             "between 1 and 2",
         ),

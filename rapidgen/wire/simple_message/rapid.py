@@ -1,4 +1,4 @@
-"""The wire's numbers as RAPID constants: what the templates of the modules declare."""
+"""Numbers of the wire as RAPID constants, for the templates."""
 
 from dataclasses import dataclass
 
@@ -7,17 +7,20 @@ from rapidgen.wire.simple_message import messages, spec
 
 @dataclass(frozen=True, slots=True)
 class RapidConstant:
-    """`CONST <type> <name> := <value>;` with what it means."""
+    """`CONST <type> <name> := <value>;` with its meaning."""
 
     name: str
     value: int
     text: str
     type: str = "num"
-    """dnum for what enters the arithmetic of a checksum."""
+    """dnum for values in the arithmetic of a checksum."""
 
 
 def rapid_constants() -> tuple[RapidConstant, ...]:
-    """Every number of the wire under the name that the generated modules use (`ROS_...`)."""
+    """Return every number of the wire as a constant (`ROS_...`).
+
+    The generated modules use these names.
+    """
     result = [
         RapidConstant("ROS_HEADER_BYTES", spec.HEADER_BYTES, "bytes of a header"),
         RapidConstant("ROS_MAX_LENGTH", spec.MAX_LENGTH, "largest length field"),

@@ -1,9 +1,9 @@
-"""The numbers of simple_message and of ABB's range 1300-1399; its messages are in messages.py.
+"""Numbers of simple_message and of ABB's range 1300 to 1399.
 
-The only place that knows a number of the wire. The codec, the constants of the generated
-RAPID modules and docs/develop/protocol.md derive from it. Sources: the headers of industrial_core
-for the standard part (little endian, int32 and float32, rad, m, s), recordings of the
-ROS-Industrial nodes for what they really send.
+This is the only module with numbers of the wire; messages.py has the messages. The codec, the
+constants of the generated RAPID modules and docs/develop/protocol.md derive from it. Sources: the
+headers of industrial_core for the standard part (little endian, int32 and float32, rad, m, s),
+recordings of the ROS-Industrial nodes for actual messages.
 """
 
 from enum import IntEnum, IntFlag
@@ -19,12 +19,12 @@ HEADER_BYTES = 12
 MIN_LENGTH = HEADER_BYTES
 """Smallest value of the length field: a header without data."""
 MAX_MESSAGE_BYTES = 1024
-"""Largest message, length field included: more than this crashes a ROS-Industrial node."""
+"""Largest message, length field included: a larger one crashes a ROS-Industrial node."""
 MAX_LENGTH = MAX_MESSAGE_BYTES - PREFIX_BYTES
 MAX_JOINTS = 10
 
 MOST_ARGUMENTS = 8
-"""Parameters of a routine."""
+"""Maximum number of parameters of a routine."""
 LONGEST_TEXT = 80
 """Characters of a RAPID string."""
 INDEX_WRAP = 2**23
@@ -34,10 +34,12 @@ FIXED_SCALE = 1_000_000
 FIXED_LIMIT = (2**31 - 1) / FIXED_SCALE
 """Largest magnitude of a fixed-point number, rad, m or s."""
 CHECKSUM_OFFSET = 2**31
-"""Added to each word of a checksum: MOD of a negative number is settled nowhere."""
+"""Added to each word of a checksum: MOD of a negative number is not specified."""
 CHECKSUM_MODULUS = 2**31 - 19
-"""A prime of which 2 is a primitive root, so that no two places of a message weigh the same. RAPID
-promises whole numbers of a dnum to 2^52; eleven words at a time stay below 2^44."""
+"""A prime of which 2 is a primitive root, so that no two places of a message have the same weight.
+
+RAPID promises whole numbers of a dnum to 2^52; eleven words at a time stay below 2^44.
+"""
 FEEDBACK_WRAP = 1000.0
 """s after which the time stamp of JOINT_FEEDBACK begins again at 0."""
 
@@ -55,7 +57,7 @@ class Port(IntEnum):
 
 
 class Comm(IntEnum):
-    """comm_type: what a message asks of its receiver."""
+    """comm_type: communication type of a message."""
 
     TOPIC = 1
     REQUEST = 2
@@ -63,7 +65,7 @@ class Comm(IntEnum):
 
 
 class ReplyCode(IntEnum):
-    """reply_code.
+    """reply_code: result of a request.
 
     Anything but NONE in a topic makes a ROS-Industrial node drop the link.
     """
@@ -86,7 +88,7 @@ class Sequence(IntEnum):
 
 
 class TriState(IntEnum):
-    """A yes or no that the controller may not know."""
+    """A boolean that the controller may not know."""
 
     UNKNOWN = -1
     FALSE = 0
@@ -111,10 +113,10 @@ class Valid(IntFlag):
 
 
 class Feature(IntFlag):
-    """What a driver can do beyond the standard messages, told in HELLO."""
+    """Features of a driver beyond the standard messages, reported in HELLO."""
 
     PROGRESS = 1
-    """PROGRESS follows every JOINT on a connection that said HELLO."""
+    """PROGRESS follows every JOINT on a connection that sent HELLO."""
     CONTROL = 2
     """The control port takes STOP from a connection of its own."""
     STREAMING = 4
@@ -125,20 +127,20 @@ class Feature(IntFlag):
 
 
 class StreamFlag(IntFlag):
-    """What a batch of points says about its stream."""
+    """Flags of a batch in its stream."""
 
     BEGIN = 1
-    """A new trajectory begins with it, in the place of what is under way."""
+    """A new trajectory begins and replaces the current one."""
     END = 2
     """Nothing follows; the last point is a stop point."""
     FLUSH = 4
-    """Start with what is there, though it is less than the driver likes to have."""
+    """Start with the points that are there, even if they are fewer than `preload`."""
     WHOLE = 8
-    """Of a program: nothing moves before its end has come and all of it was checked."""
+    """For a program: nothing moves before its end has arrived and all of it is checked."""
 
 
 class Instruction(IntEnum):
-    """What one instruction of a program does: the lower eight bits of its first word."""
+    """Kinds of program instructions: the lower eight bits of the first word."""
 
     MOVE_ABSJ = 1
     MOVE_J = 2
@@ -154,8 +156,10 @@ class Instruction(IntEnum):
 
 
 class Modal(IntFlag):
-    """What stands before the operands of an instruction, in this order; all but SIGNALS holds from
-    it on."""
+    """Flags of values before an instruction's operands, in this order.
+
+    All but SIGNALS stay in force.
+    """
 
     SPEED = 256
     ZONE = 512
@@ -164,7 +168,7 @@ class Modal(IntFlag):
 
 
 class MarkPlace(IntEnum):
-    """Where on its move a signal is set."""
+    """Reference of a signal's place on its move."""
 
     START = 0
     """m from the beginning of the move"""
@@ -183,7 +187,7 @@ class EventType(IntEnum):
 
 
 class TrajectoryState(IntEnum):
-    """State of the newest trajectory, told in PROGRESS."""
+    """State of the newest trajectory, reported in PROGRESS."""
 
     NONE = 0
     """Nothing was sent since the driver started."""
@@ -191,19 +195,19 @@ class TrajectoryState(IntEnum):
     MOVING = 2
     DONE = 3
     REFUSED = 4
-    """Nothing of it was executed."""
+    """No point of it was executed."""
     FAILED = 5
-    """Ended before its last point; what was executed is a prefix."""
+    """Ended before its last point; a prefix was executed."""
     STOPPED = 6
     """Ended by a STOP."""
     STARVED = 7
-    """Stands at the last point of a stream that came, and waits for more."""
+    """At the last point of a stream, waiting for more."""
     PAUSED = 8
-    """Stands on its path by request."""
+    """Paused on its path."""
 
 
 class Reason(IntEnum):
-    """Why a trajectory was refused, or ended early."""
+    """Reasons of a rejected trajectory, or of an early end."""
 
     text: str
 
@@ -269,12 +273,18 @@ class Reason(IntEnum):
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:
-    """STATUS.error_code of a rapidgen driver: reason + 100 x joint number (1 to 10, 0 none)."""
+    """Return STATUS.error_code of a rapidgen driver.
+
+    It is reason + 100 x joint number (1 to 10, 0 none).
+    """
     return int(reason) + 100 * joint
 
 
 def split_error_code(code: int) -> tuple[Reason | None, int]:
-    """(reason, joint number or 0) of an error code; reason None when it is not one of ours."""
+    """Split an error code into reason and joint number (0: none).
+
+    The reason is None if it is not a rapidgen code.
+    """
     joint, number = divmod(code, 100)
     if not 0 <= joint <= MAX_JOINTS or number not in Reason.__members__.values():
         return None, 0
