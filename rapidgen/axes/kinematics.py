@@ -323,7 +323,7 @@ class Kinematics:
                 worst = max(worst, cf - at, at - cf - 1)
         return worst
 
-    def room(self, check: ConfigurationCheck) -> float:
+    def misfit_limit(self, check: ConfigurationCheck) -> float:
         """Return the largest misfit of a posture that has a configuration.
 
         0.5 quarters just separate a turned wrist from another (S4 overview 5-33); if cfx does that,
@@ -336,7 +336,7 @@ class Kinematics:
     ) -> bool:
         """True if a posture has a configuration."""
         misfit = self.misfit(posture, expected)
-        return misfit is not None and misfit <= self.room(check) + _NEAR
+        return misfit is not None and misfit <= self.misfit_limit(check) + _NEAR
 
     def fitting(
         self, postures: Sequence[Posture], expected: AxisConfiguration, check: ConfigurationCheck
@@ -345,7 +345,7 @@ class Kinematics:
 
         Of equal ones the first.
         """
-        best, least = None, self.room(check) + _NEAR
+        best, least = None, self.misfit_limit(check) + _NEAR
         for posture in postures:
             misfit = self.misfit(posture, expected)
             if misfit is not None and misfit < least:

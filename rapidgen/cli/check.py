@@ -278,7 +278,7 @@ def _system(
         *notes,
         *check_rapid(system, dialect=dialect, gaps=bool(notes), payloads=carried),
     ]
-    dialect = dialect or Dialect(system.robotware, some=not system.robotware_told)
+    dialect = dialect or Dialect(system.robotware, some=not system.is_robotware_known)
     return [*result, *_not_loaded(path, system, dialect, payload)]
 
 

@@ -445,12 +445,12 @@ def _check_host(host: str) -> None:
 
 def _check_release(target: "Bootable", rws: str | None) -> None:
     """RWS 1.0 is of RobotWare 6 and older, 2.0 of RobotWare 7 and 8."""
-    from rapidgen.system.releases import UNTOLD
+    from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
     major, minor = target.system.robotware
     fits = {None: True, "1": major <= 6, "2": major == 7, "8": major in (7, 8)}[rws]
     if not fits:
-        if target.system.robotware == UNTOLD:
+        if target.system.robotware == UNKNOWN_ROBOTWARE:
             raise refusal(
                 "RG901",
                 None,

@@ -91,7 +91,7 @@ def resolve_held_axes(
         for first, second, why in _disorder(draft):
             report.error(
                 "RG046",
-                f"{second} cannot come behind {first} in the chain: {why}",
+                f"{second} cannot come after {first} in the chain: {why}",
                 where,
                 help="give each joint the `axis:` that it drives on the robot",
             )

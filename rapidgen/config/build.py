@@ -174,7 +174,9 @@ def _check_network(configuration: schema.ConfigurationKeys, report: DraftFinding
         if _is_address(address):
             continue
         if path[-1] == "bind":
-            help = "the controller's own address, `lan` or `service`: none stands for all of them"
+            help = (
+                "the controller's own address, `lan` or `service`: an empty value means all of them"
+            )
         else:
             help = "the address of one machine, such as 192.168.1.10, as the controller writes it"
         report.error("RG006", f"'{address}' is not the IPv4 address of a machine", path, help=help)

@@ -44,7 +44,8 @@ class CellRobotKeys(StrictModel):
     """The robot of a motion task."""
 
     model: Annotated[
-        str, Rule("A shipped model (`rapidgen robots`), or a configuration beside this file.")
+        str,
+        Rule("A shipped model (`rapidgen robots`), or a configuration in the folder of this file."),
     ] = ""
     mechanical_unit: Annotated[
         Identifier | None, Rule("Name of its mechanical unit; `ROB_1` for the first.")
@@ -54,7 +55,7 @@ class CellRobotKeys(StrictModel):
     ] = field(default_factory=list)
     start: Annotated[
         list[float],
-        Rule("Where it stands when it is switched on: deg or mm, a value for each axis."),
+        Rule("Position when switched on: deg or mm, a value for each axis."),
     ] = field(default_factory=list)
     base: Annotated[
         FrameKeys | None,
@@ -109,7 +110,7 @@ class CameraKeys(StrictModel):
 
     images: Annotated[
         list[list[SeenKeys]],
-        Rule("The results of each image, in turn; behind the last the first again."),
+        Rule("The results of each image, in turn; the first one follows the last."),
     ] = field(default_factory=list)
     parameters: Annotated[
         dict[str, float], Rule("What CamGetParameter reads, and CamSetParameter writes, by name.")
@@ -142,7 +143,7 @@ class ThingKeys(StrictModel):
     """An object that the page draws; there is no collision check."""
 
     mesh: Annotated[str, Rule("STL, DAE or OBJ in this file's folder or below.")]
-    frame: Annotated[FrameKeys, Rule("Where it stands.")] = field(default_factory=FrameKeys)
+    frame: Annotated[FrameKeys, Rule("Position.")] = field(default_factory=FrameKeys)
     scale: Annotated[
         float, Rule("Metres of one unit of the mesh; 0.001 for mm.", gt=0, le=1000)
     ] = 1.0

@@ -99,13 +99,15 @@ def describe(
     robot = read_robot(description, None)
     graph, result = build_graph(robot, None)
     names = (robot.name, description.path.name)
-    said = {**dict.fromkeys(answers.ignore, ""), **answers.joints}
+    axes_of_joints = {**dict.fromkeys(answers.ignore, ""), **answers.joints}
     around = (*description.path.resolve().parts[-5:-1], *_PACKAGE.findall(description.text))
-    claimed = bool(said or answers.tips) or mentions_abb(*names, *around, description.text)
-    cell = replace(read_cell(graph, names, said), around=around, is_claimed=claimed)
+    claimed = bool(axes_of_joints or answers.tips) or mentions_abb(
+        *names, *around, description.text
+    )
+    cell = replace(read_cell(graph, names, axes_of_joints), around=around, is_claimed=claimed)
     faults = [d for d in result if d.severity is Severity.ERROR]
     # Joints after the end of an arm belong to a gripper and are left out.
-    left = {*answers.ignore, *(joint.name for arm in cell.arms for joint in arm.behind)}
+    left = {*answers.ignore, *(joint.name for arm in cell.arms for joint in arm.grippers)}
     faults += [
         check_axis(joint, None)
         for joint in robot.joints
@@ -222,7 +224,7 @@ def _group(
     if answers.held_axes:
         tail.append(f"held_axes: {yaml_flow(answers.held_axes)}")
     elif arm.axes == ROBOT_AXES[:3] and not any(line.axis == "rax_4" for line in lines):
-        tail.append("held_axes: [rax_4]      # not in the description: held where it stands")
+        tail.append("held_axes: [rax_4]      # not in the description: held at its position")
     if number == 0:
         tail += _positioners(cell)
     tip = cell.graph.tip_link(arm.joints[-1])
@@ -311,7 +313,7 @@ def _line(
         message = answers.ranges.get("")
     if message:
         line.keys += [f"lower: {message[0]:g}", f"upper: {message[1]:g}"]
-        comments.append("range as said")
+        comments.append("range as given")
     elif known and known.lower is not None and (not range_of_file or mirrored):
         line.keys += [f"lower: {known.lower:g}", f"upper: {known.upper:g}"]
         line.is_known = True
@@ -342,12 +344,12 @@ def _coupling(
     arm: Arm, variant: Variant | None, names: tuple[str, ...], answers: DescriptionChoices
 ) -> tuple[str, str]:
     if answers.coupling is not None:
-        return f"{answers.coupling:g}", "as said"
+        return f"{answers.coupling:g}", "as given"
     if variant:
         source = f"{variant.name}: {dict(variant.sources)['coupling']}"
         if variant.coupling is not None and "coupling" not in variant.unsure:
             return f"{variant.coupling:g}", source
-        return OPEN, f"{source}; nobody else says so, check it"
+        return OPEN, f"{source}; no other source, check it"
     known = family(*names)
     if known in COUPLED:
         return "1", f"IRB {known} couples axes 2 and 3: axis 3 = joint_3 + joint_2"

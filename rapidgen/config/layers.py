@@ -78,7 +78,7 @@ def canonical(root: MappingNode, known: tuple[str, ...]) -> Layer:
                 place,
                 f"'{key}' belongs to a group",
                 f"write it as groups.{displayed}.{key}",
-                label=f"which of {', '.join(names)}?" if len(names) > 1 else "beside 'groups'",
+                label=f"which of {', '.join(names)}?" if len(names) > 1 else "next to 'groups'",
             )
             for key, (place, _) in own.items()
         ]

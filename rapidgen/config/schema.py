@@ -356,8 +356,8 @@ class GroupKeys(StrictModel):
     held_axes: Annotated[
         dict[RobotAxis, float | None],
         Rule(
-            "Robot axes without a joint: `[rax_5]` is held where it stands when a trajectory is "
-            "accepted; `{rax_5: 30}` is refused unless it stands there, deg.",
+            "Robot axes without a joint: `[rax_5]` is held at its position when a trajectory is "
+            "accepted; `{rax_5: 30}` requires that position, deg.",
             before=_held_axes,
             json={
                 "anyOf": [

@@ -132,7 +132,7 @@ def routine_of(
         if parameter.type == "robtarget" and not has_chain:
             report.error(
                 "RG014",
-                f"nobody knows which joints reach '{parameter.name}'",
+                f"the joints are unknown that reach '{parameter.name}'",
                 (*path, "parameters", number, "type"),
                 help="a robtarget needs the group's `chain`; a jointtarget does not",
             )
@@ -141,7 +141,7 @@ def routine_of(
             "RG014",
             f"function '{name}' has {_MOST_PARAMETERS} parameters",
             (*path, "parameters"),
-            help=f"at most {_MOST_PARAMETERS - 1}: its value comes behind them",
+            help=f"at most {_MOST_PARAMETERS - 1}: its value comes after them",
         )
     if value.returns:
         report.add(

@@ -232,12 +232,12 @@ def _belongs(name: str, value: Path) -> str:
     if name.lower() in _POINT_LIMIT:
         return "the limit of points is `capacity:` in `trajectory:`"
     if value and name in TOP_KEYS:
-        return f"`{name}:` stands at the top of the file"
+        return f"`{name}:` belongs at the top of the file"
     if value and name in GROUP_KEYS:
-        return f"`{name}:` stands in a group, or at the top where there is one group"
+        return f"`{name}:` belongs in a group, or at the top with a single group"
     sections = [at for at in TOP_KEYS if at != "groups" and at not in value]
     there = [at for at in sections if name in _keys_at(ConfigurationKeys, (at,))]
-    return f"`{name}:` stands in `{there[0]}:`" if len(there) == 1 else ""
+    return f"`{name}:` belongs in `{there[0]}:`" if len(there) == 1 else ""
 
 
 def _model(hint: Hint) -> type | None:

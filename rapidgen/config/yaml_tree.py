@@ -242,7 +242,7 @@ class _Builder:
     def _readable(self, text: str, span: Span) -> None:
         hit = _UNREADABLE.search(text)
         if hit:
-            raise self._refuse(f"the character U+{ord(hit[0]):04X} stands for nothing", span)
+            raise self._refuse(f"the character U+{ord(hit[0]):04X} refers to nothing", span)
 
     def _count(self, nodes: int, span: Span) -> None:
         self._nodes += nodes
@@ -300,14 +300,14 @@ def _empty(key: str, place: Span, before: dict[str, tuple[Span, Node]]) -> Diagn
             place,
             f"'{key}' is a key without a value",
             f"write a decimal point: {last.value}.{key}",
-            label="behind a decimal comma?",
+            label="after a decimal comma?",
         )
     return error(
         "RG023",
         place,
         f"'{key}' has no value",
         "give it one, or take the line out",
-        label="nothing behind it",
+        label="nothing after it",
     )
 
 

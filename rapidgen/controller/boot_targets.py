@@ -16,7 +16,7 @@ from rapidgen.controller.inference.robot import stands, start_of, table_pose
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics, of_unknown_payload
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
-from rapidgen.system.releases import UNTOLD
+from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
@@ -135,7 +135,7 @@ def _loose(targets: Sequence[Source], options: BootOptions) -> System:
 
 
 def _read(tasks: Mapping[str, Sequence[Source]], name: str, options: BootOptions) -> System:
-    entry, robotware = options.entry or "main", options.robotware or UNTOLD
+    entry, robotware = options.entry or "main", options.robotware or UNKNOWN_ROBOTWARE
     return files.read_files(tasks, entry=entry, name=name, robotware=robotware)
 
 

@@ -80,7 +80,7 @@ def error(
     return Diagnostic(code, severity, message, at, label, help, tuple(notes), tuple(related))
 
 
-def _beside(d: Diagnostic) -> list[str]:
+def _notes(d: Diagnostic) -> list[str]:
     place = f"{d.span.path}:{d.span.line}" if d.span else ""
     return [f"{d.code}: {line}" for line in (place, *d.notes, d.help) if line]
 
@@ -100,7 +100,7 @@ class DiagnosticError(Exception):
         # Python shows these notes below a traceback: callers of the library also see place and
         # help.
         if sys.version_info >= (3, 11):
-            for line in dict.fromkeys(line for d in result for line in _beside(d)):
+            for line in dict.fromkeys(line for d in result for line in _notes(d)):
                 self.add_note(line)
         self.diagnostics: tuple[Diagnostic, ...] = result
         self.exit_code = exit_code

@@ -111,8 +111,8 @@ def _as_json(d: Diagnostic) -> Json:
 
 def _concise(d: Diagnostic) -> str:
     place = f"{d.span.path}:{d.span.line}:{d.span.column}: " if d.span else ""
-    mend = f" ({d.help})" if d.help else ""
-    return _clean(f"{place}{d.severity.value}[{d.code}]: {d.message}{mend}")
+    fix = f" ({d.help})" if d.help else ""
+    return _clean(f"{place}{d.severity.value}[{d.code}]: {d.message}{fix}")
 
 
 def _github(d: Diagnostic) -> str:

@@ -457,11 +457,11 @@ def _datum(
 
 def _in_lines(value: str, in_use: int) -> str:
     """Return a record's value after `in_use` characters, split at commas."""
-    lines, room = [""], MAX_LINE - in_use
+    lines, space = [""], MAX_LINE - in_use
     for part in re.findall("[^,]+,?", value):
-        if len(lines[-1]) + len(part) > room:
+        if len(lines[-1]) + len(part) > space:
             lines.append("        ")
-            room = MAX_LINE - 1
+            space = MAX_LINE - 1
         lines[-1] += part
     return "\n".join(lines)
 

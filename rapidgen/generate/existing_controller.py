@@ -239,17 +239,17 @@ def _module_conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
     tasks = {task.casefold() for _, entry in entries for task in entry.tasks}
     sys = cell.cfg.domain("SYS")
     foreign = tuple(zip(sys.instances("CAB_TASK_MODULES"), modules_of(sys), strict=True))
-    told = set()
+    reported = set()
     for instance, entry in foreign:
         name = _name(instance)
         if ours.get(name) == entry.file.casefold():
             # An earlier load of this build; the backup has a copy of it in RAPID.
-            told.add(name)
+            reported.add(name)
             continue
         everywhere = entry.all_tasks or entry.all_motion_tasks or entry.shared
         reached = everywhere or any(task.casefold() in tasks for task in entry.tasks)
         if reached and name in ours:
-            told.add(name)
+            reported.add(name)
             folder = entry.file.rpartition("/")[0].casefold()
             adjacent = [
                 o.file for _, o in foreign if o.file.rpartition("/")[0].casefold() == folder
@@ -263,7 +263,11 @@ def _module_conflicts(text: CfgText, cell: Cell) -> Iterator[Diagnostic]:
     for task in cell.system.tasks:
         for module in task.modules:
             key, file = module.name.casefold(), module.target.casefold()
-            if task.name.casefold() in tasks and key not in told and ours.get(key, file) != file:
+            if (
+                task.name.casefold() in tasks
+                and key not in reported
+                and ours.get(key, file) != file
+            ):
                 yield _another_driver(
                     f"task {task.name} of the cell has a module {module.name} of its own",
                     Span(module.path, 1, 1),

@@ -2,21 +2,21 @@
 
 from dataclasses import dataclass
 
-from rapidgen.system.releases import UNTOLD
+from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 
 @dataclass(frozen=True, slots=True)
 class Dialect:
     """The RobotWare version that decides what exists: (major, minor)."""
 
-    robotware: tuple[int, int] = UNTOLD
+    robotware: tuple[int, int] = UNKNOWN_ROBOTWARE
     some: bool = False
     """Some release of that number, as of a backup that does not say which."""
 
     @property
     def told(self) -> bool:
         """Whether the release is known. Where it is not, what another one brings is no fault."""
-        return self.robotware != UNTOLD and not self.some
+        return self.robotware != UNKNOWN_ROBOTWARE and not self.some
 
     @property
     def has_radix(self) -> bool:

@@ -79,12 +79,12 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
     proc, sio = _further(folder, "PROC", collected), _further(folder, "SIO", collected)
     report = _robotware(info)
     if report is None:
-        collected.append(_not_told(sys_cfg))
+        collected.append(_unknown_release(sys_cfg))
     result = System(
         name=folder.resolve().name,
         tasks=tasks,
         robotware=report or (_main(sys_cfg), 0),
-        robotware_told=report is not None,
+        is_robotware_known=report is not None,
         home=home if home.is_dir() else None,
         robot_types=_robot_types(folder, collected),
         arc=() if proc is None else arc_signals(proc),
@@ -226,7 +226,7 @@ def _main(cfg: CfgText) -> int:
     return (cfg.version or _DEFAULT)[0]
 
 
-def _not_told(cfg: CfgText) -> Diagnostic:
+def _unknown_release(cfg: CfgText) -> Diagnostic:
     return error(
         "RG713",
         None,

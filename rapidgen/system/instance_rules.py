@@ -60,7 +60,7 @@ class Place:
             message = f"-{attribute.name} is no attribute of it on this release"
             if self.section.startswith("SYSSIG_"):
                 named = "Name" if self.cfg.robotware[0] >= 7 else "Signal"
-                yield self.system_signal(message, f"the signal stands in -{named}")
+                yield self.system_signal(message, f"the signal belongs in -{named}")
             else:
                 yield self.fault(message, suggest(attribute.name, sorted(known)))
 

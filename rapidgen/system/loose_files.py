@@ -11,7 +11,7 @@ from rapidgen.system.cfg_reader import tasks_of, with_cfg
 from rapidgen.system.loading import expand, load_module
 from rapidgen.system.model import System, TaskSpec
 from rapidgen.system.paths import module_files, read_limited
-from rapidgen.system.releases import UNTOLD
+from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 _MOTION_TASK = re.compile(r"T_ROB(\d|_)", re.I)
 _TASK = re.compile(r"T_\w+", re.I)
@@ -40,7 +40,7 @@ def read_files(
     cfg: Sequence[Path | str] = (),
     name: str = "loose",
     entry: str = "main",
-    robotware: tuple[int, int] = UNTOLD,
+    robotware: tuple[int, int] = UNKNOWN_ROBOTWARE,
     home: Path | None = None,
 ) -> System:
     """Return a system of modules, folders, `.pgf` and `.cfg` files.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from rapidgen.system.releases import UNTOLD
+from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 TaskType = Literal["NORMAL", "STATIC", "SEMISTATIC"]
 TrustLevel = Literal["SysFail", "SysHalt", "SysStop", "NoSafety"]
@@ -173,8 +173,8 @@ class System:
     cross: tuple[CrossConnection, ...] = ()
     events: tuple[EventRoutine, ...] = ()
     groups: tuple[MechanicalUnitGroup, ...] = ()
-    robotware: tuple[int, int] = UNTOLD
-    robotware_told: bool = True
+    robotware: tuple[int, int] = UNKNOWN_ROBOTWARE
+    is_robotware_known: bool = True
     """True if the minor version is known; else the second number is 0."""
     home: Path | None = None
     """Folder with the initial files of HOME:; it is copied, never written."""

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from rapidgen.diagnostics import refusal
 
-UNTOLD = (6, 0)
+UNKNOWN_ROBOTWARE = (6, 0)
 """Some RobotWare 6 of unknown minor version."""
 ANY_MINOR = 99
 """Minor version that means all of a release line."""

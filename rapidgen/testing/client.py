@@ -12,7 +12,7 @@ from collections.abc import Callable
 from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.machine.network.interface import BUFFER, NetworkFault
 
-PATIENCE = 10.0
+TIMEOUT = 10.0
 """Simulated seconds that a call waits."""
 
 
@@ -20,7 +20,7 @@ class Client:
     """A TCP client of a virtual controller on the virtual clock."""
 
     def __init__(
-        self, controller: VirtualController, port: int, *, timeout: float = PATIENCE
+        self, controller: VirtualController, port: int, *, timeout: float = TIMEOUT
     ) -> None:
         """Connect as soon as the program listens.
 

@@ -110,8 +110,8 @@ def virtual_controller(
             return made[-1]
         tasks = target if isinstance(target, Mapping) else {}
         files = [target] if isinstance(target, str | Path) else [] if tasks else list(target)
-        wishes = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
-        made.append(VirtualController.boot(load_target(files, wishes), **options))
+        boot_options = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
+        made.append(VirtualController.boot(load_target(files, boot_options), **options))
         return made[-1]
 
     yield make

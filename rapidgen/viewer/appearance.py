@@ -17,7 +17,7 @@ from rapidgen.config.layers import Overrides
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.urdf.source import xml_fault
 from rapidgen.config.urdf.visual_trees import Tree, trees
-from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_beside
+from rapidgen.config.urdf.visuals import NoMesh, Visual, mesh_in_folder
 from rapidgen.viewer.messages import SeenThing
 from rapidgen.viewer.primitive_urdf import Drawing, described
 from rapidgen.viewer.robots import pose_of
@@ -75,7 +75,7 @@ class Meshes:
     def name_in(self, name: str, folder: Path) -> str:
         """Return the page's name of a mesh in a folder."""
         try:
-            return self.name_of(mesh_beside(name, folder))
+            return self.name_of(mesh_in_folder(name, folder))
         except NoMesh as why:
             self._say(str(why))
             return ""

@@ -57,8 +57,8 @@ def test_five_faults_are_five_findings_with_their_places(tmp_path):
         ("max_points: 500", "the limit of points is `capacity:` in `trajectory:`"),
         ("robotware: 6.15", "`robotware:` stands in `controller:`"),
         ("state: {rate: 10, capacity: 5}", "`capacity:` stands in `trajectory:`"),
-        ("groups: {rob1: {profile: basic}}", "`profile:` stands at the top of the file"),
-        ("controller: {ports: {motion: 1}}", "`ports:` stands in a group, or at the top"),
+        ("groups: {rob1: {profile: basic}}", "`profile:` belongs at the top of the file"),
+        ("controller: {ports: {motion: 1}}", "`ports:` belongs in a group, or at the top"),
         # Of objects and of loads there are several.
         ("controller: {mass: 3}", "known here: type, robotware"),
     ],

@@ -11,7 +11,7 @@ from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.cell_setup import GUESSED
 from rapidgen.controller.inference.robot import RobotCandidate, shown
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.system.releases import UNTOLD
+from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 PROGRAM = r"""MODULE work
   PROC main()
@@ -367,7 +367,7 @@ def test_loose_files_are_on_the_controller_that_is_said(program, cell):
 
 
 def test_what_tells_its_release_is_not_given_another(program):
-    assert load_target([program]).system.robotware == UNTOLD
+    assert load_target([program]).system.robotware == UNKNOWN_ROBOTWARE
     with pytest.raises(DiagnosticError, match="'crb15000' tells its RobotWare"):
         load_target(["crb15000"], BootOptions(robotware=(7, 6)))
 

@@ -275,7 +275,7 @@ def test_a_routine_that_is_not_here_gives_its_arguments_the_type():
 def test_a_backup_that_does_not_say_its_release_has_what_some_release_of_its_number_has():
     text = module("a", "d := GInputDnum(gi1);\nd := 1;", "VAR dnum d;\nVAR signalgi gi1;")
     told = system(text, robotware=(5, 7))
-    some = system(text, robotware=(5, 0), robotware_told=False)
+    some = system(text, robotware=(5, 0), is_robotware_known=False)
     assert ("error", "RG325") in found(told)
     assert "error" not in {severity for severity, _ in found(some)}
 

@@ -38,7 +38,7 @@ class Arm:
     alignment: Alignment | None
     under: tuple[UrdfJoint, ...] = ()
     """Joints that carry the robot: a track, a gantry."""
-    behind: tuple[UrdfJoint, ...] = ()
+    grippers: tuple[UrdfJoint, ...] = ()
     """Joints after the flange: grippers."""
 
 
@@ -102,11 +102,11 @@ def read_cell(graph: Graph, names: tuple[str, ...], message: Mapping[str, str]) 
         above = {j.name for j in graph.ancestors(own[0])} if own else set()
         if own and not above & of_arms and not {j.name for j in own} & of_arms:
             positioners.append(own)
-    complete = tuple(replace(arm, behind=_behind(graph, arm, moving)) for arm in arms)
+    complete = tuple(replace(arm, grippers=_gripper_joints(graph, arm, moving)) for arm in arms)
     return Cell(graph, complete, tuple(positioners), names)
 
 
-def _behind(graph: Graph, arm: Arm, moving: Sequence[UrdfJoint]) -> tuple[UrdfJoint, ...]:
+def _gripper_joints(graph: Graph, arm: Arm, moving: Sequence[UrdfJoint]) -> tuple[UrdfJoint, ...]:
     own = {j.name for j in (*arm.joints, *arm.under)}
     last = arm.joints[-1].name
     return tuple(

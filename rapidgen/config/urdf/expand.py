@@ -271,7 +271,7 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
         )
     if isinstance(inner, ExpatError):
         unbound = "unbound prefix" in str(inner)
-        hint = "declare xmlns:xacro on <robot>" if unbound else "mend the file there"
+        hint = "declare xmlns:xacro on <robot>" if unbound else "correct the file there"
         return error(
             "RG060",
             Span(str(at), max(1, inner.lineno), inner.offset + 1),
@@ -282,7 +282,9 @@ def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
         hint = "a macro calls, or a file includes, itself without end?"
         return error("RG061", place, f"xacro: {name} nests too deep", hint)
     text = " ".join(str(inner).split())[:_LONGEST_REASON] or type(inner).__name__
-    hint = "mend it there, or expand the file where all that it needs is, and give the URDF"
+    hint = (
+        "correct it there, or expand the file where its packages are installed, and give the URDF"
+    )
     if type(inner).__name__ == "ArgException":
         expected, text = text, f"the argument '{text}' has no value"
         lines = f"urdf:\n  args: {{{expected}: VALUE}}"

@@ -125,7 +125,7 @@ def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> Iterator[Diagnostic
                     "RG051",
                     above[link].span,
                     f"the joints run in a circle through link '{link}'",
-                    "a controller needs a tree: hang the first joint on the link that stands",
+                    "a controller needs a tree: attach the first joint to the fixed link",
                     label="closes a loop",
                 )
                 return

@@ -121,7 +121,7 @@ def _shape(
             f"'{gripper.name}' looks like a gripper",
             f"add\n  urdf:\n    ignore_joints: [{gripper.name}]\n"
             + paste(graph, joints, ignore=[gripper.name]),
-            label="moves less than 0.1 m behind the arm",
+            label="moves less than 0.1 m after the arm",
         )
     still = [j for j in joints if j.lower is not None and j.lower == j.upper]
     if still and len(joints) > 6:

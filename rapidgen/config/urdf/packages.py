@@ -97,7 +97,7 @@ class Packages:
             if (folder / "package.xml").is_file():
                 # The file is inside a package: that one and its neighbours.
                 match = self._scan(folder.parent).get(name, [])
-                yield f"beside {folder}", match
+                yield f"next to {folder}", match
                 if (folder.parent.parent / "package.xml").is_file():
                     continue
                 return

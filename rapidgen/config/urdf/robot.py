@@ -111,7 +111,7 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
             "RG060",
             span,
             f"{description.path.name} is not well-formed XML: {fault.msg}",
-            "mend the file there; nothing behind that place was read",
+            "correct the file there; nothing after that place was read",
         ) from None
 
     def span_of(element: "Element") -> Span | None:

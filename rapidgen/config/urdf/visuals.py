@@ -120,7 +120,7 @@ def mesh_file(name: str, description: Path, packages: Packages, folder: Path) ->
     if scheme == "file":
         return _within([*roots, *packages.used.values()], Path(unquote(remaining)), name)
     if scheme != "package":
-        raise NoMesh(f"'{name}': meshes are package://, file:// or beside the description")
+        raise NoMesh(f"'{name}': meshes are package://, file:// or in the description's folder")
     package, _, inside = remaining.partition("/")
     try:
         result = packages.find(package)
@@ -129,7 +129,7 @@ def mesh_file(name: str, description: Path, packages: Packages, folder: Path) ->
     return _within([result], result / inside, name)
 
 
-def mesh_beside(name: str, folder: Path) -> Path:
+def mesh_in_folder(name: str, folder: Path) -> Path:
     """Return a mesh in a folder or below it.
 
     Raises NoMesh.

@@ -131,7 +131,7 @@ def guess(
     known += [(unit, "mecunit") for unit in (*units, "ROB_ID")]
     for spec in system.tasks:
         task = TaskScope(installed_objects(known))
-        dialect = Dialect(system.robotware, some=not system.robotware_told)
+        dialect = Dialect(system.robotware, some=not system.is_robotware_known)
         scopes = [
             task.add(parse(f.data, path=f.path, dialect=dialect), installed=f.installed or f.shared)
             for f in spec.modules

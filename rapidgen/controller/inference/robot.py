@@ -243,7 +243,7 @@ def aims(system: System) -> Iterator[FlangeTarget]:
     """What the moves of all tasks aim at, where that can be told without running them."""
     for spec in system.tasks:
         task = TaskScope()
-        dialect = Dialect(system.robotware, some=not system.robotware_told)
+        dialect = Dialect(system.robotware, some=not system.is_robotware_known)
         scopes = [task.add(parse(f.data, path=f.path, dialect=dialect)) for f in spec.modules]
         for scope in scopes:
             yield from map(_aim, move_targets(scope, roughly=True))

@@ -58,7 +58,7 @@ def check(
     if isinstance(given, System):
         return _check_system(
             given,
-            dialect or Dialect(given.robotware, some=not given.robotware_told),
+            dialect or Dialect(given.robotware, some=not given.is_robotware_known),
             gaps,
             payloads,
         )

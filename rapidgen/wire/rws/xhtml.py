@@ -121,9 +121,9 @@ def _tag(element: Element) -> str:
 
 
 def _fault(element: Element) -> Fault:
-    told = {e.get("class", ""): e.text or "" for e in element.iter() if _tag(e) == "span"}
+    fields = {e.get("class", ""): e.text or "" for e in element.iter() if _tag(e) == "span"}
     try:
-        return Fault(int(told.get("code", "")), told.get("msg", ""))
+        return Fault(int(fields.get("code", "")), fields.get("msg", ""))
     except ValueError as error:
         raise Unreadable("a refusal without a code") from error
 

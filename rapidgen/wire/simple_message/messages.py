@@ -358,9 +358,7 @@ class HeartbeatRequest(NamedTuple):
     robot (CLIENT_LOST).
     """
 
-    timeout: Annotated[
-        float, float32("s", "until the next one must arrive; 0: none is expected")
-    ]
+    timeout: Annotated[float, float32("s", "until the next one must arrive; 0: none is expected")]
 
 
 class HeartbeatReply(NamedTuple):
@@ -482,9 +480,7 @@ class ResultReply(NamedTuple):
             MOST_ARGUMENTS,
         ),
     ]
-    text: Annotated[
-        str, chars(LONGEST_TEXT, "of the requested parameter; of an error its name")
-    ]
+    text: Annotated[str, chars(LONGEST_TEXT, "of the requested parameter; of an error its name")]
 
 
 RESULT = MessageType(
