@@ -228,7 +228,7 @@ def test_steps_in_their_order_and_time_are_good(bench):
     ids=["not done", "late", "order", "back", "counts", "early", "slow"],
 )
 def test_steps_out_of_order_or_time_are_seen(bench, reply):
-    with red("is told|never told|told to be"):
+    with red("is reported|not reported|reported in state"):
         motion_task._in_order(bench, 0.0, reply, STEPS)
 
 
@@ -281,7 +281,7 @@ def test_a_motion_that_begins_late_is_seen(bench):
     motion_task.begins_soon(bench, bench.now)
     bench.wait_until_standing()
     link.send(bench.download(bench.wave(3)))
-    with red("behind the end frame"):
+    with red("after the end frame"):
         motion_task.begins_soon(bench, bench.now - 0.5)
 
 
@@ -323,7 +323,7 @@ def test_what_clients_are_told_is_compared(bench):
     bench.run(1)
     nothing = state_port._NONE
     state_port._all_alike(bench, [(one, nothing), (other, nothing)], since)
-    with red("is told messages"):
+    with red("gets messages"):
         state_port._all_alike(bench, [(one, state_port.RawFeature.PROGRESS)], since)
     when, frame = other.frames[-1]
     other.frames[-1] = (when, frame._replace(data=bytes(len(frame.data))))
@@ -336,12 +336,12 @@ def test_what_clients_are_told_is_compared(bench):
     [
         (JOINT_POSITION, "joints", (0.1, *[0.0] * 9), "the robot is at"),
         (JOINT_POSITION, "joints", (*[0.0] * 9, 0.1), "the robot is at"),
-        (13, "in_error", 1, "is told with"),
-        (13, "error_code", 4, "is told with"),
-        (13, "in_motion", 1, "is told with"),
+        (13, "in_error", 1, "is reported with"),
+        (13, "error_code", 4, "is reported with"),
+        (13, "in_motion", 1, "is reported with"),
         (13, "motion_possible", 0, "STATUS says"),
         (13, "e_stopped", 1, "STATUS says"),
-        (1301, "state", RawTrajectoryState.MOVING, "is told with"),
+        (1301, "state", RawTrajectoryState.MOVING, "is reported with"),
         (1301, "reason", 4, None),
     ],
 )

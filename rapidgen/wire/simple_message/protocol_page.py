@@ -59,8 +59,8 @@ _STREAMS = f"""\
   asks for the reply, and may carry END or FLUSH.
 - A client sends no more points than `room` of the last reply, at the beginning than `ring` of
   HELLO. A point given to the planner frees a place: `accepted` may always grow to
-  `planned` + `ring`, for `planned` of a reply and of PROGRESS alike. `first` is the number of points
-  that the driver has accepted.
+  `planned` + `ring`, for `planned` of a reply and of PROGRESS alike. `first` is the number of
+  points that the driver has accepted.
 - Motion begins when `preload` seconds are buffered, or the ring is full, or after END or FLUSH.
 - A batch with a wrong checksum, a length that does not fit, a gap or more points than `room` is
   refused as a whole. At a fault in one point those before it are accepted. Either way the stream
