@@ -1,10 +1,10 @@
-"""A large ABB backup: read, linked and started on the virtual controller.
+"""Read, link and start a large ABB backup on the virtual controller.
 
     python benchmarks/backup.py [--modules N] [--routines N] [--keep FOLDER]
 
-The backup is made up here, with the texts of parsing.py: three tasks, modules in PROGMOD, SYSMOD,
-HOME, signals and event routines. Each stage is a process of its own, so that nothing is warm; CPU
-time, best of several. Limit: 200 modules loaded within 5 s.
+The script generates the backup with the texts of parsing.py: three tasks, modules in PROGMOD,
+SYSMOD, HOME, signals and event routines. Each stage is a process of its own, so that no cache is
+warm; CPU time, best of several. Limit: 200 modules loaded within 5 s.
 """
 
 import argparse
@@ -46,7 +46,7 @@ def put(path, text):
 
 
 def write_backup(folder, modules, routines):
-    """Write the backup; how many lines its modules have."""
+    """Write the backup; return the number of its modules' lines."""
     tasks, loaded, lines, made = [], [], 0, 1
     for number, (task, share) in enumerate(TASKS.items(), 1):
         kind = '-Type "NORMAL" -MotionTask' if number == 1 else '-TrustLevel "SysStop"'
@@ -76,7 +76,10 @@ def write_backup(folder, modules, routines):
 
 
 def measure(code, rounds=3):
-    """CPU seconds of a piece of Python in a fresh process, imports left out; best of several."""
+    """Return CPU seconds of Python code in a fresh process.
+
+    Imports are left out; best of several.
+    """
     times = []
     for _ in range(rounds):
         done = subprocess.run(

@@ -1,10 +1,10 @@
-"""Random trajectories near a ceiling of the TCP's speed: what was recorded, and false refusals.
+"""Random trajectories near a TCP speed limit: recorded speed, refusals.
 
     python benchmarks/ceiling.py [ROBOT] [--count N] [--jobs N] [--ceiling MM/S] [--margin F]
 
-Each way has `margin` times the time in which the TCP keeps its ceiling, by sixty places of it; a
-refusal of one is counted as false. Half of them are streamed. What was recorded is compared with
-the ceiling, every 4 ms.
+Each path has `margin` times the time in which the TCP keeps its limit, evaluated at sixty places; a
+refusal of one is counted as false. Half of them are streamed. The recording is compared with the
+limit, every 4 ms.
 """
 
 import argparse
@@ -27,7 +27,10 @@ CHUNK = 20
 
 
 def share(seed):
-    """Of one controller: the highest part of the ceiling, points, refusals."""
+    """Return the maximum share of the limit, points and refusals.
+
+    Of one controller.
+    """
     chance, limit = random.Random(seed), CONFIG.groups[0].tcp_speed_limit
     worst, points, refused = 0.0, 0, 0
     bench = Bench(CONFIG, SYSTEM)

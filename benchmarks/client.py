@@ -1,4 +1,4 @@
-"""The client's figures, over loopback, with sinks in a process of their own.
+"""Measure the client over loopback, with sinks in a separate process.
 
 python benchmarks/client.py [--quick]
 """
@@ -53,7 +53,7 @@ def progress(number, state):
 
 
 class Sink:
-    """Ports of one robot: states at a rate, points thrown away, STOP and the end answered."""
+    """Ports of one robot: sends states, discards points, answers STOP and end."""
 
     def __init__(self, *, period, bytes_per_second=0.0, features=1, stamps=None):
         self.period, self.rate, self.features = period, bytes_per_second, features
@@ -70,7 +70,7 @@ class Sink:
     @staticmethod
     def accept(server, serve):
         def served(client):
-            # A client that hangs up is no news.
+            # A client that disconnects is no error.
             with contextlib.suppress(OSError):
                 serve(client)
 
@@ -99,7 +99,7 @@ class Sink:
                 client.sendall(REPLY)
 
     def points(self, client):
-        """A driver that executes points at once: every batch is answered, all have room."""
+        """Execute points immediately, as a driver: all batches are accepted."""
         buffer, accepted = b"", 0
         self.number, self.state = self.number + 1, 2
         while data := client.recv(1 << 20):
@@ -119,7 +119,7 @@ class Sink:
         client.sendall(hello(self.features))
         while data := client.recv(4096):
             now = time.monotonic_ns()
-            # Heartbeats come beside STOP: they are answered, and not counted.
+            # Heartbeats arrive besides STOP: they are answered, and not counted.
             for beat in range(data.count(BEAT)):
                 client.sendall(HEAD.pack(20, 1306, 3, 1) + struct.pack("<2i", beat, 2))
             for _ in range(data.count(STOP_FRAME)):
@@ -185,7 +185,7 @@ def encoding(count):
 
 
 def points(count):
-    """POINTS by numpy: both directions, in bulk and one message at a time."""
+    """Measure POINTS by numpy, both directions, in bulk and singly."""
     joints = np.random.default_rng(1).uniform(-3, 3, size=(count, 6))
     durations = np.full(count, 0.1)
     frames = encode_points(1, 0, durations, joints)
@@ -200,7 +200,10 @@ def points(count):
 
 
 def streaming(count, rounds):
-    """Checked, encoded, sent and acknowledged by a sink that executes at once."""
+    """Measure points that are checked, encoded, sent and acknowledged.
+
+    The sink executes immediately.
+    """
     times, joints = np.arange(count) * 0.1, np.zeros((count, 6))
     rates = []
     for _ in range(rounds):
@@ -247,7 +250,10 @@ def decoding(count):
 
 
 def stopping(seconds, stops):
-    """Latency from stop() to STOP at the sink, on a connection of its own, under load."""
+    """Measure latency from stop() to STOP at the sink, under load.
+
+    On a connection of its own.
+    """
     with Running(period=0.02, bytes_per_second=2e6, features=3) as sink, robot_at(sink) as robot:
         finished = threading.Event()
         trajectory = still(400_000)
@@ -280,7 +286,10 @@ def stopping(seconds, stops):
 
 
 def frames_before_stop(rounds):
-    """Frames written between stop() and STOP on the standard port: at most the one begun."""
+    """Count frames between stop() and STOP on the standard port.
+
+    At most the one in progress.
+    """
     from rapidgen.client.address import Address
     from rapidgen.client.channels import Channel
     from rapidgen.wire.simple_message.spec import Port
@@ -296,7 +305,7 @@ def frames_before_stop(rounds):
         sender.start()
         peer.recv(1000)
         time.sleep(0.01)
-        # What the kernel has now was sent before.
+        # The bytes in the kernel were sent before.
         before = _written(channel, peer)
         stopping.set()
         stop = threading.Thread(target=channel.send_urgent, args=(STOP_FRAME, 5.0))
@@ -314,7 +323,7 @@ def frames_before_stop(rounds):
 
 
 def _written(channel, peer):
-    """Bytes in the scheduler, of both ends, once the sender stands."""
+    """Return bytes in the scheduler, of both ends, once the sender blocks."""
     import fcntl
     import termios
 
@@ -330,7 +339,7 @@ def _written(channel, peer):
 
 
 def serve_many(pipe, options, _):
-    """State ports of many robots, all told at the same rate, by one thread."""
+    """Serve state ports of many robots at one rate, from one thread."""
     servers = [socket.create_server(("127.0.0.1", 0)) for _ in range(options["robots"])]
     pipe.send([server.getsockname()[1] for server in servers])
     selector = selectors.DefaultSelector()
@@ -372,7 +381,7 @@ def watching(robots, seconds):
 
 
 def memory(points):
-    """Resident memory while trajectories of 100,000 points are sent one after another."""
+    """Measure resident memory over trajectories of 100,000 points."""
     with Running(period=0.02) as sink, robot_at(sink) as robot:
         trajectory = still(100_000)
         marks = []

@@ -1,11 +1,11 @@
-"""Deployment: plan of an unchanged controller, 50 controllers against one, long campaigns.
+"""Deployment: unchanged plan, 50 controllers against one, campaigns.
 
     python benchmarks/deploy.py            figures, as ratios within one run
     python benchmarks/deploy.py --cuts     every cut of every case, 10,000 garbled FTP answers,
-                                           5,000 garbled SFTP answers and 5,000 spoilt SSH lines
+                                           5,000 garbled SFTP answers and 5,000 damaged SSH lines
 
-The controllers are SFTP and FTP servers of this process on loopback, behind a proxy that holds
-every packet back for 25 ms each way.
+The controllers are SFTP and FTP servers of this process on loopback, with a proxy that delays every
+packet by 25 ms each way.
 """
 
 import contextlib
@@ -29,7 +29,7 @@ EACH_WAY = 0.025
 
 
 class Slow:
-    """A proxy before an FTP server: control and data lines alike are late by `EACH_WAY`."""
+    """A proxy before an FTP server that delays all lines by `EACH_WAY`."""
 
     def __init__(self, port: int) -> None:
         self.behind = port
@@ -127,7 +127,7 @@ def figures() -> None:
 
 
 def campaign() -> int:
-    """Every cut of every case over every transport, and the garbled answers."""
+    """Run every cut of every case over every transport, and garbled answers."""
     command = [sys.executable, "-m", "pytest", "-q", "tests/deploy", "--timeout", "3600"]
     return subprocess.run(command, env={**os.environ, "RAPIDGEN_LONG": "1"}, check=False).returncode
 

@@ -1,13 +1,13 @@
-"""The generated driver on the reference cost model, beside abb_driver's modules where they are.
+"""Measure the driver on the reference cost model, and abb_driver.
 
     python benchmarks/driver.py [FOLDER with abb_driver's six modules] [--ramp S]
 
 Simulated time per point (from the slope over two lengths of a download whose points all pass every
-check, ended by a STOP whose reply marks the time), time from STOP to deceleration, and time
-and path error on the trajectories beside this file, the approach left out, also with corners of
-one size (`trajectory.corners: zone`, z10). S is the motion model's time in which acceleration
-builds up (0: no limit of jerk). A time error below 0.1 ms is rounding.
-These compare algorithms in our cost and motion model; no controller was measured.
+check, ended by a STOP whose reply marks the time), time from STOP to deceleration, and time and
+path error on the trajectories in this folder, without the approach, also with corners of one size
+(`trajectory.corners: zone`, z10). S is the motion model's time in which acceleration builds up (0:
+no limit of jerk). A time error below 0.1 ms is rounding. These figures compare algorithms in our
+cost and motion model; no controller was measured.
 """
 
 import argparse
@@ -28,7 +28,7 @@ from rapidgen.verification.testbench import Bench
 from tools.interop.abb_driver import read_system
 
 ROUNDING = 1e-4
-"""s: what num and the steps of the planner leave of an exact time."""
+"""s: remainder of num and the planner's steps from an exact time."""
 MOVED = 1e-6
 """rad"""
 TRAJECTORIES = Path(__file__).resolve().parent / "trajectories"
@@ -45,7 +45,7 @@ def drivers(folder):
 
 
 def per_point(config, system):
-    """Simulated s for one more point."""
+    """Return simulated s for one more point."""
     in_use = []
     for count in (20, 90):
         bench = Bench(config, system)
@@ -62,7 +62,7 @@ def per_point(config, system):
 
 
 def stopping(config, system):
-    """s from the last byte of STOP to the moment in which the robot is told to stop."""
+    """Return s from the last byte of STOP to the stop order."""
     result = []
     for delay in (0.5, 0.77, 1.03, 1.31, 1.6):
         bench = Bench(config, system)
@@ -90,9 +90,10 @@ def read(path):
 
 
 def follow(config, system, path, ramp):
-    """(time error s, path error rad): of the whole motion, and largest distance from the way.
+    """Return (time error s, path error rad) of the whole motion.
 
-    The motion lasts from the first move to another place until the planned end of the last one.
+    The path error is the largest distance. The motion lasts from the first move to another place
+    until the planned end of the last one.
     """
     times, points = read(path)
     bench = Bench(config, system)
@@ -123,7 +124,7 @@ def follow(config, system, path, ramp):
         apart = max(apart, distance)
     lost = max(abs(a - b) for a, b in zip(bench.position, way[-1], strict=True))
     bench.close()
-    # Where the last points are one place, the robot has nothing left to do.
+    # If the last points are one place, the robot has no motion left.
     last = next(t for t, p in zip(times, way, strict=True) if p == way[-1])
     if way[0] == way[-1]:
         last = next(t for t, p in list(zip(times, way, strict=True))[1:] if p == way[-1])
@@ -162,7 +163,7 @@ def main(folder, ramp):
 
 
 def _share(own, theirs):
-    """Of time errors; one that cannot be told from none is 0."""
+    """Return the ratio of time errors; one within rounding is 0."""
     own, theirs = (0.0 if error <= ROUNDING else error for error in (own, theirs))
     return f"{own / theirs:.2f}" if theirs else f"({own:.4f} s, of none)"
 

@@ -1,10 +1,10 @@
-"""Ten simulated hours of an idle driver with a client that reads its state: memory and speed.
+"""Ten simulated hours of an idle driver with a state client.
 
     python benchmarks/endurance.py [--robot NAME] [--hours H]
 
-The generated driver of a shipped robot on the virtual clock, network in memory. The client reads
-every message and forgets it. Memory is that of the process (VmRSS) at the end of each tenth.
-Limits: 60 MB, and no growth behind the first tenth (2 %).
+Measures memory and speed. The generated driver of a shipped robot on the virtual clock, network in
+memory. The client reads and discards every message. Memory is that of the process (VmRSS) at the
+end of each tenth. Limits: 60 MB, and no growth after the first tenth (2 %).
 """
 
 import argparse
@@ -18,14 +18,14 @@ GROWTH = 1.02
 
 
 def resident():
-    """Megabytes of this process."""
+    """Return megabytes of this process."""
     with open("/proc/self/status", encoding="ascii") as status:
         line = next(line for line in status if line.startswith("VmRSS:"))
     return int(line.split()[1]) / 1024
 
 
 class Reader:
-    """Reads a connection in memory, whenever something has arrived."""
+    """Reads a connection in memory whenever data arrives."""
 
     def __init__(self, controller, port):
         self.network = controller.network

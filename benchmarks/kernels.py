@@ -1,8 +1,8 @@
-"""Compiled RAPID against idiomatic hand-written Python: nine kernels, ratios in one run.
+"""Compiled RAPID against hand-written Python: nine kernels, ratios.
 
     python benchmarks/kernels.py [--rounds N]
 
-Columns: no clock (nothing can interrupt), block accounting (the default), statement accounting
+Columns: no clock (no interrupts possible), block accounting (the default), statement accounting
 (trace, replay). Limits: geometric mean 2.2, 3 and 4; no kernel over 6.
 """
 
@@ -308,7 +308,7 @@ def _controller(accounting: str) -> VirtualController:
 
 
 def _ratio(rapid: Callable[[], object], python: Callable[[], object], rounds: int) -> float:
-    """Ratio of the best processor times, measured in turn."""
+    """Return the ratio of the best processor times, measured in turn."""
     best = [math.inf, math.inf]
     for _ in range(rounds):
         for i, function in enumerate((rapid, python)):
@@ -319,7 +319,7 @@ def _ratio(rapid: Callable[[], object], python: Callable[[], object], rounds: in
 
 
 def measure(rounds: int) -> dict[str, dict[str, float]]:
-    """Ratio of compiled RAPID to Python by accounting and kernel."""
+    """Return ratios of RAPID to Python by accounting and kernel."""
     results: dict[str, dict[str, float]] = {}
     gc.disable()
     for accounting in LIMITS:

@@ -1,4 +1,4 @@
-"""Many virtual controllers in real time on one machine: how late their state messages come.
+"""Many virtual controllers in real time: lateness of state messages.
 
     python benchmarks/many_controllers.py [--controllers N] [--seconds S]
 
@@ -42,7 +42,7 @@ class Reader:
             del self.data[: length + 4]
 
     def lateness(self):
-        """Milliseconds of each message behind the line below all arrivals."""
+        """Return milliseconds of each message after the line below all arrivals."""
         times = self.arrivals[5:]
         # Slope of the whole run, between the medians of its two halves.
         half = len(times) // 2
@@ -54,7 +54,7 @@ class Reader:
 
 
 def start(count):
-    """Start the controllers, a few at a time; (processes, ready lines)."""
+    """Start the controllers, a few at a time; return (processes, lines)."""
     processes, ready = [], []
     for first in range(0, count, 4):
         batch = [

@@ -1,9 +1,9 @@
-"""Motion: moves planned per second of CPU, inverse kinematics, cost of watching.
+"""Motion: moves planned per second of CPU, inverse kinematics, sampling.
 
     python benchmarks/motion.py
 
-Figures to hold: 1,000 moves planned a second, 50 µs a pose in closed form, and end times that
-do not depend on how often anybody looks.
+Limits: 1,000 moves planned a second, 50 µs a pose in closed form, and end times that do not depend
+on the sampling rate.
 """
 
 import time
@@ -29,7 +29,7 @@ ZONE = Zone(tcp=0.01, orientation=0.015, external=0.015, angle=0.026)
 
 
 def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tuple[float, int, int]:
-    """CPU s, end time in ns and events (process switches) of a program of moves."""
+    """Return CPU s, end time in ns and process switches of a program."""
     config = load_config("irb120").groups[0]
     scheduler = Scheduler()
     log = EventLog(scheduler)
@@ -62,7 +62,7 @@ def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tupl
 
 
 def joint_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
-    """A zigzag of `count` joint moves of 0.1 s."""
+    """Return a zigzag of `count` joint moves of 0.1 s."""
 
     def make(_group: MotionGroup) -> list[Move]:
         return [
@@ -79,7 +79,7 @@ def joint_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
 
 
 def linear_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
-    """A zigzag of `count` lines of 20 mm."""
+    """Return a zigzag of `count` lines of 20 mm."""
 
     def make(group: MotionGroup) -> list[Move]:
         start = group.geometry().forward(HOME)
@@ -97,7 +97,7 @@ def linear_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
 
 
 def inverse(count: int = 5000) -> float:
-    """s of CPU for one pose on a known branch."""
+    """Return s of CPU for one pose on a known branch."""
     own = Kinematics.of(load_config("irb120").groups[0])
     assert own is not None
     pose = own.forward(HOME)

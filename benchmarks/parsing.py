@@ -1,8 +1,8 @@
-"""Parsing and checking RAPID against a bare token scan of the same text, in one run.
+"""Parsing and checking RAPID against a bare token scan of the same text.
 
 python benchmarks/parsing.py [FOLDER]
 
-Without a folder the text is made up here, in the proportions of public programs: positions,
+Without a folder the script generates the text, in the proportions of public programs: positions,
 moves, socket and string code, comments. CPU time, best of several rounds.
 """
 
@@ -53,7 +53,7 @@ ROUTINE = """
 
 
 def module(m, routines):
-    """Text of one module."""
+    """Return the text of one module."""
     numbers = random.Random(m)
     data = [
         f"    CONST robtarget p{m}_{k} := [[{numbers.uniform(-900, 900):.3f},"
@@ -69,7 +69,7 @@ def module(m, routines):
 
 
 def best(action, rounds=5):
-    """CPU seconds of the fastest round."""
+    """Return CPU seconds of the fastest round."""
     result = []
     for _ in range(rounds):
         gc.collect()
@@ -80,7 +80,7 @@ def best(action, rounds=5):
 
 
 def texts_of(folder):
-    """Texts of the modules in a folder that parse without an error."""
+    """Return texts of a folder's modules that parse without an error."""
     files = [f for f in sorted(folder.rglob("*")) if f.is_file() and f.suffix.lower() in SUFFIXES]
     texts = [decode(f.read_bytes())[0] for f in files]
     return [text for text in texts if not parse(text).diagnostics]

@@ -1,9 +1,9 @@
-"""Motion programs on the reference cost model: `python benchmarks/programs.py`.
+"""Motion programs on the reference cost model.
 
-Seconds of CPU of the client's check of 1,000 moves on lines; simulated seconds from the call to the
-first motion, and whether the robot ever waits for an instruction; simulated time that the motion
-server takes for an instruction beside that for a point of a stream; a routine's round trip. Ratios
-of algorithms in our cost and motion model; no controller was measured.
+`python benchmarks/programs.py`. Seconds of CPU of the client's check of 1,000 moves on lines;
+simulated seconds from the call to the first motion, and whether the robot waits for an instruction;
+simulated time of the motion server for an instruction and for a point of a stream; a routine's
+round trip. Ratios of algorithms in our cost and motion model; no controller was measured.
 """
 
 import sys
@@ -32,7 +32,7 @@ NOTHING = b"MODULE cell\n PROC nothing()\n  RETURN;\n ENDPROC\nENDMODULE\n"
 
 
 def zigzag(robot, count: int) -> Program:
-    """Lines of about 5 cm."""
+    """Return lines of about 5 cm."""
     (x, y, z), q = robot.pose_of(BENT)
     program = Program(speed=0.3, zone="z5")
     for n in range(1, count + 1):
@@ -89,14 +89,14 @@ def reading() -> None:
         since = bench.now
         for _ in range(10):
             stream.put([(place, 0.1)] * 12)
-        # Nothing of either moves meanwhile: reading alone is compared.
+        # Neither moves meanwhile: only reading is compared.
         point = (bench.now - since) / 120
         for what, each in result.items():
             print(f"one instruction {what}: {1e3 * each:.2f} ms, {each / point:.2f} x a point")
 
 
 def _bare(order: RawMove) -> list[int]:
-    """Without speed and zone."""
+    """Return the words without speed and zone."""
     values = [] if order.pose is None else [*order.pose[0], *order.pose[1]]
     return [int(order.kind), *millionths([*values, *order.joints])]
 

@@ -1,12 +1,11 @@
-"""Inverse kinematics of the shipped models: poses missed, and CPU time from afar and from near.
+"""Inverse kinematics of the shipped models: missed poses, CPU time.
 
     python benchmarks/reach.py [--poses N] [MODEL ...]
 
 Each pose is that of a random posture within the ranges; from afar the search begins in the middle
-of the ranges and has to find a posture within them, from near 0.02 rad beside the posture. A tenth
-as many are looked for with the posture's configuration (and arm angle) from any other posture.
-Limits: none missed; without a closed form 3 ms from afar (median), 20 ms (99 of 100), 0.3 ms from
-near.
+of the ranges and must find a posture within them, from near 0.02 rad next to the posture. A tenth
+as many searches use the posture's configuration (and arm angle) from any other posture. Limits:
+none missed; without a closed form 3 ms from afar (median), 20 ms (99 of 100), 0.3 ms from near.
 """
 
 import argparse
@@ -20,7 +19,7 @@ AFAR, AFAR_99, NEAR = 3e-3, 20e-3, 0.3e-3
 
 
 def measure(own: Kinematics, poses: int) -> tuple[int, list[float], list[float]]:
-    """Poses missed, and the times from afar and from near, sorted."""
+    """Return missed poses, and sorted times from afar and from near."""
     draw = random.Random(5)
     joints = own.group.joints
     missed, afar, near, moves = 0, [], [], []
@@ -39,7 +38,7 @@ def measure(own: Kinematics, poses: int) -> tuple[int, list[float], list[float]]
             for j, v in zip(joints, posture, strict=True)
         )
         moves.append((pose, adjacent))
-    # Each once, and nothing between two of them: as along a way.
+    # Each once, and no other search between them: as along a path.
     for pose, adjacent in moves:
         start = time.thread_time()
         own.follow(pose, adjacent)
@@ -48,7 +47,10 @@ def measure(own: Kinematics, poses: int) -> tuple[int, list[float], list[float]]
 
 
 def configured(own: Kinematics, poses: int) -> tuple[int, float]:
-    """Poses whose configuration is not found from any other posture, and the median time."""
+    """Return poses whose configuration is not found, and the median time.
+
+    From any other posture.
+    """
     draw = random.Random(6)
     missed, times = 0, []
     for _ in range(poses):
@@ -72,7 +74,7 @@ def configured(own: Kinematics, poses: int) -> tuple[int, float]:
 
 
 def main() -> int:
-    """The table; 1 when a limit is not kept."""
+    """Print the table; return 1 when a limit is exceeded."""
     parser = argparse.ArgumentParser()
     parser.add_argument("models", nargs="*", default=shipped_names())
     parser.add_argument("--poses", type=int, default=10_000)

@@ -1,10 +1,10 @@
-"""How long a server of somebody else's takes to be ready, against `import jinja2, pydantic`.
+"""Start time of a foreign server, against `import jinja2, pydantic`.
 
     python benchmarks/ready.py [TIMES [MODULE...]]
 
 Wall seconds from the start of `rapidgen sim server.mod` to its line `ready`: the program serves a
 socket as soon as it runs. The two take turns, medians are compared; the first turn does not count.
-With modules of somebody's server, those in a guessed cell instead.
+MODULE replaces the server by modules in an inferred cell.
 """
 
 import os
@@ -32,7 +32,7 @@ ENVIRONMENT = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTEC
 
 
 def ready(*paths: Path | str) -> float:
-    """Seconds to the line."""
+    """Return seconds to the line."""
     began = time.perf_counter()
     words = [sys.executable, "-m", "rapidgen.cli", "sim", *map(str, paths), "--ports", "auto"]
     words += [] if paths[0] in OWN else ["--cell", "infer"]
@@ -48,7 +48,7 @@ def ready(*paths: Path | str) -> float:
 
 
 def imports() -> float:
-    """Seconds of a process that imports two packages and ends."""
+    """Return seconds of a process that imports two packages and ends."""
     began = time.perf_counter()
     subprocess.run([sys.executable, "-c", "import jinja2, pydantic"], check=True, env=ENVIRONMENT)
     return time.perf_counter() - began

@@ -1,8 +1,8 @@
-"""A long recording: how fast it is written, opens, is scrubbed, and gives its plots.
+"""A long recording: speed of writing, opening, scrubbing and plots.
 
     python benchmarks/recording.py [--minutes 60] [--keep FILE.mcap]
 
-Limits: an hour opens in 2 s. A moment costs the same wherever it is.
+Limits: an hour opens in 2 s. A moment takes the same time wherever it is.
 """
 
 import argparse

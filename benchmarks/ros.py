@@ -1,10 +1,10 @@
-"""How soon a goal moves the robot, and how even stamps are: on the virtual clock.
+"""Delay of goals and jitter of stamps, on the virtual clock.
 
     python benchmarks/ros.py [--goals N] [--model NAME] [--seconds S]
 
-From the goal callback to the first interpolated position beside the one where the robot stood, for
-goals of 5 and of 50 points (downloaded whole); then the spacing of joint_states' stamps. All times
-are simulated: nothing here depends on the machine.
+From the goal callback to the first interpolated position off the robot's rest position, for goals
+of 5 and of 50 points (downloaded whole); then the spacing of joint_states' stamps. All times are
+simulated: they do not depend on the machine.
 """
 
 import argparse
@@ -51,7 +51,10 @@ class Noted:
 
 
 async def soon(s, requested):
-    """s from the callback until the commanded position changes; the goal ends well."""
+    """Return s from the callback until the commanded position changes.
+
+    The goal must succeed.
+    """
     began, before = s.loop.time(), s.joints
     following = asyncio.ensure_future(s.follow(requested))
     while np.abs(s.joints - before).max() <= MOVED:
@@ -74,7 +77,7 @@ def latencies(points, count, model):
 
 
 def spacings(model, seconds):
-    """s between the stamps of joint_states, and the period."""
+    """Return s between the stamps of joint_states, and the period."""
     controller, config = booted(model)
     loop, public = VirtualLoop(controller), Noted()
     with controller:

@@ -1,11 +1,11 @@
-"""What the ROS 2 node adds to a bare client and publisher, in one run with a real rclpy.
+"""Overhead of the ROS 2 node over a bare client and publisher.
 
     python benchmarks/ros_node.py [--rounds N] [--seconds S]
 
-The Python is that of a sourced ROS 2. Both publish the joints of the same `rapidgen sim` at the
-same time: the controller takes up to 30 ms to send a sample, which is no figure of either. Told are
-how late each is heard behind the client's stamp of the sample, and each process' share of a core.
-Who connects first hears first: they take turns in that.
+One run with a real rclpy; the Python is that of a sourced ROS 2. Both publish the joints of the
+same `rapidgen sim` at the same time: the controller takes up to 30 ms to send a sample, which
+belongs to neither. The output is the delay of each after the client's stamp of the sample, and each
+process' share of a core. The first connection is served first: they take turns in that.
 """
 
 import argparse
@@ -34,7 +34,7 @@ LATER, MORE = 2.0, 5.0
 
 
 async def bare(address):
-    """A client, and a publisher of what it hears."""
+    """Run a client, and a publisher of its data."""
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node, stamps = rclpy.create_node("bare"), RosTimeEstimator()
     publisher = node.create_publisher(JointState, "/bare/joint_states", QoSProfile(depth=10))
@@ -49,13 +49,16 @@ async def bare(address):
 
 
 def cpu(process):
-    """s of CPU that a process has used."""
+    """Return s of CPU that a process has used."""
     text = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(text[11]) + int(text[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def heard(commands, seconds):
-    """By name: ms behind the stamps of `bare`, and the share of a core in percent."""
+    """Return ms after the stamps of `bare`, and the core share in percent.
+
+    By name.
+    """
     node, text, running = rclpy.create_node("ear"), {name: [] for name in commands}, {}
 
     def hear(name, message):
@@ -102,7 +105,7 @@ def main() -> int:
     requested = parser.parse_args()
     if requested.bare:
         asyncio.run(bare(requested.bare))
-    # Broken off, it ends what it has started.
+    # When interrupted, it ends the processes that it has started.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     program = str(Path(sys.executable).with_name("rapidgen"))
     sim = subprocess.Popen(

@@ -1,11 +1,11 @@
-"""Web services: requests an operation takes, CPU of one, threads at the ceiling, websockets.
+"""Web services: requests, CPU time, threads at the limit, websockets.
 
     python benchmarks/rws.py [--sockets 19] [--seconds 5]
 
-The controller is a virtual one with T_ROB1 and nothing else, in a process of its own; the client
-is another process. `face` is the controller's process: its CPU time for 2,000 requests on one
+The controller is a virtual one with T_ROB1 and nothing else, in a process of its own; the client is
+another process. `face` is the controller's process: its CPU time for 2,000 requests on one
 connection, without its limit of requests. Events: 64 signals at high priority change 20 times a
-second in all; the delay is what a websocket adds to the moment of the change.
+second in all; the delay is the time that a websocket adds after the change.
 """
 
 import argparse
@@ -46,7 +46,7 @@ RELEASE = {Generation.ONE: (6, 15), Generation.TWO: (7, 6), Generation.EIGHT: (7
 
 
 def serve(generation, pipe, strict):
-    """The controller's process: answers `cpu` and `change`, until `end`."""
+    """Run the controller's process: answer `cpu` and `change`, until `end`."""
     folder = Path(tempfile.mkdtemp())
     (folder / "MainModule.mod").write_text(MAIN)
     signals = tuple(SignalSpec(f"do{i}", "DO", access="All") for i in range(HIGH))
@@ -110,10 +110,10 @@ def counted(controller, act):
 
 
 def requests(generation):
-    """How many requests each operation takes on a warm session, and the first and last ones."""
+    """Count requests of each operation on a warm session, and of its ends."""
     process = Process(generation)
     with process.client() as c:
-        result = {"connect": c.requests + 1}  # one more, that nobody answers for: who is there?
+        result = {"connect": c.requests + 1}  # one more, without an answer: identification
         result |= {
             "one value": counted(c, lambda: c.symbol("T_ROB1/x")),
             "one signal": counted(c, lambda: c.signal("do0")),
@@ -128,7 +128,7 @@ def requests(generation):
 
 
 def cpu(generation, count=2000):
-    """ms of CPU of the controller's process for a request, of the busiest kinds."""
+    """Return ms of CPU of the controller for the most frequent requests."""
     import httpx2
 
     process = Process(generation, strict=False)
@@ -161,8 +161,11 @@ def cpu(generation, count=2000):
 
 
 def ceiling(generation, threads=8, seconds=10.0):
-    """Requests of threads that share a client: most in any second, by the client's clock, and how
-    many the controller found too many (503)."""
+    """Measure requests of threads that share a client.
+
+    The maximum in any second by the client's clock, and the number that the controller rejected
+    (503).
+    """
     process = Process(generation)
     sent, refused = [], []
     with process.client() as client:
@@ -193,7 +196,10 @@ def ceiling(generation, threads=8, seconds=10.0):
 
 
 def events(generation, sockets, seconds):
-    """ms that a websocket adds (p50, p99, most) to a change, events told, events lost."""
+    """Return ms that a websocket adds to a change, and event counts.
+
+    p50, p99, maximum; events received, events lost.
+    """
     process = Process(generation, strict=False)
     received, lost, threads = [], [], []
     ready = threading.Barrier(sockets + 1)

@@ -1,10 +1,11 @@
-"""What has become slower between two trees, each in an environment of its own.
+"""Find measures that are slower in a new tree than in an old one.
 
     python benchmarks/side_by_side.py OLD_PYTHON NEW_PYTHON [--only NAME ...] [--rounds N]
 
-Each measure runs in a fresh process of the one and of the other environment by turns, N times
-(default 10, after one that does not count). The figure is the median of the rounds' ratios of CPU
-time, new to old. Exits 1 where one is above 1.05. Inputs are made by the tree of this script.
+Each tree has an environment of its own. Each measure runs in a fresh process of the old and the new
+environment in turn, N times (default 10, after one that does not count). The figure is the median
+of the rounds' ratios of CPU time, new to old. Exits with 1 if one is above 1.05. The tree of this
+script provides the inputs.
 """
 
 import argparse
@@ -26,7 +27,7 @@ from parsing import module
 
 LIMIT = 1.05
 REPEATED = {"bubble": 40, "matrix": 40, "calls": 15, "words": 15}
-"""How often a kernel that is done at once is done."""
+"""Repetitions of a kernel that is fast."""
 CLOCK = "import gc, json, time\nfrom pathlib import Path\n"
 CONTROLLER = """
 try:
@@ -150,7 +151,7 @@ print(json.dumps({"schedules": taken}))
 
 
 def inputs(folder: Path, new: str) -> None:
-    """What the measures read."""
+    """Write the inputs of the measures."""
     for place in ("kernels", "modules"):
         (folder / place).mkdir()
     for kernel in KERNELS:
@@ -175,7 +176,7 @@ def inputs(folder: Path, new: str) -> None:
 
 
 def seconds(python: str, measure: Measure, folder: Path) -> dict[str, float]:
-    """CPU s of each thing that the measure tells, in one process of an environment."""
+    """Return CPU s of each part of the measure, in one process."""
     done = subprocess.run(
         [python, "-c", measure.code],
         cwd=folder,
@@ -199,7 +200,7 @@ def main() -> int:
     arguments = parser.parse_args()
     slower = []
     for python in (arguments.old, arguments.new):
-        # Where bytecode is not written, the package would be compiled anew in every process.
+        # Without written bytecode, every process would compile the package again.
         where = "import compileall, rapidgen; compileall.compile_dir(*rapidgen.__path__, quiet=2)"
         subprocess.run([python, "-c", where], cwd="/", check=True)
     with tempfile.TemporaryDirectory() as name:
@@ -212,7 +213,7 @@ def main() -> int:
             rounds = []
             for number in range(arguments.rounds + 1):
                 both = [arguments.old, arguments.new]
-                # By turns who is first: what slows the machine down hits either.
+                # The order alternates: a delay of the machine affects both.
                 order = both if number % 2 else both[::-1]
                 text = {python: seconds(python, measure, folder) for python in order}
                 rounds.append((text[arguments.old], text[arguments.new]))

@@ -1,9 +1,10 @@
-"""What `rapidgen run hello.mod` takes, against importing jinja2 and pydantic: a ratio in one run.
+"""CPU time of `rapidgen run hello.mod` against importing two packages.
 
     python benchmarks/start_of_run.py [TIMES]
 
-CPU seconds of the processes, which a busy machine changes least; the two commands take turns and
-the medians are compared. The first turn, which may have to compile files, does not count.
+The packages are jinja2 and pydantic; the figure is a ratio in one run of CPU seconds, which a busy
+machine changes least. The two commands take turns and the medians are compared. The first turn,
+which may have to compile files, does not count.
 """
 
 import os
@@ -20,7 +21,7 @@ HELLO = 'MODULE hello\n PROC main()\n  TPWrite "hello";\n ENDPROC\nENDMODULE\n'
 
 
 def seconds(words: list[str]) -> float:
-    """CPU time of a process."""
+    """Return the CPU time of a process."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run(words, check=True, stdout=subprocess.DEVNULL, env=_ENVIRONMENT)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -1,6 +1,8 @@
-"""Whole-process CPU times against `python -c "import jinja2, pydantic"`, interleaved, medians.
+"""Whole-process CPU times against `python -c "import jinja2, pydantic"`.
 
 python benchmarks/startup.py [ROUNDS]
+
+Interleaved runs, medians.
 """
 
 import os
@@ -18,7 +20,10 @@ HELLO = 'MODULE hello\n PROC main()\n TPWrite "hello";\n ENDPROC\nENDMODULE\n'
 
 
 def used(words, folder):
-    """CPU seconds and peak megabytes of a process, whose modules are compiled as installed ones."""
+    """Return CPU seconds and peak megabytes of a process.
+
+    Its modules are compiled as installed ones.
+    """
     where = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
     where["PYTHONPYCACHEPREFIX"] = f"{folder}/bytecode"
     process = subprocess.Popen(
@@ -54,7 +59,7 @@ def main():
         for turn in range(rounds + 1):
             for name, words in cases.items():
                 one = used(words, folder)
-                if turn:  # the first compiles
+                if turn:  # the first run compiles
                     result[name].append(one)
         times = {name: [seconds for seconds, _ in ones] for name, ones in result.items()}
         base = statistics.median(times["import jinja2, pydantic"])

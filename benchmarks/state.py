@@ -1,12 +1,12 @@
-"""What the state port costs on the reference cost model, message by message.
+"""Time of the state port on the reference cost model, by message.
 
     python benchmarks/state.py
 
-Simulated time of one round (everything that one period takes: measure, pack, send, look after the
-clients) by clients and by what they ask for, found by asking for a period that cannot be kept; for
-the built-in part of the cost model x1/4, x1 and x4. Then how far the messages of one client stray
-from their schedule while a robot moves and two others come and go. The figures hold for that
-model; no controller was measured.
+Simulated time of one round (all work of one period: measure, pack, send, check the clients) by
+clients and by requested features, measured with a period that cannot be kept; for the built-in part
+of the cost model x1/4, x1 and x4. Then the deviation of one client's messages from their schedule
+while a robot moves and two other clients connect and disconnect. The figures hold for that model;
+no controller was measured.
 """
 
 import struct
@@ -43,7 +43,10 @@ def hello(expected):
 
 
 def rounds_in(bench, clients, seconds):
-    """Messages of the first client; all are read, so that nobody is held up."""
+    """Return messages of the first client.
+
+    All clients are read, so that none blocks.
+    """
     result = 0
     for _ in range(round(seconds / 0.02)):
         bench.run(0.02)
@@ -53,7 +56,7 @@ def rounds_in(bench, clients, seconds):
 
 
 def round_time(config, clients, expected, scale):
-    """Simulated s of a round when there is no pause between them."""
+    """Return simulated s of a round without a pause between rounds."""
     bench = Bench(config, make_system(config, build(config)), Setting(costs=Costs().scaled(scale)))
     linked = []
     for _ in range(clients):
@@ -67,7 +70,7 @@ def round_time(config, clients, expected, scale):
 
 
 def straying(config, system):
-    """Largest distance of a STATUS from its place in the schedule, in periods."""
+    """Return the largest deviation of a STATUS from its schedule, in periods."""
     bench = Bench(config, system)
     bench.run(0.5)
     steady, motion = bench.state(), bench.motion()

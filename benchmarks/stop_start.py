@@ -1,8 +1,8 @@
-"""How soon a STOP typed in a shell is on the wire, in starts of an empty Python with a socket.
+"""Time from a shell's STOP to the wire, in starts of an empty Python.
 
     python benchmarks/stop_start.py [RUNS]
 
-`whole way` is the command without its short cut: everything is imported first. Runs alternate,
+`whole way` is the command without its short cut: it imports everything first. Runs alternate,
 medians are printed with their ratio to `python -c "import socket"`.
 """
 
@@ -17,8 +17,10 @@ HEADER = 20
 
 
 def until_stop(words, *, config=()):
-    """s from the start of a process until its STOP has come to a motion port; `config` are words
-    before the address."""
+    """Return s from the start of a process until its STOP arrives.
+
+    It arrives at a motion port; `config` are words before the address.
+    """
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(60)
         begin = time.perf_counter()
@@ -39,7 +41,7 @@ def until_stop(words, *, config=()):
 
 
 def until_end(words):
-    """s that a process takes."""
+    """Return the s of a process."""
     begin = time.perf_counter()
     subprocess.run([sys.executable, *words], check=True)
     return time.perf_counter() - begin

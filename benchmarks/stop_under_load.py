@@ -1,10 +1,11 @@
-"""STOP under load: from its last byte to StopMove, idle and with both other ports flooded.
+"""STOP under load: s from its last byte to StopMove.
 
     python benchmarks/stop_under_load.py [--count N]
 
-Simulated time in the reference cost model. The robot moves; STOP comes on the control port. Under
-load the rest of a stream of 100,000 points arrives at once, and three state clients send HELLO
-without a pause. The 99th percentile under load must be at most twice the idle one: exit status 1.
+Idle, and with both other ports flooded. Simulated time in the reference cost model. The robot
+moves; STOP comes on the control port. Under load the rest of a stream of 100,000 points arrives at
+once, and three state clients send HELLO without a pause. The 99th percentile under load must be at
+most twice the idle one: exit status 1.
 """
 
 import argparse
@@ -29,13 +30,13 @@ HELLOS = 20_000
 
 @cache
 def rest_of_stream() -> tuple[bytes, bytes]:
-    """The first batch, and all that follows."""
+    """Return the first batch, and all later ones."""
     first, *others = batches(POINTS)
     return first, b"".join(others)
 
 
 def stopping(config: RobotConfig, seed: int, *, loaded: bool) -> float:
-    """s from the delivery of STOP to StopMove."""
+    """Return s from the delivery of STOP to StopMove."""
     bench = booted(replace(config, state_period=0.02), seed=seed)
     client, control = bench.motion(), bench.control()
     watchers = [bench.watcher() for _ in range(3)]

@@ -1,12 +1,12 @@
-"""Streams of points on the reference cost model, beside abb_driver's modules where they are.
+"""Streams of points on the reference cost model, and abb_driver's modules.
 
     python benchmarks/streaming.py [FOLDER with abb_driver's six modules] [--points N]
 
 Simulated time for one more point through every check, for the built-in part of the cost model times
-1/4, 1 and 4; socket calls of the motion server for a point; time to first motion beside that of the
+1/4, 1 and 4; socket calls of the motion server for a point; time to first motion compared with the
 same points sent whole; STOP on its own connection under full load; and a stream of 100,000 points:
-whether the robot ever rests, and memory. Ratios of algorithms in our cost and motion model; no
-controller was measured.
+rests of the robot, and memory. Ratios of algorithms in our cost and motion model; no controller was
+measured.
 """
 
 import argparse
@@ -44,7 +44,7 @@ SOCKETS = {"ros_receive", "ros_send", "ros_peek", "ros_accept"}
 
 
 def wave(count: int, *, duration: float = 0.1, start: int = 0) -> tuple[npt.NDArray, npt.NDArray]:
-    """Durations and joints of a slow wave from zero that never ends."""
+    """Return durations and joints of an endless slow wave from zero."""
     steps = np.arange(start, start + count)[:, None]
     joints = 0.3 * np.sin(steps * (0.01 + 0.002 * np.arange(6)))
     durations = np.full(count, duration)
@@ -63,21 +63,21 @@ def built(config: RobotConfig) -> System:
 
 
 def booted(config: RobotConfig, system: System | None = None, **setting) -> Bench:
-    """A driver that has waited for half a second."""
+    """Return a driver that has waited for half a second."""
     bench = Bench(config, system or built(config), Setting(**setting))
     bench.run(0.5)
     return bench
 
 
 def reply(link: RawLink) -> RawPointsAccepted:
-    """The next acknowledgement."""
+    """Return the next acknowledgement."""
     text = link.reply(POINTS, 10)
     assert isinstance(text, RawPointsAccepted), text
     return text
 
 
 def download(count: int, duration: float, joints: npt.NDArray) -> bytes:
-    """Points of a wave, the last one a request."""
+    """Return points of a wave, the last one a request."""
     rows = [tuple(row) for row in joints.tolist()]
     return b"".join(
         point_frame(n, count, row, duration, RawComm.REQUEST if n == count - 1 else RawComm.TOPIC)
@@ -86,7 +86,7 @@ def download(count: int, duration: float, joints: npt.NDArray) -> bytes:
 
 
 def per_point(config: RobotConfig, scale: float, *, foreign: Path | None = None) -> float:
-    """Simulated s for one more point, nothing moving meanwhile."""
+    """Return simulated s for one more point, at rest."""
     costs = Costs().scaled(scale)
     if foreign is None:
         policy = replace(config.trajectory, ring=512, preload=10, min_segment=0.01)
@@ -116,7 +116,7 @@ def per_point(config: RobotConfig, scale: float, *, foreign: Path | None = None)
 
 
 def socket_calls(config: RobotConfig, count: int = 1200) -> float:
-    """Socket calls of the motion server for a point, the robot following."""
+    """Return socket calls of the motion server for a point, in motion."""
     bench = booted(config, coverage=True)
     calls = [0]
 
@@ -134,7 +134,7 @@ def socket_calls(config: RobotConfig, count: int = 1200) -> float:
 
 
 def feed(bench: Bench, client: RawLink, count: int) -> Iterator[int]:
-    """Send a stream in full batches as there is room; yields while there is none."""
+    """Send a stream in full batches as they fit; yield while full."""
     first, allowed = 0, RING
     while first < count:
         size = min(BATCH, count - first)
@@ -156,7 +156,7 @@ def feed(bench: Bench, client: RawLink, count: int) -> Iterator[int]:
 
 
 def first_motion(config: RobotConfig, count: int, seed: int) -> float:
-    """s until the robot moves, for a stream of `count` points."""
+    """Return s until the robot moves, for a stream of `count` points."""
     bench = booted(config, seed=seed)
     client = bench.motion()
     bench.run(1 + 0.013 * seed)
@@ -182,7 +182,10 @@ def first_motion_of_a_download(config: RobotConfig, count: int) -> float:
 
 
 def stopping(config: RobotConfig, seed: int) -> float:
-    """s from the delivery of STOP to the robot being told, the reader and the state server busy."""
+    """Return s from STOP's delivery to the stop order, under load.
+
+    Reader and state server are busy.
+    """
     bench = booted(replace(config, state_period=0.02), seed=seed)
     client, own = bench.motion(), bench.control()
     for _ in range(3):
@@ -203,7 +206,7 @@ def stopping(config: RobotConfig, seed: int) -> float:
 
 
 def endless(config: RobotConfig, count: int) -> None:
-    """A long stream: rests of the robot, memory, and what it took."""
+    """Print rests, memory and time of a long stream."""
     bench = booted(config)
     client = bench.motion()
     rests, moving = [0], [False]

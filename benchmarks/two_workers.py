@@ -1,6 +1,6 @@
-"""What a second worker is worth: the same schedules with one worker and with two, by turns.
+"""Gain of a second worker: the same schedules with one and with two.
 
-Beside it the same work done by two processes of their own, which is all that the machine can give.
+For comparison, two separate processes do the same work, which is the maximum of the machine.
 
     python benchmarks/two_workers.py --schedules 60 --rounds 3
 """
@@ -16,7 +16,7 @@ from rapidgen.verification.suite_runner import run_suite
 
 
 def seconds(schedules: int, jobs: int) -> float:
-    """Wall time of a campaign of schedules on the driver of an IRB 120."""
+    """Return wall time of a campaign of schedules on an IRB 120's driver."""
     started = time.perf_counter()
     report = run_suite(load_config("irb120"), seeds=schedules, jobs=jobs, cases=False)
     assert report.schedules == schedules
@@ -24,7 +24,7 @@ def seconds(schedules: int, jobs: int) -> float:
 
 
 def apart(schedules: int) -> float:
-    """The same by two campaigns that know nothing of each other, half of the schedules each."""
+    """Return the time of two independent campaigns of half the schedules."""
     with ProcessPoolExecutor(2, get_context("spawn")) as pool:
         return max(pool.map(seconds, [schedules // 2] * 2, [1] * 2))
 

@@ -1,8 +1,8 @@
-"""The page: `python benchmarks/view.py [--seconds 10]`; needs Chromium, and the page built.
+"""The page: `python benchmarks/view.py [--seconds 10]`.
 
-Navigation to the first state, pictures a second at 800x600 in software rendering while the robot
-moves, how late states come (median, p99), CPU of the simulator for ten viewers against one, and
-the size of the bundle.
+Needs Chromium, and the built page. Navigation to the first state, pictures a second at 800x600 in
+software rendering while the robot moves, delay of states (median, p99), CPU of the simulator for
+ten viewers against one, and the size of the bundle.
 """
 
 import argparse
@@ -30,7 +30,7 @@ ARGUMENTS = (
     "--enable-unsafe-swiftshader --disable-background-networking"
 )
 ROUNDS = 7
-"""One viewer and ten by turns, so that what else the machine does meets both."""
+"""One viewer and ten in turn, so that other load affects both."""
 PROGRAM = """MODULE Loop
   PROC main()
     WHILE TRUE DO
@@ -60,7 +60,7 @@ def simulator(folder):
 
 
 def offset(ready):
-    """Wall time minus the controller's, s, by the quickest of some questions."""
+    """Return wall time minus the controller's, s, by the fastest question."""
     best = (9.0, 0.0)
     with socket.create_connection(("127.0.0.1", ready["control"])) as control:
         lines = control.makefile("rw")
@@ -79,7 +79,7 @@ def browse(ready, seconds):
         chromium = driver.chromium.launch(
             executable_path=shutil.which("chromium"), args=ARGUMENTS.split()
         )
-        # The space beside the panels is 800x600 then.
+        # The space next to the panels is 800x600 then.
         page = chromium.new_context(viewport={"width": 1208, "height": 647}).new_page()
         began = time.monotonic()
         page.goto(ready["view"])
@@ -109,7 +109,7 @@ def browse(ready, seconds):
 
 
 async def watch(url, count, seconds, pid):
-    """CPU of the simulator, s in a second, while so many look."""
+    """Return s of CPU of the simulator per second, with `count` viewers."""
     parts = urlsplit(url)
     origin = f"http://{parts.netloc}"
     headers = {"Origin": origin}
@@ -134,7 +134,7 @@ async def watch(url, count, seconds, pid):
 
 
 def spent(pid):
-    """CPU of all threads, s; ticks would be as coarse as what is sought."""
+    """Return CPU s of all threads; ticks would be too coarse."""
     threads = Path(f"/proc/{pid}/task").iterdir()
     return sum(int((own / "schedstat").read_text().split()[0]) for own in threads) / 1e9
 

@@ -1,10 +1,10 @@
-"""Boundary values in every field of every message, in every state of the driver, on every port.
+"""Send boundary values in every message field, driver state and port.
 
     python tools/boundary.py [--jobs N] [--share SHARE] [--results FILE] [ROBOT]
 
-All trials of rapidgen/verification/boundary.py under three hostile settings, and a seeded tenth of
-them under each row in which any two assumptions about controllers meet. FILE (JSON lines) keeps the
-results: the next call goes on there. `--share` takes a seeded share of everything.
+Runs all trials of rapidgen/verification/boundary.py under three hostile settings, and a seeded
+tenth of them under each row in which any two assumptions about controllers meet. FILE (JSON lines)
+stores the results: the next call continues. `--share` takes a seeded share of everything.
 """
 
 import argparse
@@ -24,17 +24,17 @@ from tools.campaigns import outcomes
 
 STRICT = ("argument_error=fatal", "pack_beyond=error", "negative_mod=error")
 HOSTILE = {
-    # Every error that a value can raise is raised, and a fatal one ends its task.
+    # Every value error is raised, and a fatal one ends its task.
     "strict": STRICT,
-    # The same where another task may run at each access to a PERS, on a slow controller: messages
+    # The same with a possible task switch at each access to a PERS, on a slow controller: messages
     # meet the driver's tasks between any two statements.
     "strict, slow, switched at PERS": (*STRICT, "schedule=pers", "costs=4.0"),
-    # A fast controller whose tasks run by lot, with everything else as by default.
+    # A fast controller with random task order, otherwise with defaults.
     "fast, by lot": ("schedule=random", "costs=0.25"),
 }
 SETTINGS = HOSTILE | {name: texts for name, texts in rows().items() if name}
 CHUNK = 400
-"""Trials of a piece of work."""
+"""Trials of one work item."""
 
 
 @cache
@@ -43,7 +43,7 @@ def prepared(name, state):
 
 
 def work():
-    """Pieces: setting, state, and which of that state's trials."""
+    """Return work items: setting, state, and the trials of that state."""
     for name in SETTINGS:
         share = GIVEN.share * (1 if name in HOSTILE else 0.1)
         for state in STATES:
@@ -67,7 +67,7 @@ def one(_, piece):
 
 def main():
     pieces = list(work())
-    # The worst faults show early: settings and states in a random order.
+    # Random order of settings and states, so that frequent faults show early.
     random.Random(GIVEN.seed).shuffle(pieces)
     started, count, failed = time.monotonic(), 0, 0
     of = f"{GIVEN.robot} {SYSTEM.build_id} share {GIVEN.share} seed {GIVEN.seed}"

@@ -1,4 +1,4 @@
-"""What campaigns share: work by several processes, resumed where a run was cut short."""
+"""Run work on several processes, and resume interrupted runs."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,9 +11,10 @@ from rapidgen.verification.worker_pool import CachedResult, Call, LocalPool, in_
 def outcomes(
     one: Any, pieces: dict[str, Any], of: str, *, jobs: int, path: Path | None
 ) -> Iterator[tuple[str, Any]]:
-    """Yield each key of `pieces` with what `one(None, piece)` gives, in their order.
+    """Yield each key of `pieces` with `one(None, piece)`, in their order.
 
-    `path` keeps results `of` one campaign (None: they are not kept); what it has is not done again.
+    `path` stores the results `of` one campaign (None: they are not stored); known results are not
+    computed again.
     """
     keys = list(pieces)
     with Results(path, of, resume=True) as results, LocalPool(None, jobs) as workers:

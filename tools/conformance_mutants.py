@@ -1,17 +1,16 @@
-"""Is each conformance program of the language red for a defect of its own?
+"""Find a mutant that fails each conformance program of the language.
 
     python tools/conformance_mutants.py [--every N] [--share PERCENT] [-v] [NAME...]
 
 Makes mutants of the front end and of its tables (tools/mutation/front_end.py) until each
-conformance program has one that turns it red: other findings than it announces. A mutant
-counts when it turns at
-most PERCENT of all files red (default 10): one that breaks everything says nothing about a file.
-What is left then (texts of the commonest kind, which any broad defect hits) may have a mutant that
-turns up to half of all files red; such are told apart. Hangs and crashes do not count. Tried first
-is what the fewest files execute or name. Files about built-ins (2-types, 3-builtins) are tried
-with changed built-ins, the others with changed code.
+conformance program fails for one of them: it reports other findings than it announces. A mutant
+counts if at most PERCENT of all files fail with it (default 10): a mutant that fails all files
+does not test any of them. The remaining files (texts of the commonest kind) may have a mutant
+that fails up to half of all files; these are listed separately. Hangs and crashes do not count.
+Code that the fewest files execute or name comes first. Files about built-ins (2-types,
+3-builtins) are tried with changed built-ins, the others with changed code.
 
-Exits 1 and lists the files that no mutant turns red. One process, nothing left to chance.
+Exits with 1 and lists the files that no mutant fails. One process, deterministic.
 """
 
 import argparse
@@ -26,7 +25,7 @@ from tools.mutation.conformance import BROAD, Campaign
 
 
 def tell(stage, campaign, started):
-    """One line on how far the campaign is."""
+    """Print one line on the progress of the campaign."""
     done = len(campaign.files) - len(campaign.left)
     spent = time.monotonic() - started
     print(f"{stage:10} {done:4} red  {campaign.tried:6} mutants  {spent:4.0f} s", flush=True)

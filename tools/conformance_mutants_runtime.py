@@ -1,14 +1,14 @@
-"""Is each conformance program of the runtime red for a defect of its own?
+"""Find a mutant that fails each conformance program of the runtime.
 
     python tools/conformance_mutants_runtime.py [--every N] [--share PERCENT] [-v] [NAME...]
 
-Makes mutants of machine, motion, runtime and controller until
-each conformance program of tests/runtime and tests/runtime/builtins has one that turns it
-red. A mutant counts when it turns at most PERCENT of all files red (default 10); for a file that
-has no such mutant, up to half of them, told apart. Hangs and crashes do not count. Tried first is
-what the fewest files execute; each trial is a process of its own.
+Makes mutants of machine, motion, runtime and controller until each conformance program of
+tests/runtime and tests/runtime/builtins fails for one of them. A mutant counts if at most PERCENT
+of all files fail with it (default 10); for a file without such a mutant, up to half of them, listed
+separately. Hangs and crashes do not count. Code that the fewest files execute comes first; each
+trial is a process of its own.
 
-Exits 1 and lists the files that no mutant turns red.
+Exits with 1 and lists the files that no mutant fails.
 """
 
 import argparse

@@ -1,10 +1,10 @@
-"""A pytest plugin: which tests execute which lines of some folders, and how long each test takes.
+"""pytest plugin: record which tests execute which lines, and test times.
 
     COVERING=OUTPUT.json COVERED=FOLDER pytest -p tools.covering_tests tests/...
 
-Written is {"tests": [[test, s], ...], "lines": {file: {line: [index of a test, ...]}}}, the files
-relative to the working directory. Lines that tests execute in other processes are not seen, nor are
-lines that are executed only at import.
+The output is {"tests": [[test, s], ...], "lines": {file: {line: [index of a test, ...]}}}, the
+files relative to the working directory. It does not contain lines that tests execute in other
+processes, nor lines that are executed only at import.
 """
 
 import json
@@ -29,7 +29,7 @@ class Covering:
             concurrency=["thread", "greenlet"],
             messages=False,
         )
-        # The package is imported already by pytest's own plugins: that is known here.
+        # pytest's own plugins have imported the package already: this is expected here.
         known = ["module-not-measured", "no-data-collected"]
         self.coverage.set_option("run:disable_warnings", known)
         self.coverage.start()

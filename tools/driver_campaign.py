@@ -1,14 +1,14 @@
-"""Long runs of the generated driver: malformed frames, and days on the virtual clock.
+"""Long runs of the driver: malformed frames, and days of virtual time.
 
     python tools/driver_campaign.py frames [--count N] [--jobs N] [ROBOT]
     python tools/driver_campaign.py days [--hours N] [--watched SHARE] [ROBOT]
 
-`frames`: N (default 200,000) hostile openings on all ports, under the strictest readings together,
-half of them messages of which half of the fields have boundary values,
-each followed by a good client, which must be served; none may move the robot or end a task. `days`:
-N simulated hours (default 24) with a trajectory every ten minutes; a client reads the state for
-SHARE of the time (default all of it), and each STATUS has to come within one period of its turn.
-Memory is looked at every hour.
+`frames`: N (default 200,000) hostile first messages on all ports, under the strictest assumptions
+together. In half of them half of the fields have boundary values. The driver must serve a
+well-behaved client after each; no message may move the robot or end a task. `days`: N simulated
+hours (default 24) with a trajectory every ten minutes; a client reads the state for SHARE of the
+time (default all of it), and each STATUS must arrive within one period of its schedule. Memory is
+checked every hour.
 """
 
 import argparse
@@ -30,17 +30,17 @@ from rapidgen.verification.suite.hostile_clients import campaign
 from rapidgen.verification.testbench import FAILURES, Bench
 
 CHUNK = 500
-"""Openings for one controller."""
+"""First messages for one controller."""
 STRICT = parse_switches(
     "unpack_ulint=error,argument_error=fatal,pack_beyond=error,negative_mod=error"
 )
-"""Beside the default, under which an error that no routine handles ends its task."""
+"""Besides the default, under which an unhandled error ends its task."""
 ROUND = 600.0
-"""Simulated s from one trajectory to the next."""
+"""Simulated s between trajectories."""
 
 
 def frames_of(seed):
-    """What went wrong with one controller's share."""
+    """Return the failures of one controller's share."""
     bench = Bench(CONFIG, SYSTEM, Setting(seed=seed, dialect=STRICT))
     try:
         campaign(bench, CHUNK, boundary=0.5)
@@ -70,7 +70,7 @@ def frames(count, jobs):
 
 
 def resident():
-    """MB of this process."""
+    """Return the MB of this process."""
     gc.collect()
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     return pages * 4096 / 1e6
@@ -117,7 +117,7 @@ def days(hours, share):
                 )
     bench.assert_healthy()
     bench.close()
-    # The first hour fills what is kept: caches, logs.
+    # Caches and logs fill in the first hour.
     later = sizes[1:] or sizes
     spread = max(later) - min(later)
     in_use = time.monotonic() - started

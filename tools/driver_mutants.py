@@ -1,22 +1,21 @@
-"""Which share of all mutants of the generated modules does the suite notice?
+"""Measure the share of mutants of the generated modules that the suite detects.
 
     python tools/driver_mutants.py [--every N] [--offset N] [--jobs N | --cluster ADDRESS]
         [--budget S] [--output FILE] [--again] [--row NAME] [--only MODULE ...] [--themes THEME ...]
         [ROBOT]
 
-One fixed operator list (tools/mutation/driver.py); every place in a routine where an operator
-fits is a mutant, equivalent ones included. `--every N` takes each N-th, from `--offset` on. A
-mutant is judged by the cases of `rapidgen test` that execute its statement, until one notices it
-or `--budget` s of CPU are spent: what no case has noticed by then counts as a survivor.
+The operator list is fixed (tools/mutation/driver.py); every place in a routine that fits an
+operator is a mutant, equivalent ones included. `--every N` takes each N-th, from `--offset` on. The
+cases of `rapidgen test` that execute its statement judge a mutant, until one detects it or
+`--budget` s of CPU are spent: a mutant not detected by then counts as a survivor.
 
-Verdicts go to FILE (JSON lines) in order; a run that was broken off goes on there, as long as
-nothing but the modules' build id has changed. `--cluster` works on the workers of a Dask
-scheduler, begun in a checkout like this one: verdicts are the same, as far as no budget cuts them.
-Survivors are listed by module, with their lines: each is a missing case, or the same program in
-other words. `--only` looks at some modules alone,
-`--themes` judges by the cases of some themes alone; tools/cell.yaml is a ROBOT with signals,
-tools, routines and data.
-`--again` goes on with the survivors of FILE, with cases that were not tried or did not exist;
+Verdicts go to FILE (JSON lines) in order; an interrupted run continues, as long as only the
+modules' build id has changed. `--cluster` uses the workers of a Dask scheduler, started in a
+checkout of the same state: verdicts are the same, unless a budget ends them.
+Survivors are listed by module, with their lines: each is a missing case, or an equivalent
+program. `--only` limits the modules, `--themes` the cases;
+tools/cell.yaml is a ROBOT with signals, tools, routines and data.
+`--again` continues with the survivors of FILE, with cases that were not tried or did not exist;
 `--row "pairs 3"`: under that setting of the suite instead of the default one.
 """
 
@@ -47,22 +46,24 @@ from tools.mutation.judging import HANGS, VERDICTS, Learning, Question, grounds,
 
 
 def key_of(mutant):
-    """The same for the same mutant of the same modules, whatever their build id."""
+    """Return the same key for the same mutant, whatever the build id."""
     texts = [text for path, text in sorted(FILES.items()) if path != mutant.path]
     content = b"\0".join((mutant.path.encode(), mutant.text, *texts))
     return hashlib.sha256(content.replace(SYSTEM.build_id.encode(), b"")).hexdigest()[:20]
 
 
 def hired(context):
-    """Who works: processes of this machine, or the workers of a cluster."""
+    """Return local processes, or the workers of a cluster."""
     if ARGUMENTS.cluster is None:
         return LocalPool(context, ARGUMENTS.jobs)
     return Cluster(ARGUMENTS.cluster, context, lambda text: print(text, file=sys.stderr))
 
 
 def newest(results, key):
-    """The key and the verdict of the last time that a mutant was judged, with what was tried at
-    any time; None: it never was."""
+    """Return the key and the last verdict of a mutant, or None.
+
+    The verdict includes all cases ever tried.
+    """
     verdict, last, tried = None, "", ()
     while (result := results.known(key)) is not None:
         verdict, last = VERDICTS.validate_python(result, strict=False), key
@@ -95,7 +96,7 @@ def main():
 
 
 def judge_all(chosen, known, rows, left, results):
-    """Put the verdicts on the mutants that are `left` in their places in `rows`."""
+    """Store the verdicts of the `left` mutants in `rows`."""
     row = ARGUMENTS.row
     setting = settings(CONFIG, possible(CONFIG, assumptions(2)))[row]
     cases = [case for case in CHOSEN if not (row and case.once)]

@@ -1,18 +1,18 @@
-"""How many schedules does the exploration need to find what is known of drivers in use?
+"""Count the schedules that the exploration needs to find known defects.
 
     python tools/exploration.py [--campaigns N] [--seeds N] [--jobs N] [FOLDER]
     python tools/exploration.py --of ROBOT... [--seeds N] [--jobs N] [--results FOLDER]
 
-R1, R5, R7a, R7b and R12 (tests/verification/defective says what they are), each in a small driver
-of our own that has nothing else wrong: of N campaigns from other seeds, schedules until the first
-finding, the median and all. The same driver without a defect, and the generated one, where nothing
-may be found; and how many pairs of statements of two tasks they have met. With FOLDER,
-which has abb_driver's six modules, also these, unchanged: a finding there is counted for what its
-story and the places of the tasks show.
+R1, R5, R7a, R7b and R12 (tests/verification/defective describes them), each in a small driver of
+our own without other defects. For N campaigns with different seeds it prints the schedules until
+the first finding, the median and all. The same driver without a defect, and the generated one, must
+give no finding; their covered pairs of statements are printed. With FOLDER, which has abb_driver's
+six modules, these are explored unchanged: a finding is classified by its log and the positions of
+the tasks.
 
 `--of`: only the generated drivers of these robots, N schedules each: findings, the curve of pairs,
-what a schedule costs and what a million would. Results are kept in FOLDER, where a run that was
-broken off goes on.
+the time for a schedule and for a million. Results are stored in FOLDER, where an interrupted run
+continues.
 """
 
 import argparse
@@ -39,7 +39,7 @@ ABB_CAPACITY = 100
 
 
 def kind_of(finding):
-    """Which of the five a finding in modules with several of them is; "other" if none."""
+    """Return which of the five defects a finding shows, or "other"."""
     places = "\n".join(finding.log)
     if "that nothing disturbed ended" in finding.detail:
         return "R1"
@@ -53,7 +53,10 @@ def kind_of(finding):
 
 
 def explored(config, system, seeds, workers, first=0, enough=lambda found: False):
-    """Findings by number, until `enough` of them; how many schedules; s; the guide."""
+    """Explore schedules until `enough` findings.
+
+    Returns findings by number, number of schedules, s, and the selector.
+    """
     guide = ScheduleSelector(ground_of(config, system), first)
     started, found, count = time.monotonic(), {}, 0
     work = schedules(seeds, guide)
@@ -72,18 +75,18 @@ def explored(config, system, seeds, workers, first=0, enough=lambda found: False
 
 
 def cpu():
-    """s that this process and the workers that it has dismissed have used."""
+    """Return s of CPU of this process and of its ended workers."""
     used = map(resource.getrusage, (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(one.ru_utime + one.ru_stime for one in used)
 
 
 def at(curve, count):
-    """Pairs that so many schedules have met."""
+    """Return the pairs that so many schedules have covered."""
     return max((pairs for schedules, pairs in curve if schedules <= count), default=0)
 
 
 def long_run(robot, seeds, jobs, folder):
-    """Schedules of one robot's generated driver; whether anything was found."""
+    """Explore one robot's generated driver; return if there was a finding."""
     path = folder and folder / f"{Path(robot).stem}.jsonl"
     known = path.read_bytes().count(b"\n") - 1 if path and path.exists() else 0
     started, before = time.monotonic(), cpu()

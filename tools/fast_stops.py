@@ -1,12 +1,12 @@
-"""Emergency stops and power failures while an axis runs at 80 % of its speed limit or more.
+"""Stop robots by the brakes at 80 % of an axis' speed limit or more.
 
     python tools/fast_stops.py [--count N] [--first SEED] [--jobs N] [--pairs] [ROBOT ...]
 
-N schedules (default 20,000), shared out among the robots: after each the robot stays where it has
-come to rest, and takes and executes a new trajectory once the program has been started. `--pairs`
-shares them out among the settings in which any two assumptions about controllers meet, too. What
-does not hold is told with its seed: `--first SEED --count 1` with the same robots does it again,
-with the event log. `rapidgen/verification/fast_stops.py` says what is done.
+Runs N schedules (default 20,000), divided among the robots: after each the robot stays at rest, and
+accepts and executes a new trajectory after a restart of the program. `--pairs` also divides them
+among the settings in which any two assumptions about controllers meet. A failure is printed with
+its seed: `--first SEED --count 1` with the same robots repeats it, with the event log.
+`rapidgen/verification/fast_stops.py` describes a schedule.
 """
 
 import argparse
@@ -32,7 +32,7 @@ FAR = (0.01, 0.1, 0.5)
 
 
 def booted(robot, texts):
-    """A bench on which the driver waits for a client; tasks are switched at random."""
+    """Return a bench with an idle driver; tasks switch at random."""
     config = load_config(robot)
     system = in_its_cell(make_system(config, build(config)), config)
     hostile = [text for text in texts if not text.startswith("schedule")]
@@ -49,7 +49,7 @@ def one(benches, seed):
 
 
 def cpu():
-    """s of this process and of those that have ended."""
+    """Return s of CPU of this process and of ended ones."""
     both = resource.getrusage(resource.RUSAGE_SELF), resource.getrusage(resource.RUSAGE_CHILDREN)
     return sum(usage.ru_utime + usage.ru_stime for usage in both)
 

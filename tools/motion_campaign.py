@@ -1,9 +1,9 @@
-"""Random programs with random stops: never a jump, never past a limit, always an end.
+"""Run random programs with random stops: no jump, no limit violation.
 
     python -m tools.motion_campaign [PROGRAMS] [FIRST]
 
-runs many of them (10,000 by default, `make motion-campaign`); test_random.py runs a few. A seed
-decides everything: kind of moves, robot, settings, disturbances.
+runs many of them (10,000 by default, `make motion-campaign`); test_random.py runs a few. Each must
+end. A seed decides everything: kind of moves, robot, settings, disturbances.
 """
 
 import argparse
@@ -28,14 +28,14 @@ from tests.motion.cell import Cell, zone
 RADII = (0, 0.3, 1, 10, 50, 200)
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 RELEASED = 4.0
-"""s at which every stop is taken back and the override is 100 %."""
+"""s at which all stops are released and the override is 100 %."""
 PERIOD = 0.002
 SPEED = {"joint": 1 + 1e-6, "flat": 1 + 1e-6, "brakes": 1 + 1e-6, "cartesian": 1 + 1e-3}
 ACCELERATION = {"joint": 1 + 1e-3, "flat": 1 + 1e-3, "brakes": inf, "cartesian": 1 + 1e-3}
-"""Shares of the axes' limits that may be reached.
+"""Allowed shares of the axes' limits.
 
-`flat`: a robot without geometry; `brakes`: some stops are by the brakes, which slow down as hard as
-the end of an axis' range asks for.
+`flat`: a robot without geometry; `brakes`: some stops use the brakes, which decelerate as hard as
+the end of an axis' range requires.
 """
 KINDS = ("joint", "flat", "brakes", "cartesian", "cartesian", "cartesian")
 RAMPS = (0.05, 0.05, 0.0, 0.2)
@@ -43,7 +43,7 @@ RAMPS = (0.05, 0.05, 0.0, 0.2)
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What one program did."""
+    """The result of one program."""
 
     kind: str
     faults: tuple[str, ...]
@@ -53,7 +53,10 @@ class Outcome:
 
 
 def disturb(cell: Cell, rng: random.Random, *, count: int, brakes: bool = False) -> None:
-    """Stops, starts, cleared paths and overrides at random times; all is released at 4 s."""
+    """Apply stops, starts, cleared paths and overrides at random times.
+
+    All are released at 4 s.
+    """
     group = cell.group
 
     def override(value: float) -> None:
@@ -78,7 +81,7 @@ def disturb(cell: Cell, rng: random.Random, *, count: int, brakes: bool = False)
 
 
 def joint_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
-    """Up to eleven joint moves."""
+    """Return up to eleven joint moves."""
     size = rng.choice([0.01, 0.1, 1.0])
 
     def program(task: Task) -> None:
@@ -103,7 +106,10 @@ def joint_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
 
 
 def cartesian_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
-    """Up to seven lines, circles and joint moves, those refused before motion left out."""
+    """Return up to seven lines, circles and joint moves.
+
+    Moves rejected before motion are left out.
+    """
     own = cell.group.geometry()
     start = own.forward(HOME)
     home = own.forward(HOME)
@@ -139,13 +145,13 @@ def cartesian_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
                         task, CartesianMove(target=target, via=via, external=ends, **common)
                     )
             except MotionFault:
-                continue  # refused before motion: the path is as it was
+                continue  # rejected before motion: the path is unchanged
 
     return program
 
 
 def run(seed: int, kind: str, ramp: float = MotionSettings().ramp_time) -> Outcome:
-    """One program to its end, sampled every 2 ms."""
+    """Run one program to its end, sampled every 2 ms."""
     rng = random.Random(seed)
     cell = Cell(settings=MotionSettings(ramp_time=ramp, cleared_move="return"))
     moves: list[object] = []
@@ -179,7 +185,10 @@ def run(seed: int, kind: str, ramp: float = MotionSettings().ramp_time) -> Outco
 
 
 def main(programs: int, first: int) -> int:
-    """Run, report progress on stderr and the sum on stdout; 1 when a program failed."""
+    """Run all; return 1 when a program failed.
+
+    Progress goes to stderr, the sum to stdout.
+    """
     started = time.process_time()
     counts, moves = Counter[str](), 0
     worst: dict[str, tuple[float, float]] = {}

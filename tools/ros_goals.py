@@ -1,4 +1,4 @@
-"""Goals of FollowJointTrajectory by lot, with faults: how they end, and what is wrong with that.
+"""Send random FollowJointTrajectory goals with faults; check their ends.
 
 `python tools/ros_goals.py [--scenarios N] [--first SEED] [--jobs N]`; three goals a scenario.
 """

@@ -1,11 +1,11 @@
-"""Hostile answers to the client, hostile requests to the face: `answers` or `requests`, by lot.
+"""Send hostile answers to the RWS client, or hostile requests to the server.
 
     python -m tools.rws_campaign answers 10000
     python -m tools.rws_campaign requests 100000
 
-Every answer has to end in a result or a RobotError, without a password where it must not be. Every
-request has to be answered, none with 500, and after each thousand a good client finds the face as
-strict and as true as before. The short forms are tests: `test_hostile.py`, `test_strict.py`.
+Every answer must end in a result or a RobotError, without a password in wrong places. Every request
+must be answered, none with 500, and after each thousand a well-behaved client finds the server as
+strict and correct as before. The short forms are tests: `test_hostile.py`, `test_strict.py`.
 """
 
 import argparse
@@ -47,7 +47,10 @@ _READ = re.compile(r"""(?:field|form\.get)\(\s*"([\w-]+)\"""")
 
 @cache
 def fields(module: str) -> tuple[str, ...]:
-    """Fields that handlers of a module read; nameless ones are subscriptions and attributes."""
+    """Return the fields that handlers of a module read.
+
+    Nameless ones are subscriptions and attributes.
+    """
     result = _READ.findall(inspect.getsource(sys.modules[module]))
     return (*dict.fromkeys(result), *MORE)
 
@@ -75,7 +78,7 @@ TYPES = (
     "", "*/*", "text/plain", "application/x-www-form-urlencoded", "application/octet-stream;v=2.0",
     "application/hal+json;v=2.0;", ";;;", "\u00e9",
 )  # fmt: skip
-# A restart makes a new controller: that takes longer than a thousand requests.
+# A restart boots a new controller: that takes longer than a thousand requests.
 SLOW = 2.0
 """s of one request."""
 MASTERSHIP = (
@@ -87,7 +90,7 @@ RARE = ("/ctrl/restart", "action=restart")
 
 
 def answers(number: int, first: int) -> int:
-    """Flows with hostile answers; how many went wrong."""
+    """Run flows with hostile answers; return the number of failures."""
     failed, names = 0, sorted(FLOWS)
     for seed in range(first, first + number):
         name, generation = names[seed % len(names)], tuple(Generation)[seed // len(names) % 3]
@@ -105,13 +108,13 @@ def answers(number: int, first: int) -> int:
 
 @cache
 def _routes(generation: Generation) -> tuple[tuple[Route, str], ...]:
-    """How a generation spells what is served, and which module serves it."""
+    """Return the routes of a generation, with the modules that serve them."""
     result = ((o.route(generation), h.__module__) for o, h in routing.served())
     return tuple((route, module) for route, module in result if route)
 
 
 def hostile(rng: random.Random, generation: Generation) -> tuple[str, str, bytes, dict[str, str]]:
-    """A request that resembles one."""
+    """Return a request that resembles a valid one."""
     route, module = rng.choice(_routes(generation))
     names = {name: rng.choice(NAMES) for name in route.pattern.groupindex}
     try:
@@ -139,7 +142,7 @@ def hostile(rng: random.Random, generation: Generation) -> tuple[str, str, bytes
 
 
 def requests(number: int, first: int) -> int:
-    """Hostile requests to each generation's face in turn; how many went wrong."""
+    """Send hostile requests to each generation; return the failures."""
     failed = 0
     statuses: Counter[int] = Counter()
     for generation in Generation:
@@ -173,7 +176,7 @@ def requests(number: int, first: int) -> int:
 
 
 def _sent(caller: Caller, request: tuple[str, str, bytes, dict[str, str]]) -> tuple[int, str]:
-    """The status of a request, and what is wrong with that; without a session, too."""
+    """Return a request's status and fault, also without a session."""
     method, target, body, headers = request
     started = time.perf_counter()
     try:
@@ -188,7 +191,7 @@ def _sent(caller: Caller, request: tuple[str, str, bytes, dict[str, str]]) -> tu
 
 
 def _is_worse(desk) -> bool:
-    """Whether a good client no longer gets what it asks for."""
+    """True if a well-behaved client no longer gets correct answers."""
     good = Caller(desk, "Admin")
     reply = good.send("GET", "/rw/system")
     fine = reply.status == 200 and media.read(reply.body, reply.header("content-type")).items
@@ -200,7 +203,7 @@ def _is_worse(desk) -> bool:
 
 
 def main(what: str, number: int, first: int) -> int:
-    """1 when anything went wrong."""
+    """Return 1 if there was a failure."""
     started = time.process_time()
     failed = {"answers": answers, "requests": requests}[what](number, first)
     spent = time.process_time() - started

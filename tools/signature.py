@@ -1,15 +1,15 @@
-"""What the driver is signed for: the suite on every example, and on what may be configured.
+"""Acceptance: the suite on every example, and on configuration variants.
 
     python tools/signature.py [--part N/M] [--of LABEL ...] [--jobs N] [--strength N]
                                    [--output FILE] [--plan]
 
-Every example of robots/examples, and of the IRB 120 the configurations in which any two of profile,
-commissioning, main and control port meet; each under the settings in which any two assumptions
-about controllers meet. What differs most from the IRB 120 comes first. One table at the end.
-Reports go to FILE (JSON lines) as they come, results of each case into a folder beside it: what
-has been run on the same tree is not run again, so that a run may be broken off anywhere and go on
-later, or be done in parts (`--part 1/3`, or some by name) of which the last one prints the whole
-table. `--plan` only names them, and loads each configuration.
+Every example of robots/examples, and for the IRB 120 the configurations in which any two of
+profile, commissioning, main and control port meet; each under the settings in which any two
+assumptions about controllers meet. The configurations that differ most from the IRB 120 come first.
+The output ends with one table. Reports go to FILE (JSON lines) as they arrive, results of each case
+into a folder next to it: a result of the same tree is not computed again, so that a run may be
+interrupted anywhere and continue later, or be done in parts (`--part 1/3`, or some by name) of
+which the last one prints the whole table. `--plan` only names them, and loads each configuration.
 """
 
 import argparse
@@ -40,7 +40,7 @@ CHOICES = {
 
 
 def runs():
-    """Label, configuration and overrides of each run."""
+    """Return label, configuration and overrides of each run."""
     examples = sorted(
         BASE.parent.glob("*.yaml"), key=lambda p: (p.name.startswith("irb120"), p.name)
     )
@@ -52,7 +52,7 @@ def runs():
 
 
 def tree():
-    """What the reports depend on besides the configuration."""
+    """Return a hash of everything that reports depend on, besides the configuration."""
     paths = [p for top in ("rapidgen", "templates", "robots") for p in (ROOT / top).rglob("*.*")]
     digest = hashlib.sha256()
     for path in sorted(p for p in paths if p.is_file() and p.suffix != ".pyc"):
@@ -61,7 +61,7 @@ def tree():
 
 
 def done(of):
-    """Reports of this tree, by label."""
+    """Return reports of this tree, by label."""
     if not GIVEN.output.exists():
         return {}
     lines = GIVEN.output.read_text(encoding="utf-8").splitlines()

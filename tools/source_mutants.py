@@ -1,20 +1,18 @@
-"""Which small defects of the source code do the tests of its own package notice?
+"""Find small defects of the source code that its package's tests miss.
 
     python tools/source_mutants.py [--seed N] [--count N] [--package NAME ...] [--jobs N]
                                    [--output FILE] [--again] [--list]
 
 Draws places by a seed, the same number from each package, and changes one at a time: a comparison,
-a number, a condition negated, a statement deleted, a value returned, arguments swapped, an
-argument dropped, ... The change is made in a copy of the tree, in which the tests of the package
-then run (`rapidgen/ros` has `tests/ros`): first those that execute the line, the fastest first,
-until one fails; then the rest. What every test passes has survived. One that does not end in time
-is detected, and counted by itself. Where the failing test fails without the change, too, the result
-is unsure.
+a number, a condition negated, a statement deleted, a value returned, arguments swapped, an argument
+dropped, ... The change is made in a copy of the tree, in which the tests of the package then run
+(`rapidgen/ros` has `tests/ros`): first those that execute the line, the fastest first, until one
+fails; then the rest. A mutant that passes every test has survived. A hang counts as detected, and
+is listed separately. If the failing test also fails without the change, the result is unsure.
 
-Results are lines of JSON in FILE, and a place that is in it already is not tried again: a campaign
-that was cut short goes on where it was. `--again` tries those once more that have survived there.
-Mutants that change nothing that could be observed are named in tools/equivalent_mutants.txt, a
-line each: the mutant's number, and the reason.
+Results are lines of JSON in FILE, and a place with a result is not tried again: an interrupted
+campaign continues. `--again` repeats the survivors. Mutants without an observable change are listed
+in tools/equivalent_mutants.txt, a line each: the mutant's number, and the reason.
 """
 
 import argparse
@@ -46,7 +44,7 @@ IGNORED = shutil.ignore_patterns(
     ".git", ".venv", "build", "dist", "node_modules", "__pycache__", ".*_cache"
 )
 PATIENCE = 60.0
-"""s for which tests may run at least; beyond it ten times as long as usual."""
+"""Minimum time limit of tests in s; beyond it ten times the usual time."""
 LIMIT = 900.0
 """s for the tests that do not execute the line."""
 
@@ -80,7 +78,7 @@ class Mutant:
     """One change: bytes `start` to `end` of a file become `after`."""
 
     number: str
-    """Of what is changed, not of where it lies: lines above may come and go."""
+    """Hash of the changed text, not of its place: lines above may change."""
     package: str
     file: str
     line: int
@@ -93,7 +91,7 @@ class Mutant:
 
 
 class Places(ast.NodeVisitor):
-    """Everything in one module that can be changed."""
+    """All places of one module that can be changed."""
 
     def __init__(self, package: str, path: Path) -> None:
         self.package = package
@@ -107,13 +105,14 @@ class Places(ast.NodeVisitor):
         self.same: Counter[str] = Counter()
         self.visit(ast.parse(self.data))
 
-    # -- what is left alone -----------------------------------------------------------------------
+    # -- skipped
+    # ------------------------------------------------------------------------------------
 
     def visit_Assert(self, node: ast.Assert) -> None:
-        """For the type checker."""
+        """Skip it: it is for the type checker."""
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
-        """Words for people; spans in it are not exact on every Python."""
+        """Skip it: texts for users; their spans are not exact on every Python."""
 
     def visit_AnnAssign(self, node: ast.AnnAssign) -> None:
         if node.value is not None:
@@ -145,7 +144,8 @@ class Places(ast.NodeVisitor):
             if not _is_text(statement):
                 self.visit(statement)
 
-    # -- what is changed --------------------------------------------------------------------------
+    # -- changed
+    # ------------------------------------------------------------------------------------
 
     def visit_Compare(self, node: ast.Compare) -> None:
         left = node.left
@@ -314,25 +314,25 @@ class Places(ast.NodeVisitor):
 
 
 def _is_text(statement: ast.stmt) -> bool:
-    """A docstring, or a text below an attribute."""
+    """True for a docstring, or a text below an attribute."""
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
 def _is_words(node: ast.expr) -> bool:
-    """Whether an operand is a text: then + puts texts together, and % fills one in."""
+    """True if an operand is a text: + joins texts, and % formats one."""
     return isinstance(node, ast.JoinedStr) or (
         isinstance(node, ast.Constant) and isinstance(node.value, str | bytes)
     )
 
 
 def mutants_of(package: str) -> list[Mutant]:
-    """All of a package, by file and place."""
+    """Return all mutants of a package, by file and place."""
     folder = ROOT / "rapidgen" / package
     return [m for path in sorted(folder.rglob("*.py")) for m in Places(package, path).found]
 
 
 def draw(packages: list[str], seed: int, count: int) -> Iterator[Mutant]:
-    """`count` of them: packages in turn, of each a kind by lot, then one of that kind."""
+    """Yield `count` mutants: packages in turn, a random kind, then one of it."""
     chance = random.Random(seed)
     left: dict[str, dict[str, list[Mutant]]] = {}
     for package in packages:
@@ -346,7 +346,7 @@ def draw(packages: list[str], seed: int, count: int) -> Iterator[Mutant]:
 
 
 class Tests:
-    """The tests of a package: which execute a line, and how long they take."""
+    """The tests of a package: executed lines and times."""
 
     def __init__(self, package: str, cache: Path) -> None:
         self.folder = f"tests/{package}"
@@ -382,7 +382,10 @@ class Tests:
         made.replace(file)
 
     def of(self, mutant: Mutant) -> list[str]:
-        """Those that execute the line: the fastest first, those named like the module before."""
+        """Return the tests that execute the line, the fastest first.
+
+        Those named like the module come before.
+        """
         lines = self.lines.get(mutant.file, {})
         indices = lines.get(str(mutant.line)) or sorted({i for of in lines.values() for i in of})
         stem = Path(mutant.file).stem
@@ -399,7 +402,7 @@ def _pytest(*arguments: str) -> list[str]:
 
 
 class Copy:
-    """A copy of the tree, in which one mutant is tried at a time."""
+    """A copy of the tree for one mutant at a time."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder / "tree"
@@ -407,7 +410,7 @@ class Copy:
         shutil.copytree(ROOT, self.folder, ignore=IGNORED, symlinks=True)
 
     def judge(self, mutant: Mutant, tests: Tests) -> dict[str, Any]:
-        """Try it: outcome, the test that noticed it, seconds."""
+        """Try a mutant: outcome, detecting test, seconds."""
         path = self.folder / mutant.file
         data, began = path.read_bytes(), time.monotonic()
         complete = data[: mutant.start] + mutant.after.encode() + data[mutant.end :]
@@ -429,7 +432,7 @@ class Copy:
 
     def _run(self, arguments: list[str], limit: float) -> tuple[str, str]:
         self.listed.write_text("\n".join(arguments), encoding="utf-8")
-        # Several programs look for rapidgen beside the working directory: both are the copy.
+        # Several programs look for rapidgen next to the working directory: both are the copy.
         with subprocess.Popen(
             _pytest(f"@{self.listed}"),
             cwd=self.folder,
@@ -452,13 +455,16 @@ class Copy:
 
 
 def _write(path: Path, data: bytes) -> None:
-    """Write a module; what was compiled of it before may look as new as it is."""
+    """Write a module.
+
+    Its compiled file may look as new as it is, and must go.
+    """
     path.write_bytes(data)
     Path(importlib.util.cache_from_source(str(path))).unlink(missing_ok=True)
 
 
 def equivalent() -> dict[str, str]:
-    """Numbers of mutants that change nothing, with the reason."""
+    """Return numbers of equivalent mutants, with the reason."""
     if not EQUIVALENT.is_file():
         return {}
     lines = EQUIVALENT.read_text(encoding="utf-8").splitlines()
@@ -467,7 +473,7 @@ def equivalent() -> dict[str, str]:
 
 
 def recorded(output: Path) -> dict[str, dict[str, Any]]:
-    """Results that are there already, the newest of each mutant."""
+    """Return existing results, the newest of each mutant."""
     if not output.is_file():
         return {}
     lines = output.read_text(encoding="utf-8").splitlines()
@@ -477,7 +483,10 @@ def recorded(output: Path) -> dict[str, dict[str, Any]]:
 def tried(
     chosen: list[Mutant], tests: dict[str, Tests], jobs: int, output: Path, seed: int
 ) -> Iterator[dict[str, Any]]:
-    """Try mutants side by side; results as they come, each written at once."""
+    """Try mutants in parallel; yield results as they arrive.
+
+    Each is written immediately.
+    """
     waiting: SimpleQueue[Mutant] = SimpleQueue()
     done: SimpleQueue[dict[str, Any]] = SimpleQueue()
     for mutant in chosen:
@@ -506,7 +515,7 @@ def tried(
 
 
 def shown(entry: dict[str, Any]) -> str:
-    """One line of one mutant."""
+    """Return one line on a mutant."""
     before, after = (" ".join(entry[key].split())[:60] for key in ("before", "after"))
     where = f"{entry['file']}:{entry['line']} {entry['function']}"
     return f"{entry['number']} {where}: {entry['kind']}: {before} -> {after or '(nothing)'}"

@@ -1,12 +1,12 @@
-"""Random stops: up to three operator actions in short succession, then the documented recovery.
+"""Random stops: up to three operator actions, then the recovery.
 
     python tools/stop_trials.py [--count N] [--first SEED] [--jobs N] [--results FILE] [ROBOT]
 
 One seed decides the state (receiving, moving, streaming, program), one to three actions 1 ms to 1 s
-apart, and the pauses before recovery. What was sent before must not move the robot after it was
-started again; then a trajectory must be executed whole. Where Start is refused or the event log
-asks for it, the operator does PP to main, as docs/use/driver.md says, and it is counted.
-FILE (JSON lines) keeps the results: the next call goes on there.
+apart, and the pauses before recovery. Data sent before must not move the robot after a restart;
+then a trajectory must be executed completely. If Start is refused or the event log asks for it, the
+operator does PP to main, as docs/use/driver.md says, and the trial counts it. FILE (JSON lines)
+stores the results: the next call continues.
 """
 
 import argparse
@@ -37,7 +37,7 @@ def prepared(state):
 
 
 def trial(state, seed):
-    """What went wrong with a trial, whether it took PP to main, and what was done."""
+    """Run a trial: failure, PP to main needed, actions."""
     chance = random.Random(f"{seed} stop trial")
     bench, links = prepared(state).bench, prepared(state).links
     bench.controller.scheduler.draw_from(seed)
@@ -54,7 +54,7 @@ def trial(state, seed):
                 bench.controller.perform(action)
             bench.run(wait)
         if all(text.startswith("STOP,") for text in told):
-            # A download that was not complete is not stopped by STOP on the control port.
+            # STOP on the control port does not stop an incomplete download.
             links["motion"].at_once(STOP)
         bench.wait_until_standing(10)
         bench.run(chance.uniform(0, 2))
@@ -71,7 +71,7 @@ def trial(state, seed):
 
 
 def recovered(bench):
-    """What an operator does; whether it took PP to main.
+    """Restart as an operator does; return if it took PP to main.
 
     Nothing moves meanwhile.
     """

@@ -1,10 +1,10 @@
-"""Trial: the unmodified RAPID modules of ros-industrial/abb_driver on the virtual controller.
+"""Trial: unmodified RAPID modules of ros-industrial/abb_driver.
 
     python -m tools.interop.abb_driver FOLDER  (or: make interop PROGRAM=abb_driver FOREIGN=FOLDER)
 
-FOLDER holds the six modules; nothing of them is part of this project. They boot, take five
-points as bytes written by hand, answer in bytes compared with a table written by hand, and
-of 101 points they drop the last, as is known of them.
+FOLDER holds the six modules; this project contains no part of them. They boot on the virtual
+controller, accept five points as bytes written by hand, and answer in bytes that are compared with
+a table written by hand. Of 101 points they drop the last, a known defect.
 """
 
 import sys
@@ -25,7 +25,7 @@ from tests.acceptance.frames import (
     STOP_REPLY,
 )
 
-# Its documentation wires these virtual signals to system outputs by hand.
+# Its documentation maps these virtual signals to system outputs by hand.
 SIGNALS = (
     ("signalExecutionError", "Error", "", ""),
     ("signalMotionPossible", "RunchOk", "", ""),
@@ -38,7 +38,7 @@ SIGNALS = (
 
 
 def read_system(folder: Path) -> System:
-    """The three tasks as abb_driver's documentation sets them up."""
+    """Return the three tasks as abb_driver's documentation describes them."""
 
     def module(name: str) -> ModuleFile:
         return ModuleFile(Path(name).stem, name, (folder / name).read_bytes(), f"HOME:/{name}")
@@ -75,7 +75,10 @@ def read_system(folder: Path) -> System:
 
 
 def main(folder: Path) -> None:
-    """Run the trial; AssertionError where it fails."""
+    """Run the trial.
+
+    Raises AssertionError if it fails.
+    """
     system = read_system(folder)
     robots = load_config("irb120").groups
     with VirtualController(system, robots, clock="real", ports="auto", speed=8) as controller:

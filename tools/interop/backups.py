@@ -1,12 +1,12 @@
-"""Trial: backups of real cells as what a driver is built for.
+"""Trial: build drivers for backups of real cells.
 
     python -m tools.interop.backups FOLDER     (or: make interop PROGRAM=backups FOREIGN=FOLDER)
 
-FOLDER holds backups at any depth. Each is read as a controller: all its cfg files by the rules
-that a generated file is judged by, of which it must break none, since it ran. Then a driver is
-built for it, with the shipped robot that its MOC.cfg names (else an irb120 or a crb15000), loaded
-onto it, and compared: what the cell had is still there, as it was. How many errors the checker
-sees in its RAPID alone, and with the driver, is told beside.
+FOLDER holds backups at any depth. Each is read as a controller: the rules for generated files apply
+to all its cfg files, which must not violate any, since it ran. Then a driver is built for it, with
+the shipped robot that its MOC.cfg names (else an irb120 or a crb15000), loaded onto it, and
+compared: the cell's own instances must be unchanged. The output includes the number of checker
+errors in its RAPID alone, and with the driver.
 """
 
 import sys
@@ -28,7 +28,7 @@ from rapidgen.system.cfg_loading import CfgFileLoad, add
 
 @dataclass(frozen=True)
 class Answer:
-    """What a backup answered; `build` is a sentence."""
+    """Result of a backup; `build` is a sentence."""
 
     name: str
     release: str
@@ -69,14 +69,17 @@ def answer(folder: Path, name: str) -> Answer:
 
 
 def robot(cell: Cell) -> RobotConfig:
-    """The shipped robot of the cell's type; of another one the first of its generation."""
+    """Return the shipped robot of the cell's type, or of its generation."""
     models = [model_of(robot_type) for _, robot_type in cell.system.robot_types]
     default = "crb15000" if cell.system.robotware[0] >= 7 else "irb120"
     return load_config(next(filter(None, models), default))
 
 
 def changed(cell: Cell, arguments: tuple[CfgFileLoad, ...]) -> Iterator[str]:
-    """Instances that the cell had and has no more; a firewall service may be opened."""
+    """Yield the cell's instances that are missing after loading.
+
+    A firewall service may be opened.
+    """
     after = add(cell.cfg, arguments).cfg
     for before in cell.cfg.domains:
         for section in before.sections:
@@ -87,13 +90,16 @@ def changed(cell: Cell, arguments: tuple[CfgFileLoad, ...]) -> Iterator[str]:
 
 
 def counts(arguments: tuple[CfgFileLoad, ...]) -> Iterator[int]:
-    """Instances of each file."""
+    """Yield the number of instances of each file."""
     for addition in arguments:
         yield sum(len(section.instances) for section in addition.file.sections)
 
 
 def errors(system: System) -> int:
-    """Errors of the checker in a system's RAPID; what is not in the backup is a gap."""
+    """Return the checker's errors in a system's RAPID.
+
+    References to parts outside the backup do not count.
+    """
     return sum(d.severity is Severity.ERROR for d in check(system, gaps=True))
 
 

@@ -1,5 +1,4 @@
-"""Which routines of a program anything calls, from its entry on: the rest is never executed,
-whoever answers it."""
+"""Find the routines of a program that are called from its entry."""
 
 from collections.abc import Collection, Iterator
 
@@ -11,8 +10,10 @@ from rapidgen.runtime.compiler.symbols import LoadedModule
 
 
 def lines_called(controller: VirtualController) -> dict[str, set[int]]:
-    """By module file: lines of the routines that are called, connected, or named by a text, from
-    each task's entry on."""
+    """Return lines of called routines by module file.
+
+    A routine counts if it is called, connected, or named by a text, from each task's entry on.
+    """
     result: dict[str, set[int]] = {}
     for task in controller.rapid_tasks.values():
         program = task.program

@@ -1,11 +1,10 @@
-"""Trial: a driver is deployed into copies of real cells' backups, and taken off again.
+"""Trial: deploy a driver into copies of real backups, and uninstall it.
 
     python -m tools.interop.deployed FOLDER    (or: make interop PROGRAM=deployed FOREIGN=FOLDER)
 
-FOLDER holds backups at any depth. Into a copy of each goes the driver that its MOC.cfg asks for
-(else an irb120 or a crb15000), planned once more (nothing to do), read as a controller, and
-uninstalled: then every file has to be what it was. A cell with another driver is refused and
-not touched.
+FOLDER holds backups at any depth. A copy of each gets the driver for its MOC.cfg (else an irb120 or
+a crb15000). It is planned once more (no change expected), read as a controller, and uninstalled:
+then every file must be unchanged. A cell with another driver is rejected and not changed.
 """
 
 import shutil
@@ -24,7 +23,7 @@ from tools.interop.backups import robot
 
 
 def answer(folder: Path) -> str:
-    """What became of a copy, as a sentence."""
+    """Return the result of a copy as a sentence."""
     before = files(folder)
     try:
         cell = read_cell(folder)
@@ -46,7 +45,7 @@ def answer(folder: Path) -> str:
 
 
 def files(folder: Path) -> dict[Path, bytes]:
-    """Every file of a folder."""
+    """Return every file of a folder."""
     return {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 

@@ -1,11 +1,11 @@
-"""Descriptions: every URDF and xacro file below folders, with `rapidgen new` and what it asks for.
+"""Trial: run `rapidgen new` on every URDF and xacro file of folders.
 
     make interop PROGRAM=descriptions FOREIGN="FOLDER FOLDER ..." [QUICK=1]
 
-A person who gives at most three answers is played: a coupling (0), one speed and one range for all
-axes of which nothing says one, arguments of xacro and of its macros. What is built is booted on the
-virtual controller and every joint of every group is moved there. The table says why the others are
-none, and what had to be answered.
+The trial simulates a user with at most three answers: a coupling (0), one speed and one range for
+all axes without them, and arguments of xacro and of its macros. The resulting driver is booted on
+the virtual controller and every joint of every group is moved there. The table gives the reasons of
+rejected files and the required answers.
 """
 
 import os
@@ -44,7 +44,7 @@ _LACKS = re.compile(
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a description."""
+    """The result of a description."""
 
     name: str
     end: str
@@ -53,7 +53,7 @@ class Outcome:
 
 
 def descriptions(folders: list[Path]) -> Iterator[Path]:
-    """Files that may be robots, each text once."""
+    """Yield files that may be robots, each text once."""
     seen = set()
     for folder in folders:
         for path in sorted((*folder.rglob("*.urdf"), *folder.rglob("*.xacro"))):
@@ -64,7 +64,7 @@ def descriptions(folders: list[Path]) -> Iterator[Path]:
 
 
 def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
-    """`new`, its answers, boot and motion."""
+    """Run `new` with its answers, boot and move."""
     answers, said = DescriptionChoices(), []
     macro, arguments, macro_arguments = None, {}, {}
     with tempfile.TemporaryDirectory() as scratch:
@@ -107,7 +107,7 @@ def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
 def _answer(
     wrong: list[Diagnostic], answers: DescriptionChoices
 ) -> tuple[DescriptionChoices, str] | None:
-    """What one more answer settles, and what it is about."""
+    """Return the answers with one more, and its subject."""
     lines = [d.message for d in wrong if d.code == "RG022"]
     if len(lines) < len(wrong):
         return None
@@ -147,7 +147,7 @@ def _moved(config: RobotConfig) -> tuple[str, str]:
 
 
 def main(arguments: list[str]) -> int:
-    """The table."""
+    """Print the table."""
     folders = [Path(argument) for argument in arguments]
     quick = bool(os.environ.get("QUICK"))
     outcomes = []

@@ -1,9 +1,9 @@
-"""Trial: ros-industrial-attic/godel, whose client drops modules into HOME: that are then executed.
+"""Trial: ros-industrial-attic/godel, whose client puts modules into HOME.
 
     python -m tools.interop.godel FOLDER
 
-FOLDER is a checkout. Twice a module of this trial is laid where godel's file suite lays its own;
-each has to be loaded, executed, unloaded and deleted.
+FOLDER is a checkout. The trial puts two modules where godel's file suite puts its own; the program
+must load, execute, unload and delete each.
 """
 
 import sys
@@ -24,7 +24,10 @@ ENDMODULE
 
 
 def main(folder: Path) -> None:
-    """Run the trial; AssertionError where it fails."""
+    """Run the trial.
+
+    Raises AssertionError if it fails.
+    """
     file = next(folder.rglob("mGodel_Main.mod"))
     system = read_files([file], entry="Godel_Main")
     groups = groups_for(system, load_config("irb2400").groups)

@@ -1,9 +1,10 @@
-"""Trial: gizatt/ABB-IRB140, its server and logger with its own Python client abb.py.
+"""Trial: gizatt/ABB-IRB140, its server and logger with its Python client.
 
     python -m tools.interop.irb140 FOLDER
 
-FOLDER is a checkout. The client is for Python 2: it is converted in memory (lib2to3, so that this
-needs Python 3.12 or older), and its sockets take texts. Every command is sent that needs no option.
+FOLDER is a checkout. The client abb.py is for Python 2: it is converted in memory (lib2to3, so that
+this needs Python 3.12 or older), and its sockets take texts. The trial sends every command that
+needs no option.
 """
 
 import socket
@@ -22,19 +23,19 @@ START = [10.0, 20.0, -10.0, 0.0, 40.0, 5.0]
 
 
 class TextSocket(socket.socket):
-    """As in Python 2: what is sent and received is text."""
+    """A socket as in Python 2: sent and received data is text."""
 
     def send(self, data: str) -> int:
         """Send a text."""
         return super().send(data.encode("latin-1"))
 
     def recv(self, size: int) -> str:
-        """What has come."""
+        """Return the received text."""
         return super().recv(size).decode("latin-1")
 
 
 def client(path: Path) -> ModuleType:
-    """The module of a Python 2 file."""
+    """Return the module of a Python 2 file."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         from lib2to3.refactor import RefactoringTool, get_fixers_from_package
@@ -50,14 +51,14 @@ def client(path: Path) -> ModuleType:
 
 
 def near(result: object, expected: object, by: float) -> bool:
-    """Whether numbers are equal within a tolerance."""
+    """True if numbers are equal within a tolerance."""
     return all(abs(a - b) <= by for a, b in zip(result, expected, strict=True))  # type: ignore[call-overload]
 
 
 def heard(ask: Any) -> list[float]:
-    """What the logger has told, when its client has cut a message out of the stream.
+    """Return the logger's values, after its client has found a message.
 
-    Messages have no end; a client that reads two in one keeps the second inside of the first.
+    Messages have no end; a client that reads two in one keeps the second inside the first.
     """
     while (result := ask()) is None or len(result) != 6:
         threading.Event().wait(0.01)
@@ -65,7 +66,7 @@ def heard(ask: Any) -> list[float]:
 
 
 def everything(robot: Any, log: Any) -> None:
-    """Every command that needs no option."""
+    """Send every command that needs no option."""
     robot.setJoints(START)
     while not near(robot.getJoints(), START, 0.01):
         pass
@@ -78,7 +79,7 @@ def everything(robot: Any, log: Any) -> None:
     robot.executeBuffer()
     assert near(robot.getCartesian()[0], poses[-1][0], 0.1)
     robot.setZone("z1")
-    # Its client waits for an answer "15 1 " that no server gives: the circle is never asked for.
+    # Its client waits for an answer "15 1 " that no server sends: the circle is skipped.
     assert not robot.setCircular([poses[0][0], turned], [current, turned])
     for axis in (12, 14, 16):
         robot.addJointPosBuffer([axis, *START[1:]])
@@ -103,7 +104,7 @@ def everything(robot: Any, log: Any) -> None:
 
 
 def main(folder: Path) -> None:
-    """gizatt/ABB-IRB140: moves, buffers, soft servos, force sensor, and the logger beside it."""
+    """Run moves, buffers, soft servos, force sensor and the logger."""
     abb = client(folder / "abb.py")
     system = read_files(
         {"T_ROB1": [folder / "RAPID" / "SERVER.mod"], "T_LOG": [folder / "RAPID" / "LOGGER.mod"]}

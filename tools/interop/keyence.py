@@ -1,10 +1,10 @@
-"""Trial: Keyence's CV-X modules in Alienspartner/ABB-and-Keyence, spoken to as its camera does.
+"""Trial: Keyence's CV-X modules in Alienspartner/ABB-and-Keyence.
 
     python -m tools.interop.keyence FOLDER
 
-FOLDER is a checkout. Two programs connect to a camera, which is played here: the set-up, which
+FOLDER is a checkout. The trial plays the camera to which two programs connect: the set-up, which
 answers every command of the camera, and the operation, which picks along paths that the camera
-plans. Nothing of the modules is changed; the set-up is called from a main of the trial.
+plans. The modules are unchanged; a main of the trial calls the set-up.
 """
 
 import math
@@ -39,7 +39,7 @@ class Camera:
         self._link.sendall(text.encode() + b"\r")
 
     def receive(self) -> str:
-        """The next line."""
+        """Return the next line."""
         while b"\r" not in self._left:
             more = self._link.recv(4096)
             assert more, "the robot has closed the connection"
@@ -48,7 +48,7 @@ class Camera:
         return line.decode()
 
     def ended(self) -> bool:
-        """Whether the robot closes the connection next."""
+        """True if the robot closes the connection next."""
         return not self._left and not self._link.recv(1)
 
     def close(self) -> None:
@@ -57,13 +57,13 @@ class Camera:
 
 
 def module(path: Path) -> ModuleFile:
-    """A file as a module of a task."""
+    """Return a file as a module of a task."""
     return ModuleFile(path.stem, path.name, path.read_bytes())
 
 
 @contextmanager
 def running(*modules: ModuleFile):
-    """A robot with these modules in real time, and the camera's connection to it."""
+    """Run a robot with these modules in real time; yield the camera."""
     task = TaskSpec("T_ROB1", motion=True, modules=modules)
     system = furnished(System("keyence", (task,)))
     with socket.create_server(("127.0.0.1", PORT)) as server:
@@ -91,7 +91,7 @@ def _tell(_task: str, text: str) -> None:
 
 
 def setup(folder: Path) -> None:
-    """Every command of the set-up."""
+    """Send every command of the set-up."""
     parts = (module(folder / "KeyenceRobotVisionSetup.sys"),)
     with running(*parts, ModuleFile("TrialMain", "TrialMain.mod", MAIN.encode())) as camera:
         request = 0
@@ -143,7 +143,7 @@ WAY = [[10 + 4 * i, 20, -10 + i, 0, 40, 5 + 10 * i] for i in range(sum(LEGS) - l
 
 
 def operation(folder: Path) -> None:
-    """Two picks along planned paths, then nothing is found."""
+    """Run two picks along planned paths, then report no object."""
     names = [p for p in sorted((folder / "CV-X_OperationProgram_ABB").glob("*.mod"))]
     modules = [module(folder / "KeyenceRobotVisionSetup.sys"), *map(module, names)]
     requested: list[str] = []
@@ -167,7 +167,7 @@ def operation(folder: Path) -> None:
 
 
 def _planned(command: int, *arguments: int) -> str:
-    """The reply to PPR: what is set, and what was planned."""
+    """Check the reply to PPR: settings and planned path."""
     if command == 3:
         leg, point = arguments[2:4]
         place = sum(LEGS[:leg]) - leg + point

@@ -1,10 +1,10 @@
-"""Trial: rpiRobotics/abb_motion_program_exec, its RAPID and its own Python client and examples.
+"""Trial: rpiRobotics/abb_motion_program_exec with its Python client.
 
     python -m tools.interop.motion_program_exec FOLDER
 
-FOLDER is a checkout; the package of the same name has to be installed beside rapidgen. Its
-examples run as they are: only the HTTP calls of Robot Web Services go to a stand-in (rws.py), and
-plots are not drawn. What its client reads back must be where the robot was.
+FOLDER is a checkout; the package of the same name must be installed next to rapidgen. Its examples
+run unchanged: only the HTTP calls of Robot Web Services go to a stand-in (rws.py), and plots are
+not drawn. The positions that its client reads must be those of the robot.
 """
 
 import runpy
@@ -28,14 +28,17 @@ from tools.interop.rws import Face
 
 
 def install(folder: Path, config: str, where: Path) -> Path:
-    """What its setup manual says: modules into HOME:, the configuration loaded."""
+    """Install it as its manual says: modules in HOME:, configuration loaded."""
     shutil.copytree(folder / "robot/HOME", where / "HOME")
     shutil.copytree(folder / "robot" / config, where / "SYSPAR")
     return where
 
 
 def controller_of(folder: Path, config: str, robot: str, scratch: str) -> VirtualController:
-    """Set up, switched on, and stopped: its client starts the program."""
+    """Return a controller, switched on and stopped.
+
+    The client starts the program.
+    """
     system = read_system(install(folder, config, Path(scratch)))
     groups = groups_for(system, load_config(robot).groups)
     controller = VirtualController(system, groups, clock="real", cycle="once", speed=4)
@@ -45,7 +48,7 @@ def controller_of(folder: Path, config: str, robot: str, scratch: str) -> Virtua
 
 
 def example(folder: Path, name: str, robot: str) -> None:
-    """Run one of its examples and compare what its client read with the robot."""
+    """Run one of its examples; compare the client's data with the robot."""
     results = []
     read = client_module.MotionProgramExecClient.read_motion_program_result_log
 
@@ -72,7 +75,10 @@ def example(folder: Path, name: str, robot: str) -> None:
 
 
 def two_robots(folder: Path) -> None:
-    """Its multimove example has base frames that are in no file; joints need none."""
+    """Run its multimove example, without base frames.
+
+    No file contains them; joints do not need them.
+    """
     programs = []
     for sign in (1, -1):
         program = mp.MotionProgram()
@@ -94,7 +100,10 @@ def two_robots(folder: Path) -> None:
 
 
 def main(folder: Path) -> None:
-    """Run the trial; AssertionError where it fails."""
+    """Run the trial.
+
+    Raises AssertionError if it fails.
+    """
     plots = MagicMock()
     plots.subplots.return_value = (MagicMock(), MagicMock())
     names = {"matplotlib": ModuleType("matplotlib"), "matplotlib.pyplot": plots}

@@ -1,9 +1,9 @@
-"""Trial: bristolroboticslab/OpenABB-FDM, its RAPID and its own Python client abb.py.
+"""Trial: bristolroboticslab/OpenABB-FDM with its Python client abb.py.
 
     python -m tools.interop.open_abb FOLDER
 
-FOLDER is a checkout. The server runs on a robot with a track and a positioner that has the name
-its program wants, and the client sends every kind of command that it has.
+FOLDER is a checkout. The server runs on a robot with a track and a positioner of the name that its
+program expects, and the client sends every kind of command.
 """
 
 import importlib.util
@@ -15,7 +15,7 @@ from tools.interop.serving import served
 
 
 def main(folder: Path) -> None:
-    """bristolroboticslab/OpenABB-FDM: every kind of command that its client has."""
+    """Send every kind of command of the client."""
     spec = importlib.util.spec_from_file_location("abb", folder / "abb.py")
     abb = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(abb)

@@ -1,4 +1,4 @@
-"""The RAPID programs of a folder: its ABB backups, and every main with the modules beside it."""
+"""Find the RAPID programs of a folder: backups, and mains with modules."""
 
 import re
 from collections.abc import Iterator
@@ -20,19 +20,24 @@ _SUFFIXES = {".mod", ".modx", ".sys", ".sysx", ".prg"}
 
 @dataclass(frozen=True)
 class Program:
-    """A backup's folder, one with a folder for each task, or a module with main and the modules
-    without one beside and below."""
+    """A backup, a folder with a folder for each task, or a main with modules.
+
+    The modules are those without a main, in the main's folder and below.
+    """
 
     name: str
     files: tuple[Path, ...]
 
     @property
     def is_backup(self) -> bool:
-        """Whether it brings its own robot."""
+        """True if it contains its own robot."""
         return self.files[0].is_dir() and is_backup(self.files[0])
 
     def read(self) -> System:
-        """DiagnosticError when it cannot be read."""
+        """Read the system.
+
+        Raises DiagnosticError.
+        """
         if self.is_backup:
             return read_system(self.files[0])
         if self.files[0].is_dir():
@@ -41,12 +46,12 @@ class Program:
 
 
 def furnished(system: System) -> System:
-    """A system with the signals, tools and work objects that its modules lack."""
+    """Return a system with the signals, tools and work objects it lacks."""
     return apply_cell(system, guess(system).cell)
 
 
 def programs(folder: Path) -> Iterator[Program]:
-    """What can be started in a folder."""
+    """Yield the programs of a folder."""
     backups = [p for p in (folder, *sorted(folder.rglob("*"))) if p.is_dir() and is_backup(p)]
     for backup in backups:
         yield Program(str(backup.relative_to(folder)), (backup,))
@@ -71,15 +76,21 @@ def programs(folder: Path) -> Iterator[Program]:
 
 
 def _beside(path: Path, folder: Path) -> bool:
-    """Beside main or below; PROGMOD and SYSMOD belong together."""
+    """True if a file is in main's folder or below.
+
+    PROGMOD and SYSMOD belong together.
+    """
     if folder.name.upper() == "PROGMOD":
         folder = folder.parent
     return folder in path.parents
 
 
 def _needed(main: Path, adjacent: list[Path]) -> Iterator[Path]:
-    """Those that declare what main, or another that is needed, names and does not declare; of two
-    that declare the same name the first: a folder holds versions and exercises, too."""
+    """Yield the modules that declare missing names of main.
+
+    Also those of other needed modules. Of two that declare the same name the first counts: a folder
+    may hold versions and exercises.
+    """
     trees = {path: parse(path.read_bytes(), path=str(path)) for path in (main, *adjacent)}
     names = {
         path: {d.name.lower() for d in tree.declarations if isinstance(d, _NAMED)}

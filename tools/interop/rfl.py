@@ -1,11 +1,11 @@
-"""Trial: two backups of createchaos/abb_communication: two robots on gantries, five tasks.
+"""Trial: two backups of createchaos/abb_communication.
 
     python -m tools.interop.rfl FOLDER
 
-FOLDER is a checkout. Its client is for Python 2 and a window; its bytes are written here by hand.
-A backup's master and its robots both write `bWaitForJob` behind the same synchronisation point,
-so that it is a matter of time whether the master asks its operator at all: schedules are tried
-until it does.
+FOLDER is a checkout: two robots on gantries, five tasks. Its client is for Python 2 and a GUI; its
+bytes are written here by hand. A backup's master and its robots both write `bWaitForJob` after the
+same synchronisation point. Their timing decides if the master asks its operator: schedules are
+tried until it does.
 """
 
 import math
@@ -30,7 +30,7 @@ START = [0.0, 10.0, 20.0, 0.0, 40.0, 0.0, 5000.0, -2000.0, -1500.0]
 
 
 def started(backup: Path) -> VirtualController:
-    """The controller in real time, with the job that its operator has chosen."""
+    """Return the controller in real time, with the operator's job selected."""
     system = read_system(backup)
     one, two = groups_for(system, load_config(str(Path(__file__).with_name("gantry.yaml"))).groups)
     (gantry,) = two.positioners
@@ -60,7 +60,7 @@ def started(backup: Path) -> VirtualController:
 
 
 def port(controller: VirtualController, number: int) -> int:
-    """The real port of a server, once it listens."""
+    """Return the real port of a server, once it listens."""
     target = threading.Event()
 
     def look() -> None:
@@ -81,7 +81,7 @@ class Robot:
         self._count = 0
 
     def command(self, kind: int, *values: float, speed: int = 2, zone: int = 0) -> None:
-        """A command with up to ten values, executed when this returns."""
+        """Send a command with up to ten values; return after execution."""
         self._count += 1
         data = struct.pack(
             "<i10fif2if2i",
@@ -102,7 +102,7 @@ class Robot:
             pass
 
     def message(self, expected: int) -> bytes:
-        """The next message of a kind."""
+        """Return the next message of a kind."""
         while True:
             length, kind, *_ = struct.unpack("<2Q3I", self._from.recv(28, socket.MSG_WAITALL))
             data = self._from.recv(length - 12, socket.MSG_WAITALL)
@@ -110,29 +110,29 @@ class Robot:
                 return data
 
     def joints(self) -> list[float]:
-        """Axes of the third robot, deg and mm; they come in rad."""
+        """Return axes of the third robot, deg and mm; messages have rad."""
         self.message(JOINTS)
         axes = struct.unpack("<36f", self.message(JOINTS))[18:27]
         return [*map(math.degrees, axes[:6]), *axes[6:]]
 
     def pose(self) -> list[float]:
-        """TCP and gantry of the third robot."""
+        """Return TCP and gantry of the third robot."""
         self.message(POSE)
         return list(struct.unpack("<40f", self.message(POSE)))[20:30]
 
     def close(self) -> None:
-        """End both."""
+        """Close both connections."""
         self._to.close()
         self._from.close()
 
 
 def near(result: list[float], expected: list[float], by: float) -> bool:
-    """Whether numbers are equal within a tolerance."""
+    """True if numbers are equal within a tolerance."""
     return all(abs(a - b) <= by for a, b in zip(result, expected, strict=True))
 
 
 def moved(backup: Path) -> None:
-    """Joints, relative joints and targets of a robot on a gantry."""
+    """Move joints, relative joints and targets of a robot on a gantry."""
     controller = started(backup)
     try:
         number = controller.call(lambda: controller.operator.questions[0].number)

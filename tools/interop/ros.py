@@ -1,7 +1,7 @@
-"""A ROS 1 master, nodes of a built catkin workspace, and a controller for them to talk to.
+"""ROS 1 master, nodes of a catkin workspace, and a controller for them.
 
-Everything is a process of its own and stays on loopback. ROS itself comes from the system's
-packages: their folder is put behind this environment's when a workspace is opened.
+Each is a process of its own and stays on loopback. ROS itself comes from the system's packages:
+opening a workspace appends their folder to this environment's.
 """
 
 import json
@@ -22,13 +22,13 @@ from rapidgen.system.model import System
 
 SYSTEM_PACKAGES = "/usr/lib/python3/dist-packages"
 HOST = "127.0.0.77"
-"""An address of this machine alone, where the standard ports are free."""
+"""A local address whose standard ports are free."""
 
 
 class Process:
-    """A program, and the lines that it has printed so far with the time of each.
+    """A program, and its printed lines with the time of each.
 
-    With `kill_at` it is killed when it prints that; nothing behind that line is read.
+    With `kill_at` it is killed when it prints that; later lines are not read.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class Process:
             self._news.notify_all()
 
     def line_with(self, text: str, seconds: float = 20.0) -> str:
-        """The first line with that text, waited for."""
+        """Wait for the first line with that text and return it."""
         result: list[str] = []
 
         def target() -> bool:
@@ -76,7 +76,7 @@ class Process:
         return result[0]
 
     def said(self, *texts: str, since: float = 0.0) -> list[str]:
-        """Lines with one of those texts."""
+        """Return lines with one of those texts."""
         return [line for at, line in self.lines if at >= since and any(t in line for t in texts)]
 
     def send(self, number: int) -> None:
@@ -84,7 +84,7 @@ class Process:
         self._process.send_signal(number)
 
     def end(self, number: int = signal.SIGTERM, seconds: float = 10.0) -> int | None:
-        """Send a signal and wait; None if it had to be killed."""
+        """Send a signal and wait; return None if it had to be killed."""
         if self._process.poll() is None:
             self.send(number)
         try:
@@ -96,17 +96,17 @@ class Process:
 
     @property
     def pid(self) -> int:
-        """Of the process."""
+        """Return the process id."""
         return self._process.pid
 
     @property
     def alive(self) -> bool:
-        """Whether it still runs."""
+        """True while it runs."""
         return self._process.poll() is None
 
 
 class Simulated:
-    """`rapidgen sim` of a target on the standard ports of HOST, and its control socket."""
+    """`rapidgen sim` on the standard ports of HOST, and its control socket."""
 
     def __init__(self, target: str, *options: str) -> None:
         program = str(Path(sys.executable).with_name("rapidgen"))
@@ -123,7 +123,7 @@ class Simulated:
         self._lock = threading.Lock()
 
     def ask(self, do: str, **what: object) -> object:
-        """One request at the control socket."""
+        """Send one request to the control socket."""
         with self._lock:
             request = {"do": do, "token": self._token, **what}
             self._socket.sendall(json.dumps(request).encode() + b"\n")
@@ -132,16 +132,16 @@ class Simulated:
         return answer["result"]
 
     def positions(self, group: str = "rob1") -> list[float]:
-        """Where the axes are, rad and m, in wire order."""
+        """Return the axes, rad and m, in wire order."""
         return self.ask("status")["groups"][group]["positions"]
 
     def standing(self, group: str = "rob1") -> bool:
-        """Whether no axis moves."""
+        """True if no axis moves."""
         return bool(self.ask("status")["groups"][group]["standing"])
 
     @contextmanager
     def sampled(self, group: str = "rob1") -> Iterator[list[tuple[float, list[float]]]]:
-        """(time, positions), some fifty a second, while the block runs."""
+        """Record (time, positions), about 50 a second, while the block runs."""
         samples: list[tuple[float, list[float]]] = []
         end = threading.Event()
 
@@ -158,7 +158,7 @@ class Simulated:
             thread.join()
 
     def restart(self) -> None:
-        """End it and start it again: another boot of the same controller."""
+        """Restart: another boot of the same controller."""
         self.close()
         self._start()
 
@@ -169,7 +169,10 @@ class Simulated:
 
 
 def write_backup(system: System, folder: Path) -> Path:
-    """A system as a folder that `rapidgen sim` boots: SYSPAR and HOME of a backup."""
+    """Write a system as a folder that `rapidgen sim` boots.
+
+    It has SYSPAR and HOME of a backup.
+    """
     (folder / "SYSPAR").mkdir(parents=True)
     (folder / "HOME").mkdir()
     (folder / "SYSPAR" / "SYS.cfg").write_text(write_cfg(sys_cfg(system)))
@@ -211,7 +214,10 @@ class Workspace:
         rospy.init_node("bench", disable_signals=True)
 
     def node(self, package: str, program: str, *arguments: str, kill_at: str = "") -> Process:
-        """Start a node; with `kill_at` one that tells of each point, until it is killed."""
+        """Start a node, optionally with `kill_at`.
+
+        With `kill_at` the node logs each point until it is killed.
+        """
         path = self._devel / "lib" / package / program
         env = dict(self._env)
         if kill_at:
@@ -246,7 +252,10 @@ def _listens(port: int) -> bool:
 
 
 def until(target: Callable[[], object], seconds: float, else_: str) -> None:
-    """Wait until something holds; AssertionError when it does not in time."""
+    """Wait until a condition holds.
+
+    Raises AssertionError after the time limit.
+    """
     end = time.monotonic() + seconds
     while not target():
         assert time.monotonic() < end, else_

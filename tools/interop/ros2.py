@@ -1,11 +1,11 @@
-"""Trial: the ROS 2 node with a real rclpy, on each RMW that is there.
+"""Trial: the ROS 2 node with a real rclpy, on each available RMW.
 
     python -m tools.interop.ros2 PYTHON [CASE...] [--goals N]
     (or: make interop PROGRAM=ros2 FOREIGN=PYTHON)
 
-PYTHON is one that has rclpy (its workspace is sourced in this shell) and rapidgen. Each case boots
-`rapidgen sim` on an address of loopback and starts `python -m rapidgen.ros`, as a user does; a
-client by rclpy drives it. Exit code 1: a case has not come out as it should.
+PYTHON has rclpy (its workspace is sourced in this shell) and rapidgen. Each case boots `rapidgen
+sim` on an address of loopback and starts `python -m rapidgen.ros`, as a user does; an rclpy client
+drives it. Exit code 1: a case has failed.
 """
 
 import argparse
@@ -18,7 +18,7 @@ RMWS = ("rmw_cyclonedds_cpp", "rmw_fastrtps_cpp")
 
 
 def main(arguments: list[str]) -> int:
-    """Each RMW in a process of its own."""
+    """Run each RMW in a process of its own."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("python")
     parser.add_argument("cases", nargs="*")

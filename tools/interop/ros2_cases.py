@@ -1,4 +1,7 @@
-"""Cases of the trial with a real rclpy: `python -m tools.interop.ros2` runs them on each RMW."""
+"""Cases of the trial with a real rclpy.
+
+`python -m tools.interop.ros2` runs them on each RMW.
+"""
 
 import json
 import os
@@ -26,28 +29,28 @@ from tools.interop.ros2_cell import ABORTED, CANCELED, ENDINGS, SUCCEEDED, Cell
 
 
 class Findings:
-    """Sentences, each with whether it is as it should be."""
+    """Checked sentences, each with its result."""
 
     def __init__(self) -> None:
         self.lines: list[tuple[bool, str]] = []
 
     def must(self, holds: object, text: str) -> None:
-        """What should hold."""
+        """Record a check."""
         self.lines.append((bool(holds), text))
 
     def ends(self, sent, status: int, code: int = 0, words: str = "", seconds: float = 60) -> None:
-        """A goal has to end so."""
+        """Check how a goal ends."""
         was, error, text = sent.end(seconds)
         good = was == status and error == code and words in text
         self.must(good, f"{ENDINGS.get(was, was)} {error} after {sent.took:.2f} s: {text!r}")
 
     def next_one(self, cell: Cell) -> None:
-        """The next goal has to be executed."""
+        """Check that the next goal is executed."""
         current = cell.sim.positions()[: len(cell.names("rob1"))]
         self.ends(cell.send(cell.goal([current, [h + 0.05 for h in current]], 1.0)), SUCCEEDED)
 
     def stands(self, cell: Cell, seconds: float = 1.0) -> None:
-        """The robot has to stand so soon."""
+        """Check that the robot stands soon."""
         begin = time.monotonic()
         until(cell.sim.standing, 15, "it never stood")
         took = time.monotonic() - begin
@@ -59,7 +62,7 @@ class Findings:
 
 @dataclass(frozen=True)
 class Case:
-    """What is tried, with which robot."""
+    """A case and its robot."""
 
     run: Callable[[Cell, Findings], None]
     robot: str = "irb120"
@@ -71,7 +74,7 @@ CASES: dict[str, Case] = {}
 
 
 def case(**what):
-    """Enter a function into CASES."""
+    """Add a function to CASES."""
 
     def enter(function):
         CASES[function.__name__] = Case(function, **what)
@@ -81,7 +84,7 @@ def case(**what):
 
 
 def signatures():
-    """Calls as the stand-in's record has them for this distribution, and as they are."""
+    """Return recorded and actual call signatures of this distribution."""
     sys.path.append(str(Path(__file__).parents[2] / "tests" / "ros"))
     from record import RECORDED, signature
 
@@ -388,7 +391,7 @@ def many_goals(cell, result):
 
 
 def run(name: str, one: Case) -> bool:
-    """One case; whether it came out as it should."""
+    """Run one case; return if it passed."""
     result, cell = Findings(), None
     try:
         cell = Cell(one.robot, *one.options, parameters=one.parameters)
@@ -407,7 +410,7 @@ def run(name: str, one: Case) -> bool:
 
 
 def run_all(expected: list[str], goals: int) -> int:
-    """The cases, all if none is named; 1 if one has not come out as it should."""
+    """Run the named cases, or all; return 1 if one failed."""
     os.environ["RAPIDGEN_GOALS"] = str(goals)
     bad = [name for name in expected or CASES if not run(name, CASES[name])]
     print(f"failed: {', '.join(bad) or 'none'}")

@@ -1,4 +1,4 @@
-"""One controller, one node of rapidgen, and a client of both by a real rclpy."""
+"""One controller, one node of rapidgen, and an rclpy client of both."""
 
 import os
 import signal
@@ -33,7 +33,7 @@ ENDINGS = {SUCCEEDED: "SUCCEEDED", CANCELED: "CANCELED", ABORTED: "ABORTED"}
 
 
 class Sent:
-    """A goal that was sent: what came back of it."""
+    """A sent goal and its responses."""
 
     def __init__(self, cell: "Cell", client: ActionClient, goal) -> None:
         self._cell = cell
@@ -49,18 +49,18 @@ class Sent:
 
     @property
     def is_over(self) -> bool:
-        """Whether there is a result."""
+        """True if there is a result."""
         return self._result is None or self._result.done()
 
     def end(self, seconds: float = 60.0):
-        """Status, error_code and error_string, waited for."""
+        """Wait for status, error_code and error_string."""
         assert self._result is not None, "the goal was rejected"
         text = self._cell.wait(self._result, seconds)
         self.took = time.monotonic() - self.began
         return text.status, text.result.error_code, text.result.error_string
 
     def cancel(self, seconds: float = 10.0):
-        """Ask for its end; the response."""
+        """Cancel the goal and return the response."""
         return self._cell.asked(self.handle.cancel_goal_async, seconds)
 
 
@@ -98,7 +98,7 @@ class Cell:
         return lambda message: self.heard[name].append((time.monotonic(), message))
 
     def start_node(self, *more: str) -> None:
-        """Start the node, wait until it is there and its robot, too."""
+        """Start the node; wait for it and its robot."""
         arguments = [f"config:={self.robot}", f"address:={HOST}", *self._parameters, *more]
         command = [sys.executable, "-m", "rapidgen.ros", "--ros-args"]
         for one in arguments:
@@ -114,26 +114,29 @@ class Cell:
         until(lambda: self.state_since(since), 30, f"no joint_states: {self.node.lines[-5:]}")
 
     def state_since(self, since: float) -> bool:
-        """Whether joint_states came."""
+        """True if joint_states arrived since then."""
         return bool(self.heard["states"]) and self.heard["states"][-1][0] > since
 
     def inside(self, act):
-        """Do something where nothing else of the client runs: rclpy's clients race with answers."""
+        """Call `act` while nothing else of the client runs.
+
+        rclpy's clients race with answers.
+        """
         return self.wait(self._executor.create_task(act), 10)
 
     def asked(self, act, seconds: float):
-        """The answer to what `act` sends."""
+        """Return the answer to the request that `act` sends."""
         return self.wait(self.inside(act), seconds)
 
     def wait(self, future, seconds: float):
-        """What a future of rclpy gives."""
+        """Return the result of an rclpy future."""
         done = threading.Event()
         future.add_done_callback(lambda _: done.set())
         assert future.done() or done.wait(seconds), "no answer"
         return future.result()
 
     def call(self, kind: type, name: str, request=None, seconds: float = 20.0):
-        """The response of a service."""
+        """Return the response of a service."""
         client = self.client.create_client(kind, name)
         try:
             assert client.wait_for_service(timeout_sec=20), f"no service {name}"
@@ -142,18 +145,21 @@ class Cell:
             self.client.destroy_client(client)
 
     def trigger(self, name: str):
-        """The response of a std_srvs/Trigger."""
+        """Return the response of a std_srvs/Trigger."""
         return self.call(Trigger, name)
 
     # -- goals -------------------------------------------------------------------------------
 
     def names(self, group: str) -> list[str]:
-        """Joint names in the robot's order."""
+        """Return the joint names in the robot's order."""
         match = next(one for one in self.config.groups if one.name == group)
         return [joint.name for joint in match.joints]
 
     def goal(self, rows, step: float = 0.5, group: str = "", **text):
-        """Rows of positions `step` s apart, from 0 s on; a number is all joints."""
+        """Return a goal of positions `step` s apart, from 0 s on.
+
+        A number means all joints.
+        """
         names = self.names(group or self.config.groups[0].name)
         goal = FollowJointTrajectory.Goal(**text)
         goal.trajectory.joint_names = names
@@ -169,28 +175,28 @@ class Cell:
         return goal
 
     def send(self, goal, group: str = "") -> Sent:
-        """Send a goal; back when it is accepted or rejected."""
+        """Send a goal; return when it is accepted or rejected."""
         return Sent(self, self.actions[group or self.config.groups[0].name], goal)
 
     def moving(self, to: float = 1.0, seconds: float = 8.0) -> Sent:
-        """A goal that has the first joint under way for a while."""
+        """Send a goal and return while the first joint moves."""
         current = self.sim.positions()[: len(self.names(self.config.groups[0].name))]
         sent = self.send(self.goal([current, [to, *current[1:]]], seconds))
         until(lambda: not self.sim.standing(), 15, "nothing moved")
         return sent
 
     def at(self, row, group: str = "rob1", tolerance: float = 1e-4) -> bool:
-        """Whether the axes are there."""
+        """True if the axes are at `row`."""
         current = self.sim.positions(group)
         return max(abs(a - b) for a, b in zip(current, row, strict=False)) <= tolerance
 
     def memory(self) -> float:
-        """Resident MB of the node."""
+        """Return resident MB of the node."""
         status = Path(f"/proc/{self.node.pid}/status").read_text()
         return int(status.split("VmRSS:")[1].split()[0]) / 1024
 
     def close(self) -> None:
-        """End the node, the client, the controller."""
+        """Stop the node, the client, the controller."""
         if self.node.alive:
             self.node.end(signal.SIGINT)
         if self.node.alive:

@@ -1,4 +1,4 @@
-"""A case of the trial with ROS nodes: what is tried, and what came of it."""
+"""A case of the trial with ROS nodes, and its results."""
 
 import time
 from collections.abc import Callable
@@ -15,7 +15,7 @@ ACTIVE, PREEMPTED, SUCCEEDED, ABORTED = 1, 2, 3, 4
 
 @dataclass(frozen=True)
 class Case:
-    """What is tried, with which controllers."""
+    """A case and its controllers."""
 
     title: str
     run: Callable[[Cell, "Findings"], None]
@@ -25,14 +25,14 @@ class Case:
     faults: str = ""
     """A plan of faults, as `rapidgen sim --faults` reads it."""
     upstream: bool = True
-    """Whether abb_driver's modules can do it at all."""
+    """True if abb_driver's modules support it."""
 
 
 CASES: dict[str, Case] = {}
 
 
 def case(title: str, **what: object):
-    """Enter a function into CASES."""
+    """Add a function to CASES."""
 
     def enter(function):
         CASES[function.__name__] = Case(title, function, **what)
@@ -42,41 +42,44 @@ def case(title: str, **what: object):
 
 
 class Findings:
-    """What came out of a case: sentences, each with whether it is as it should be."""
+    """Results of a case: sentences, each with its check result."""
 
     def __init__(self) -> None:
         self.lines: list[tuple[bool, str]] = []
 
     def tell(self, text: str) -> None:
-        """What is only told."""
+        """Record a sentence without a check."""
         self.lines.append((True, text))
 
     def must(self, holds: object, text: str) -> None:
-        """What should hold."""
+        """Record a check."""
         self.lines.append((bool(holds), text))
 
     def succeeds(self, client, text: str) -> None:
-        """The goal of an action has to end well."""
+        """Check that the goal of an action succeeds."""
         self.must(Cell.ended(client, 25) and client.get_state() == SUCCEEDED, text)
 
     def stands(self, cell: Cell, begin: float) -> None:
-        """The robot has to stand within 1 s from `begin`."""
+        """Check that the robot stands within 1 s from `begin`."""
         until(cell.sim.standing, 15, "it never stood")
         took = time.monotonic() - begin
         self.must(took < 1, f"the robot stands {took:.2f} s later")
 
     def five(self, cell: Cell, text: str, seconds: float = 25) -> None:
-        """FIVE by topic has to be executed."""
+        """Check that FIVE by topic is executed."""
         cell.publish(cell.trajectory(FIVE))
         self.must(cell.arrives(FIVE[-1], seconds), text)
 
     def ramped(self, cell: Cell, text: str, *, to: float = 0.0) -> None:
-        """Joint 1 has to get there from where the robot is."""
+        """Check that joint 1 gets to a position from the current one."""
         cell.publish(cell.ramp(1, to=to))
         self.must(cell.arrives([to], 25), text)
 
     def reports(self, cell: Cell, reason: spec.Reason, joint: int = 0, *, error=True) -> None:
-        """error_code has to tell the reason; with `error` in_error has to be set, too."""
+        """Check that error_code reports the reason.
+
+        With `error` in_error must be set, too.
+        """
         now = cell.next_status()
         self.must(
             now.error_code == code(reason, joint) and (now.in_error.val == TRUE or not error),
@@ -88,12 +91,12 @@ class Findings:
 
 
 def code(reason: spec.Reason, joint: int = 0) -> int:
-    """error_code of STATUS."""
+    """Return error_code of STATUS."""
     return spec.error_code(reason, joint)
 
 
 def begin_moving(cell: Cell) -> None:
-    """Joint 1 on its way to 1.2 rad in 6 s, one second of which is over."""
+    """Start joint 1 to 1.2 rad in 6 s, and wait one second."""
     cell.publish(cell.ramp(6, to=1.2))
     cell.wait_moving(15)
     time.sleep(1)

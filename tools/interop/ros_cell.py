@@ -1,4 +1,4 @@
-"""The nodes of ros-industrial/abb_driver in front of a simulated controller, and their ROS side."""
+"""The nodes of ros-industrial/abb_driver with a simulated controller."""
 
 import signal
 import time
@@ -13,7 +13,7 @@ TRUE, FALSE = 1, 0
 
 
 class Cell:
-    """One controller, one set of nodes, and all that they publish."""
+    """One controller, one set of nodes, and all their topics."""
 
     def __init__(
         self,
@@ -57,24 +57,24 @@ class Cell:
     def start_node(
         self, package: str, program: str, *arguments: str, name: str = "", kill_at: str = ""
     ) -> Process:
-        """Start a node, in place of the one of that name."""
+        """Start a node, replacing the one of that name."""
         node = self.workspace.node(package, program, *arguments, kill_at=kill_at)
         self.nodes[name or program] = node
         return node
 
     def start_motion_node(self, *, kill_at: str = "") -> Process:
-        """Start the motion node, in place of the one before, and wait until all are ready."""
+        """Restart the motion node, and wait until all are ready."""
         node = self.start_node("abb_driver", "motion_download_interface", kill_at=kill_at)
         self.ready()
         return node
 
     def ready(self) -> None:
-        """Wait until states come and the motion node listens."""
+        """Wait until states arrive and the motion node listens."""
         from rospy import Publisher
         from trajectory_msgs.msg import JointTrajectory
 
         since = time.monotonic()
-        # A new publisher: nodes that were killed are no subscribers of it.
+        # A new publisher: killed nodes are not its subscribers.
         self._topics[0].unregister()
         self._topics[0] = Publisher("joint_path_command", JointTrajectory, queue_size=10)
         until(lambda: self.joints and self.joints[-1][0] > since, 20, "no joint_states")
@@ -84,7 +84,7 @@ class Cell:
     # -- commands -----------------------------------------------------------------------------
 
     def trajectory(self, points, step: float = 0.5, start: float = 0.0):
-        """A JointTrajectory: points (rad) `step` seconds apart, the first one at `start`."""
+        """Return a JointTrajectory: points (rad) `step` s apart from `start`."""
         import rospy
         from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -102,12 +102,12 @@ class Cell:
         return message
 
     def publish(self, trajectory) -> float:
-        """Send a trajectory by topic; when."""
+        """Publish a trajectory; return the time."""
         self._topics[0].publish(trajectory)
         return time.monotonic()
 
     def ramp(self, seconds: float, to: float = 0.8):
-        """Joint 1 from where the robot is to somewhere, in steps of 0.5 s."""
+        """Return joint 1 from its position to another, in steps of 0.5 s."""
         current = self.sim.positions()
         steps = max(1, round(seconds / 0.5))
         return self.trajectory(
@@ -115,11 +115,11 @@ class Cell:
         )
 
     def stop(self, service: str = "stop_motion") -> float:
-        """The stop_motion service; seconds until it has answered."""
+        """Call the stop_motion service; return the seconds until its answer."""
         return self._call(service, "StopMotion")
 
     def command_service(self, trajectory) -> float:
-        """The joint_path_command service; seconds until it has answered."""
+        """Call joint_path_command; return the seconds until its answer."""
         return self._call("joint_path_command", "CmdJointTrajectory", trajectory)
 
     def _call(self, name: str, kind: str, *arguments: object) -> float:
@@ -134,7 +134,7 @@ class Cell:
         return time.monotonic() - begin
 
     def action(self):
-        """A client of the action server, whose node is started at the first call."""
+        """Return an action client; the first call starts its server's node."""
         import actionlib
         from control_msgs.msg import FollowJointTrajectoryAction
 
@@ -146,13 +146,16 @@ class Cell:
         import rospy
 
         assert client.wait_for_server(rospy.Duration(10)), "no action server"
-        # A goal is refused until the action has heard a state.
+        # The action rejects goals until it has received a state.
         received = len(self.feedback)
         until(lambda: len(self.feedback) > received + 5, 10, "no feedback")
         return client
 
     def moving_by_action(self):
-        """A client whose goal, joint 1 to 1.2 rad in 6 s, has been under way for a second."""
+        """Return a client whose goal has moved for a second.
+
+        The goal is joint 1 to 1.2 rad in 6 s.
+        """
         client = self.action()
         client.send_goal(self.goal(self.ramp(6, to=1.2)))
         self.wait_moving(15)
@@ -161,57 +164,57 @@ class Cell:
 
     @staticmethod
     def ended(client, seconds: float) -> bool:
-        """Whether the goal of an action ends in time."""
+        """True if the goal of an action ends in time."""
         import rospy
 
         return client.wait_for_result(rospy.Duration(seconds))
 
     @staticmethod
     def goal(trajectory):
-        """An action goal."""
+        """Return an action goal."""
         from control_msgs.msg import FollowJointTrajectoryGoal
 
         return FollowJointTrajectoryGoal(trajectory=trajectory)
 
-    # -- what is seen -------------------------------------------------------------------------
+    # -- observations -----------------------------------------------------------------------------
 
     @property
     def now(self):
-        """The newest robot_status."""
+        """Return the newest robot_status."""
         return self.status[-1][1]
 
     def next_status(self, count: int = 2):
-        """The newest robot_status after `count` more have come."""
+        """Return the newest robot_status after `count` more."""
         expected = len(self.status) + count
         until(lambda: len(self.status) >= expected, 10, "robot_status has ended")
         return self.now
 
     def wait_moving(self, seconds: float = 5.0) -> None:
-        """Until an axis moves."""
+        """Wait until an axis moves."""
         until(lambda: not self.sim.standing(), seconds, "nothing moved")
 
     def wait_standing(self, seconds: float = 20.0) -> float:
-        """Until the robot stands and says so; when."""
+        """Wait until the robot stands and reports so; return the time."""
         until(self.sim.standing, seconds, "it never stood")
         stood = time.monotonic()
         until(lambda: self.next_status().in_motion.val == FALSE, seconds, "in_motion stays")
         return stood
 
     def at(self, point, tolerance: float = 1e-4) -> bool:
-        """Whether the robot is at a point, zeros for what it leaves out."""
+        """True if the robot is at a point; omitted joints are 0."""
         current = self.sim.positions()
         expected = [*point, *[0.0] * (len(current) - len(point))]
         return max(abs(a - b) for a, b in zip(current, expected, strict=True)) <= tolerance
 
     def arrives(self, point, seconds: float) -> bool:
-        """Whether it gets to a point in time."""
+        """True if the robot gets to a point in time."""
         with suppress(AssertionError):
             until(lambda: self.at(point) and self.sim.standing(), seconds, "")
             return True
         return False
 
     def quiet(self, seconds: float = 1.5) -> bool:
-        """Whether no axis moves for so long."""
+        """True if no axis moves for `seconds`."""
         current = self.sim.positions()
         end = time.monotonic() + seconds
         while time.monotonic() < end:
@@ -221,13 +224,13 @@ class Cell:
         return True
 
     def user_sees(self, since: float = 0.0) -> str:
-        """The newest line of the pendant or the event log that tells of a fault."""
+        """Return the newest fault line of the pendant or event log."""
         words = ("refused", "Trajectory", "trajectory", "ROS", "ENTRY_")
         lines = self.sim.process.said(*words, since=since)
         return lines[-1] if lines else "-"
 
     def close(self) -> None:
-        """End the nodes, then the controller."""
+        """Stop the nodes, then the controller."""
         for node in self.nodes.values():
             if node.alive:
                 with suppress(ProcessLookupError):

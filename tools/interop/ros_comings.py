@@ -1,4 +1,4 @@
-"""Cases of the trial with ROS nodes: nodes that come and go, the controller's stops, robots."""
+"""Cases with ROS nodes: node restarts, controller stops, other robots."""
 
 import time
 from contextlib import suppress
@@ -10,9 +10,9 @@ from tools.interop.ros_case import FIVE, SUCCEEDED, Findings, begin_moving, case
 from tools.interop.ros_cell import FALSE, TRUE, Cell
 
 SILENT = "network: [{do: silent, port: 11000, direction: in, connection: 1, after: 340}]"
-"""Five points pass, then nothing more, not even the end of the connection."""
+"""Five points pass, then no data, not even the end of the connection."""
 
-# -- nodes and controllers that come and go -----------------------------------------------------
+# -- nodes and controllers that start and end ---------------------------------------------------
 
 
 @case("the motion node killed in a download of 900 points, and started again")
@@ -123,7 +123,7 @@ def second_stops(cell: Cell, findings: Findings) -> None:
 
 
 def _start_second_node(cell: Cell) -> None:
-    """Another motion node, with topics of its own, that has a connection."""
+    """Start another connected motion node, with its own topics."""
     other = cell.start_node(
         "abb_driver",
         "motion_download_interface",
@@ -167,7 +167,7 @@ def two_states(cell: Cell, findings: Findings) -> None:
 
 
 def _observe(cell: Cell, name: str) -> None:
-    """Another state node with topics of its own."""
+    """Start another state node with its own topics."""
     cell.start_node(
         "abb_driver",
         "robot_state",

@@ -182,18 +182,18 @@ def interrupted_node(cell: Cell, findings: Findings) -> None:
     begin_moving(cell)
     node = cell.nodes["motion_download_interface"]
     finished = node.end(SIGINT, 5)
-    # From its end: the node sends its STOP some time after the signal.
+    # From the STOP on: the node sends it some time after the signal.
     findings.stands(cell, time.monotonic())
     findings.must(finished is not None, "the node ends (its STOP is answered)")
     cell.start_motion_node()
     _halted(cell, findings)
 
 
-# -- replaced -----------------------------------------------------------------------------------
+# -- replacements -------------------------------------------------------------------------------
 
 
 def _not_begun(cell: Cell, findings: Findings, *, error: bool = True) -> None:
-    """A trajectory from an old start came while the robot moved."""
+    """Check a trajectory from an old start that arrives during a motion."""
     findings.must(
         cell.quiet(2) and cell.sim.positions()[0] > 0.1,
         "the old one is stopped, the new one not begun",

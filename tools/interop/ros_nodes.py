@@ -1,14 +1,14 @@
-"""Trial: the unmodified C++ nodes of ros-industrial/abb_driver against the generated driver.
+"""Trial: the unmodified C++ nodes of ros-industrial/abb_driver.
 
     python -m tools.interop.ros_nodes WORKSPACE [CASE...]
     (or: make interop PROGRAM=ros_nodes FOREIGN=WORKSPACE)
 
 WORKSPACE is a built catkin workspace (ROS 1) with abb_driver, industrial_core and control_msgs;
-nothing of it is part of this project. rosmaster, rospy and roslaunch come from the system. Each
+this project contains no part of them. rosmaster, rospy and roslaunch come from the system. Each
 case boots `rapidgen sim` on an address of loopback, at the standard ports, starts the nodes, and
-drives them with rospy. Where abb_driver's RAPID lies in the workspace, each case runs against
-that, too, for comparison: what it does is shown and not judged. Exit code 1: a case of
-the generated driver has not come out as it should.
+drives them with rospy. If the workspace has abb_driver's RAPID, each case also runs with that, for
+comparison: its results are printed and not judged. Exit code 1: a case of the generated driver has
+failed.
 """
 
 import sys
@@ -24,9 +24,9 @@ from tools.interop.ros_cell import Cell
 
 URDF = Path(__file__).parents[2] / "robots" / "urdf"
 PARTS = (ros_commands, ros_refused, ros_comings)
-"""Where the cases are; each enters its own."""
+"""Modules with cases; each registers its own."""
 ZEROS = "0,0,0,0,0,0"
-"""Where the generated driver's robot stands at first, too; the cases count on it."""
+"""Initial position of the generated driver's robot; the cases rely on it."""
 
 
 def _try(workspace: Workspace, one: Case, target: str, options: tuple[str, ...]) -> Findings:
@@ -50,7 +50,7 @@ def _try(workspace: Workspace, one: Case, target: str, options: tuple[str, ...])
 
 
 def main(folder: Path, expected: list[str]) -> int:
-    """Run the cases; 1 if one of the generated driver has failed."""
+    """Run the cases; return 1 if one of the generated driver failed."""
     rapid = next(folder.glob("src/**/ROS_motionServer.mod"), None)
     workspace = Workspace(folder)
     failed = []

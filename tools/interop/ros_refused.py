@@ -1,4 +1,4 @@
-"""Cases of the trial with ROS nodes: what the driver refuses."""
+"""Cases of the trial with ROS nodes: trajectories that the driver rejects."""
 
 from rapidgen.wire.simple_message import spec
 from tools.interop.ros_case import PREEMPTED, Findings, case

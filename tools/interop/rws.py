@@ -1,8 +1,8 @@
-"""What clients of Robot Web Services find here, as Python calls instead of HTTP.
+"""Robot Web Services as Python calls instead of HTTP.
 
 `Face` has the methods of `abb_robot_client.rws.RWS` that public clients use. A trial that is not
-about HTTP puts a face in that class's place, and everything else of the client stays as it is;
-`tests/servers/rws/test_foreign_clients.py` has the class itself against the served face.
+about HTTP replaces that class by it, and everything else of the client stays unchanged;
+`tests/servers/rws/test_foreign_clients.py` tests the class itself with the HTTP server.
 """
 
 from collections import namedtuple
@@ -15,7 +15,10 @@ _Entry = namedtuple("_Entry", "seqnum msgtype code tstamp args title desc conseq
 
 
 class Face:
-    """One controller, from another thread. `/x` names are those of RAMDISK:."""
+    """One controller, called from another thread.
+
+    `/x` names are those of RAMDISK:.
+    """
 
     def __init__(self, controller: VirtualController) -> None:
         self._controller = controller
@@ -72,7 +75,10 @@ class Face:
     get_digital_io, set_digital_io = get_analog_io, set_analog_io
 
     def read_event_log(self, elog: int = 0):
-        """Newest first. The first argument of an ErrWrite event is its header."""
+        """Return the event log, newest first.
+
+        The first argument of an ErrWrite event is its header.
+        """
         events = self._do(lambda: list(self._controller.log))
         now = datetime.now(timezone.utc)
         return [

@@ -1,12 +1,12 @@
-"""Trial: clients of Robot Web Services with suites of their own, and one in C++, on served faces.
+"""Trial: RWS clients with test suites of their own, and one in C++.
 
     python -m tools.interop.rws_suites FOLDER   (or: make interop PROGRAM=rws_suites FOREIGN=FOLDER)
 
 FOLDER has checkouts of abb-rws-client (after `npm ci`) and abb_librws under these names, or one of
-them; the second wants CMake and libpoco-dev. Nothing of either is changed. Of the first the cells
-of its structural suite are run, which are for live controllers: one virtual controller serves RWS
-1.0, another 2.0. Of the second each call is a line. Faults are injected between client and
-controller by the suite itself.
+them; the second needs CMake and libpoco-dev. Both are unchanged. Of the first, the cells of its
+structural suite run, which are for live controllers: one virtual controller serves RWS 1.0, another
+2.0. Of the second each call is a line. The suite itself injects faults between client and
+controller.
 """
 
 import json
@@ -43,7 +43,7 @@ RELEASES = {Generation.ONE: (6, 15), Generation.TWO: (7, 6)}
 
 @contextmanager
 def controller(generation: Generation) -> Iterator[int]:
-    """A controller in real time; the port of its web services."""
+    """Run a controller in real time; yield the port of its web services."""
     with tempfile.TemporaryDirectory() as scratch:
         path = Path(scratch) / "MainModule.mod"
         path.write_text(MAIN)
@@ -64,7 +64,7 @@ def controller(generation: Generation) -> Iterator[int]:
 
 
 def abb_rws_client(folder: Path) -> Iterator[str]:
-    """Each cell of the structural suite, and what failed in it."""
+    """Yield each cell of the structural suite, with its failures."""
     with controller(Generation.ONE) as one, controller(Generation.TWO) as two:
         ports = {"RWS_TEST_PORT_RW6": str(one), "RWS_TEST_PORT_RW7": str(two)}
         subprocess.run(
@@ -86,7 +86,7 @@ def abb_rws_client(folder: Path) -> Iterator[str]:
 
 
 def abb_librws(folder: Path) -> Iterator[str]:
-    """Each call, and what came of it."""
+    """Yield each call and its result."""
     source = Path(__file__).with_name("abb_librws.cpp")
     with tempfile.TemporaryDirectory() as scratch, controller(Generation.ONE) as port:
         quiet = {"stdout": subprocess.DEVNULL, "check": True}
@@ -106,7 +106,7 @@ TRIALS = {"abb-rws-client": abb_rws_client, "abb_librws": abb_librws}
 
 
 def main(folder: Path) -> None:
-    """Print what each of them found."""
+    """Print the results of both."""
     for name, trial in TRIALS.items():
         if (folder / name).is_dir():
             print(f"{name}:")

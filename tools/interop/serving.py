@@ -1,4 +1,4 @@
-"""A foreign program in real time, with real sockets."""
+"""Run a foreign program in real time, with real sockets."""
 
 import socket
 import threading
@@ -13,7 +13,7 @@ from rapidgen.system.model import System
 
 @contextmanager
 def served(system: System, robot: str, count: int = 1, *, units: tuple[str, ...] = ()):
-    """A controller in real time, and the real ports of its first `count` listeners."""
+    """Run a controller in real time; yield the ports of its listeners."""
     groups = groups_for(system, load_config(robot).groups)
     if units:
         groups = tuple(replace(group, external_units=units) for group in groups)
@@ -38,7 +38,7 @@ def served(system: System, robot: str, count: int = 1, *, units: tuple[str, ...]
 
 
 class Link:
-    """A client that reads what comes until some text is in it."""
+    """A client that reads until a text arrives."""
 
     def __init__(self, port: int) -> None:
         self._socket = socket.create_connection(("127.0.0.1", port), timeout=10)
@@ -55,7 +55,7 @@ class Link:
         self._socket.sendall(text.encode("latin-1"))
 
     def until(self, end: str, times: int = 1) -> str:
-        """What came up to the `times`-th `end`; the rest is kept."""
+        """Return the received text up to the `times`-th `end`; keep the rest."""
         while self.stream.count(end) < times:
             more = self._socket.recv(4096).decode("latin-1")
             assert more, f"closed after {self.stream!r}"

@@ -1,10 +1,10 @@
-"""Trial: ten servers of courses, theses and small tools, with what their own clients say to them.
+"""Trial: ten servers of courses, theses and small tools, with their clients.
 
     python -m tools.interop.text_pairs FOLDER...
 
-Each FOLDER is a checkout of one of the repositories below. Their clients are windows on a screen,
-C#, C++, or want a camera: what they send is in the table as they write it, and what they read back
-is awaited. Cells are guessed, sockets are real, and nothing of a program is changed.
+Each FOLDER is a checkout of one of the repositories below. Their clients are GUIs, C#, C++, or need
+a camera: the table has their messages and the expected answers. Cells are inferred, sockets are
+real, and the programs are unchanged.
 """
 
 import socket
@@ -34,7 +34,7 @@ class Line:
         self._socket.sendall(text if isinstance(text, bytes) else text.encode("latin-1"))
 
     def hear(self, expected: str) -> str:
-        """What comes, up to a text in it."""
+        """Wait for data that contains a text."""
         seen = ""
         while expected not in seen:
             more = self._socket.recv(4096).decode("latin-1")
@@ -43,13 +43,13 @@ class Line:
         return seen
 
     def close(self) -> None:
-        """Leave."""
+        """Disconnect."""
         self._socket.close()
 
 
 @dataclass(frozen=True)
 class Pair:
-    """A server of a repository, and a talk with it."""
+    """A server of a repository, and a dialogue with it."""
 
     repository: str
     files: tuple[str, ...]
@@ -60,7 +60,7 @@ class Pair:
 
 @contextmanager
 def serving(folder: Path, pair: Pair) -> Iterator[tuple[VirtualController, Line]]:
-    """The server in real time, and a client of its first listener."""
+    """Run the server in real time; yield it and a client."""
     files = [sorted(folder.rglob(pattern))[0] for pattern in pair.files]
     result = load_target(files, BootOptions(cell="infer", robot=pair.robot))
     with VirtualController.boot(
@@ -87,7 +87,10 @@ def _shown(controller: VirtualController) -> list[str]:
 
 
 def drawing(line: Line, controller: VirtualController) -> None:
-    """main.py: three floats in network order; R when they are read, D when the robot is there."""
+    """Draw as main.py: three floats in network order.
+
+    R when they are read, D when the robot is there.
+    """
     for place in ((0.0, 0.0, 0.0), (5.0, 5.0, -5.0)):
         line.say(struct.pack("!fff", *place))
         line.hear("R")
@@ -96,7 +99,7 @@ def drawing(line: Line, controller: VirtualController) -> None:
 
 
 def datawood(line: Line, controller: VirtualController) -> None:
-    """SocketClient.cs: asks, sends a command's parts, waits for Ready."""
+    """Talk as SocketClient.cs: ask, send a command's parts, wait for Ready."""
     line.say("listening?")
     line.hear("Yes")
     parts = "MoveAbsJ", "[200,500,5000,1000]", "[FALSE,5,5,5,5,5,5]", "[9E9,9E9,9E9,9E9,9E9,9E9]"
@@ -115,7 +118,7 @@ def datawood(line: Line, controller: VirtualController) -> None:
 
 
 def laser(line: Line, _controller: VirtualController) -> None:
-    """ABB_Lib.py: greeted, answered, and told where the robot is."""
+    """Talk as ABB_Lib.py: greeting, answer, and position of the robot."""
     line.hear("Robot ready")
     line.say("CONNECT Robot_access")
     line.hear("Message acknowledged")
@@ -125,7 +128,7 @@ def laser(line: Line, _controller: VirtualController) -> None:
 
 
 def chess(line: Line, _controller: VirtualController) -> None:
-    """Controller.cpp: words with a blank behind them, a line as an answer."""
+    """Talk as Controller.cpp: words with a trailing blank, one line back."""
     line.say("rdata num prueba ")
     assert line.hear("\n") == "num100\n"
     line.say("wrdata num prueba 5 ")
@@ -139,7 +142,7 @@ def chess(line: Line, _controller: VirtualController) -> None:
 
 
 def speech(line: Line, _controller: VirtualController) -> None:
-    """python-example/client.py: a name of a function, # and what is typed behind it."""
+    """Talk as python-example/client.py: function name, #, typed text."""
     line.say("CRobT_fc#0")
     line.hear("CurrentXYZ#")
     line.say("CJointT_fc#0")
@@ -147,7 +150,7 @@ def speech(line: Line, _controller: VirtualController) -> None:
 
 
 def cups(line: Line, _controller: VirtualController) -> None:
-    """Test.py: a word, its answer, and the question for the next."""
+    """Talk as Test.py: a word, its answer, and the next question."""
     for word, answer in (
         ("Connection_test", "Connection_Confirmed"),
         ("Coordinates", "_ack"),
@@ -161,7 +164,7 @@ def cups(line: Line, _controller: VirtualController) -> None:
 
 
 def factory(line: Line, controller: VirtualController) -> None:
-    """rs2YuMi: coordinates and the gripper's state; the arm does not answer."""
+    """Talk as rs2YuMi: coordinates and gripper state, without an answer."""
     before = controller.call(controller.positions)
     line.say("400;0250;300;0")
     _until(lambda: any("Abierto" in row for row in _shown(controller)))
@@ -171,7 +174,7 @@ def factory(line: Line, controller: VirtualController) -> None:
 
 
 def voice(line: Line, _controller: VirtualController) -> None:
-    """IBR1200.cs: words of buttons."""
+    """Send the words of IBR1200.cs' buttons."""
     for word, answer in (("DISTANCE", "DISTANCE OPTION"), ("Home", "HOME POSITION")):
         line.say(word)
         line.hear(answer)
@@ -179,7 +182,10 @@ def voice(line: Line, _controller: VirtualController) -> None:
 
 
 def serial(line: Line, controller: VirtualController) -> None:
-    """main.py: greeted, then a letter from a serial port; S moves."""
+    """Talk as main.py: greeting, then a letter from a serial port.
+
+    S moves.
+    """
     line.hear("buna seara!")
     before = controller.call(controller.positions)
     line.say("S")
@@ -187,7 +193,7 @@ def serial(line: Line, controller: VirtualController) -> None:
 
 
 def tester(line: Line, _controller: VirtualController) -> None:
-    """Main.cs: the name of a procedure, which comes back when it has run."""
+    """Talk as Main.cs: the name of a procedure, echoed after it has run."""
     line.say("Path_10")
     received = line.hear("Done")
     assert received == "OngoingPath_10_RobotDone", received

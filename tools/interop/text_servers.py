@@ -1,9 +1,9 @@
-"""Trial: servers that take commands as text, spoken to as their own comments document.
+"""Trial: servers with text commands, by their own documentation.
 
     python -m tools.interop.text_servers FOLDER
 
 FOLDER is a checkout of joseballester/abb-rapidserver, jk4684/Gcode, RobotExMachina/Machina.NET or
-FlyingSlap/MatrixComm, whose own clients are for ROS, windows on a screen, or C#.
+FlyingSlap/MatrixComm, whose own clients are for ROS, GUIs, or C#.
 """
 
 import socket
@@ -19,12 +19,12 @@ from tools.interop.serving import Link, served
 
 
 def only_program(folder: Path) -> System:
-    """The first program of a folder, furnished."""
+    """Return the first program of a folder, furnished."""
     return furnished(next(programs(folder)).read())
 
 
 def rapidserver(folder: Path) -> None:
-    """joseballester/abb-rapidserver: its backup, two tasks, motion and logger port."""
+    """Run joseballester/abb-rapidserver: two tasks, motion and logger port."""
     joints = "+0010.00 +0020.00 -0010.00 +0000.00 +0040.00 +0005.00"
     with (
         served(only_program(folder), "irb1600", 2) as (_, (motion, logger)),
@@ -43,14 +43,14 @@ def rapidserver(folder: Path) -> None:
     done, target, limit = replies
     assert done[:3] == ["2", "001", "1"], done
     moving = [float(word) / axis for word, axis in zip(target[4:7], (10, 20, -10), strict=True)]
-    assert 0.8 < min(moving) <= max(moving) <= 1, target  # a fly-by point: it moves still
+    assert 0.8 < min(moving) <= max(moving) <= 1, target  # a fly-by point: it still moves
     assert limit[:2] == ["2", "003"], limit
     assert limit[2] != "1", limit
     print("abb-rapidserver: moved, asked, logged; refuses joints by ReadCfgData's limits")
 
 
 def gcode(folder: Path) -> None:
-    """jk4684/Gcode: the server of a G-code player; the pen points down."""
+    """Run jk4684/Gcode: the server of a G-code player; the pen points down."""
     pose = "+0374.00 +0050.00 +0400.00 +0.0 +0.0 +1.0 +0.0"
     with served(only_program(folder), "irb120") as (_, (port,)), Link(port) as link:
         for command in ("08 +0500 +0100 +0500 +0100 #", f"02 {pose} #", f"01 {pose} #"):
@@ -64,7 +64,7 @@ def gcode(folder: Path) -> None:
 
 
 def machina(folder: Path) -> None:
-    """RobotExMachina/Machina.NET: driver and monitor, their two placeholders filled in."""
+    """Run RobotExMachina/Machina.NET, with its two placeholders filled in."""
 
     def module(name: str, port: str) -> ModuleFile:
         text = (folder / "src/Machina/Resources/DriverModules/ABB" / name).read_bytes()
@@ -96,9 +96,9 @@ def machina(folder: Path) -> None:
 
 
 def matrices(folder: Path) -> None:
-    """FlyingSlap/MatrixComm: 4 x 4 singles, column by column, back and forth."""
+    """Run FlyingSlap/MatrixComm: 4 x 4 singles, column by column."""
     sent = [float(n) / 8 for n in range(16)]
-    # It waits a second before it listens, and listens again when its client has left.
+    # It waits a second before it listens, and listens again after its client disconnects.
     with served(only_program(folder), "irb120") as (controller, (port,)):
         for _ in range(2):
             with connected(port) as link:
@@ -113,7 +113,10 @@ def matrices(folder: Path) -> None:
 
 
 def connected(port: int) -> socket.socket:
-    """A connection on which something has come: a server that is leaving accepts, too."""
+    """Return a connection that has received data.
+
+    A server that is closing accepts, too.
+    """
     while True:
         with suppress(ConnectionError):
             link = socket.create_connection(("127.0.0.1", port), timeout=10)

@@ -1,14 +1,13 @@
-"""Trial: every RAPID program below a folder, as it is, on the virtual controller, cell guessed.
+"""Trial: every RAPID program of a folder on the virtual controller.
 
     python -m tools.interop.trial FOLDER [ROBOT]     (or: make interop FOREIGN=FOLDER)
 
-Nothing of a program is changed. It is what `rapidgen run PROGRAM --cell infer` does, and where the
-guessed robot does not reach a position on the one with which it gets furthest: what no module
-declares is made up, an input that the program waits for and a dialog answer, and nobody else does.
-A backup moves its own robot. For each program it says how it ended (whole; waits for a partner:
-socket, file, guide; stops behind a partner: a dialog was answered before; goes round and round;
-stops with an error; does not load), what of its lines was reached, and why not further. The last
-lines are the sums.
+Programs are unchanged and cells are inferred, as in `rapidgen run PROGRAM --cell infer`. If the
+inferred robot does not reach a position, the robot that gets furthest is used. Undeclared data is
+created, and inputs and dialogs get an answer, but no communication partner does. A backup moves its
+own robot. For each program the trial prints how it ended (whole; waits for a partner: socket, file,
+guide; stops behind a partner: a dialog was answered before; goes round; stops with an error; does
+not load), the reached share of its lines, and the obstacle. The last lines are the sums.
 """
 
 import re
@@ -33,7 +32,7 @@ ROBOTS = (
     *("irb120", "irb1200", "IRB 140-6/0.81", "irb1600", "irb2400", "IRB 2600-12/1.65", "irb4600"),
     *("irb6640", "irb6700", "irb660", "irb14000", "crb15000", "irb910sc"),
 )
-"""Tried behind the guessed one, in this order, while a position cannot be reached."""
+"""Tried after the inferred one, in this order, while a position is out of reach."""
 _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
 _PARTNER = re.compile(
     r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_|EGM partner|ERR_UDPUC"
@@ -42,28 +41,31 @@ _TIME = 300.0
 _STATEMENTS = 2_000_000
 _LITTLE = 0.6
 GOOD = ("whole", "waits for a partner", "stops behind a partner", "goes round")
-"""A program that was answered and then stops has come to its first partner."""
+"""A program that was answered and then stops has reached its first partner."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """How far a program ran."""
+    """Progress of a program."""
 
     end: str
     reached: int = 0
     lines: int = 0
     called: int = 0
-    """Lines of the routines that anything calls."""
+    """Lines of routines that are called."""
     notes: tuple[str, ...] = ()
 
     @property
     def share(self) -> float:
-        """Of the lines."""
+        """Return the reached share of the lines."""
         return self.reached / self.lines if self.lines else 0.0
 
 
 def trial(program: Program, robot: str = "") -> Outcome:
-    """One cycle of main; where that reaches little, and looks at inputs, cycles for a while."""
+    """Run one cycle of main.
+
+    If that reaches little, and reads inputs, more cycles follow.
+    """
     once = cycles(program, robot, "once")
     if once.end == "whole" and once.share < _LITTLE:
         more = cycles(program, robot, "forever")
@@ -72,7 +74,7 @@ def trial(program: Program, robot: str = "") -> Outcome:
 
 
 def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
-    """Load, start, run until it ends, or for a while."""
+    """Load, start, run until it ends, or for some time."""
     try:
         result = load_target(program.files, BootOptions(cell="infer", robot=robot))
         errors = [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR]
@@ -104,7 +106,7 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
             notes.append(
                 "in no module: " + ", ".join(f"{u.type} {u.name}" for u in guessed.unknown[:5])
             )
-        # Sockets, and dialogs and stops with texts or places; data and signals are no partner.
+        # Sockets, and dialogs and stops with texts or places; data and signals are not partners.
         requested = any(w == "SocketReceive" or " " in w for w, _ in controller.guessed.answered)
         end = _end(finished, faults, waits, requested=requested)
         if controller.guessed.missed:
@@ -126,7 +128,7 @@ def _end(finished: str, faults: Sequence[str], waits: Sequence[str], *, requeste
 
 
 def best(program: Program, robots: Sequence[str]) -> tuple[str, Outcome]:
-    """The robot with which a program gets furthest, and how far."""
+    """Return the robot with which a program gets furthest, and the result."""
     result: list[tuple[str, Outcome]] = []
     for robot in robots:
         result.append((robot or "its own or guessed", trial(program, robot)))

@@ -1,4 +1,7 @@
-"""A mutant that turns it red, for each conformance program; see tools/conformance_mutants.py."""
+"""Find a mutant that fails each conformance program.
+
+See tools/conformance_mutants.py.
+"""
 
 import gc
 import signal
@@ -12,18 +15,22 @@ from tests.rapid import conformance_files
 from tools.mutation.front_end import ROOT, NoProgram, of_builtins, of_functions, of_tables
 
 BROAD = 50
-"""Per cent of all files that a mutant may turn red for a file that has no other."""
+"""Per cent of all files that a mutant may fail, for a file without a narrower one."""
 SECONDS = (0.1, 2.0)
 """CPU time after which a mutant seems to hang, and after which it does; a file takes some
-milliseconds, but a machine that is held up counts that as CPU time, too."""
+milliseconds, but a delayed machine counts that as CPU time, too.
+"""
 
 
 class Hung(Exception):
-    """The mutant does not come to an end."""
+    """The mutant does not end."""
 
 
 def judged(file, seconds):
-    """Whether a file finds something else than it announces; Hung after this much CPU time."""
+    """True if a file's findings differ from the announced ones.
+
+    Raises Hung after this much CPU time.
+    """
     armed = True  # never raised once the file is judged
 
     def hang(number, frame):
@@ -35,7 +42,7 @@ def judged(file, seconds):
     collecting, callbacks = gc.isenabled(), gc.callbacks[:]
     gc.disable()
     gc.callbacks.clear()
-    # Again and again: a mutant may swallow the first.
+    # Repeatedly: a mutant may swallow the first.
     signal.setitimer(signal.ITIMER_VIRTUAL, seconds, seconds)
     try:
         return file.found() != file.expected
@@ -49,7 +56,7 @@ def judged(file, seconds):
 
 
 def red(file):
-    """Whether a file finds something else than it announces; None for a hang or a crash."""
+    """True if a file's findings differ; None for a hang or a crash."""
     for seconds in SECONDS:
         try:
             return judged(file, seconds)
@@ -61,7 +68,7 @@ def red(file):
 
 
 def executed(file):
-    """(path, line) of the front end that judging a file executes."""
+    """Return (path, line) of the front end that judging a file executes."""
     lines = set()
     root = str(ROOT)
 
@@ -82,22 +89,22 @@ def executed(file):
 
 
 class Campaign:
-    """Looks for a mutant for each file."""
+    """Search for a mutant for each file."""
 
     def __init__(self, files, every, share):
         self.files = files
         self.all = every
         self.limit = int(len(every) * share / 100)
         self.shown = {}
-        """File to (mutant, how many files it turns red)."""
+        """File to (mutant, number of files that fail with it)."""
         self.broad = set()
-        """Mutants that turn too many files red, or none."""
+        """Mutants that fail too many files, or none."""
         self.tried = 0
         self.runs = self._runs(every)
 
     @staticmethod
     def _runs(files):
-        """(path, line) to the files that execute it."""
+        """Return (path, line) to the files that execute it."""
         signatures.routines()  # read once, so that no file seems to read them
         signatures.predefined()
         signatures.type_names()
@@ -108,7 +115,7 @@ class Campaign:
         return runs
 
     def broader(self, share):
-        """Let mutants turn more files red from now on."""
+        """Let mutants fail more files from now on."""
         self.limit = int(len(self.all) * share / 100)
         self.broad.clear()
 
@@ -117,7 +124,7 @@ class Campaign:
         return [file for file in self.files if file not in self.shown]
 
     def try_mutant(self, mutant, file, others):
-        """Whether the mutant turns `file` red, and few of `others`."""
+        """True if the mutant fails `file`, and few of `others`."""
         self.tried += 1
         try:
             with mutant.made():
@@ -131,15 +138,15 @@ class Campaign:
                             self.broad.add(mutant)
                             return False
         except NoProgram:
-            return False  # no program at all
-        self.broad.add(mutant)  # nothing new will come of it
+            return False  # not a program
+        self.broad.add(mutant)  # no other file can use it
         for one in result:
             if one in self.files and one not in self.shown:
                 self.shown[one] = (mutant, len(result))
         return True
 
     def builtins(self):
-        """Mutants of built-ins that a file names."""
+        """Try mutants of built-ins that a file names."""
         by_name = defaultdict(list)
         for mutant in of_builtins():
             by_name[mutant.name].append(mutant)
@@ -155,7 +162,7 @@ class Campaign:
             self._first(file, ((m, users[name]) for name in names[:4] for m in by_name[name]))
 
     def functions(self):
-        """Mutants of lines that a file executes, the rarest first."""
+        """Try mutants of lines that a file executes, the rarest first."""
         lines = defaultdict(set)
         for place, files in self.runs.items():
             for file in files:
@@ -175,7 +182,7 @@ class Campaign:
                 return
 
     def tables(self):
-        """Mutants of tables, on the files that are left."""
+        """Try mutants of tables, on the remaining files."""
         for mutant in of_tables():
             left = self.left
             if not left:
@@ -200,7 +207,7 @@ class Campaign:
 
 @contextmanager
 def judged_anew():
-    """The conformance programs are judged by the package as it is imported now."""
+    """Judge the conformance programs by the package as it is imported now."""
     names = ("check", "parse", "Dialect")
     before = {name: getattr(conformance_files, name) for name in names}
     for name in names:

@@ -1,7 +1,7 @@
-"""Mutants of a RAPID module: one small, deliberate defect each, from one fixed list of operators.
+"""Mutants of a RAPID module: one small defect each, from fixed operators.
 
-The suite is worth as much as the share of them that it notices. Nobody picks: every place in a
-routine where an operator fits is a mutant, equivalent ones included.
+The share of them that the suite detects measures the suite. There is no selection: every place in a
+routine that fits an operator is a mutant, equivalent ones included.
 """
 
 import re
@@ -42,9 +42,9 @@ _SWAPS = {
     "TRUE": "FALSE",
     "FALSE": "TRUE",
 }
-# Words to an operator or the log change no behaviour that a client or a robot could notice.
+# Texts for the operator or the log change no behaviour that a client or robot could detect.
 _TALK = frozenset({"tpwrite", "tperase", "errwrite", "skipwarn"})
-# `IF a < b a := b;` does the same at equality, whichever of the two relations it has.
+# `IF a < b a := b;` gives the same result at equality with either relation.
 _BOUND = re.compile(r"IF (.+) (<=?|>=?) (.+) \1 := \3;?")
 
 
@@ -52,8 +52,8 @@ _BOUND = re.compile(r"IF (.+) (<=?|>=?) (.+) \1 := \3;?")
 class Mutant:
     """One changed text of a module file.
 
-    `line` is where, `statement` the line in which the statement around it begins (0: none, as
-    in a declaration); `change` says what was done.
+    `line` is its line, `statement` the first line of the statement around it (0: none, as in a
+    declaration); `change` describes the change.
     """
 
     path: str
@@ -64,10 +64,10 @@ class Mutant:
 
 
 def mutants(data: bytes, path: str) -> Iterator[Mutant]:
-    """All mutants of a module's text, in the order of the text, one operator after another.
+    """Yield all mutants of a module's text, by place and operator.
 
-    Operators: a relation, an arithmetic or logical operator or a truth value swapped; a number
-    one larger; a condition negated; a simple statement left out.
+    Operators: a relation, an arithmetic or logical operator or a truth value swapped; a number one
+    larger; a condition negated; a simple statement left out.
     """
     module = parse(data, path=path)
     source = module.source
@@ -87,7 +87,7 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
         start, end = of(node)
         if isinstance(node, NumberLiteral):
             more = f"{node.value + 1:.9g}"
-            # A num that is too large to count one more would stay what it is.
+            # A num that is too large to add one would not change.
             if single(float(more)) != single(node.value):
                 yield mutant(start, end, more, f"{node.text} -> {more}", node.first)
         elif isinstance(node, Branch | While | CompactIf):
@@ -114,7 +114,7 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
 
 
 def _statements(module: Module) -> dict[int, int]:
-    """For each token inside a statement, the line in which the innermost one begins."""
+    """Return the first line of the innermost statement of each token."""
     result: dict[int, int] = {}
     for node in _inside_routines(module):
         # Outer statements come first, so inner ones overwrite.
@@ -125,8 +125,8 @@ def _statements(module: Module) -> dict[int, int]:
 
 
 def _nothing(module: Module, node: Node) -> str:
-    # A compact IF needs a statement: an assignment to itself would have effects, so RAPID's
-    # cheapest no-operation stands in.
+    # A compact IF needs a statement: an assignment to itself would have effects, so RAPID's fastest
+    # no-operation replaces it.
     before = module.source.tokens[node.first - 1] if node.first else ""
     return "" if before in (";", ":", "THEN", "DO", "ELSE") else "WaitTime 0;"
 

@@ -1,7 +1,7 @@
-"""Defects made on purpose in the front end: one small change each, applied and taken back.
+"""Mutants of the front end: one small change each, applied and undone.
 
 Three kinds: functions of rapidgen/rapid get a changed code object in place; for tables at module
-level the package is imported anew; of the built-ins (builtins/*.rapid) one declaration changes.
+level the package is imported again; of the built-ins (builtins/*.rapid) one declaration changes.
 Equivalent changes are among them.
 """
 
@@ -32,24 +32,24 @@ _SWAPPED = {
 }  # fmt: skip
 _ATTRIBUTES = {"WARNING": "ERROR", "ERROR": "WARNING", "warn": "report"}
 _TALK = frozenset(("help", "label", "notes", "related"))
-"""Arguments that say something and decide nothing."""
+"""Arguments with texts that decide nothing."""
 _MAX_TEXT = 24
 _REGEX = frozenset("(|?*+[-")
 _KIND = inspect.CO_GENERATOR | inspect.CO_COROUTINE | inspect.CO_ASYNC_GENERATOR
-"""What kind of function code makes: code of another kind has no place in a function."""
+"""Kinds of functions by code flags: code of another kind cannot replace a function's."""
 _SIGN = re.compile(r"\\u....|\\.|.", re.DOTALL)
-"""What is left out of a regular expression at once."""
+"""Parts of a regular expression that are left out at once."""
 
 
 class NoProgram(Exception):
-    """The change leaves nothing that can be run."""
+    """The change gives no program that can run."""
 
 
 @dataclass(frozen=True, eq=False)
 class Mutant:
-    """A change: where, what, and a context in which it holds.
+    """A change: place, description, and a context in which it holds.
 
-    `name` is the lower-case name of the built-in that changes, if one does.
+    `name` is the lower-case name of the changed built-in, if any.
     """
 
     path: Path
@@ -66,7 +66,7 @@ class Mutant:
 
 
 def _changes(node):
-    """(what, new node) for each change of one node."""
+    """Yield (description, new node) for each change of one node."""
     if isinstance(node, ast.Compare) and len(node.ops) == 1 and type(node.ops[0]) in _SWAPPED:
         new = ast.Compare(node.left, [_SWAPPED[type(node.ops[0])]()], node.comparators)
         yield f"{_short(node)} -> {_short(new)}", new
@@ -136,10 +136,10 @@ def _short(node):
 
 
 def _points(node, *, patterns=False):
-    """(holder, key, old, new, what) for each change below a node.
+    """Yield (holder, key, old, new, description) for changes below a node.
 
-    The holder is a list or a node. Types, docstrings and what is only said are left out; texts
-    with values in them are messages, unless they are `patterns`.
+    The holder is a list or a node. Types, docstrings and messages are left out; texts with values
+    in them are messages, unless they are `patterns`.
     """
     for name, value in ast.iter_fields(node):
         if name in ("annotation", "returns", "decorator_list", "ctx") or (
@@ -170,7 +170,7 @@ def _set(holder, key, node):
 
 
 def _sources(root=ROOT, package=PACKAGE):
-    """(module name, path, tree) of each module of a package."""
+    """Yield (module name, path, tree) of each module of a package."""
     for path in sorted(root.rglob("*.py")):
         parts = path.relative_to(root).with_suffix("").parts
         name = ".".join((package, *(p for p in parts if p != "__init__")))
@@ -181,9 +181,9 @@ def _sources(root=ROOT, package=PACKAGE):
 
 
 def of_functions(expected=None, *, root=ROOT, package=PACKAGE):
-    """Mutants of functions and methods; of the modules in `expected` (paths) where given.
+    """Yield mutants of functions and methods.
 
-    `root` and `package` are another package's than the front end.
+    Of the modules in `expected` (paths) if given. `root` and `package` replace the front end's.
     """
     for module, path, tree in _sources(root, package):
         if expected is not None and path not in expected:
@@ -232,7 +232,7 @@ def _swapped_code(module, path, owner, function, change):
 
 
 def _compiled(path, owner, function):
-    """The code of one function or method, compiled as it stands in the tree."""
+    """Return the compiled code of one function or method of the tree."""
     body = function
     if owner is not None:
         body = ast.ClassDef(owner.name, owner.bases, owner.keywords, [function], [])
@@ -244,7 +244,7 @@ def _compiled(path, owner, function):
 
 
 def _live(module, owner, function):
-    """The function object behind decorators."""
+    """Return the function object, without decorators."""
     result = vars(sys.modules[module])
     if owner is not None:
         result = vars(result[owner.name])
@@ -267,7 +267,7 @@ def _forget(module):
 
 
 def of_tables():
-    """Mutants of what modules hold beside functions."""
+    """Yield mutants of module data other than functions."""
     for module, path, tree in _sources():
         body = [n for n in tree.body if isinstance(n, ast.Assign | ast.AnnAssign)]
         for statement in body:
@@ -303,7 +303,7 @@ class _Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 def _import():
     try:
         importlib.import_module(f"{PACKAGE}.checks")
-    except Exception as error:  # whatever a changed table makes of the module
+    except Exception as error:  # for any error of a module with a changed table
         raise NoProgram from error
 
 
@@ -351,7 +351,10 @@ _WORD = re.compile(r"\w+")
 
 
 def of_builtins():
-    """Mutants of the declarations of built-ins: each word of one made another, or left out."""
+    """Yield mutants of built-ins' declarations.
+
+    Each word is changed or left out.
+    """
     for path in sorted((ROOT / "builtins").glob("*.rapid")):
         text = path.read_text("utf-8")
         for pattern in (_HEADER, _RECORD, _SINGLE):

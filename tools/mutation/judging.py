@@ -1,7 +1,7 @@
-"""Which mutants does the suite notice?
+"""Judge which mutants the suite detects.
 
-The cases run once on the driver as it is, with coverage; a mutant is then judged only by the cases
-that execute its statement, those that have noticed most around it for their time first.
+The cases run once on the unchanged driver, with coverage; then only the cases that execute a
+mutant's statement judge it. Those with most detections nearby for their time come first.
 """
 
 import hashlib
@@ -33,18 +33,19 @@ from rapidgen.verification.worker_pool import WorkerPool, each, run_in_fork
 from tools.mutation.driver import Mutant
 
 PATIENCE = (2.0, 12.0)
-"""A case has this many s of CPU, or so many times what it takes on the driver as it is, whatever
-is more. A mutant that takes longer hangs the driver: whoever runs the suite sees that."""
+"""Time limit of a case: this many s of CPU, or this multiple of its time on the unchanged driver,
+whichever is more. A mutant that takes longer hangs the driver, which a user of the suite notices.
+"""
 HANGS = " (hangs)"
 FAILS = " (fails)"
 STUMBLES = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
-"""What a case may raise that expected an answer of another shape: it notices, without words."""
+"""Errors of a case that expected an answer of another form: they count as detection."""
 NEAR = 12
-"""Lines: what a case has noticed this near to a mutant counts more than what it has elsewhere."""
+"""Lines: detections within this distance of a mutant count more than others."""
 
 
 BEHIND = 16
-"""Mutants that may be under way: what comes of these is not known to the next one."""
+"""Mutants in progress at a time: the next one does not know their results."""
 _CASES = {case.name: case for case in CASES}
 
 
@@ -54,11 +55,10 @@ class _Hung(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Noticed:
-    """What became of a mutant at `path` and `line`: `by` names the case that noticed it, empty:
-    none did.
+    """Verdict on a mutant at `path` and `line`.
 
-    `tried`: the cases that were; `left`: how many more execute it and were not tried; `elapsed`:
-    s of CPU.
+    `by` names the detecting case, empty: none. `tried`: the cases that ran; `left`: number of
+    further cases that execute it; `elapsed`: s of CPU.
     """
 
     path: str
@@ -74,27 +74,27 @@ VERDICTS = TypeAdapter(Noticed)
 
 @dataclass(frozen=True, slots=True)
 class Learned:
-    """How many mutants each case has noticed: near to one, and elsewhere."""
+    """Number of mutants that each case has detected: nearby, and elsewhere."""
 
     near: dict[str, int] = field(default_factory=dict)
     elsewhere: dict[str, int] = field(default_factory=dict)
 
 
 class Learning:
-    """What the verdicts so far say about a mutant that comes next."""
+    """Predictions from the verdicts so far for the next mutant."""
 
     def __init__(self, names: Collection[str]) -> None:
         self._names = frozenset(names)
         self._noticed: list[tuple[str, int, str]] = []
 
     def learn(self, verdict: Noticed) -> None:
-        """A mutant was noticed by this case: it may well notice the next one, too."""
+        """Record a verdict: its case is likely to detect the next mutant."""
         name = verdict.by.removesuffix(HANGS).removesuffix(FAILS)
         if name in self._names:
             self._noticed.append((verdict.path, verdict.line, name))
 
     def about(self, mutant: Mutant) -> Learned:
-        """What counts for this mutant."""
+        """Return the predictions for this mutant."""
         near: Counter[str] = Counter()
         elsewhere: Counter[str] = Counter()
         for path, line, name in self._noticed:
@@ -105,7 +105,7 @@ class Learning:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """A mutant to be judged with `budget` s of CPU; `already` did not notice it."""
+    """A mutant to judge with `budget` s of CPU; `already` did not detect it."""
 
     mutant: Mutant
     budget: float = math.inf
@@ -115,24 +115,24 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Grounds:
-    """What every worker has: a system, its cases by name, and what these do with it as it is."""
+    """Context of every worker: system, cases by name, and their profiles."""
 
     config: RobotConfig
     system: System
     cases: tuple[str, ...]
     setting: Setting
     text: str
-    """Of the program that judges; another one is refused."""
+    """Hash of the judging program; a worker with another one is rejected."""
     row: str = ""
-    """Behind the names of tried cases: what the setting is called."""
+    """Suffix of tried cases' names: the setting."""
     usual: dict[str, float] = field(default_factory=dict)
-    """s of CPU of each case: how long a mutant is waited for."""
+    """s of CPU of each case, for the time limit of a mutant."""
     costs: dict[str, int] = field(default_factory=dict)
-    """Statements that each case executes: what is cheap is tried first, on any machine."""
+    """Statements that each case executes: the shortest case comes first, on any machine."""
     lines: dict[str, set[tuple[str, int]]] = field(default_factory=dict)
-    """What each case executes."""
+    """Lines that each case executes."""
     kept: "list[Starter | Judge]" = field(default_factory=list)
-    """What a worker keeps between two pieces."""
+    """Controllers that a worker keeps between items."""
 
 
 def grounds(
@@ -143,9 +143,9 @@ def grounds(
     setting: Setting | None = None,
     row: str = "",
 ) -> Grounds:
-    """Run all cases once.
+    """Run all cases once and return the context.
 
-    Raises ValueError when one does not hold without a mutation.
+    Raises ValueError when one fails without a mutation.
     """
     names = tuple(case.name for case in cases)
     bare = Grounds(config, system, names, setting or Setting(), _own_text(), row)
@@ -170,7 +170,10 @@ def _own_text() -> str:
 
 
 def _same_text(arguments: Grounds) -> None:
-    """Refuse to work for a checkout of another state. Raises RuntimeError."""
+    """Reject a worker with another checkout.
+
+    Raises RuntimeError.
+    """
     if arguments.text != _own_text():
         raise RuntimeError("this worker's checkout is not that of whoever asks")
 
@@ -180,12 +183,12 @@ def _as_it_is(arguments: Grounds, name: str):
     if not arguments.kept:
         setting = replace(arguments.setting, coverage=True)
         arguments.kept.append(Starter(arguments.config, arguments.system, setting))
-    # Plots and the log are of no use here.
+    # Plots and the log are not needed here.
     return replace(arguments.kept[0].attempt(_CASES[name]), series=(), log=())
 
 
 def judged(arguments: Grounds, question: Question) -> Noticed:
-    """A piece of work: the verdict on one mutant."""
+    """Return the verdict on one mutant, as a work item."""
     _same_text(arguments)
     if not arguments.kept:
         arguments.kept.append(Judge(arguments))
@@ -195,8 +198,11 @@ def judged(arguments: Grounds, question: Question) -> Noticed:
 def verdicts(
     questions: Sequence[Question], learning: Learning, key: Callable[[int], str]
 ) -> Workload[Question, Noticed]:
-    """Mutants in their order; each is asked about with what was learned from all but the last
-    few before it, whoever works and however many do. `key` of a question's number."""
+    """Return mutants in order, as a workload.
+
+    Each question uses the results of all but the last few before it, whatever the number of
+    workers. `key` of a question's number.
+    """
 
     def item(number: int) -> Question:
         question = questions[number]
@@ -221,7 +227,7 @@ def verdicts(
 
 
 class Judge:
-    """Judges mutants of one system in copies of a booted controller."""
+    """Judge mutants of one system in copies of a booted controller."""
 
     def __init__(self, arguments: Grounds) -> None:
         self._usual, self._costs, self._lines = arguments.usual, arguments.costs, arguments.lines
@@ -231,7 +237,7 @@ class Judge:
         self._bench.compile()
 
     def concerned(self, mutant: Mutant, learned: Learned) -> list[SuiteCase]:
-        """The cases that execute the mutant's statement, in the order to be tried."""
+        """Return the cases that execute the mutant's statement, in trial order."""
         place = (mutant.path, mutant.statement)
         names = [n for n in self._names if not mutant.statement or place in self._lines[n]]
         worth = {name: self._worth[name].get(mutant.path, 1.0) for name in names}
@@ -241,18 +247,18 @@ class Judge:
         return [_CASES[name] for name in names]
 
     def judge(self, question: Question) -> Noticed:
-        """Try one case after another until one notices it, or its budget is spent."""
+        """Try cases until one detects it, or its budget is spent."""
         started = _spent()
         by, tried, left = run_in_fork(partial(self._try, question))
         mutant = question.mutant
         return Noticed(mutant.path, mutant.line, by, _spent() - started, tried, left)
 
     def close(self) -> None:
-        """Give the controller back."""
+        """Release the controller."""
         self._bench.close()
 
     def _try(self, question: Question) -> tuple[str, tuple[str, ...], int]:
-        """Who notices the mutant, who was tried, and how many were left out."""
+        """Return the detecting case, tried cases, and number left out."""
         started, mutant = _spent(), question.mutant
         try:
             exchange(self._bench, mutant.path, mutant.text)
@@ -293,7 +299,7 @@ class Judge:
 
 
 def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, float]]:
-    """What each case is likely to notice in each file: a line counts by how few cases get there."""
+    """Return weights of cases by file: rarely reached lines count more."""
     common = Counter(place for places in reached.values() for place in places)
     result: dict[str, dict[str, float]] = {}
     for name, places in reached.items():
@@ -304,7 +310,7 @@ def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, f
 
 
 def _spent() -> float:
-    """s of CPU of this process and of those that it has waited for."""
+    """Return s of CPU of this process and of ended children."""
     times = os.times()
     return times.user + times.system + times.children_user + times.children_system
 
@@ -314,10 +320,10 @@ def _hang(_signal: int, _frame) -> None:
 
 
 def exchange(bench: Bench, path: str, data: bytes) -> None:
-    """Give a module file another text, as if the controller had been booted with it.
+    """Replace a module file's text, as if booted with it.
 
-    For a bench that has not run yet, and a text that differs inside of routines only; that
-    takes a fraction of a boot's time. Raises DiagnosticError when it is no module.
+    For a bench that has not run yet, and a text that differs inside routines only; that takes a
+    fraction of a boot's time. Raises DiagnosticError when it is not a module.
     """
     tree = parse(data, path=path)
     if tree.diagnostics:
@@ -330,7 +336,7 @@ def exchange(bench: Bench, path: str, data: bytes) -> None:
 
 
 def _exchange(program, module, tree):
-    """Put the routines of `tree` that differ in the place of a module's own."""
+    """Replace the routines of a module that differ in `tree`."""
     before, module.tree = module.tree, tree
     known = {r.name.casefold(): r for r in before.routines}
     for node in tree.routines:
@@ -343,6 +349,6 @@ def _exchange(program, module, tree):
         program.codes.pop(program.code_name(routine), None)
         program._linked.discard(routine)
         program.space[routine.code] = program._stub(routine)
-        # What cannot be linked ends its task when it is called, not here.
+        # A link error ends its task when it is called, not here.
         with suppress(FatalError):
             program.function(routine)

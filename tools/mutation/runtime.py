@@ -1,8 +1,8 @@
-"""A mutant of the runtime that turns it red, for each conformance program.
+"""Find a mutant of the runtime that fails each conformance program.
 
 See tools/conformance_mutants_runtime.py. Mutants are made as those of the front end
 (tools/mutation/front_end.py).
-Each is tried in a process of its own: whatever it breaks, breaks there.
+Each trial is a process of its own, so that a mutant cannot harm the next trial.
 """
 
 import os
@@ -22,11 +22,11 @@ from tools.mutation.front_end import Mutant, NoProgram, of_functions
 ROOMS = ("machine", "motion", "runtime", "controller")
 ROOTS = [Path(rapidgen.__file__).parent / room for room in ROOMS]
 BROAD = 50
-"""Per cent of all files that a mutant may turn red for a file that has no other."""
+"""Per cent of all files that a mutant may fail, for a file without a narrower one."""
 SECONDS = 1.0
 """CPU time after which a mutant hangs; a file takes some hundredths."""
 LARGEST_TRIAL = 400
-"""Mutants of rare lines that are tried for one file before its commonest lines are."""
+"""Mutants of rare lines that are tried for one file before its commonest lines."""
 GREEN, RED, BROKEN = 0, 1, 2
 
 Place = tuple[str, int]
@@ -34,7 +34,7 @@ Place = tuple[str, int]
 
 @dataclass(frozen=True)
 class File:
-    """A conformance program and what judges it (AssertionError: red)."""
+    """A conformance program and its check (AssertionError: failed)."""
 
     program: Program
     judge: Callable[[Program], None]
@@ -44,7 +44,7 @@ class File:
 
 
 def all_files() -> list[File]:
-    """Every conformance program of the runtime."""
+    """Return every conformance program of the runtime."""
     return [File(program, test_program_does_what_its_source_says) for program in PROGRAMS]
 
 
@@ -52,7 +52,7 @@ def all_files() -> list[File]:
 
 
 def _apart(work: Callable[[], int], pipe: int | None = None) -> int:
-    """What `work` returns in a child; BROKEN when it dies, hangs or raises."""
+    """Return the result of `work` in a child; BROKEN if it dies or raises."""
     child = os.fork()
     if not child:
         signal.signal(signal.SIGVTALRM, signal.SIG_DFL)
@@ -79,7 +79,7 @@ def _judged(file: File) -> int:
 
 
 def outcome(file: File, mutant: Mutant | None = None) -> int:
-    """Whether a file is GREEN or RED with a mutant, or the mutant is BROKEN."""
+    """Return whether a file passes or fails with a mutant, or it is BROKEN."""
 
     def work() -> int:
         if mutant is None:
@@ -94,7 +94,7 @@ def outcome(file: File, mutant: Mutant | None = None) -> int:
 
 
 def executed(file: File) -> set[Place]:
-    """Lines of the runtime that a file executes."""
+    """Return lines of the runtime that a file executes."""
     reader, writer = os.pipe()
 
     def work() -> int:
@@ -140,14 +140,14 @@ def executed(file: File) -> set[Place]:
 
 
 class Campaign:
-    """Looks for a mutant for each file."""
+    """Search for a mutant for each file."""
 
     def __init__(self, files: Iterable[File], every: list[File], share: float) -> None:
         self.files = list(files)
         self.all = every
         self.limit = max(1, int(len(every) * share / 100))
         self.shown: dict[File, tuple[Mutant, int]] = {}
-        """The mutant of a file, and how many files it turns red."""
+        """Mutant of a file, and number of files that fail with it."""
         self.tried = 0
         self._done: set[Mutant] = set()
         self.runs: dict[Place, list[File]] = defaultdict(list)
@@ -163,16 +163,16 @@ class Campaign:
 
     @property
     def left(self) -> list[File]:
-        """Files that no mutant has turned red."""
+        """Return files that no mutant has failed."""
         return [file for file in self.files if file not in self.shown]
 
     def broader(self, share: float) -> None:
-        """Let mutants turn more files red from now on."""
+        """Let mutants fail more files from now on."""
         self.limit = int(len(self.all) * share / 100)
         self._done.clear()
 
     def search(self, tell: Callable[[File], None] = lambda file: None) -> None:
-        """Try the mutants of the lines that a file executes, the rarest first."""
+        """Try mutants of the lines that a file executes, the rarest first."""
         for file in self.left:
             places = sorted(
                 self._lines[file] & self._mutants.keys(), key=lambda p: (len(self.runs[p]), p)
@@ -186,7 +186,7 @@ class Campaign:
             tell(file)
 
     def _try(self, mutant: Mutant, file: File, others: list[File]) -> bool:
-        """Whether the mutant turns `file` red, and few of `others`."""
+        """True if the mutant fails `file`, and few of `others`."""
         self.tried += 1
         if outcome(file, mutant) != RED:
             return False

@@ -1,9 +1,8 @@
-"""Holds every Python process up now and then, as a busy machine does: what is red then is red by
-chance. `make stall-test PACKAGE=client`; the environment says how often (HELD_UP) and which times
-(SEED).
+"""Delay every Python process now and then, as on a busy machine.
 
-In one process or another a test may then be right to fail: jog's 0.2 s, 2 s without a state, and
-`test_nothing_heavy_is_imported_before_it`, as this file imports threading.
+A test that fails then is flaky. `make stall-test PACKAGE=client`; the environment sets the share
+(HELD_UP) and the seed (SEED). Some tests may rightly fail in a delayed process: jog's 0.2 s, 2 s
+without a state, and `test_nothing_heavy_is_imported_before_it`, as this file imports threading.
 """
 
 import os
@@ -14,7 +13,7 @@ import threading
 import time
 
 _SHARE = float(os.environ["HELD_UP"])
-"""Of the calls; one of ten of them for long."""
+"""Share of delayed calls; one of ten delays is long."""
 _SHORT, _LONG, _BEGIN = 0.03, 0.3, 1.0
 """s at most"""
 _dice = random.Random(f"{os.environ.get('SEED', '')} {os.getpid()}")
@@ -51,7 +50,7 @@ def _after(kind, name):
 for _name in ("recv", "recv_into", "send", "sendall", "connect", "close"):
     _before(socket.socket, _name)
 _before(threading.Thread, "run")
-# A thread that gets no time while the others of its process go on.
+# A thread that gets no time while the others of its process run.
 _before(threading.Condition, "__enter__")
 _after(socket.socket, "accept")
 _after(selectors.DefaultSelector, "select")

@@ -1,10 +1,12 @@
-"""Tests in processes that are stopped now and then, each by itself, as on a machine that has no
-time for them: between any two instructions, where `make stall-test` holds up at calls of sockets
-and threads. What is red then is red by chance. `make pause-test PACKAGE=viewer`.
+"""Run tests in processes that are stopped now and then.
+
+Each process is stopped by itself, as on a machine without time for it: between any two
+instructions, whereas `make stall-test` delays calls of sockets and threads. A test that fails then
+is flaky. `make pause-test PACKAGE=viewer`.
 
     python tools/stall/stopped.py [--longest S] [--every S] [--seed N] COMMAND ...
 
-Linux only: whose child a process is, is read from /proc.
+Linux only: the parent of a process is read from /proc.
 """
 
 import argparse
@@ -17,12 +19,12 @@ import time
 from contextlib import suppress
 
 LISTED = 0.25
-"""s between two looks at which processes there are."""
+"""s between two readings of the list of processes."""
 LOOKS = 0.005
 
 
 def descendants(root):
-    """Processes below `root`, at any depth."""
+    """Return processes below `root`, at any depth."""
     children = {}
     for name in filter(str.isdigit, os.listdir("/proc")):
         with suppress(OSError):  # it has ended meanwhile
@@ -44,7 +46,7 @@ def send(process, number):
 
 
 def main(command, longest, every, seed):
-    """The command's exit code."""
+    """Run the command and return its exit code."""
     dice = random.Random(seed)
     running = subprocess.Popen(command)
     due, stopped, processes, listed = {}, {}, [], 0.0
@@ -63,7 +65,7 @@ def main(command, longest, every, seed):
                     stopped[process] = now + dice.uniform(0.1, 1) * longest
                     due[process] = stopped[process] + dice.expovariate(1 / every)
             time.sleep(LOOKS)
-    finally:  # given up, too: nothing is left standing
+    finally:  # also on an error: no process stays stopped
         for process in stopped:
             send(process, signal.SIGCONT)
     return running.returncode
