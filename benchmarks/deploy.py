@@ -32,7 +32,7 @@ class Slow:
     """A proxy before an FTP server that delays all lines by `EACH_WAY`."""
 
     def __init__(self, port: int) -> None:
-        self.behind = port
+        self.target_port = port
         self.port = self._listen(port, control=True)
 
     def _listen(self, after: int, *, control: bool) -> int:
@@ -63,7 +63,9 @@ class Slow:
                     block = source.recv(65536)
                 except OSError:
                     block = b""
-                line.put((time.monotonic() + EACH_WAY, self._told(block) if control else block))
+                line.put(
+                    (time.monotonic() + EACH_WAY, self._rewritten(block) if control else block)
+                )
 
         def write() -> None:
             while True:
@@ -78,7 +80,7 @@ class Slow:
         for work in (read, write):
             threading.Thread(target=work, daemon=True).start()
 
-    def _told(self, block: bytes) -> bytes:
+    def _rewritten(self, block: bytes) -> bytes:
         head, marker, remaining = block.partition(b"227 ")
         if not marker:
             return block

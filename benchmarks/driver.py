@@ -74,7 +74,9 @@ def stopping(config, system):
         group = bench.controller.motion.group("rob1")
         link.send(STOP)
         start = bench.now
-        bench.until(lambda g=group: g.stop_reasons or not g.legs, 5, "the robot is told to stop")
+        bench.until(
+            lambda g=group: g.stop_reasons or not g.legs, 5, "the robot gets the stop order"
+        )
         result.append(bench.now - start)
         bench.close()
     return sorted(result)[len(result) // 2], max(result)

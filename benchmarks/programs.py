@@ -52,7 +52,7 @@ def client() -> None:
         execution = robot.run(program)
         while group.is_standing:
             controller.run_for(0.001)
-        print(f"first motion {1000 * (controller.now - since):.0f} ms behind run() (simulated)")
+        print(f"first motion {1000 * (controller.now - since):.0f} ms after run() (simulated)")
         result = execution.result()
         print(
             f"{result.points} executed by {execution.way} in {result.seconds:.1f} s "

@@ -54,7 +54,7 @@ def cpu(process):
     return (int(text[11]) + int(text[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def heard(commands, seconds):
+def delays(commands, seconds):
     """Return ms after the stamps of `bare`, and the core share in percent.
 
     By name.
@@ -122,7 +122,7 @@ def main() -> int:
         result = {name: ([], []) for name in commands}
         for number in range(requested.rounds):
             order = sorted(commands, reverse=number % 2 == 1)
-            late, share = heard({name: commands[name] for name in order}, requested.seconds)
+            late, share = delays({name: commands[name] for name in order}, requested.seconds)
             for name in commands:
                 result[name][0].append(np.quantile(late[name], 0.99))
                 result[name][1].append(share[name])

@@ -28,7 +28,7 @@ def tell(stage, campaign, started):
     """Print one line on the progress of the campaign."""
     done = len(campaign.files) - len(campaign.left)
     spent = time.monotonic() - started
-    print(f"{stage:10} {done:4} red  {campaign.tried:6} mutants  {spent:4.0f} s", flush=True)
+    print(f"{stage:10} {done:4} failed  {campaign.tried:6} mutants  {spent:4.0f} s", flush=True)
 
 
 def main():
@@ -43,7 +43,7 @@ def main():
     files = expected[:: arguments.every]
     started = time.monotonic()
     campaign = Campaign(files, everything, arguments.share)
-    print(f"{len(files)} of {len(everything)} files; {campaign.limit} red at most", flush=True)
+    print(f"{len(files)} of {len(everything)} files; {campaign.limit} failed at most", flush=True)
     for stage in (campaign.builtins, campaign.functions, campaign.tables):
         stage()
         tell(stage.__name__, campaign, started)
@@ -56,7 +56,7 @@ def main():
             print(f"NONE       {file.name}")
         elif arguments.v:
             mutant, count = campaign.shown[file]
-            print(f"{count:4} red   {file.name}   {mutant}")
+            print(f"{count:4} failed   {file.name}   {mutant}")
     return 1 if campaign.left else 0
 
 

@@ -36,12 +36,12 @@ def main():
         raise SystemExit("not green without a mutant: " + ", ".join(map(str, failing)))
     started = time.monotonic()
     campaign = Campaign(files, everything, arguments.share)
-    print(f"{len(files)} of {len(everything)} files; {campaign.limit} red at most", flush=True)
+    print(f"{len(files)} of {len(everything)} files; {campaign.limit} failed at most", flush=True)
 
     def tell(file):
         mutant, count = campaign.shown.get(file, (None, 0))
         if arguments.v:
-            print(f"{file}: {mutant} ({count} red)" if mutant else f"{file}: -", flush=True)
+            print(f"{file}: {mutant} ({count} failed)" if mutant else f"{file}: -", flush=True)
 
     campaign.search(tell)
     own = len(campaign.shown)
@@ -49,7 +49,7 @@ def main():
         campaign.broader(BROAD)
         campaign.search(tell)
     spent = time.monotonic() - started
-    print(f"{own} red for a mutant of few files, {len(campaign.shown) - own} for a broad one,")
+    print(f"{own} failed for a mutant of few files, {len(campaign.shown) - own} for a broad one,")
     print(f"{len(campaign.left)} for none; {campaign.tried} mutants, {spent:.0f} s")
     for file in campaign.left:
         print(file)

@@ -85,13 +85,13 @@ def days(hours, share):
     bench.run(1)
     first = None
     while bench.now < hours * 3600:
-        begun = bench.now
+        round_start = bench.now
         link = bench.motion()
         bench.assert_moves_through(link, bench.wave(4))
         link.close()
         moved += 1
         reader = state if state is not None else bench.state()
-        until = begun + ROUND * share
+        until = round_start + ROUND * share
         while until - bench.now > 1e-3:
             bench.run(min(60.0, until - bench.now))
             stamps = [when for when, f in reader.frames if f.number == STATUS]
@@ -104,7 +104,7 @@ def days(hours, share):
         if state is None:
             reader.close()
             first = None
-        bench.run(max(0.0, begun + ROUND - bench.now))
+        bench.run(max(0.0, round_start + ROUND - bench.now))
         bench.forget()
         bench.controller.log.clear()
         if moved % 6 == 0:

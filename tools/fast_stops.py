@@ -54,7 +54,7 @@ def cpu():
     return sum(usage.ru_utime + usage.ru_stime for usage in both)
 
 
-def told(done):
+def report_progress(done):
     if done % 1000 == 0:
         after = time.monotonic() - STARTED
         print(f"{done} of {GIVEN.count} stops after {after:.0f} s", flush=True)
@@ -66,7 +66,7 @@ def main():
     with LocalPool(BENCHES, GIVEN.jobs) as workers:
         for stop in each(workers, seeds, one):
             stops.append(stop)
-            told(len(stops))
+            report_progress(len(stops))
     for stop in stops:
         if stop.finding:
             print(f"seed {stop.seed}: {stop.finding}")

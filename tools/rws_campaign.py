@@ -100,7 +100,7 @@ def answers(number: int, first: int) -> int:
         )  # fmt: skip
         try:
             run(core, FLOWS[name](core), seed)
-        except Exception as fault:  # noqa: BLE001 - told, with the seed that makes it again
+        except Exception as fault:  # noqa: BLE001 - reported, with the seed that makes it again
             print(f"seed {seed} ({name}, {generation.name}): {fault!r}", flush=True)
             failed += 1
     return failed
@@ -182,7 +182,7 @@ def _sent(caller: Caller, request: tuple[str, str, bytes, dict[str, str]]) -> tu
     try:
         status = caller.send(method, target, body=body, **headers).status
         caller.desk.handle(HttpRequest(method, target, {"authorization": target}, body))
-    except Exception as fault:  # noqa: BLE001 - told, with the seed that makes it again
+    except Exception as fault:  # noqa: BLE001 - reported, with the seed that makes it again
         return 0, repr(fault)
     if time.perf_counter() - started > SLOW:
         return status, f"it took {time.perf_counter() - started:.1f} s"

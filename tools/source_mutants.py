@@ -43,7 +43,7 @@ EQUIVALENT = ROOT / "tools" / "equivalent_mutants.txt"
 IGNORED = shutil.ignore_patterns(
     ".git", ".venv", "build", "dist", "node_modules", "__pycache__", ".*_cache"
 )
-PATIENCE = 60.0
+MIN_TIME_LIMIT = 60.0
 """Minimum time limit of tests in s; beyond it ten times the usual time."""
 LIMIT = 900.0
 """s for the tests that do not execute the line."""
@@ -420,7 +420,7 @@ class Copy:
             outcome, by = "survived", ""
             if first:
                 usual = sum(tests.seconds[name] for name in first)
-                outcome, by = self._run(first, PATIENCE + 10 * usual)
+                outcome, by = self._run(first, MIN_TIME_LIMIT + 10 * usual)
             if outcome == "survived":
                 excluded = [f"--deselect={name}" for name in first]
                 outcome, by = self._run([*excluded, tests.folder], LIMIT)

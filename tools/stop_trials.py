@@ -41,19 +41,19 @@ def trial(state, seed):
     chance = random.Random(f"{seed} stop trial")
     bench, links = prepared(state).bench, prepared(state).links
     bench.controller.scheduler.draw_from(seed)
-    told, from_main = [], False
+    actions_done, from_main = [], False
     try:
         bench.run(chance.uniform(0, 1))
         for _ in range(chance.randrange(1, 4)):
             action = chance.choice(ACTIONS)
             wait = 10 ** chance.uniform(-3, 0)
-            told.append(f"{action}, {wait * 1000:.0f} ms")
+            actions_done.append(f"{action}, {wait * 1000:.0f} ms")
             if action == "STOP":
                 links[chance.choice(("motion", "control"))].at_once(STOP)
             else:
                 bench.controller.perform(action)
             bench.run(wait)
-        if all(text.startswith("STOP,") for text in told):
+        if all(text.startswith("STOP,") for text in actions_done):
             # STOP on the control port does not stop an incomplete download.
             links["motion"].at_once(STOP)
         bench.wait_until_standing(10)
@@ -66,8 +66,8 @@ def trial(state, seed):
         bench.assert_moves_through(bench.motion(), bench.wave(4))
         bench.assert_healthy()
     except FAILURES as error:
-        return [str(error), from_main, f"{state}; {'; '.join(told)}"]
-    return ["", from_main, f"{state}; {'; '.join(told)}"]
+        return [str(error), from_main, f"{state}; {'; '.join(actions_done)}"]
+    return ["", from_main, f"{state}; {'; '.join(actions_done)}"]
 
 
 def recovered(bench):
@@ -77,7 +77,7 @@ def recovered(bench):
     """
     last = bench.last_event
     bench.start_again()
-    bench.stays(3, "the program was started, and nobody has asked for motion")
+    bench.stays(3, "the program was started, and no client has asked for motion")
     events = " ".join(str(event) for event in bench.controller.log.since(last))
     running = bench.controller.task(bench.group.task).state == "running"
     if running and "PP to main" not in events and "from main" not in events:
@@ -85,7 +85,7 @@ def recovered(bench):
     for action in ("stop", "pp-to-main"):
         bench.controller.perform(action)
     bench.start_again()
-    bench.stays(3, "the program was started from main, and nobody has asked for motion")
+    bench.stays(3, "the program was started from main, and no client has asked for motion")
     return True
 
 

@@ -165,7 +165,7 @@ def either(*names: str) -> object:
 
 
 def trace(program: str, text: str) -> dict[str, object]:
-    controller_room = either("rapidgen.controller", "rapidgen.virtual")
+    controller_package = either("rapidgen.controller", "rapidgen.virtual")
     tracing = either("rapidgen.controller.tracing", "rapidgen.virtual.tracing")
     switches = either(
         "rapidgen.rapid.switches", "rapidgen.runtime.switches", "rapidgen.virtual.dialect"
@@ -202,7 +202,7 @@ def trace(program: str, text: str) -> dict[str, object]:
     ]
     stream = io.StringIO()
     printed: list[str] = []
-    with controller_room.VirtualController(
+    with controller_package.VirtualController(
         system,
         robots,
         cycle="once",
@@ -214,12 +214,12 @@ def trace(program: str, text: str) -> dict[str, object]:
         controller.operator.subscribe(lambda _, line: printed.append(line))
         controller.start_program()
         finished = controller.run(max_time=60, max_statements=200_000)
-    told = stream.getvalue()
+    trace_text = stream.getvalue()
     return {
         "ended": finished,
         "printed": printed,
-        "statements": told.count("\n"),
-        "trace": hashlib.sha256(told.encode()).hexdigest(),
+        "statements": trace_text.count("\n"),
+        "trace": hashlib.sha256(trace_text.encode()).hexdigest(),
     }
 
 

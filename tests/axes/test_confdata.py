@@ -64,7 +64,7 @@ def test_one_posture_has_the_confdata_that_a_controller_stored(row):
 
 
 @pytest.mark.parametrize("row", STANDING)
-def test_a_wrist_with_an_offset_has_the_confdata_that_a_controller_stored(row):
+def test_offset_wrist_has_the_confdata_of_a_controller(row):
     place, turn, configuration = row
     own = Kinematics.of(load_config("crb15000").groups[0])
     pose = tuple(v / 1000 for v in place), frames.normalise(turn)

@@ -165,7 +165,7 @@ def test_a_palletiser_keeps_its_tool_upright():
     ("place", "quadrants"),
     [((1408.88, 37.23, 925.3), (0, 0)), ((1421.11, -325.25, 475.46), (-1, -1))],
 )
-def test_a_palletiser_at_zero_has_the_tool_of_six_axes_whose_wrist_is_bent_down(place, quadrants):
+def test_palletiser_at_zero_has_the_tool_pointing_down(place, quadrants):
     # tool0 and wobj0 of a working IRB 660 [code EdgarIvanMM]: quaternion 0,0,1,0, cf1 and cf6.
     own = kinematics("irb660")
     pose = (tuple(mm / 1000 for mm in place), (0.0, 0.0, 1.0, 0.0))
@@ -238,7 +238,7 @@ def with_axis_4(degrees):
 
 
 @pytest.mark.parametrize(("robot", "check"), [("irb120", "quarter"), ("irb2400", "turn")])
-def test_45_degrees_beside_the_quarter_are_accepted(robot, check):
+def test_45_degrees_off_the_quarter_are_accepted(robot, check):
     # S4 overview 5-33: cf4 = 0 accepts -45 to 135 degrees; always so without cfx
     own = kinematics(robot)
     for angle, accepted in ((-44, True), (-46, False), (134, True), (136, False)):
@@ -300,7 +300,7 @@ def test_home_of_an_irb_140():
     assert own.matches(home, (0, 0, 0, 0), "quarter")
 
 
-def test_endlessly_many_postures_of_a_pose_are_compared_all_at_once(monkeypatch):
+def test_infinitely_many_postures_are_compared_at_once(monkeypatch):
     """A tool straight down on axis 1: axes 1 and 6 turn about one line, most starts arrive."""
     calls = []
     wrapped = numeric_ik._wrapped

@@ -44,7 +44,7 @@ def test_rapid_values_are_degrees_and_millimetres_in_their_slots():
     assert extax[2:] == (ABSENT,) * 4
 
 
-def test_the_seventh_axis_of_a_yumi_is_an_external_one_in_wire_order():
+def test_seventh_yumi_axis_is_external_in_wire_order():
     robax, extax = YUMI.to_rapid((0.1, 0.2, 0.3, 0.4))
     assert robax[:3] == pytest.approx([math.degrees(v) for v in (0.1, 0.2, 0.4)])
     assert extax[0] == pytest.approx(math.degrees(0.3))

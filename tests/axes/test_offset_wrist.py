@@ -20,7 +20,7 @@ def postures(own, count, seed):
     return [tuple(draw.uniform(j.lower, j.upper) for j in own.group.joints) for _ in range(count)]
 
 
-def beside(one, other):
+def near_target(one, other):
     return max(abs(math.remainder(a - b, 2 * math.pi)) for a, b in zip(one, other, strict=True))
 
 
@@ -28,7 +28,7 @@ def test_every_posture_is_among_those_of_its_pose(gofa):
     for posture in postures(gofa, 300, seed=1):
         pose = gofa.forward(posture)
         result = gofa.solutions(pose, (0.0,) * 6)
-        assert min(beside(posture, other) for other in result) < 1e-5
+        assert min(near_target(posture, other) for other in result) < 1e-5
         for other in result:
             assert max(map(abs, frames.error(gofa.forward(other), pose))) < 1e-9
 
@@ -41,7 +41,7 @@ def test_iteration_knows_no_posture_more(gofa):
         for others in gofa.arm.rounds(pose, posture):
             for other in others:
                 inside = any(True for _ in gofa._turned(other))
-                assert not inside or min(beside(other, one) for one in result) < 1e-5
+                assert not inside or min(near_target(other, one) for one in result) < 1e-5
 
 
 @pytest.mark.parametrize("elbow", [-76.5, -77.1])
@@ -50,7 +50,7 @@ def test_postures_by_the_stretched_elbow_are_found(gofa, elbow):
     for posture in postures(gofa, 40, seed=3):
         stretched = (*posture[:2], math.radians(elbow), *posture[3:])
         result = gofa.solutions(gofa.forward(stretched), (0.0,) * 6)
-        assert min(beside(stretched, other) for other in result) < 1e-4
+        assert min(near_target(stretched, other) for other in result) < 1e-4
 
 
 def test_a_posture_nearby_stays_on_its_branch(gofa):
@@ -60,7 +60,7 @@ def test_a_posture_nearby_stays_on_its_branch(gofa):
         result = gofa.follow(gofa.forward(posture), start)
         assert result is not None
         assert max(map(abs, frames.error(gofa.forward(result), gofa.forward(posture)))) < 1e-8
-        assert beside(result, posture) < 0.3
+        assert near_target(result, posture) < 0.3
 
 
 def test_out_of_reach_there_is_none(gofa):

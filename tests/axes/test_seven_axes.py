@@ -92,7 +92,7 @@ def test_the_home_target_of_public_programs(name, side):
     assert match == pytest.approx(home, abs=1e-4)
 
 
-def test_a_pose_that_is_reached_with_another_arm_angle_alone_is_told_so():
+def test_pose_reached_only_with_another_arm_angle_is_reported():
     """An axis that stays within its range is no reason."""
     arm = Kinematics.of(load_config("irb14000").groups[0])
     start = (0.0,) * 7

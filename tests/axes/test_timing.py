@@ -57,7 +57,7 @@ def test_resampling_keeps_the_ends_and_stays_inside(points, period):
     assert (values <= points.max(axis=0) + 1e-9).all()
 
 
-def test_thinning_drops_what_lies_on_the_way_only():
+def test_decimate_drops_only_points_on_the_path():
     times = np.arange(7) * 0.02
     points = np.array([[0, 0], [1, 0], [2, 0], [3, 0], [3, 1], [3, 2], [3, 3]], dtype=float)
     saved = decimate(times, points, 0.05, 1e-6)

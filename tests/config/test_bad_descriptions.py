@@ -16,7 +16,7 @@ def refused(tmp_path, text, name="robot.urdf"):
     """What `new` and the configuration say of a description; both are short."""
     (tmp_path / name).write_text(text)
     (tmp_path / "cell.yaml").write_text(f"urdf: {{file: {name}}}\n")
-    said = []
+    messages = []
     for ask in (
         lambda: load_config(tmp_path / "cell.yaml"),
         lambda: new(tmp_path / "made.yaml", urdf=tmp_path / name, force=True),
@@ -26,8 +26,8 @@ def refused(tmp_path, text, name="robot.urdf"):
         assert len(render(caught.value.diagnostics)) < FOUR_KB
         without = [d.message for d in caught.value.diagnostics if not d.help]
         assert [words for words in without if not words.startswith("and ")] == []
-        said.append({d.code: d for d in caught.value.diagnostics})
-    return said
+        messages.append({d.code: d for d in caught.value.diagnostics})
+    return messages
 
 
 @pytest.mark.parametrize("count", [200, 2000, 20000])
@@ -65,9 +65,9 @@ def test_a_chain_of_absurd_length_in_a_configuration(tmp_path):
 
 def test_a_mimic_joint_is_the_reason(tmp_path):
     first, second = refused(tmp_path, six(more='<mimic joint="joint_2"/>'))
-    for said in (first, second):
-        assert "'joint_3' mimics 'joint_2'" in said["RG042"].message
-        assert said["RG042"].span.path.endswith("robot.urdf")
+    for messages in (first, second):
+        assert "'joint_3' mimics 'joint_2'" in messages["RG042"].message
+        assert messages["RG042"].span.path.endswith("robot.urdf")
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes here")
@@ -91,7 +91,7 @@ def test_a_description_is_a_file(tmp_path, what):
     ["<?x <!-- ?>", "<!-- a -->", '<?xml version="1.0"?>', "<?x ]]> ?>", "\n\n<?a?><!-- <?b -->"],
 )
 @pytest.mark.parametrize("name", ["robot.urdf", "robot.xacro"])
-def test_a_document_type_behind_whatever(tmp_path, head, name):
+def test_document_type_after_any_prefix_is_refused(tmp_path, head, name):
     text = f'{head}<!DOCTYPE r [<!ENTITY e "x">]>{robot(BASE, arm())}<!-- -->'
     first, _ = refused(tmp_path, text, name)
     assert "no document type" in first["RG060"].message
@@ -125,7 +125,7 @@ def included(tmp_path, part, top=""):
         ("<link name='${1/0}'/>", "RG061", 1),
     ],
 )
-def test_a_fault_of_an_included_file_is_said_there(tmp_path, part, code, line):
+def test_fault_of_an_included_file_is_reported_there(tmp_path, part, code, line):
     first, second = refused(tmp_path, included(tmp_path, part), "robot.xacro")
     for message in (first, second):
         assert message[code].span.path.endswith("part.xacro"), message[code]
@@ -133,7 +133,7 @@ def test_a_fault_of_an_included_file_is_said_there(tmp_path, part, code, line):
 
 
 @pytest.mark.parametrize("name", ["arm\x1b[31m.urdf", "a\nb.urdf", "\udcff.urdf"])
-def test_an_unsound_file_name_is_told(tmp_path, name):
+def test_invalid_file_name_is_reported(tmp_path, name):
     path = tmp_path / name
     path.write_text(drawn("irb120"))
     with pytest.raises(DiagnosticError) as caught:

@@ -116,7 +116,7 @@ def test_both_arms_of_a_yumi_have_the_controllers_tasks(tmp_path, left, right):
         assert own in {j.name for j in group.joints}
 
 
-def test_arms_of_a_yumi_that_no_name_tells_leave_their_tasks_open(tmp_path):
+def test_yumi_arms_with_unclear_names_leave_tasks_open(tmp_path):
     (tmp_path / "robot.urdf").write_text(yumi("a_{}", "b_{}"))
     with pytest.raises(DiagnosticError) as caught:
         new(tmp_path / "cell.yaml", urdf=tmp_path / "robot.urdf")
@@ -144,7 +144,7 @@ DELTA = robot(
         (robot(BASE, arm(), name="ur10e_robot"), "is no robot of ABB"),
     ],
 )
-def test_what_is_no_robot_of_abb_is_told_as_such(tmp_path, text, word):
+def test_robot_of_another_maker_is_reported(tmp_path, text, word):
     with pytest.raises(DiagnosticError) as caught:
         made(tmp_path, text)
     assert [d.code for d in caught.value.diagnostics] == ["RG059"]

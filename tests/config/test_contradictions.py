@@ -150,19 +150,19 @@ def test_20_a_group_without_a_robot(tmp_path):
 
 
 @pytest.mark.parametrize("keep", ["[eax_a]", "[rax_6]", "[rax_9]", "{rax_5: on}", "rax_5"])
-def test_20_what_cannot_be_kept(tmp_path, keep):
+def test_20_invalid_held_axes_are_reported(tmp_path, keep):
     (tmp_path / "cell.yaml").write_text(f"model: irb120\nheld_axes: {keep}\n")
     with pytest.raises(DiagnosticError) as caught:
         load_config(tmp_path / "cell.yaml")
     assert {d.code for d in caught.value.diagnostics} <= {"RG006", "RG021"}
 
 
-def test_an_end_that_is_turned_against_the_flange_is_said(check):
+def test_end_turned_against_the_flange_is_reported(check):
     text = drawn("irb120", name_of="x")
     start = text.rindex("rpy=")
     turned = text[:start] + re.sub('rpy="[^"]*"', 'rpy="0 0 0"', text[start:], count=1)
-    for description, said in ((text, False), (turned, True)):
+    for description, messages in ((text, False), (turned, True)):
         made, result = check(description)
         assert made
-        assert ("RG055" in result) is said
+        assert ("RG055" in result) is messages
     assert "the end is turned by 90 deg from its flange" in result["RG055"].message

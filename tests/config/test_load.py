@@ -52,21 +52,21 @@ def test_five_faults_are_five_findings_with_their_places(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "mend"),
+    ("text", "fix"),
     [
         ("max_points: 500", "the limit of points is `capacity:` in `trajectory:`"),
-        ("robotware: 6.15", "`robotware:` stands in `controller:`"),
-        ("state: {rate: 10, capacity: 5}", "`capacity:` stands in `trajectory:`"),
+        ("robotware: 6.15", "`robotware:` belongs in `controller:`"),
+        ("state: {rate: 10, capacity: 5}", "`capacity:` belongs in `trajectory:`"),
         ("groups: {rob1: {profile: basic}}", "`profile:` belongs at the top of the file"),
         ("controller: {ports: {motion: 1}}", "`ports:` belongs in a group, or at the top"),
         # Of objects and of loads there are several.
         ("controller: {mass: 3}", "known here: type, robotware"),
     ],
 )
-def test_a_key_at_a_wrong_place_is_told_where_it_stands(tmp_path, text, mend):
+def test_misplaced_key_gets_its_correct_place(tmp_path, text, fix):
     (result,) = faults(tmp_path, f"model: irb120\n{text}\n")
     assert result.code == "RG005"
-    assert mend in result.help
+    assert fix in result.help
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_a_key_at_a_wrong_place_is_told_where_it_stands(tmp_path, text, mend):
         "model: irb120\nwork_object: {name: a-b, held: true}\n",
     ],
 )
-def test_what_follows_from_a_fault_is_no_fault_of_its_own(tmp_path, text):
+def test_consequence_of_a_fault_is_not_reported(tmp_path, text):
     assert [d.code for d in faults(tmp_path, text)] == ["RG006"]
 
 
@@ -116,7 +116,7 @@ def test_other_versions_are_refused(tmp_path, text):
         ("network: {bind: hier}", "lan, service or an IPv4 address"),
     ],
 )
-def test_a_text_of_the_wrong_form_is_told_the_form_in_words(tmp_path, line, wanted):
+def test_text_of_wrong_form_gets_the_form_in_words(tmp_path, line, wanted):
     (result,) = [d for d in faults(tmp_path, f"{line}\nmodel: irb120\n") if d.code == "RG006"]
     assert result.message.endswith(f"must be {wanted}")
     assert "[A-Z" not in f"{result.message}{result.help}"
@@ -163,7 +163,7 @@ def test_a_key_without_a_value_is_refused(tmp_path, text, place, word):
     assert word in result[0].message
 
 
-def test_a_decimal_comma_is_told_as_such(tmp_path):
+def test_decimal_comma_is_reported(tmp_path):
     result = faults(tmp_path, "model: irb120\ntool: {name: t, load: {mass: 1,2}}\n")
     assert "1.2" in result[0].help
 
@@ -262,7 +262,7 @@ def test_limits_are_rounded_inwards_to_a_hundredth(tmp_path):
     assert math.degrees(joint.upper) == pytest.approx(90.0, abs=1e-9)
 
 
-def test_a_limit_beyond_the_model_is_said(tmp_path):
+def test_limit_beyond_the_model_is_reported(tmp_path):
     config = load(tmp_path, "model: irb120\njoints: {joint_1: {upper: 170}}")
     (warning,) = config.diagnostics
     assert (warning.code, warning.severity) == ("RG049", Severity.WARNING)
@@ -297,7 +297,7 @@ def test_a_joint_of_another_name_on_a_known_axis_is_that_joint(tmp_path):
     assert [link.joint for link in group.chain][:3] == ["joint_1", "shoulder", "joint_3"]
 
 
-def test_what_the_schema_cannot_say_is_checked(tmp_path):
+def test_rules_beyond_the_schema_are_checked(tmp_path):
     text = (
         "model: irb120\n"
         "tool: {name: gripper, frame: {orientation: [1, 1, 0, 0]}}\n"
@@ -321,7 +321,7 @@ def test_what_the_schema_cannot_say_is_checked(tmp_path):
         "model: irb120\nchain: [{joint: joint_9}, {joint: joint_1, axis: [0, 0, 0]}]\n",
     ],
 )
-def test_what_is_wrong_is_told_with_what_mends_it(tmp_path, text):
+def test_faults_are_reported_with_a_fix(tmp_path, text):
     result = faults(tmp_path, text)
     assert result
     assert [d.message for d in result if not d.help] == []
@@ -425,7 +425,7 @@ def test_a_slip_in_the_letters_suggests_the_robot(name):
         ("a: 'one\nb: 2\n", "'", "'"),
     ],
 )
-def test_what_is_not_closed_is_told_where_it_was_opened(tmp_path, text, opened, closing):
+def test_unclosed_text_is_reported_at_its_start(tmp_path, text, opened, closing):
     (fault,) = faults(tmp_path, text)
     assert places([fault]) == [("RG003", 1, 4)]
     assert f"`{opened}` is opened here and not closed" in fault.message
@@ -484,7 +484,7 @@ def test_data_have_one_name_each_and_need_the_control_port(tmp_path):
         assert places(faults(tmp_path, wrong)), name
 
 
-def test_a_positioner_is_an_external_unit_that_an_external_axis_moves(tmp_path):
+def test_positioner_requires_an_external_axis(tmp_path):
     text = (
         "model: irb120_track\n"
         "external_units: [TRACK_1, STN_1]\n"

@@ -144,7 +144,7 @@ def test_a_robot_without_an_irc5_gets_none(tmp_path, source, message, wanted):
     ],
 )
 @pytest.mark.parametrize("source", ["irb1600", "irb1600_10_145", "urdf"])
-def test_controller_and_robotware_are_as_said(tmp_path, source, message, wanted):
+def test_controller_and_robotware_are_as_given(tmp_path, source, message, wanted):
     path = tmp_path / "cell.yaml"
     if source == "urdf":
         (tmp_path / "r.urdf").write_text(drawn("irb1600", name_of="x"))
@@ -162,7 +162,7 @@ def test_an_axis_of_length_0_is_a_finding(tmp_path):
     assert not (tmp_path / "cell.yaml").exists()
 
 
-def test_what_cannot_be_known_is_open_in_the_file(tmp_path):
+def test_unknown_values_are_open_in_the_file(tmp_path):
     (tmp_path / "r.urdf").write_text(
         f'<robot name="irb">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
     )
@@ -183,7 +183,7 @@ def axes_of(path):
     return [j.axis for j in load_config(path).groups[0].joints]
 
 
-def test_axes_are_said_on_the_command_line(tmp_path):
+def test_axes_can_be_given_on_the_command_line(tmp_path):
     (tmp_path / "r.urdf").write_text(f'<robot name="r">{chain(names=range(3, 10))}</robot>')
     path = tmp_path / "cell.yaml"
     message = [f"joint_{n}=rax_{n - 3}" for n in range(4, 10)]
@@ -192,7 +192,7 @@ def test_axes_are_said_on_the_command_line(tmp_path):
     assert codes(path, urdf=tmp_path / "r.urdf", joint=["joint_1=rax_1"]) == (["RG020"], 2)
 
 
-def test_what_is_no_axis_of_the_arm_tells_the_others(tmp_path):
+def test_joint_outside_the_arm_identifies_the_others(tmp_path):
     path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
     urdf.write_text(f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>')
     new(path, urdf=urdf, joint=["joint_7=eax_a"], coupling=0)
@@ -200,7 +200,7 @@ def test_what_is_no_axis_of_the_arm_tells_the_others(tmp_path):
     assert axes_of(path) == seven
 
 
-def test_a_joint_that_cannot_move_is_no_axis_where_six_others_are(tmp_path):
+def test_fixed_joint_next_to_six_others_is_no_axis(tmp_path):
     path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
     stuck = chain().replace('lower="-1" upper="1"', 'lower="0" upper="0"')
     seven = chain(names=range(1, 8))
@@ -228,7 +228,7 @@ SCARA = (
 )
 
 
-def test_a_scara_whose_export_ends_at_the_quill_is_known_by_its_two_arms(tmp_path):
+def test_scara_export_without_quill_is_recognised_by_its_arms(tmp_path):
     path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
     urdf.write_text(SCARA.format(x=0.26, y=0))  # 290 and 260 mm: an IRB 920T-6/0.55
     new(path, urdf=urdf, speed=100)
@@ -264,7 +264,7 @@ def test_a_range_has_two_ends_and_a_joint_that_exists(tmp_path, words):
         ("leg", "", 8, "nothing says ABB"),
     ],
 )
-def test_another_makers_robot_is_told_as_such(tmp_path, name, mesh, count, word):
+def test_another_makers_robot_is_reported(tmp_path, name, mesh, count, word):
     path, urdf = tmp_path / "cell.yaml", tmp_path / "r.urdf"
     joints = chain(names=range(1, count + 1))
     shape = f'<link name="m"><visual><geometry><mesh filename="package://{mesh}/m.stl"/>'
@@ -303,7 +303,7 @@ def person(monkeypatch):
     return answers
 
 
-def test_a_person_is_asked_for_what_is_open(tmp_path, person, capsys):
+def test_user_is_asked_for_open_values(tmp_path, person, capsys):
     (tmp_path / "r.urdf").write_text(
         f'<robot name="irb">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
     )
@@ -350,7 +350,7 @@ def test_a_coupling_is_known_or_open(tmp_path, name, coupling):
         assert load_config(path).groups[0].coupling == coupling
 
 
-def test_a_file_is_only_replaced_when_told(tmp_path):
+def test_file_is_only_replaced_with_force(tmp_path):
     path = tmp_path / "cell.yaml"
     path.write_text("mine")
     assert codes(path, robot="irb120") == (["RG020"], 1)
@@ -398,13 +398,13 @@ def test_a_robot_is_shown_with_axes_reach_and_sources(capsys, name, reach):
     robots(["show", name])
     text = capsys.readouterr().out
     assert text.count("rax_") >= 6
-    told = int(text.split("reach  ")[1].split()[0])
-    assert told == pytest.approx(reach, rel=0.03)
+    printed = int(text.split("reach  ")[1].split()[0])
+    assert printed == pytest.approx(reach, rel=0.03)
     assert "limits: " in text
     assert "coupling 0" in text
 
 
-def test_a_robot_that_nobody_knows_is_not_shown():
+def test_unknown_robot_is_not_shown():
     with pytest.raises(DiagnosticError) as caught:
         robots(["show", "irb9999"])
     assert [d.code for d in caught.value.diagnostics] == ["RG009"]

@@ -81,7 +81,7 @@ def test_05_numbers_off_by_one(check):
     only("RG035", check(robot(BASE, arm([f"joint_{n}" for n in range(2, 8)]))))
 
 
-def test_06_a_prefix_is_resolved_and_said(check):
+def test_06_prefix_is_resolved_and_reported(check):
     config, result = check(robot(BASE, arm([f"cell_joint_{n}_a" for n in range(1, 7)])))
     assert not errors(result)
     assert result["RG036"].severity is Severity.WARNING
@@ -123,7 +123,7 @@ def test_07_a_speed_of_degrees_is_a_warning(check):
 
 
 @pytest.mark.parametrize(
-    ("kind", "velocity", "code", "said", "speed"),
+    ("kind", "velocity", "code", "messages", "speed"),
     [
         ("prismatic", 1, None, "", 1.0),
         ("prismatic", 46, None, "", 46.0),  # 46 m/s are no degrees per second
@@ -135,7 +135,7 @@ def test_07_a_speed_of_degrees_is_a_warning(check):
         ("revolute", 50, "RG039", "50 rad/s looks like a placeholder", 50.0),
     ],
 )
-def test_07_and_09_speeds_of_linear_and_turning_axes(check, kind, velocity, code, said, speed):
+def test_07_and_09_speeds_of_linear_and_turning_axes(check, kind, velocity, code, messages, speed):
     track = joint("track", "base_link", "rail", kind, lower=0, upper=2, velocity=velocity)
     config, result = check(
         robot(BASE, arm(), track, links("rail")), f"{SIX}\n  track: {{axis: eax_a}}"
@@ -143,7 +143,7 @@ def test_07_and_09_speeds_of_linear_and_turning_axes(check, kind, velocity, code
     text = {c: d for c, d in result.items() if c in ("RG037", "RG039")}
     assert set(text) == ({code} if code else set())
     if code:
-        assert said in text[code].message
+        assert messages in text[code].message
     if speed is not None:
         assert next(j for j in config.groups[0].joints if j.name == "track").speed == (
             pytest.approx(speed)
@@ -213,7 +213,7 @@ def scara(lower, upper):
     )
 
 
-def test_11_metres_become_millimetres_and_it_is_said(check):
+def test_11_metres_become_millimetres_with_a_note(check):
     config, result = check(scara(-0.18, 0), SCARA)
     assert result["RG041"].severity is Severity.INFO
     third = config.groups[0].joints[2]
@@ -502,14 +502,14 @@ def test_24_other_limits_are_rounded_inwards(check):
 @pytest.mark.parametrize(
     ("given", "wanted"), [("lower: -30.1", (-30.1, 80)), ("upper: 20.9", (-80, 20.9))]
 )
-def test_24_one_limit_of_ones_own_stays_and_the_urdf_completes_the_other(check, given, wanted):
+def test_24_own_limit_stays_and_urdf_completes_the_other(check, given, wanted):
     text = six(lower=-80 * DEGREE, upper=80 * DEGREE)
     config, _ = check(text, f"joints:\n  joint_3: {{{given}, source: fence}}")
     third = config.groups[0].joints[2]
     assert (math.degrees(third.lower), math.degrees(third.upper)) == pytest.approx(wanted)
 
 
-def test_24_one_limit_of_ones_own_is_judged_with_that_of_the_urdf(check):
+def test_24_own_limit_is_checked_with_the_urdf_limit(check):
     _, result = check(six(lower=-1.4, upper=1.4), "joints:\n  joint_3: {lower: 85}")
     assert errors(result) == ["RG014"]
 

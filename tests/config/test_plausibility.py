@@ -68,7 +68,7 @@ ERROR, WARNING = Severity.ERROR, Severity.WARNING
         ("model: irb120_track\njoints: {track: {speed: 0.9}}\n", "RG071", WARNING, "0.9 mm/s"),
     ],
 )
-def test_a_figure_that_can_hardly_be_is_told(tmp_path, text, code, severity, words):
+def test_implausible_figure_is_reported(tmp_path, text, code, severity, words):
     found = [d for d in findings(tmp_path, text) if d.code == code]
     assert [d.severity for d in found] == [severity]
     assert words in found[0].message
@@ -87,7 +87,7 @@ def test_a_figure_that_can_hardly_be_is_told(tmp_path, text, code, severity, wor
         "model: irb120\nmax_payload: 4\ntool: {name: g, load: {mass: 4}}\n",
     ],
 )
-def test_what_robots_have_is_no_finding(tmp_path, text):
+def test_figures_of_real_robots_are_plausible(tmp_path, text):
     assert findings(tmp_path, text) == ()
 
 

@@ -109,7 +109,7 @@ def test_examples_fit_the_schema(path):
 
 
 @pytest.mark.parametrize("name", shipped_names())
-def test_shipped_files_have_no_group_of_their_own_unless_they_need_it(name):
+def test_shipped_files_have_groups_only_if_needed(name):
     data = to_python(parse(find_shipped(name).read_text(encoding="utf-8"), name)[0])
     assert data["description"]
     assert data["generations"]

@@ -74,12 +74,12 @@ def test_a_model_is_complete_and_has_its_sources(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_unsure_figures_are_said_and_only_those(name):
+def test_only_uncertain_figures_are_reported(name):
     config = load_config(name)
     text = find_shipped(name).read_text(encoding="utf-8")
-    said = [d for d in config.diagnostics if d.code == "RG016"]
-    assert bool(said) == bool(re.search(r"unsure: \[", text))
-    for group, warning in zip(config.groups, said, strict=False):
+    messages = [d for d in config.diagnostics if d.code == "RG016"]
+    assert bool(messages) == bool(re.search(r"unsure: \[", text))
+    for group, warning in zip(config.groups, messages, strict=False):
         for joint in group.joints:
             assert joint.unsure == (f"{joint.name} " in warning.message)
 

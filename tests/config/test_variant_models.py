@@ -50,7 +50,7 @@ def test_names_of_variants_are_their_own():
 
 
 @pytest.mark.parametrize("variant", LACKING, ids=model_name)
-def test_a_variant_that_is_not_known_enough_says_what_it_lacks(tmp_path, variant):
+def test_incomplete_variant_names_its_missing_figures(tmp_path, variant):
     with pytest.raises(DiagnosticError) as fault:
         loaded(tmp_path, variant)
     (result,) = fault.value.diagnostics

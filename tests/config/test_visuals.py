@@ -85,7 +85,7 @@ def test_a_link_leads_to_the_sources_of_the_same_package(home):
     assert path == home / "src" / "arm" / "meshes" / "link.STL"
 
 
-def test_without_a_package_the_folder_of_the_configuration_is_home(home):
+def test_without_package_the_configuration_folder_is_home(home):
     own = home / "project" / "urdf"
     own.mkdir()
     (own / "arm.urdf").write_text("<robot/>")

@@ -108,7 +108,7 @@ def test_the_configuration_goes_before_the_search(tmp_path):
         Packages({"p": tmp_path / "three"}, [tmp_path / "two"], tmp_path, {}).find("p")
 
 
-def test_what_is_replaced_in_xacro_is_put_back(arm_package, tmp_path):
+def test_replaced_names_of_xacro_are_restored(arm_package, tmp_path):
     import xacro
     from xacro import substitution_args
 
@@ -133,7 +133,7 @@ def test_a_macro_is_called_through_a_wrapper(tmp_path):
     assert load_config(path).groups[0].joints[0].name == "joint_1"
 
 
-def test_a_macro_says_what_it_needs(tmp_path):
+def test_macro_without_arguments_lists_them(tmp_path):
     (tmp_path / "robot.xacro").write_text(MACRO)
     assert codes(configure(tmp_path, "  macro: arm\n  macro_args: {knid: x}\n")) == ["RG056"] * 2
     assert codes(configure(tmp_path, "  macro: amr\n")) == ["RG031"]
@@ -158,7 +158,7 @@ def test_a_macro_says_what_it_needs(tmp_path):
         ("", "RG060"),
     ],
 )
-def test_what_cannot_be_expanded_is_one_finding(tmp_path, text, code):
+def test_failed_expansion_is_one_finding(tmp_path, text, code):
     (tmp_path / "robot.xacro").write_text(text)
     assert codes(configure(tmp_path)) == [code]
 

@@ -55,7 +55,7 @@ def test_full_shows_source_line_and_carets_under_the_span():
     )
 
 
-def test_carets_stand_under_the_text_behind_a_tab():
+def test_carets_are_under_the_text_after_a_tab():
     result = Diagnostic("RG001", Severity.ERROR, "m", Span("cell.yaml", 3, 2, 3, 7))
     displayed = render([result], lines_of=lines_of).splitlines()
     assert displayed[3].index("count") == displayed[4].index("^^^^^")
@@ -110,7 +110,7 @@ def test_colour_is_only_there_when_asked_for():
     assert "\x1b[" not in render([UNKNOWN], lines_of=lines_of)
 
 
-def test_a_place_that_cannot_be_read_still_gives_message_and_help(tmp_path):
+def test_unreadable_place_still_gives_message_and_help(tmp_path):
     result = Diagnostic(
         "RG001", Severity.ERROR, "m", Span(str(tmp_path / "gone"), 7, 1), "here", "h"
     )
@@ -128,7 +128,7 @@ def test_a_very_long_line_is_shown_around_its_mark():
     assert len(displayed) < 1000
 
 
-def test_suggest_ignores_case_and_keeps_quiet_when_nothing_is_close():
+def test_suggest_ignores_case_and_is_empty_without_match():
     assert suggest("MOTIN", ["motion", "state"]) == "did you mean 'motion'?"
     assert suggest("zzz", ["motion", "state"]) == ""
 

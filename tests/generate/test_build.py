@@ -82,7 +82,7 @@ def test_build_id_depends_on_every_input(irb120, output):
     assert re.fullmatch("[0-9a-f]{12}", output.build_id)
 
 
-def test_set_changes_only_what_it_says(output):
+def test_set_changes_only_the_named_key(output):
     changed = build(
         load_config("irb120", overrides=["trajectory.capacity=5000", "ports.motion=12000"])
     )
@@ -161,7 +161,7 @@ def test_text_beyond_ascii_is_refused_with_the_reason(irb120, name):
     assert "did not load" in result.notes[0]
 
 
-def test_what_a_controller_loads_is_ascii(irb120):
+def test_files_for_a_controller_are_ascii(irb120):
     """Names of joints may be anything: they are not written."""
     first, *others = irb120.groups[0].joints
     group = replace(irb120.groups[0], joints=(replace(first, name="drehung_ü"), *others))
@@ -267,7 +267,7 @@ def test_literals_are_the_shortest_that_read_back(value, text):
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), 1e39])
-def test_what_a_num_cannot_hold_is_no_literal(value):
+def test_literal_beyond_a_num_is_refused(value):
     with pytest.raises((ValueError, OverflowError)):
         literal(value)
 

@@ -44,7 +44,7 @@ def names(text, section, attribute="Name"):
     return [instance.text(attribute) for instance in text.instances(section)]
 
 
-def test_what_the_cell_has_is_taken(backup):
+def test_parts_of_the_cell_are_used(backup):
     config, _, texts = built(backup)
     (group,) = config.groups
     assert config.robotware == (6, 7)

@@ -70,7 +70,7 @@ def test_each_line_has_a_row_and_each_row_a_line(release):
 
 
 @pytest.mark.parametrize("release", BUILDS)
-def test_what_nobody_has_shown_is_in_files_that_may_be_refused(release):
+def test_unconfirmed_rows_are_in_optional_files(release):
     rows = table("Lines")
     statuses = {line for line in rows if "-Status" in line}
     for path, text in cfg_texts(release):

@@ -25,7 +25,7 @@ def bench_of(overrides):
 
 
 @pytest.mark.parametrize("given_by", ["GripLoad", "TLoad"])
-def test_the_values_of_another_module_are_taken_at_the_next_trajectory(given_by):
+def test_changed_external_data_apply_at_next_trajectory(given_by):
     with bench_of({**ELSEWHERE, "payload.given_by": given_by}) as bench:
         view = bench.controller.task("T_ROB1")
         link = bench.motion()

@@ -30,7 +30,7 @@ def test_every_kind_of_robot_has_one():
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda p: p.stem)
-def test_the_golden_is_what_is_built(path):
+def test_build_matches_the_golden(path):
     folder = GOLDENS / path.stem
     files = (p for p in folder.rglob("*") if p.is_file())
     result = {p.relative_to(folder).as_posix(): p.read_bytes() for p in files}
@@ -65,7 +65,7 @@ def test_no_golden_without_its_example():
     assert result == {p.stem for p in EXAMPLES}
 
 
-def test_of_the_whole_ones_one_is_coupled_one_has_two_arms_and_a_track_one_is_of_robotware_7():
+def test_whole_goldens_cover_coupling_two_arms_and_robotware_7():
     coupled, two, seven = map(
         load_config, (EXAMPLES[0].with_name(f"{name}.yaml") for name in WHOLE)
     )

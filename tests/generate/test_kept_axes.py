@@ -21,7 +21,7 @@ def robot(tmp_path):
     """A controller of an IRB 120 whose axis 5 stands somewhere, with a driver that keeps it."""
     benches = []
 
-    def boot(keep, stands):
+    def boot(keep, axis_value):
         (tmp_path / "cell.yaml").write_text(
             f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nheld_axes: {keep}\n"
             f"joints:\n{JOINTS}\n"
@@ -31,7 +31,7 @@ def robot(tmp_path):
             config, make_system(config, build(config)), robots=load_config("irb120").groups
         )
         benches.append(bench)
-        bench.motion_group.jump((0.0, 0.1, 0.0, 0.0, stands, 0.0))
+        bench.motion_group.jump((0.0, 0.1, 0.0, 0.0, axis_value, 0.0))
         bench.run(1)
         return bench
 
@@ -74,14 +74,14 @@ def test_the_readme_tells(tmp_path, keep, message):
 
 
 @pytest.mark.parametrize("keep", ["[rax_5]", "{rax_5: 30}"])
-def test_a_trajectory_leaves_it_where_it_stands(robot, keep):
+def test_trajectory_leaves_the_held_axis_in_place(robot, keep):
     bench = robot(keep, THIRTY)
     bench.motion().send(bench.download(way(bench)))
     bench.run(10)
     as_moved(bench, THIRTY)
 
 
-def test_a_trajectory_is_refused_where_it_has_to_stand_elsewhere(robot):
+def test_trajectory_with_held_axis_off_its_place_is_refused(robot):
     bench = robot("{rax_5: 30}", -THIRTY)
     bench.motion().send(bench.download(way(bench)))
     bench.run(10)
@@ -99,7 +99,7 @@ def test_it_was_jogged_while_the_trajectory_came(robot):
     assert bench.position == pytest.approx((0.0, 0.1, 0.0, 0.0, 0.4, 0.0))
 
 
-def test_a_stream_leaves_it_where_it_stands(robot):
+def test_stream_leaves_the_held_axis_in_place(robot):
     bench = robot("[rax_5]", THIRTY)
     stream = Streamer(bench)
     stream.takes("a way with axis 5 kept", way(bench), BEGIN | END)
@@ -107,7 +107,7 @@ def test_a_stream_leaves_it_where_it_stands(robot):
     as_moved(bench, THIRTY)
 
 
-def test_a_stream_is_refused_where_it_has_to_stand_elsewhere(robot):
+def test_stream_with_held_axis_off_its_place_is_refused(robot):
     bench = robot("{rax_5: -30}", THIRTY)
     Streamer(bench).refuses(
         RawReason.START_TOO_FAR, "axis 5 stands elsewhere", way(bench), BEGIN | END

@@ -84,7 +84,7 @@ def test_groups_share_no_persistent(name):
     assert len(set(owner.values())) == len(config.groups)
 
 
-def test_the_tree_is_what_was_written():
+def test_tree_matches_the_written_text():
     for file in build(load_config("irb120")).files:
         if file.kind == "module":
             module = parse(file.data, path=file.path)

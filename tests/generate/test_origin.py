@@ -52,15 +52,15 @@ def test_a_text_of_other_templates_has_names_and_lines_alone(modules):
     assert origin_of(text, lines).templates
     other = text.replace("PROC main()", "PROC start()")
     assert other != text
-    for bad, told in (
+    for bad, mapped in (
         (other, lines),
         (text, [(line, template, number + 1) for line, template, number in lines]),
         (text, [*lines, (len(lines) + 5, lines[0][1], 1)]),
         (text, [(1, lines[0][1], 10**9)]),
         (text, [(1, lines[0][1], 0)]),
     ):
-        result = origin_of(bad, told)
-        assert result.lines == tuple(told)
+        result = origin_of(bad, mapped)
+        assert result.lines == tuple(mapped)
         assert result.templates == {}
 
 

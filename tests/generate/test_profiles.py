@@ -15,6 +15,6 @@ def test_basic_profile_has_no_stream_and_no_control_server(name):
 
 
 @pytest.mark.parametrize("key", ["ports.control=11001", "signals.valve={kind: DO}"])
-def test_what_the_basic_profile_lacks_cannot_be_asked_for(key):
+def test_basic_profile_rejects_options_of_the_full_one(key):
     with pytest.raises(DiagnosticError, match="full profile"):
         load_config("irb120", overrides=["profile=basic", key])

@@ -16,7 +16,7 @@ def readme(name, *overrides):
 
 
 @pytest.mark.parametrize(
-    ("robot", "overrides", "told", "untold"),
+    ("robot", "overrides", "present", "absent"),
     [
         (
             "irb120",
@@ -39,14 +39,14 @@ def readme(name, *overrides):
         ("crb15000", ("network.bind=service",), ("`EnableOnPrivateNet`",), ("PublicNet",)),
     ],
 )
-def test_socket_options_and_firewall(robot, overrides, told, untold):
+def test_socket_options_and_firewall(robot, overrides, present, absent):
     text = readme(robot, *overrides)
-    assert [words for words in told if words not in text] == []
-    assert [words for words in untold if words in text] == []
+    assert [words for words in present if words not in text] == []
+    assert [words for words in absent if words in text] == []
 
 
 @pytest.mark.parametrize("robot", ["irb120", "irb14000", "crb15000"])
-def test_what_comes_first_and_the_way_back(robot):
+def test_readme_has_first_steps_and_removal(robot):
     text = readme(robot)
     places = [
         text.index(words)
@@ -84,7 +84,7 @@ def two_groups(tmp_path):
     return tmp_path / "two.yaml"
 
 
-def test_what_is_copied_as_told_lies_where_the_cfg_looks_for_it(two_groups):
+def test_files_copied_as_documented_are_where_cfg_expects(two_groups):
     for config in map(load_config, ("irb120", two_groups)):
         files = {f.path: f.data.decode("ascii") for f in build(config).files}
         text = files["README.md"]
@@ -117,6 +117,6 @@ def test_data_that_a_module_of_the_customers_declares_are_named(two_groups):
 
 
 @pytest.mark.parametrize(("profile", "streams"), [("full", True), ("basic", False)])
-def test_a_stream_is_told_of_where_there_is_one(profile, streams):
+def test_readme_mentions_streams_only_if_supported(profile, streams):
     text = readme("irb120", f"profile={profile}")
     assert ("\n- A stream has any number of points" in text) is streams

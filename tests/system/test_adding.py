@@ -106,7 +106,7 @@ def test_an_instance_twice_in_one_file():
     assert codes(load(EIO6 + SIGNAL + ' -Name "DOA" -SignalType "DO"\n')) == [("RG721", 5)]
 
 
-def test_modules_and_hooks_of_several_tasks_are_several_instances():
+def test_modules_and_hooks_of_several_tasks_are_separate():
     """RARO repeats the file for each task, VInRoS the routine."""
     loaded = load(
         SYS6 + 'CAB_TASKS:\n -Name "T_A"\nCAB_TASK_MODULES:\n'
@@ -189,7 +189,7 @@ def test_system_outputs_of_robotware_7():
     assert {fault.code for fault in load(in_eio, **SEVEN).faults} == {"RG722"}
 
 
-def test_words_that_nobody_has_shown_on_robotware_7():
+def test_unconfirmed_words_on_robotware_7():
     """Refused, or taken where the reading says so."""
     open_words = out7("MechUnitNotMoving", arguments='-Arg1 "ROB_1"')
     assert load(open_words, EIO7 + SIGNAL, **SEVEN).faults
@@ -246,7 +246,7 @@ def test_the_firewall_is_set_and_not_added():
         "XYZ:CFG_1.0:6:0::\n",
     ],
 )
-def test_what_no_event_is_known_for(text):
+def test_faults_without_a_known_event(text):
     result = load(text).faults
     assert {fault.code for fault in result} == {"RG723"}
     assert all("[mem]" in fault.message for fault in result)

@@ -122,7 +122,7 @@ SECTIONS = st.lists(
 
 
 @given(SECTIONS)
-def test_what_is_written_is_read_back(sections):
+def test_written_text_is_read_back(sections):
     written = write_cfg(CfgText("SYS", (7, 0), tuple(sections)))
     read = parse_cfg(written)
     plain = [(s.name, [i.attributes for i in s.instances]) for s in read.sections]
@@ -134,7 +134,7 @@ def test_what_is_written_is_read_back(sections):
             assert len(alone.attributes) == 1
 
 
-def test_an_attribute_longer_than_a_line_stands_alone():
+def test_attribute_longer_than_a_line_has_its_own_line():
     attributes = (Attribute("A", (1,)), Attribute("B" * 31, (-1.5e-300, 10**40)), Attribute("C"))
     cfg = CfgText("SYS", (7, 0), (Section("S", (Instance(attributes),)),))
     lines = write_cfg(cfg).splitlines()[4:]

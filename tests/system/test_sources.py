@@ -235,14 +235,14 @@ def test_loose_files(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("content", "mend"), [(MODULE % b"Work", "call it work.mod"), (b"", "<Module>NAME.mod")]
+    ("content", "fix"), [(MODULE % b"Work", "call it work.mod"), (b"", "<Module>NAME.mod")]
 )
-def test_a_program_file_that_lists_no_modules(tmp_path, content, mend):
+def test_a_program_file_that_lists_no_modules(tmp_path, content, fix):
     put(tmp_path / "work.pgf", content)
     with pytest.raises(DiagnosticError) as caught:
         read_files([tmp_path / "work.pgf"])
     (report,) = caught.value.diagnostics
-    assert (report.code, mend in report.help) == ("RG709", True)
+    assert (report.code, fix in report.help) == ("RG709", True)
 
 
 def test_several_tasks_and_a_program_file(tmp_path):
@@ -475,7 +475,7 @@ def test_two_files_of_one_module_in_a_task(backup):
     assert [m.name for m in system.tasks[0].modules] == ["user", "Work", "Shared"]
 
 
-def test_a_folder_with_a_program_has_the_system_modules_beside_it(tmp_path):
+def test_program_folder_includes_its_system_modules(tmp_path):
     put(tmp_path / "work.pgf", "<?xml version='1.0'?><Program><Module>work.mod</Module></Program>")
     for name in ("work.mod", "old.mod", "lib.sys"):
         put(tmp_path / name, f"MODULE {name[:-4]}\nENDMODULE\n")
@@ -483,7 +483,7 @@ def test_a_folder_with_a_program_has_the_system_modules_beside_it(tmp_path):
     assert [module.name for module in task.modules] == ["work", "lib"]
 
 
-def test_what_macos_leaves_beside_a_file_is_no_module(tmp_path):
+def test_macos_resource_file_is_no_module(tmp_path):
     put(tmp_path / "main.mod", MODULE % b"Main")
     put(tmp_path / "._main.mod", b"\x00\x05\x16\x07\x00\x02\x00\x00Mac OS X")
     (task,) = read_files({"T_ROB1": [tmp_path]}).tasks

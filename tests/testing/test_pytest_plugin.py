@@ -168,7 +168,7 @@ def test_the_plugin_imports_no_controller() -> None:
 
 
 @pytest.mark.parametrize("given", [(), ("5",), (2.5,), (1, 5)])
-def test_what_is_no_number_of_seeds_is_told(given) -> None:
+def test_invalid_number_of_seeds_is_reported(given) -> None:
     marker = pytest.mark.virtual_seeds(*given).mark
     test = SimpleNamespace(
         definition=SimpleNamespace(nodeid="test_a.py::test_b", get_closest_marker=lambda _: marker),

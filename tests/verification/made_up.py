@@ -24,5 +24,5 @@ def along(*places, steps=20):
     return failures
 
 
-def red(what="", *, by=CheckFailed):
+def check_fails(what="", *, by=CheckFailed):
     return pytest.raises(by, match=what)

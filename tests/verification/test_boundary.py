@@ -52,7 +52,7 @@ def test_every_field_takes_every_boundary_value():
             assert {f"{name}={value}" for value in values} <= made.keys()
 
 
-def test_a_value_stands_in_its_field_alone():
+def test_boundary_value_changes_only_its_field():
     made = dict(messages_of(CONFIG))
     data = made["JOINT_TRAJ_PT.duration=0x7f800000"]
     assert struct.unpack("<4i i 10f f f", data) == (
@@ -81,7 +81,7 @@ def test_a_driver_that_a_message_harms_is_found():
     assert [trial for trial, _ in result] == [harmful]
 
 
-def test_drawn_messages_have_boundary_values_in_half_of_their_fields():
+def test_drawn_messages_have_half_boundary_values():
     chance = random.Random(1)
     made = [drawn(CONFIG, chance) for _ in range(400)]
     values = [w for data in made for w in struct.unpack(f"<{len(data) // 4 - 4}I", data[16:])]

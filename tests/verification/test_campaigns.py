@@ -58,7 +58,7 @@ def fails(_context, number):
 
 
 @pytest.mark.parametrize("jobs", [1, 2, 3])
-def test_results_are_in_order_whoever_finds_them(jobs):
+def test_results_with_any_worker_are_in_order(jobs):
     with LocalPool(None, jobs) as workers:
         assert list(each(workers, range(20), double)) == list(range(0, 40, 2))
 
@@ -70,7 +70,7 @@ def test_a_worker_that_is_killed_loses_nothing(tmp_path):
     assert (tmp_path / "was-killed").exists()
 
 
-def test_a_worker_that_is_killed_while_it_has_nothing_to_do_is_replaced():
+def test_idle_worker_that_is_killed_is_replaced():
     with LocalPool(None, 1) as workers:
         (process,) = workers.processes()
         os.kill(process, signal.SIGKILL)
@@ -82,7 +82,7 @@ def test_a_piece_that_ends_every_worker_ends_the_work():
         list(each(workers, range(3), killed))
 
 
-def test_what_a_piece_raises_is_raised_with_where_that_was():
+def test_exception_of_an_item_is_raised_with_its_traceback():
     with LocalPool(None, 2) as workers, pytest.raises(ValueError, match="of the second") as raised:
         list(each(workers, range(3), fails))
     assert "in fails" in str(raised.value.__cause__)
@@ -104,7 +104,7 @@ def test_a_piece_may_depend_on_the_results_before_it():
     assert accepted == [n if n % 4 == 0 else 2 * n for n in range(20)]
 
 
-def test_workers_end_with_whoever_gives_them_work():
+def test_workers_end_with_their_parent():
     """Also when that is killed: no process of it stays."""
     reading, writing = os.pipe()
     child = os.fork()
@@ -130,7 +130,7 @@ def comparable(report):
     return result
 
 
-def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(tmp_path):
+def test_results_after_interruption_with_other_workers_are_equal(tmp_path):
     files = []
     for jobs in (1, 2):
         path = tmp_path / f"{jobs}.jsonl"
@@ -146,7 +146,7 @@ def test_results_are_the_same_whatever_the_workers_and_where_it_was_broken_off(t
     assert comparable(again) == comparable(report)
 
 
-def test_schedules_and_programs_are_the_same_whatever_the_workers(tmp_path):
+def test_schedules_and_programs_do_not_depend_on_workers(tmp_path):
     result = [
         run_suite(
             SIX_AXES,
@@ -218,7 +218,7 @@ def _ill(bench):
     raise CheckFailed("it is ill")
 
 
-def test_work_that_ends_its_workers_is_told(monkeypatch, capsys):
+def test_item_that_ends_its_workers_is_reported(monkeypatch, capsys):
     monkeypatch.setattr("rapidgen.verification.testbench.Bench.compile", _ends)
     assert main(["test", "irb120", "--quick", "--case", "ping", "--jobs", "1"]) == 2
     assert "RG809" in capsys.readouterr().err

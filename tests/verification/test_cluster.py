@@ -152,7 +152,7 @@ def test_a_cluster_without_workers_is_refused(scheduler, monkeypatch):
         Cluster(scheduler, None, print)
 
 
-def test_nobody_at_the_address_is_refused(monkeypatch, capsys):
+def test_address_without_scheduler_is_refused(monkeypatch, capsys):
     monkeypatch.setattr("rapidgen.verification.cluster.CONNECTS", 0.5)
     values = ["test", "irb120", "--quick", "--case", "ping", "--cluster", "tcp://127.0.0.1:1"]
     assert main(values) == 2

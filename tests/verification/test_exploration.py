@@ -67,7 +67,7 @@ def names_of(guide, *, late):
     return names
 
 
-def test_a_guide_names_the_same_however_many_schedules_are_under_way():
+def test_selector_with_any_number_of_runs_names_the_same():
     ground = ground_of(SMALL, small_driver())
     early = names_of(ScheduleSelector(ground), late=False)
     assert early == names_of(ScheduleSelector(ground), late=True)
@@ -87,7 +87,7 @@ def test_a_schedule_without_a_name_is_refused(text, capsys):
     assert "RG807" in capsys.readouterr().err
 
 
-def test_what_is_left_of_a_schedule_is_drawn_as_before():
+def test_remaining_steps_of_a_schedule_are_drawn_as_before():
     ground = ground_of(SMALL, small_driver())
     complete, part = drawn(named("17~4"), ground), drawn(named("17~4/steps=1/turns/calm"), ground)
     assert part.steps == complete.steps[1:2]
@@ -144,7 +144,7 @@ def test_a_schedule_is_the_same_when_it_is_traced_and_recorded(seed, tmp_path):
 
 # In turns, at random, at every PERS, under priorities; over each kind of network.
 @pytest.mark.parametrize("name", ["3/turns", "0", "2", "5", "7"])
-def test_a_copy_of_a_kept_controller_does_what_one_that_boots_does(name):
+def test_copy_of_a_pooled_controller_behaves_as_a_booted_one(name):
     driver = DriverUnderTest(SIX_AXES, make_system(SIX_AXES, build(SIX_AXES)))
     alone = explore(SIX_AXES, driver.system, name)
     for other in ("9", name, name):
@@ -152,7 +152,7 @@ def test_a_copy_of_a_kept_controller_does_what_one_that_boots_does(name):
     assert result == replace(alone, plan="")
 
 
-def test_what_is_kept_is_for_settings_that_differ_in_chances_and_network_alone():
+def test_pool_serves_settings_with_other_seed_and_network_only():
     system, fresh = small_driver(), BenchPool()
     slow = FaultPlan(network=(NetworkRule("delay", 11000, "in", seconds=0.1),))
     saved, other = Setting(seed=1), Setting(seed=2, faults=slow)
@@ -185,7 +185,7 @@ LEAVES, IN_E_STOP = (
         TaskSchedule((LEAVES, IN_E_STOP), "turns", "good", "107"),
     ],
 )
-def test_what_is_received_late_was_asked_for_late(plan, monkeypatch):
+def test_late_result_was_requested_late(plan, monkeypatch):
     monkeypatch.setattr(
         "rapidgen.verification.schedule_exploration.drawn", lambda name, ground: plan
     )
@@ -199,7 +199,7 @@ def test_every_step_alone_leaves_a_good_driver_good():
         assert explore(SIX_AXES, system, "5", only=(name,)).finding is None, name
 
 
-def test_replay_tells_the_story(tmp_path, capsys):
+def test_replay_prints_the_log(tmp_path, capsys):
     trace, recording = tmp_path / "trace.txt", tmp_path / "story.mcap"
     files = ["--trace", str(trace), "--record", str(recording)]
     assert main(["test", "irb120", "--replay", "3", *files]) == 0
@@ -214,7 +214,7 @@ def test_replay_tells_the_story(tmp_path, capsys):
         assert "RG803" in capsys.readouterr().err
 
 
-def test_a_schedule_is_made_smaller_as_long_as_the_same_demand_does_not_hold():
+def test_schedule_is_minimized_while_the_same_check_fails():
     def run(tried):
         steps = tried.steps if tried.steps is not None else (0, 1, 2, 3)
         if not {1, 3} <= set(steps):

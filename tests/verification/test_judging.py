@@ -81,7 +81,7 @@ def test_a_case_that_does_not_hold_at_all_judges_nothing():
         grounds(SIX_AXES, with_module(SYSTEM, file.path, text), FEW, partial(LocalPool, jobs=1))
 
 
-def test_the_statement_around_a_mutant_is_where_the_suite_must_get_to():
+def test_mutant_is_judged_at_its_enclosing_statement():
     file = file_of("ROS_motion")
     lines = file.data.decode().splitlines()
     for mutant in mutants(file.data, file.path):
@@ -108,7 +108,7 @@ def test_a_case_that_noticed_a_neighbour_is_tried_first(judge):
     assert learning.about(replace(mutant, line=90)) == Learned({}, {last: 1})
 
 
-def test_what_was_not_tried_for_want_of_time_is_counted(judge):
+def test_cases_left_out_by_the_budget_are_counted(judge):
     mutant = changed("ROS_socket", b"ROS_part_bytes := 0;\n        RETURN", b"RETURN")
     every = replace(mutant, statement=0)
     assert judge.judge(Question(every, budget=0)).left == len(FEW)
@@ -124,7 +124,7 @@ def test_a_case_that_did_not_notice_it_before_is_not_tried_again(judge):
     assert judge.judge(Question(every, already=names)).tried == ()
 
 
-def test_what_did_not_notice_it_under_one_setting_is_tried_under_another(judge, given):
+def test_case_is_tried_again_under_another_setting(judge, given):
     mutant = changed("ROS_socket", b"ROS_part_bytes := 0;\n        RETURN", b"RETURN")
     every = replace(mutant, statement=0)
     names = tuple(case.name for case in judge.concerned(every, Learned()))
@@ -147,7 +147,7 @@ ENDMODULE
     assert [m.line for m in mutants(data, "m.mod") if m.change == "< -> <="] == [7]
 
 
-def test_verdicts_are_the_same_whatever_the_workers_and_where_it_was_broken_off(given, tmp_path):
+def test_verdicts_after_interruption_are_equal(given, tmp_path):
     file = file_of("ROS_socket")
     some = list(mutants(file.data, file.path))[:24:3]
 

@@ -34,24 +34,24 @@ from rapidgen.verification.suite import (
 from rapidgen.verification.suite.end_frames import _done, _in_time, _times
 from rapidgen.verification.suite.pendant import _Pendant
 from rapidgen.verification.suite.points import Table
-from tests.verification.made_up import CONFIG, A, B, C, D, along, red
+from tests.verification.made_up import CONFIG, A, B, C, D, along, check_fails
 
 # -- what is told ---------------------------------------------------------------------------------
 
 
 def test_a_reply_that_does_not_come_is_seen(bench):
     link = bench.motion()
-    with red("STOP is answered: not within 0.2 s"):
+    with check_fails("STOP is answered: not within 0.2 s"):
         link.expect_reply(0.2, "STOP is answered")
     link.send(STOP)
-    with red("a reply of type 1 arrives"):
+    with check_fails("a reply of type 1 arrives"):
         link.reply(1, 0.2)
-    with red("a STATUS arrives"):
+    with check_fails("a STATUS arrives"):
         link.expect(RawStatus, 0.2, "a STATUS arrives")
     link.send(STOP)
     assert link.reply(JOINT_TRAJ_PT) == messages.RawAcknowledged()
     # Each is read once.
-    with red("another"):
+    with check_fails("another"):
         link.expect_reply(0.2, "another")
 
 
@@ -72,13 +72,13 @@ def test_a_message_that_is_none_is_seen(frame, wanted):
     if wanted is not None:
         assert messages.decode(frame) == wanted
         return
-    with red("no message has type"):
+    with check_fails("no message has type"):
         messages.decode(frame)
 
 
 @pytest.mark.parametrize("length", [-1, 0, 11, 1021])
 def test_a_length_that_no_message_has_is_seen(length):
-    with red("length field"):
+    with check_fails("length field"):
         messages.Splitter().feed(length.to_bytes(4, "little", signed=True))
 
 
@@ -86,17 +86,17 @@ def accepted(**changes):
     return RawPointsAccepted(1, 1, 5, 100, 3, 1, RawTrajectoryState.MOVING)._replace(**changes)
 
 
-def test_replies_to_a_batch_are_told_apart(bench):
+def test_replies_to_a_batch_are_distinguished(bench):
     stream = Streamer(bench)
     stream.last = accepted()
     assert stream.accepted("points") is stream.last
-    with red("wanted JOINT_LIMIT"):
+    with check_fails("wanted JOINT_LIMIT"):
         stream.refused(RawReason.JOINT_LIMIT, "points")
     stream.last = RawPointsRefused(1, 1, 5, RawReason.TOO_FAST, 5, 1)
     assert stream.refused(RawReason.TOO_FAST, "points") is stream.last
-    with red("wanted JOINT_LIMIT"):
+    with check_fails("wanted JOINT_LIMIT"):
         stream.refused(RawReason.JOINT_LIMIT, "points")
-    with red("the reply is"):
+    with check_fails("the reply is"):
         stream.accepted("points")
 
 
@@ -104,22 +104,22 @@ def test_a_stream_that_is_refused_in_between_is_seen(bench):
     stream = Streamer(bench)
     points = [(p, 0.2) for p, _ in bench.wave(12, duration=0.2)]
     points[7] = (points[7][0], 0.0)
-    with red("points up to 8 of 12"):
+    with check_fails("points up to 8 of 12"):
         stream.all(points, size=4)
 
 
-def test_confirmations_of_the_control_port_are_told_apart():
+def test_control_port_confirmations_are_distinguished():
     control.done(messages.RawAcknowledged(), "PAUSE")
     control.not_done(messages.RawNotDone(RawReason.IDLE), RawReason.IDLE, "PAUSE")
     for reply in (messages.RawNotDone(RawReason.IDLE), messages.RawFailure(), None):
-        with red("PAUSE"):
+        with check_fails("PAUSE"):
             control.done(reply, "PAUSE")
     for reply in (
         messages.RawNotDone(RawReason.BAD_VALUE),
         messages.RawFailure(),
         messages.RawAcknowledged(),
     ):
-        with red("wanted IDLE"):
+        with check_fails("wanted IDLE"):
             control.not_done(reply, RawReason.IDLE, "PAUSE")
 
 
@@ -127,7 +127,7 @@ def test_a_stop_that_is_not_confirmed_is_seen(bench):
     control.stop(bench.control())
     link = bench.control()
     link.stop_reading()
-    with red("STOP is answered"):
+    with check_fails("STOP is answered"):
         control.stop(link)
 
 
@@ -140,11 +140,11 @@ def test_each_reply_of_a_table_counts(bench):
         if wanted is good:
             table.ask()
             continue
-        with red("point -1 .* wanted"):
+        with check_fails("point -1 .* wanted"):
             table.ask()
 
 
-def test_what_a_table_shows_counts(bench):
+def test_table_checks_its_replies(bench):
     table = Table(bench)
     table.row(-1, bench.position, 9.0, messages.RawAcknowledged())
     table.ask()
@@ -155,10 +155,10 @@ def test_what_a_table_shows_counts(bench):
         (RawTrajectoryState.RECEIVING, 2, nothing),
         (RawTrajectoryState.RECEIVING, 1, messages.RawRefused(4, 0, 1)),
     ):
-        with red("PROGRESS says"):
+        with check_fails("PROGRESS says"):
             table.shows(state, received, reply)
     table.number += 1
-    with red("PROGRESS says"):
+    with check_fails("PROGRESS says"):
         table.shows(RawTrajectoryState.RECEIVING, 1, nothing)
 
 
@@ -172,15 +172,15 @@ def test_a_refusal_that_does_not_come_is_seen(bench):
         (RawReason.JOINT_LIMIT, 2, None),
         (RawReason.JOINT_LIMIT, 1, 1),
     ):
-        with red("wanted in_error|had to be named"):
+        with check_fails("wanted in_error|had to be named"):
             refusals.refused(bench, frames, [reason], joint, point)
-    with red("it had to be refused"):
+    with check_fails("it had to be refused"):
         refusals.refused(bench, bench.download(bench.wave(4)), [RawReason.JOINT_LIMIT])
 
 
 def test_lines_that_the_operator_does_not_get_are_seen(bench):
     pendant = _Pendant(bench)
-    with red("the event log has"):
+    with check_fails("the event log has"):
         pendant.says(RawReason.NO_START, 0, 0, after="nothing")
     point = bench.download(bench.wave(3))[68:136]
     for reason, place, joint, wrong in (
@@ -192,7 +192,7 @@ def test_lines_that_the_operator_does_not_get_are_seen(bench):
         bench.motion().send(point)
         bench.run(2.5)
         if wrong:
-            with red(wrong):
+            with check_fails(wrong):
                 pendant.says(reason, place, joint, after="a point alone")
         else:
             pendant.says(reason, place, joint, after="a point alone")
@@ -207,32 +207,32 @@ STEPS = [
     motion_task._Step(2, 99, 3, 3, RawTrajectoryState.DONE),
 ]
 MOVING, DONE = RawTrajectoryState.MOVING, RawTrajectoryState.DONE
-TOLD = [(0.5, MOVING, 2, 1), (1.5, MOVING, 3, 2), (2.1, DONE, 3, 3)]
+REPORTED = [(0.5, MOVING, 2, 1), (1.5, MOVING, 3, 2), (2.1, DONE, 3, 3)]
 
 
 def test_steps_in_their_order_and_time_are_good(bench):
-    motion_task._in_order(bench, 0.0, TOLD, STEPS)
+    motion_task._in_order(bench, 0.0, REPORTED, STEPS)
 
 
 @pytest.mark.parametrize(
     "reply",
     [
-        TOLD[:2],
-        TOLD[1:],
-        [TOLD[1], TOLD[0], TOLD[2]],
-        [*TOLD, (3.0, MOVING, 3, 2)],
-        [*TOLD[:2], (2.1, DONE, 3, 2)],
-        [*TOLD[:2], (1.6, DONE, 3, 3)],
+        REPORTED[:2],
+        REPORTED[1:],
+        [REPORTED[1], REPORTED[0], REPORTED[2]],
+        [*REPORTED, (3.0, MOVING, 3, 2)],
+        [*REPORTED[:2], (2.1, DONE, 3, 2)],
+        [*REPORTED[:2], (1.6, DONE, 3, 3)],
         [(0.5, MOVING, 2, 1), (2.4, MOVING, 3, 2), (2.5, DONE, 3, 3)],
     ],
     ids=["not done", "late", "order", "back", "counts", "early", "slow"],
 )
 def test_steps_out_of_order_or_time_are_seen(bench, reply):
-    with red("is reported|not reported|reported in state"):
+    with check_fails("is reported|not reported|reported in state"):
         motion_task._in_order(bench, 0.0, reply, STEPS)
 
 
-def test_a_trajectory_that_is_not_told_to_be_done_is_seen(bench):
+def test_trajectory_without_done_report_is_detected(bench):
     table, link = Table(bench), bench.motion()
     points = bench.wave(3)
     link.send(bench.download(points))
@@ -241,14 +241,14 @@ def test_a_trajectory_that_is_not_told_to_be_done_is_seen(bench):
     _done(bench, table, 3, 0.1)
     for count, number in ((2, table.number), (3, table.number + 1)):
         table.number = number
-        with red("points are executed"):
+        with check_fails("points are executed"):
             _done(bench, table, count, 0.1)
 
 
 def test_times_of_a_motion_count(bench):
     _in_time(bench, "a stay", 1.0, 1.0)
     for seen in (0.9, 1.2):
-        with red("a stay took"):
+        with check_fails("a stay took"):
             _in_time(bench, "a stay", seen, 1.0)
 
 
@@ -257,7 +257,7 @@ def test_when_a_place_was_come_to_and_left():
     arrived, left = _times(record, 0.0, B)
     assert (arrived, left) == (1.0, 2.0)
     assert _times(record, 0.0, C)[1] == 9.0
-    with red("was not at"):
+    with check_fails("was not at"):
         _times(record, 0.0, D)
 
 
@@ -268,9 +268,9 @@ def test_a_stay_and_a_slow_way_are_read_from_the_record(bench):
     assert not boundary_values._stood_at(record, (0.5, 0.5), -1.0, 0.1)
     path = SimpleNamespace(track=along(A, B))
     boundary_values._slow_to(path, B, 0.0, 1.0)
-    with red("faster than"):
+    with check_fails("faster than"):
         boundary_values._slow_to(path, B, 0.0, 0.5)
-    with red("was left out"):
+    with check_fails("was left out"):
         boundary_values._slow_to(path, C, 0.0, 1.0)
 
 
@@ -281,7 +281,7 @@ def test_a_motion_that_begins_late_is_seen(bench):
     motion_task.begins_soon(bench, bench.now)
     bench.wait_until_standing()
     link.send(bench.download(bench.wave(3)))
-    with red("after the end frame"):
+    with check_fails("after the end frame"):
         motion_task.begins_soon(bench, bench.now - 0.5)
 
 
@@ -312,22 +312,22 @@ def test_rounds_on_their_turn_are_good(bench):
     ids=["few", "missing", "late", "drifting", "twice"],
 )
 def test_rounds_off_their_turn_are_seen(bench, times):
-    with red("rounds"):
+    with check_fails("rounds"):
         state_port.on_turn(bench, rounds_at(*(t * PERIOD for t in times)), "a client")
 
 
-def test_what_clients_are_told_is_compared(bench):
+def test_messages_to_clients_are_compared(bench):
     one, other = bench.state(), bench.state()
     bench.run(1)
     since = bench.now
     bench.run(1)
     nothing = state_port._NONE
     state_port._all_alike(bench, [(one, nothing), (other, nothing)], since)
-    with red("gets messages"):
+    with check_fails("gets messages"):
         state_port._all_alike(bench, [(one, state_port.RawFeature.PROGRESS)], since)
     when, frame = other.frames[-1]
     other.frames[-1] = (when, frame._replace(data=bytes(len(frame.data))))
-    with red("different"):
+    with check_fails("different"):
         state_port._all_alike(bench, [(one, nothing), (other, nothing)], since)
 
 
@@ -345,7 +345,7 @@ def test_what_clients_are_told_is_compared(bench):
         (1301, "reason", 4, None),
     ],
 )
-def test_what_a_round_tells_has_to_be_true(bench, which, field, value, what):
+def test_round_with_false_content_is_detected(bench, which, field, value, what):
     link = bench.watcher()
     bench.run(1)
     reply = state_port.rounds(link, bench.now - 0.5)[1:]
@@ -359,7 +359,7 @@ def test_what_a_round_tells_has_to_be_true(bench, which, field, value, what):
     if what is None:
         state_port._is_true(bench, reply)
         return
-    with red(what):
+    with check_fails(what):
         state_port._is_true(bench, reply)
 
 
@@ -391,12 +391,12 @@ def test_orders_until_a_stop_are_good(given):
         orders((1.0, "StopMove", True), (2.6, "MoveAbsJ", True)),
     ],
 )
-def test_an_order_behind_a_stop_is_seen(given):
-    with red("of the old trajectory"):
+def test_order_after_a_stop_is_detected(given):
+    with check_fails("of the old trajectory"):
         assert_no_move_follows(given, 1.9, 2.5)
 
 
-def test_orders_are_heard(bench):
+def test_orders_are_recorded(bench):
     received = watched_orders(bench)
     link = bench.motion()
     bench.start_motion(link, bench.wave(6), 0.3)
@@ -407,7 +407,7 @@ def test_orders_are_heard(bench):
     assert [o.time for o in received] == sorted(o.time for o in received)
 
 
-def test_an_instruction_fails_as_often_as_told(bench):
+def test_instruction_fails_as_often_as_requested(bench):
     calls = []
     end = fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 2, after=1)
     at_call(bench, "ROS_motion", "ClearPath", 3, lambda: calls.append(bench.now))

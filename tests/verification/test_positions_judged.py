@@ -6,7 +6,7 @@ from rapidgen.machine.event_log import EventType
 from rapidgen.verification import position_checks
 from rapidgen.verification.instruction_hooks import fails
 from rapidgen.verification.settings import assumed
-from tests.verification.made_up import PATH, A, B, C, D, along, red
+from tests.verification.made_up import PATH, A, B, C, D, along, check_fails
 
 # -- positions ------------------------------------------------------------------------------------
 
@@ -77,19 +77,19 @@ def test_a_prefix_of_the_path_is_followed(seen):
         [*along(A, B), (1.0, (1.0, -0.06)), (1.1, B)],
     ],
 )
-def test_what_is_no_prefix_of_the_path_is_seen(seen):
-    with red("rad off what was asked"):
+def test_track_off_the_path_prefix_is_detected(seen):
+    with check_fails("rad off what was asked"):
         position_checks.on_path(seen, PATH, corner=0.05)
 
 
 def test_a_point_that_is_left_out_is_seen():
     path = [A, (0.5, 0.5), B]
     position_checks.on_path(along(*path), path)
-    with red("off what was asked"):
+    with check_fails("off what was asked"):
         position_checks.on_path(along(A, B), path)
 
 
-def test_what_a_robot_did_is_looked_at_from_a_time_on(bench):
+def test_track_is_checked_from_a_given_time(bench):
     points = bench.wave(4)
     link = bench.motion()
     since = bench.now
@@ -97,7 +97,7 @@ def test_what_a_robot_did_is_looked_at_from_a_time_on(bench):
     bench.wait_until_at(points[-1][0])
     bench.followed([p for p, _ in points], since=since)
     other = [(p[0] + 0.1, *p[1:]) for p, _ in points]
-    with red("off what was asked"):
+    with check_fails("off what was asked"):
         bench.followed(other, since=since)
     bench.followed(other, since=bench.now + 1)
     # The record is of that robot: where it was at each time, first and last place included.
@@ -109,14 +109,14 @@ def test_what_a_robot_did_is_looked_at_from_a_time_on(bench):
 # -- stillness ------------------------------------------------------------------------------------
 
 
-def test_a_robot_that_stands_is_still():
+def test_standing_robot_is_still():
     position_checks.still([], A, "")
     position_checks.still([(0.0, A), (1.0, (0.00009, 0.0))], A, "")
 
 
 @pytest.mark.parametrize("place", [(0.0002, 0.0), (0.0, -0.0002), B])
 def test_one_that_was_elsewhere_for_a_moment_is_not(place):
-    with red("the robot moved at 1.000 s: it was stopped"):
+    with check_fails("the robot moved at 1.000 s: it was stopped"):
         position_checks.still([(0.0, A), (1.0, place), (1.004, A)], A, "it was stopped")
 
 
@@ -126,23 +126,23 @@ def test_a_robot_that_moves_does_not_stay(bench):
     back = [(p, 0.4) for p, _ in points[-2::-1]]
     bench.motion().send(bench.download([*points, *back]))
     # It is where it was when the time is over: what counts is what happened meanwhile.
-    with red("no client asked for motion"):
+    with check_fails("no client asked for motion"):
         bench.assert_at_rest(5, "no client asked for motion")
     assert position_checks.distance(bench.position, points[0][0]) < position_checks.SETTLED
     bench.assert_at_rest(5, "its trajectory is over")
 
 
-def test_a_robot_that_waits_is_told_from_one_that_moves(bench):
+def test_waiting_robot_is_distinguished_from_moving(bench):
     assert bench.standing
-    with red("the robot begins to move: not within 0.5 s"):
+    with check_fails("the robot begins to move: not within 0.5 s"):
         bench.wait_until_moving(0.5)
     points = bench.wave(4)
     bench.motion().send(bench.download(points))
     bench.wait_until_moving()
     assert not bench.standing
-    with red("comes to rest"):
+    with check_fails("comes to rest"):
         bench.wait_until_standing(0.5)
-    with red("reaches the last point"):
+    with check_fails("reaches the last point"):
         bench.wait_until_at(points[0][0], 3)
     bench.wait_until_at(points[-1][0])
     # Rest is a tenth of a second of it.
@@ -157,7 +157,7 @@ def test_a_robot_that_waits_is_told_from_one_that_moves(bench):
 def test_a_trajectory_that_is_not_executed_is_seen(bench):
     bench.assert_moves_through(bench.motion(), bench.wave(3))
     bench.controller.perform("stop")
-    with red("reaches the last point"):
+    with check_fails("reaches the last point"):
         bench.assert_moves_through(bench.motion(), bench.wave(3))
 
 
@@ -165,7 +165,7 @@ def test_one_that_takes_too_long_is_seen(bench):
     link, points = bench.motion(), bench.wave(6)
     slower = bench.download([(p, 4 * d) for p, d in points])
     bench.download = lambda _points: slower
-    with red("2.00 s of motion took 8"):
+    with check_fails("2.00 s of motion took 8"):
         bench.assert_moves_through(link, points)
 
 
@@ -176,22 +176,22 @@ def test_one_that_is_executed_on_another_way_is_seen(bench):
         [points[0], (position_checks.changed(target, 0, -0.2), 1.0), (target, 1.0)]
     )
     bench.download = lambda _points: elsewhere
-    with red("off what was asked"):
+    with check_fails("off what was asked"):
         bench.assert_moves_through(link, points)
 
 
 def test_one_of_which_the_controller_complains_is_seen(bench):
     complains(bench, 50_024)
-    with red("complains of the motion"):
+    with check_fails("complains of the motion"):
         bench.assert_moves_through(bench.motion(), bench.wave(6))
 
 
-def test_a_corner_is_excused_where_no_task_is_sure_of_its_turn_and_nothing_else(bench):
+def test_late_corner_is_excused_only_with_random_task_order(bench):
     bench.setting = assumed(["schedule=random", "costs=4.0", "planning_lead=0.02"])
     complains(bench, 50_024)
     bench.assert_moves_through(bench.motion(), bench.wave(6))
     complains(bench, 50_078)
-    with red("complains of the motion"):
+    with check_fails("complains of the motion"):
         bench.assert_moves_through(bench.motion(), bench.wave(6))
 
 
@@ -208,5 +208,5 @@ def test_a_task_that_has_ended_is_not_healthy(bench):
     fails(bench, "ROS_motion", "WaitTime", "ERR_OUTOFBND", 9)
     fails(bench, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
     bench.run(1)
-    with red("T_ROS_SUP ended with an error"):
+    with check_fails("T_ROS_SUP ended with an error"):
         bench.assert_healthy()

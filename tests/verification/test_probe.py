@@ -18,8 +18,8 @@ PROBE = data_folder("templates") / "ROS_probe.mod"
 TEXT = PROBE.read_text(encoding="ascii")
 TEXT = PROBE.read_text(encoding="ascii")
 # Only a task that moves no robot can be asked these.
-BEHIND = ("calc_in_background", "data_of_tasks")
-ASKED = tuple(name for name in asked(TEXT) if name not in BEHIND)
+AFTER = ("calc_in_background", "data_of_tasks")
+ASKED = tuple(name for name in asked(TEXT) if name not in AFTER)
 CASES = [
     (n, value) for n, own in assumption_choices(Switches()).items() if n in ASKED for value in own
 ]
@@ -46,8 +46,8 @@ def test_an_answer_is_the_switch(name, value, tmp_path):
 
 
 @pytest.mark.parametrize("value", [True, False])
-@pytest.mark.parametrize("name", BEHIND)
-def test_what_a_task_without_a_robot_is_asked(name, value, tmp_path):
+@pytest.mark.parametrize("name", AFTER)
+def test_probe_questions_of_a_task_without_robot(name, value, tmp_path):
     path = tmp_path / PROBE.name
     path.write_text(TEXT, encoding="ascii")
     lines = []

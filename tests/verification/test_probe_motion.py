@@ -57,7 +57,7 @@ def test_it_asks():
 
 
 @pytest.mark.parametrize("lead", [0.05, 0.2])
-def test_the_planning_lead_is_told(lead):
+def test_planning_lead_is_reported(lead):
     lines, _ = run(PROBE, replace(MotionSettings(), planning_lead=lead, ramp_time=0.0), [])
     (line,) = [line for line in lines if "before its point" in line]
     assert float(re.search(r"[\d.]+", line)[0]) == pytest.approx(lead, abs=0.12)

@@ -73,7 +73,7 @@ def test_each_answer_alone_and_the_default_alone():
     ("left_out", "in_time"),
     [("", False), ("schedule=pers", True), ("costs=4.0", True), ("planning_lead=0.02", True)],
 )
-def test_only_a_slow_controller_by_lot_that_asks_late_may_miss_a_corner(left_out, in_time):
+def test_corner_may_be_late_only_on_slow_random_controllers(left_out, in_time):
     texts = {"schedule=pers", "costs=4.0", "planning_lead=0.02"} - {left_out}
     assert assumed(sorted(texts)).corners_in_time is in_time
 
@@ -117,7 +117,7 @@ def test_an_assumption_is_made(name):
 
 
 @pytest.mark.parametrize("texts", ["setle=0.2", "settle=0.3", "settle", "seed=x", ","])
-def test_what_cannot_be_assumed_is_said(texts, capsys):
+def test_unknown_assumption_is_reported(texts, capsys):
     assert main(["test", "irb120", "--assume", texts]) == 2
     assert "RG804" in capsys.readouterr().err
 
@@ -134,7 +134,7 @@ def test_the_smallest_part_is_found(guilty):
     assert len(tried) < 120
 
 
-def test_what_explains_one_row_explains_others():
+def test_explanation_of_one_row_explains_others():
     tried = []
 
     def breaks(part):
@@ -182,13 +182,13 @@ def test_a_setting_can_be_asked_for_again(made_up, capsys):
 
 
 @pytest.mark.parametrize(("costs", "slowness"), [("0.25", 1.0), ("1.0", 1.0), ("4.0", 4.0)])
-def test_bounds_are_wider_where_work_takes_longer_and_never_narrower(costs, slowness):
+def test_time_limits_scale_up_with_slowness(costs, slowness):
     setting = assumed([f"costs={costs}"])
     assert setting.slowness == slowness
     assert setting.latest_interrupt == pytest.approx(0.03)
 
 
-def test_what_a_configuration_cannot_be_proven_under_is_not_blamed_either():
+def test_assumption_without_support_is_not_named_as_cause():
     """A driver with a ceiling needs CalcRobT in its background task."""
     row = {"one": ("calc_in_background=false", "settle=0.2")}
     assert possible(load_config("irb120"), row) == row

@@ -128,7 +128,7 @@ def test_a_costly_case_holds_for_six_axes(six_axes, name):
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_what_depends_on_the_joints_holds_for_every_kind(name):
+def test_joint_cases_pass_for_every_robot_kind(name):
     # Its arms have a ceiling that is too low for large corners.
     untried = ("largest-corner",) if name == "irb14000" else ()
     assert broken(load_config(name), OF_THE_ROBOT, untried=untried) == {}
@@ -202,7 +202,7 @@ DEFECTS = {
 
 
 @pytest.mark.parametrize("name", DEFECTS)
-def test_a_defect_turns_its_case_red(name):
+def test_case_with_its_defect_fails(name):
     config, system = generated()
     bench = Bench(config, patched(system, *DEFECTS[name]))
     with pytest.raises(CheckFailed):
@@ -219,7 +219,7 @@ def test_the_exploration_replays_exactly():
     assert logs[0] == logs[1]
 
 
-def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
+def test_command_writes_reports_and_names_failures(tmp_path, capsys):
     junit, html = tmp_path / "r.xml", tmp_path / "r.html"
     values = ["test", "irb120", "--quick", "--jobs", "1", "--case", "whole-trajectory"]
     assert main([*values, "--junit", str(junit), "--html", str(html)]) == 0
@@ -262,7 +262,7 @@ def test_the_cases_are_listed(capsys):
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
-def test_a_run_that_is_broken_off_reports_what_it_saw(jobs, monkeypatch, capsys):
+def test_interrupted_run_reports_its_results(jobs, monkeypatch, capsys):
     def interrupted(bars, what, done, total):
         if done == 1:
             raise KeyboardInterrupt
@@ -334,9 +334,7 @@ def test_a_case_holds_on_robots_and_configurations_unlike_others(name, case, val
         ("name=cell", "two-groups", "there is one group"),
     ],
 )
-def test_a_case_that_has_nothing_to_prove_is_not_said_to_hold(
-    override, case, why, tmp_path, capsys
-):
+def test_case_that_does_not_apply_is_not_counted_as_passed(override, case, why, tmp_path, capsys):
     report = tmp_path / "r.xml"
     values = ["test", "irb120", "--set", override, "--quick", "--jobs", "1", "--case"]
     assert main([*values, case, "--junit", str(report)]) == 2
@@ -353,7 +351,7 @@ def test_a_case_that_has_nothing_to_prove_is_not_said_to_hold(
     assert (suite.get("skipped"), len(suite.findall("testcase/skipped"))) == ("1", 1)
 
 
-def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch, capsys):
+def test_configuration_fault_in_a_worker_is_a_diagnostic(monkeypatch, capsys):
     def at_fault(system, _config):
         raise refusal("RG402", None, "no main", "write one")
 

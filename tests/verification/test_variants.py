@@ -127,12 +127,12 @@ def broken(config, system, names, setting=None):
 
 
 @pytest.mark.parametrize("name", VARIANTS)
-def test_what_a_configuration_asks_for(name):
+def test_configuration_options_take_effect(name):
     overrides, names = VARIANTS[name]
     assert broken(*configured(*overrides), names.split()) == {}
 
 
-def test_a_signal_that_the_controller_does_not_have_is_refused_the_others_work():
+def test_missing_signal_is_refused_and_others_work():
     config, system = configured(*SIGNALS)
     target = tuple(s for s in system.signals if s.name not in ("valve", "weight"))
     assert broken(config, replace(system, signals=target), ["signals", "stop-on-path"]) == {}
@@ -144,7 +144,7 @@ def test_quicker_and_slower_controllers(name):
 
 
 @pytest.mark.parametrize("switch", ["alias_by_name=false"])
-def test_a_controller_with_which_the_driver_cannot_work_moves_nothing(switch):
+def test_unsupported_controller_moves_nothing(switch):
     """A task ends at its start."""
     assert switch.partition("=")[0] in NEEDED
     with Bench(*configured(), Setting(dialect=parse_switches(switch))) as bench:
@@ -153,6 +153,6 @@ def test_a_controller_with_which_the_driver_cannot_work_moves_nothing(switch):
 
 
 @pytest.mark.parametrize("pair", STRICT)
-def test_what_somebody_sends_ends_no_task_under_strict_readings_in_pairs(pair):
+def test_messages_under_strict_readings_end_no_task(pair):
     setting = Setting(dialect=parse_switches(pair))
     assert broken(*configured(), SENT, setting) == {}

@@ -47,18 +47,18 @@ def test_the_same_way_is_not_left():
 
 
 @pytest.mark.parametrize("at", [0, 1, 15, 16, 17, 200, 399, 400])
-def test_one_place_beside_the_way_is_seen(at):
+def test_one_place_off_the_path_is_detected(at):
     seen = LINE.copy()
     seen[at, 1] = 0.003
     assert farthest(seen, LINE) == pytest.approx(0.003)
 
 
-def test_places_before_and_behind_the_way_are_off_it():
+def test_places_before_and_after_the_path_are_off_it():
     assert farthest(LINE - ASIDE, LINE) == pytest.approx(0.02)
     assert farthest(LINE + ASIDE, LINE) == pytest.approx(0.02)
 
 
-def test_what_is_left_out_is_seen():
+def test_skipped_part_of_the_path_is_detected():
     assert farthest(LINE[[0, 1, 2, *range(300, 401)]], LINE) > 0.1
 
 

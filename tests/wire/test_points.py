@@ -71,7 +71,7 @@ def runs(draw):
 
 
 @given(runs())
-def test_what_goes_in_comes_out(run):
+def test_points_round_trip(run):
     stream, first, steps, batch, flags = run
     values = steps / spec.FIXED_SCALE
     frames = encode_points(stream, first, values[:, 0], values[:, 1:], flags=flags, batch=batch)
@@ -97,7 +97,7 @@ def test_checksums_of_any_words(words):
     assert checksums(words) == [horner(row) for row in words.tolist()]
 
 
-def test_every_step_of_a_driver_is_a_whole_number_that_it_can_count():
+def test_checksum_steps_of_a_driver_are_exact_integers():
     """A point of ten axes at a time, as RAPID adds it up: far below 2^52."""
     words, largest = 1 + 10, 2**32 - 1
     assert 2**words * (spec.CHECKSUM_MODULUS - 1) + (2**words - 1) * largest < 2**44
@@ -109,7 +109,7 @@ def test_no_two_places_of_a_message_weigh_the_same():
 
 
 @pytest.mark.parametrize("value", [2147.483648, -2147.483648, float("nan"), float("inf")])
-def test_what_no_fixed_point_number_holds(value):
+def test_values_beyond_fixed_point_are_refused(value):
     with pytest.raises(ContentError):
         encode_points(1, 0, [0.1], [[0.0, value]])
     with pytest.raises(ContentError):
@@ -146,7 +146,7 @@ def test_random_bytes_are_no_points(data, axes):
 
 
 @given(st.data())
-def test_random_data_behind_a_good_head(data):
+def test_random_data_after_a_valid_head(data):
     body = data.draw(st.binary(max_size=1000))
     frame = struct.pack("<4i", 12 + len(body), 1302, 2, 0) + body
     for read in (lambda: decode_batches([frame], 6), lambda: decode(_frame(frame))):

@@ -70,7 +70,7 @@ def test_captured_refusals_are_read(read, data):
     assert read(data).fault == FAULT
 
 
-def test_what_is_written_has_the_shape_that_was_captured():
+def test_written_bodies_have_the_captured_shape():
     body = Body((PANEL,), title="rw", base="http://h/rw/panel/")
     assert b'<li class="pnl-ctrlstate" title="ctrlstate"><span class="ctrlstate">' in xhtml.write(
         body
@@ -103,7 +103,7 @@ items = st.builds(
 
 
 @given(st.lists(items, max_size=3).map(tuple))
-def test_what_is_written_is_read(result):
+def test_written_bodies_are_read_back(result):
     body = Body(result, title="rw", base="https://h/", here="x")
     assert [(i.kind, i.title, dict(i.fields)) for i in xhtml.read(xhtml.write(body)).items] == [
         (i.kind, i.title, {k: v for k, v in i.fields.items()}) for i in result
@@ -163,7 +163,7 @@ def test_paths_keep_dollars_and_semicolons():
 
 
 @pytest.mark.parametrize("target", ["", "x", "/%zz", "/a%00b", "/%ff"])
-def test_what_is_no_path_is_refused(target):
+def test_invalid_path_is_refused(target):
     with pytest.raises(Unreadable):
         split_target(target)
 
@@ -208,12 +208,12 @@ def test_a_digest_is_checked_as_rfc_7616_says():
 
 
 @given(st.text(max_size=60))
-def test_hostile_authorization_lets_nobody_in(text):
+def test_hostile_authorization_is_refused(text):
     assert login.basic_user(text, {"a": "b"}) is None
     assert login.parse(f"Digest {text}") is None
 
 
-def test_a_subscription_is_asked_for_and_told():
+def test_subscription_request_and_event_round_trip():
     wanted = [
         events.WantedResource("/rw/panel/opmode", 1),
         events.WantedResource("/rw/iosystem/signals/a;state", 2),

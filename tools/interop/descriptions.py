@@ -65,7 +65,7 @@ def descriptions(folders: list[Path]) -> Iterator[Path]:
 
 def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
     """Run `new` with its answers, boot and move."""
-    answers, said = DescriptionChoices(), []
+    answers, answered = DescriptionChoices(), []
     macro, arguments, macro_arguments = None, {}, {}
     with tempfile.TemporaryDirectory() as scratch:
         cell = Path(scratch) / "cell.yaml"
@@ -84,24 +84,24 @@ def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
                 break
             except DiagnosticError as fault:
                 wrong = [d for d in fault.diagnostics if d.severity is Severity.ERROR]
-                if len(said) == MOST_ANSWERS:
-                    return _refused(path, wrong, len(said))
+                if len(answered) == MOST_ANSWERS:
+                    return _refused(path, wrong, len(answered))
                 lacking = _LACKS.search(wrong[0].message)
                 more = _answer(wrong, answers)
                 if lacking:
                     given = macro_arguments if lacking["macro"] else arguments
                     given[lacking["macro"] or lacking["argument"]] = ""
-                    said.append("argument")
+                    answered.append("argument")
                 elif more is not None:
                     answers, what = more
-                    said.append(what)
+                    answered.append(what)
                 else:
-                    return _refused(path, wrong, len(said))
+                    return _refused(path, wrong, len(answered))
         config = load_config(cell, package_paths=folders)
         if quick:
-            return Outcome(path.name, "built", len(said), ", ".join(said))
+            return Outcome(path.name, "built", len(answered), ", ".join(answered))
         end, note = _moved(config)
-        return Outcome(path.name, end, len(said), note or ", ".join(said))
+        return Outcome(path.name, end, len(answered), note or ", ".join(answered))
 
 
 def _answer(

@@ -55,7 +55,7 @@ def near(result: object, expected: object, by: float) -> bool:
     return all(abs(a - b) <= by for a, b in zip(result, expected, strict=True))  # type: ignore[call-overload]
 
 
-def heard(ask: Any) -> list[float]:
+def logged(ask: Any) -> list[float]:
     """Return the logger's values, after its client has found a message.
 
     Messages have no end; a client that reads two in one keeps the second inside the first.
@@ -98,7 +98,7 @@ def everything(robot: Any, log: Any) -> None:
     assert robot.getForceSensors() == [0.0] * 6
     print("robot info", robot.getRobotInfo())
     print("external axes", robot.getExternalAxis())
-    text = [heard(log.getJoints), heard(log.getForceSensors)]
+    text = [logged(log.getJoints), logged(log.getForceSensors)]
     assert near(text[0], START, 0.2)
     assert near(text[1], [0.0] * 6, 0)
 

@@ -71,11 +71,11 @@ def programs(folder: Path) -> Iterator[Program]:
     for main in mains:
         if main.parent.parent in together:
             continue
-        adjacent = [p for p in modules if p not in mains and _beside(p, main.parent)]
+        adjacent = [p for p in modules if p not in mains and _belongs_to(p, main.parent)]
         yield Program(str(main.relative_to(folder)), (main, *_needed(main, adjacent)))
 
 
-def _beside(path: Path, folder: Path) -> bool:
+def _belongs_to(path: Path, folder: Path) -> bool:
     """True if a file is in main's folder or below.
 
     PROGMOD and SYSMOD belong together.

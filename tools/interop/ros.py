@@ -72,10 +72,10 @@ class Process:
 
         with self._news:
             self._news.wait_for(target, seconds)
-        assert result, f"never said {text!r}: {[line for _, line in self.lines][-20:]}"
+        assert result, f"never printed {text!r}: {[line for _, line in self.lines][-20:]}"
         return result[0]
 
-    def said(self, *texts: str, since: float = 0.0) -> list[str]:
+    def lines_containing(self, *texts: str, since: float = 0.0) -> list[str]:
         """Return lines with one of those texts."""
         return [line for at, line in self.lines if at >= since and any(t in line for t in texts)]
 

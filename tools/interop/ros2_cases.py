@@ -107,9 +107,11 @@ def five_points(cell, result):
     result.ends(sent, SUCCEEDED)
     result.must(len(sent.feedback) > 10, f"{len(sent.feedback)} feedbacks")
     result.must(cell.at([0.5] * 6), "the robot is there")
-    last = cell.heard["states"][-1][1]
+    last = cell.received["states"][-1][1]
     result.must(len(last.velocity) == 6 and last.name == cell.names("rob1"), "joint_states whole")
-    stamps = [m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for _, m in cell.heard["states"]]
+    stamps = [
+        m.header.stamp.sec + m.header.stamp.nanosec * 1e-9 for _, m in cell.received["states"]
+    ]
     result.must(sorted(set(stamps)) == stamps, f"{len(stamps)} stamps, each later")
     back = cell.goal([0.5, 0.4])
     back.trajectory.joint_names = back.trajectory.joint_names[::-1]
@@ -154,7 +156,7 @@ def cancelled(cell, result):
     sent = cell.moving()
     sent.cancel()
     result.ends(sent, CANCELED)
-    result.must(cell.sim.standing(), "the robot stands when that is told")
+    result.must(cell.sim.standing(), "the robot stands at the result")
     result.next_one(cell)
 
 
@@ -180,7 +182,7 @@ def emergency_stop(cell, result):
     cell.sim.ask("e-stop")
     result.ends(sent, ABORTED, -4, "emergency stop")
     result.must(cell.sim.standing(), "the robot stands")
-    words = [s.message for s in cell.heard["health"][-1][1].status]
+    words = [s.message for s in cell.received["health"][-1][1].status]
     result.must("an emergency stop is active" in words, f"diagnostics: {words}")
     for step in ("reset-e-stop", "motors-on", "start"):
         cell.sim.ask(step)
@@ -214,11 +216,11 @@ def controller_restarted(cell, result):
 @case()
 def controller_gone(cell, result):
     cell.sim.close()
-    until(lambda: "no link" in cell.heard["health"][-1][1].status[0].message, 20, "it never said")
+    until(lambda: "no link" in cell.received["health"][-1][1].status[0].message, 20, "no report")
     since = time.monotonic()
     result.ends(cell.send(cell.goal([0.0, 0.1])), ABORTED, -1, "no link to the robot")
     time.sleep(1.5)
-    result.must(not cell.state_since(since), "joint_states are not told again")
+    result.must(not cell.state_since(since), "joint_states are not published again")
     cell.sim.restart()
     cell.ready()
     result.next_one(cell)
@@ -255,7 +257,7 @@ def services_and_speed(cell, result):
     result.must(sent.took > 5, f"slower: {sent.took:.1f} s of 4")
     requested = GetParameters.Request(names=["speed"])
     (value,) = cell.call(GetParameters, "/rapidgen/get_parameters", requested).values
-    result.must(value.double_value == 100.0, f"speed is {value.double_value:g} behind it")
+    result.must(value.double_value == 100.0, f"speed is {value.double_value:g} after it")
     sent = cell.moving(0.0)
     text = cell.trigger("stop")
     result.must(text.success, f"stop: {text.message}")
@@ -324,14 +326,14 @@ def life_cycle(cell, result):
 def two_groups(cell, result):
     sent, both = {}, set(cell.names("rob_l") + cell.names("rob_r"))
     until(
-        lambda: both <= {name for _, text in cell.heard["states"] for name in text.name},
+        lambda: both <= {name for _, text in cell.received["states"] for name in text.name},
         30,
         "no joint_states of both groups",
     )
     for group in ("rob_l", "rob_r"):
         current = cell.sim.positions(group)
         names = cell.names(group)
-        states = [message for _, message in cell.heard["states"]]
+        states = [message for _, message in cell.received["states"]]
         now = next(
             dict(zip(text.name, text.position, strict=True))
             for text in reversed(states)
@@ -349,7 +351,7 @@ def two_groups(cell, result):
 def coupled(cell, result):
     result.ends(cell.send(cell.goal([0.0, [0, 0.4, -0.3, 0, 0, 0]], 2.0)), SUCCEEDED)
     result.must(cell.at([0, 0.4, 0.1, 0, 0, 0]), f"axes at {cell.sim.positions()[:4]}")
-    last = cell.heard["states"][-1][1]
+    last = cell.received["states"][-1][1]
     result.must(abs(last.position[2] + 0.3) < 1e-3, f"joint_states: {last.position[2]:.4f}")
 
 
@@ -357,10 +359,10 @@ def coupled(cell, result):
 def track(cell, result):
     names = cell.names("rob1")
     row = [0.5 if n == "track" else 1.0 if n == "positioner" else 0.1 for n in names]
-    start = cell.heard["states"][-1][1]
+    start = cell.received["states"][-1][1]
     now = dict(zip(start.name, start.position, strict=True))
     result.ends(cell.send(cell.goal([[now[n] for n in names], row], 4.0)), SUCCEEDED)
-    last = cell.heard["states"][-1][1]
+    last = cell.received["states"][-1][1]
     off = max(abs(a - b) for a, b in zip(last.position, row, strict=True))
     result.must(off < 1e-3, f"{len(names)} joints, {off:.1e} off")
 
@@ -386,8 +388,8 @@ def many_goals(cell, result):
     grown.append(cell.memory())
     took = (time.monotonic() - begin) / count * 1e3
     result.must(True, f"{ends}, {took:.0f} ms a goal")
-    told = ", ".join(f"{mb - grown[1]:+.1f}" for mb in grown)
-    result.must(grown[-1] - grown[1] <= 10, f"MB against the end of the first tenth: {told}")
+    growth = ", ".join(f"{mb - grown[1]:+.1f}" for mb in grown)
+    result.must(grown[-1] - grown[1] <= 10, f"MB against the end of the first tenth: {growth}")
 
 
 def run(name: str, one: Case) -> bool:

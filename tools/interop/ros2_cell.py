@@ -73,7 +73,7 @@ class Cell:
         self.sim = Simulated(robot, *options)
         rclpy.init()
         self.client = Node("bench")
-        self.heard = defaultdict(list)
+        self.received = defaultdict(list)
         self.client.create_subscription(JointState, "joint_states", self._into("states"), 50)
         self.client.create_subscription(DiagnosticArray, "/diagnostics", self._into("health"), 50)
         self.actions = {
@@ -95,7 +95,7 @@ class Cell:
                 self._executor.spin_once(0.2)
 
     def _into(self, name: str):
-        return lambda message: self.heard[name].append((time.monotonic(), message))
+        return lambda message: self.received[name].append((time.monotonic(), message))
 
     def start_node(self, *more: str) -> None:
         """Start the node; wait for it and its robot."""
@@ -115,7 +115,7 @@ class Cell:
 
     def state_since(self, since: float) -> bool:
         """True if joint_states arrived since then."""
-        return bool(self.heard["states"]) and self.heard["states"][-1][0] > since
+        return bool(self.received["states"]) and self.received["states"][-1][0] > since
 
     def inside(self, act):
         """Call `act` while nothing else of the client runs.

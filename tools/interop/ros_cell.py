@@ -226,7 +226,7 @@ class Cell:
     def user_sees(self, since: float = 0.0) -> str:
         """Return the newest fault line of the pendant or event log."""
         words = ("refused", "Trajectory", "trajectory", "ROS", "ENTRY_")
-        lines = self.sim.process.said(*words, since=since)
+        lines = self.sim.process.lines_containing(*words, since=since)
         return lines[-1] if lines else "-"
 
     def close(self) -> None:

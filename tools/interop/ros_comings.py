@@ -202,7 +202,7 @@ def silent(cell: Cell, findings: Findings) -> None:
     findings.must(cell.arrives([0.0, *FIVE[-1][1:]], 25), "the new node's trajectory is executed")
 
 
-@case("the motion node stopped (SIGSTOP) in a trajectory until behind its end")
+@case("the motion node stopped (SIGSTOP) in a trajectory until after its end")
 def frozen(cell: Cell, findings: Findings) -> None:
     begin_moving(cell)
     node = cell.nodes["motion_download_interface"]

@@ -54,7 +54,7 @@ def idle(cell: Cell, findings: Findings) -> None:
     gap = max(b - a for a, b in pairwise(times))
     findings.must(gap < 1, f"states all the time, longest gap {gap * 1000:.0f} ms")
     findings.five(cell, "the trajectory is executed", 15)
-    lost = sum(len(n.said("ERROR", "WARN")) for n in cell.nodes.values())
+    lost = sum(len(n.lines_containing("ERROR", "WARN")) for n in cell.nodes.values())
     findings.must(not lost, "no node warns")
 
 
@@ -104,7 +104,7 @@ def _points(cell: Cell, findings: Findings, count: int, step: float, timeout: fl
     findings.must(abs(took - step * (count - 1)) < 1 or not target, "in the time asked for")
     now = cell.next_status()
     findings.must(now.error_code == 0, f"error_code {now.error_code}")
-    points_lost = cell.sim.process.said("50024", "oo many", "xceed")
+    points_lost = cell.sim.process.lines_containing("50024", "oo many", "xceed")
     if points_lost:
         findings.tell(f"{len(points_lost)} lines such as {points_lost[0].strip()!r}")
 
@@ -156,7 +156,7 @@ def stop(cell: Cell, findings: Findings) -> None:
 def stop_at_rest(cell: Cell, findings: Findings) -> None:
     took = max(cell.stop(), cell.stop())
     findings.must(took < 0.5, f"answered within {took * 1000:.0f} ms")
-    findings.five(cell, "a trajectory right behind is executed")
+    findings.five(cell, "a trajectory right after it is executed")
 
 
 @case("an empty trajectory while the robot moves")
@@ -196,7 +196,7 @@ def _not_begun(cell: Cell, findings: Findings, *, error: bool = True) -> None:
     """Check a trajectory from an old start that arrives during a motion."""
     findings.must(
         cell.quiet(2) and cell.sim.positions()[0] > 0.1,
-        "the old one is stopped, the new one not begun",
+        "the old one is stopped, the new one not started",
     )
     findings.reports(cell, spec.Reason.START_TOO_FAR, 1, error=error)
 
@@ -237,7 +237,7 @@ def twice(cell: Cell, findings: Findings) -> None:
     )
 
 
-@case("a second trajectory whose first stamp is behind the last one of the first")
+@case("a second trajectory whose first stamp is after the last one of the first")
 def late_stamps(cell: Cell, findings: Findings) -> None:
     cell.publish(cell.trajectory([[0.0], [0.1]], step=0.5))
     findings.must(cell.arrives([0.1], 25), "the first is executed")

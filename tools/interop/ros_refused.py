@@ -12,7 +12,7 @@ def _refused(cell: Cell, findings: Findings, points, reason: spec.Reason, joint:
     findings.tell(f"log: {cell.user_sees(begin)!r}")
     if not cell.sim.standing():
         cell.wait_standing(40)
-    findings.ramped(cell, "a good one behind it is executed", to=0.2)
+    findings.ramped(cell, "a good one after it is executed", to=0.2)
     findings.must(cell.next_status().in_error.val == FALSE, "in_error is 0 again")
 
 

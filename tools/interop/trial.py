@@ -6,7 +6,7 @@ Programs are unchanged and cells are inferred, as in `rapidgen run PROGRAM --cel
 inferred robot does not reach a position, the robot that gets furthest is used. Undeclared data is
 created, and inputs and dialogs get an answer, but no communication partner does. A backup moves its
 own robot. For each program the trial prints how it ended (whole; waits for a partner: socket, file,
-guide; stops behind a partner: a dialog was answered before; goes round; stops with an error; does
+guide; stops after a partner: a dialog was answered before; goes round; stops with an error; does
 not load), the reached share of its lines, and the obstacle. The last lines are the sums.
 """
 
@@ -40,7 +40,7 @@ _PARTNER = re.compile(
 _TIME = 300.0
 _STATEMENTS = 2_000_000
 _LITTLE = 0.6
-GOOD = ("whole", "waits for a partner", "stops behind a partner", "goes round")
+GOOD = ("whole", "waits for a partner", "stops after a partner", "goes round")
 """A program that was answered and then stops has reached its first partner."""
 
 
@@ -117,7 +117,7 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
 
 def _end(finished: str, faults: Sequence[str], waits: Sequence[str], *, requested: bool) -> str:
     if faults and not all(map(_PARTNER.search, faults)):
-        return "stops behind a partner" if requested else "stops"
+        return "stops after a partner" if requested else "stops"
     if faults:
         return "waits for a partner"
     if finished == "finished":

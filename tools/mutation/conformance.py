@@ -55,7 +55,7 @@ def judged(file, seconds):
         signal.signal(signal.SIGVTALRM, before)
 
 
-def red(file):
+def fails(file):
     """True if a file's findings differ; None for a hang or a crash."""
     for seconds in SECONDS:
         try:
@@ -128,11 +128,11 @@ class Campaign:
         self.tried += 1
         try:
             with mutant.made():
-                if not red(file):
+                if not fails(file):
                     return False
                 result = [file]
                 for other in others:
-                    if other is not file and red(other):
+                    if other is not file and fails(other):
                         result.append(other)
                         if len(result) > self.limit:
                             self.broad.add(mutant)
@@ -192,12 +192,12 @@ class Campaign:
 
     def _table(self, mutant, left):
         self.tried += 1
-        result = [file for file in left if red(file)]
+        result = [file for file in left if fails(file)]
         if not result:
             return
         count = len(result)
         for other in self.all:
-            if other not in left and red(other):
+            if other not in left and fails(other):
                 count += 1
             if count > self.limit:
                 return

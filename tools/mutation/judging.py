@@ -32,7 +32,7 @@ from rapidgen.verification.testbench import FAILURES, Bench, with_module
 from rapidgen.verification.worker_pool import WorkerPool, each, run_in_fork
 from tools.mutation.driver import Mutant
 
-PATIENCE = (2.0, 12.0)
+TIME_LIMIT = (2.0, 12.0)
 """Time limit of a case: this many s of CPU, or this multiple of its time on the unchanged driver,
 whichever is more. A mutant that takes longer hangs the driver, which a user of the suite notices.
 """
@@ -44,7 +44,7 @@ NEAR = 12
 """Lines: detections within this distance of a mutant count more than others."""
 
 
-BEHIND = 16
+IN_PROGRESS = 16
 """Mutants in progress at a time: the next one does not know their results."""
 _CASES = {case.name: case for case in CASES}
 
@@ -175,7 +175,7 @@ def _same_text(arguments: Grounds) -> None:
     Raises RuntimeError.
     """
     if arguments.text != _own_text():
-        raise RuntimeError("this worker's checkout is not that of whoever asks")
+        raise RuntimeError("this worker's checkout is not that of the campaign")
 
 
 def _as_it_is(arguments: Grounds, name: str):
@@ -221,7 +221,7 @@ def verdicts(
         lambda question: key(numbers[id(question.mutant)]),
         VERDICTS,
         lambda _: False,
-        needs=lambda number: max(0, number - BEHIND),
+        needs=lambda number: max(0, number - IN_PROGRESS),
         take=take,
     )
 
@@ -283,7 +283,7 @@ class Judge:
         return "", tried, 0
 
     def _noticed_by(self, case: SuiteCase) -> str:
-        least, times = PATIENCE
+        least, times = TIME_LIMIT
         signal.signal(signal.SIGPROF, _hang)
         signal.setitimer(signal.ITIMER_PROF, max(least, times * self._usual[case.name]))
         try:

@@ -19,15 +19,15 @@ from tests.rapid_programs import Program
 from tests.runtime.test_conformance import HERE, PROGRAMS, test_program_does_what_its_source_says
 from tools.mutation.front_end import Mutant, NoProgram, of_functions
 
-ROOMS = ("machine", "motion", "runtime", "controller")
-ROOTS = [Path(rapidgen.__file__).parent / room for room in ROOMS]
+PACKAGES = ("machine", "motion", "runtime", "controller")
+ROOTS = [Path(rapidgen.__file__).parent / package for package in PACKAGES]
 BROAD = 50
 """Per cent of all files that a mutant may fail, for a file without a narrower one."""
 SECONDS = 1.0
 """CPU time after which a mutant hangs; a file takes some hundredths."""
 LARGEST_TRIAL = 400
 """Mutants of rare lines that are tried for one file before its commonest lines."""
-GREEN, RED, BROKEN = 0, 1, 2
+PASSED, FAILED, BROKEN = 0, 1, 2
 
 Place = tuple[str, int]
 
@@ -74,8 +74,8 @@ def _judged(file: File) -> int:
     try:
         file.judge(file.program)
     except AssertionError:
-        return RED
-    return GREEN
+        return FAILED
+    return PASSED
 
 
 def outcome(file: File, mutant: Mutant | None = None) -> int:
@@ -188,12 +188,12 @@ class Campaign:
     def _try(self, mutant: Mutant, file: File, others: list[File]) -> bool:
         """True if the mutant fails `file`, and few of `others`."""
         self.tried += 1
-        if outcome(file, mutant) != RED:
+        if outcome(file, mutant) != FAILED:
             return False
         self._done.add(mutant)
         result = [file]
         for other in others:
-            if other is not file and outcome(other, mutant) == RED:
+            if other is not file and outcome(other, mutant) == FAILED:
                 result.append(other)
                 if len(result) > self.limit:
                     return False
