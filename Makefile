@@ -73,9 +73,9 @@ wheel: $(STAMP) $(PAGE)
 	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
 	cd $(WHEEL) && env/bin/python -c 'from rapidgen.viewer.plotting import ASSETS; assert (ASSETS / "page.js").is_file(), ASSETS'
 
-# The generated driver for some simulated hours; `make driver-day` is the long form.
+# The generated driver for one simulated hour; `make driver-day` is the long form.
 driver-soak: $(STAMP)
-	time $(BIN)/python tools/driver_campaign.py days --hours 1 --watched 0.25
+	time $(BIN)/python tools/driver_campaign.py days --hours 1 --watched 0.1
 
 # The documentation as a site: build/site/index.html. A warning is an error, a link into nothing is one,
 # and so is a question of docs/start/questions.md that the site's search does not find.
