@@ -1,4 +1,4 @@
-"""How property tests draw, when garbage is collected, and what the tests of each room cost.
+"""How property tests draw, when garbage is collected, and what the tests of each folder cost.
 
 Property tests draw the same examples in every run; RAPIDGEN_PROPERTIES=campaign draws anew.
 """
@@ -133,9 +133,9 @@ class Garbage:
 
 
 class Cost:
-    """CPU time by folder below tests/, and of the dearest tests, if `--durations N` asks.
+    """CPU time by folder below tests/, and by `--durations N` of the N tests that take most.
 
-    A worker of xdist tells its own at its end.
+    A worker of xdist reports its own at its end.
     """
 
     def __init__(self) -> None:
@@ -153,7 +153,7 @@ class Cost:
         try:
             return (yield)
         finally:
-            folder, spent = room(item.path), cpu_seconds() - began
+            folder, spent = folder_of(item.path), cpu_seconds() - began
             self.seconds[folder] += spent
             self.tests[folder] += 1
             self.each[item.nodeid] += spent
@@ -183,8 +183,8 @@ class Cost:
             terminalreporter.write_line(f"{seconds:7.1f} s  {name}")
 
 
-def room(path: Path) -> str:
-    """The folder of tests/ that a test file belongs to."""
+def folder_of(path: Path) -> str:
+    """Return the folder of tests/ that a test file belongs to."""
     inside = path.relative_to(HERE).parts if path.is_relative_to(HERE) else path.parts[-1:]
     return inside[0] if len(inside) > 1 else "tests"
 
