@@ -169,7 +169,7 @@ class Cost:
         for mine, text in zip(
             (self.seconds, self.tests, self.each),
             getattr(node, "workeroutput", {}).get("cost", ()),
-            strict=False,  # a worker that was killed has told nothing
+            strict=False,  # a worker that was killed has reported nothing
         ):
             mine.update(text)
 

@@ -1,14 +1,14 @@
-"""Ports for programs that have to be told one, before anybody listens there."""
+"""Free ports for programs that need a port number in advance."""
 
 import random
 import socket
 
 GIVEN_AWAY = 32_768
-"""Where Linux begins to give ports away to whoever binds 0 or connects (ip_local_port_range)."""
+"""First port that Linux assigns for port 0 and outgoing connections (ip_local_port_range)."""
 
 
 def own_address() -> str:
-    """Loopback that nobody else has, for a server to which thousands of connections are made.
+    """An unused loopback address, for a server to which thousands of connections are made.
 
     One that is closed keeps its port, at its address, for a minute: at 127.0.0.1 three runs of
     tests/deploy side by side had 26,000 of the 28,000.
@@ -17,7 +17,7 @@ def own_address() -> str:
 
 
 def free_port(adjacent: int = 0) -> int:
-    """A port of loopback that nobody has, and that the system gives to nobody; so are the next
+    """Return a free loopback port that the system does not assign; so are the next
     `adjacent` ones.
 
     One that was bound to 0 and let go can be another test's a moment later: its server then

@@ -71,7 +71,7 @@ explain
 build cell.yaml --list
 build cell.yaml --set motion.rate=abc
 build cell.yaml --set ports.motion=80
-build nobody
+build missing
 build irb121
 fmt ugly.mod --check
 fmt ugly.mod --diff

@@ -2,9 +2,10 @@
 
 import re
 
+from rapidgen.config.assemble import display_path, keys_of
 from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.config.source_locations import KeyPath, place_of_value
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
+from rapidgen.config.yaml_tree import MappingNode, Node, ScalarNode, SequenceNode
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error
 from rapidgen.generate import layout
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax.lexer import KEYWORDS
@@ -96,3 +97,36 @@ def _why_not(name: str, declared: set[str], others: list[str]) -> str:
     if low in declared:
         return "the generated modules use it"
     return "another datum of the configuration has it" if low in others else ""
+
+
+# -- source locations ------------------------------------------------------------------------------
+
+KeyPath = tuple[str | int, ...]
+
+
+def place_of_value(config: RobotConfig, group: str, path: KeyPath, value: str) -> Span | None:
+    """Return the place of a group's `value`, or None.
+
+    A value from `--set` has no place.
+    """
+    data = next((data for name, data in config.inputs if name == config.path.name), None)
+    if data is None:
+        return None
+    root, _ = keys_of(data, display_path(config.path))
+    for complete in (("groups", group, *path), path):
+        node = _at(root, complete)
+        if isinstance(node, ScalarNode) and node.value == value:
+            return node.span
+    return None
+
+
+def _at(root: Node, path: KeyPath) -> Node | None:
+    node = root
+    for part in path:
+        if isinstance(node, MappingNode) and part in node.entries:
+            node = node.entries[str(part)][1]
+        elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.items):
+            node = node.items[part]
+        else:
+            return None
+    return node

@@ -12,11 +12,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal
-from rapidgen.system.arc import arc_signals
 from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.cfg_loading import faults_within
-from rapidgen.system.cfg_reader import ModuleEntry, modules_of, tasks_of, with_cfg
+from rapidgen.system.cfg_reader import ModuleEntry, arc_signals, modules_of, tasks_of, with_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.loading import load_entries, load_module
 from rapidgen.system.model import ModuleFile, System, TaskSpec, UdpDevice

@@ -6,11 +6,12 @@ controllers; the ones that are only remembered are marked [mem].
 
 import re
 from dataclasses import dataclass, replace
-from typing import Literal, cast, get_args
+from typing import Final, Literal, cast, get_args
 
 from rapidgen.diagnostics import DiagnosticError, Span, refusal, suggest
 from rapidgen.system.cfg import CfgText, Instance
 from rapidgen.system.model import (
+    ArcSignals,
     CrossConnection,
     EventRoutine,
     MechanicalUnitGroup,
@@ -294,3 +295,24 @@ def with_cfg(system: System, sys: CfgText, eio: CfgText) -> System:
         events=events_of(sys),
         groups=groups_of(sys),
     )
+
+
+# -- arc welding equipment -------------------------------------------------------------------------
+# ARC_EQUIP_IO_DI, _DO, _AO and _GO, as PROC.cfg files of public add-ins have them
+# [code zwj12/AddInPackages].
+
+_SECTIONS: Final = ("ARC_EQUIP_IO_DI", "ARC_EQUIP_IO_DO", "ARC_EQUIP_IO_AO", "ARC_EQUIP_IO_GO")
+
+
+def arc_signals(proc: CfgText) -> tuple[ArcSignals, ...]:
+    """Return the equipment by instance; an empty name is no signal."""
+    result: dict[str, list[tuple[str, str]]] = {}
+    for section in _SECTIONS:
+        for instance in proc.instances(section):
+            names = result.setdefault(instance.text("name"), [])
+            names += [
+                (attribute.name, str(attribute.values[0]))
+                for attribute in instance.attributes
+                if attribute.name.lower() != "name" and attribute.values and attribute.values[0]
+            ]
+    return tuple(ArcSignals(name, tuple(names)) for name, names in result.items())

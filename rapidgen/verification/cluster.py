@@ -19,7 +19,7 @@ from distributed.scheduler import KilledWorker
 
 from rapidgen._compat import Self
 from rapidgen.diagnostics import DiagnosticError, refusal
-from rapidgen.verification.build_identity import identity
+from rapidgen.verification.result_file import identity
 from rapidgen.verification.worker_pool import Call, WorkersLost, reraise
 from rapidgen.verification.worker_process import WorkerProcess, WorkerProcessLost
 

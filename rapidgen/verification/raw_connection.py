@@ -1,8 +1,10 @@
 """Client connections to a bench's controller, as bytes."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Protocol, TypeVar
 
+from rapidgen.config.model import GroupConfig
+from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.network.interface import Endpoint, NetworkFault
 from rapidgen.verification.messages import (
     JOINT_TRAJ_PT,
@@ -19,10 +21,22 @@ from rapidgen.verification.messages import (
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, Position
 
-if TYPE_CHECKING:
-    from rapidgen.verification.testbench import Bench
-
 C = TypeVar("C")
+
+
+class LinkBench(Protocol):
+    """The bench of a connection: its controller, its clock and its record of downloads."""
+
+    controller: VirtualController
+    group: GroupConfig
+    commanded: list[tuple[float, list[Point]]]
+
+    @property
+    def now(self) -> float: ...
+
+    def run(self, seconds: float) -> None: ...
+
+    def until(self, condition: Callable[[], bool], seconds: float, what: str) -> None: ...
 
 
 class RawLink:
@@ -34,7 +48,7 @@ class RawLink:
     """
 
     def __init__(
-        self, bench: "Bench", port: int, *, reading: bool = True, address: str = "127.0.0.1"
+        self, bench: LinkBench, port: int, *, reading: bool = True, address: str = "127.0.0.1"
     ) -> None:
         self._bench = bench
         self._network = bench.controller.network

@@ -15,7 +15,7 @@ the plan's task order and network, and `History` executes the steps. Random choi
 network and the history come from separate generators. A tracer or a recording draws no random
 number, so a replay with `trace` gives the same history. The pairs of statements of different tasks
 (`interleaving_coverage.py`) tell the selection (`schedule_selection.py`) which schedules are new,
-and the minimizer (`schedule_minimizer.py`) removes steps from one that fails.
+and the minimizer (`minimization.py`) removes steps from one that fails.
 """
 
 import random

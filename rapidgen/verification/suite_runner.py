@@ -16,11 +16,10 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.controller.cell_setup import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.system.model import System
-from rapidgen.verification.assumption_minimizer import minimal_assumptions
 from rapidgen.verification.bench_pool import BenchPool
-from rapidgen.verification.build_identity import identity
 from rapidgen.verification.campaign import Campaign, Limits, Progress, Workload
 from rapidgen.verification.case import SuiteCase
+from rapidgen.verification.minimization import minimal_assumptions, smaller
 from rapidgen.verification.model import (
     CaseResult,
     Counterexample,
@@ -36,7 +35,7 @@ from rapidgen.verification.program_equivalence import (
 )
 from rapidgen.verification.raw_programs import called
 from rapidgen.verification.report import series
-from rapidgen.verification.result_file import Results
+from rapidgen.verification.result_file import Results, identity
 from rapidgen.verification.schedule import ScheduleSpace, drawn, named
 from rapidgen.verification.schedule_exploration import (
     Recording,
@@ -45,7 +44,6 @@ from rapidgen.verification.schedule_exploration import (
     ground_of,
     setting_of,
 )
-from rapidgen.verification.schedule_minimizer import smaller
 from rapidgen.verification.schedule_selection import ScheduleSelector
 from rapidgen.verification.settings import Setting, assumed, possible, rows, settings
 from rapidgen.verification.suite import CASES

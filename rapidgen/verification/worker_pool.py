@@ -269,7 +269,7 @@ def _outcome(function: Callable[[], object]) -> tuple[bool, object]:
     """Return success, and the result or exception of a call."""
     try:
         return True, function()
-    except Exception as error:  # noqa: BLE001 - handed to whoever asked, who raises it
+    except Exception as error:  # noqa: BLE001 - returned to the caller, which raises it
         return False, (error, traceback.format_exc())
 
 

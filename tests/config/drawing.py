@@ -57,7 +57,7 @@ def errors(result):
 
 
 def only(code, checked):
-    """The one error of a check, which has this code; it says what mends it."""
+    """Return the one error of a check with this code; it has a help text."""
     assert errors(checked[1]) == [code]
     assert checked[1][code].help
     return checked[1][code]

@@ -1,4 +1,4 @@
-"""Broken and hostile descriptions: a place, a reason, a mend; short, and soon."""
+"""Broken and hostile descriptions: short diagnostics with a fix, quickly."""
 
 import os
 

@@ -178,14 +178,14 @@ def test_every_code_about_descriptions_has_its_case():
 
 
 def lines_of(help_text):
-    """The parts of a mend that are lines of a configuration, by key."""
+    """Return the configuration lines of a help text, by key."""
     text = help_text.replace("\n  urdf:\n    ", "\nurdf:\n  ")
     pattern = r"^((?:model|urdf|joints|coupling|held_axes|groups|tool)):.*(?:\n .*)*"
     return {hit[1]: hit[0] for hit in re.finditer(pattern, text, re.MULTILINE)}
 
 
 def paste(config, help_text):
-    """A configuration with the lines of a mend in place of those that it had."""
+    """Return a configuration with the lines of a help text replaced."""
     result = lines_of(help_text)
     for key, block in result.items():
         if key == "urdf":

@@ -241,7 +241,7 @@ def test_scara_export_without_quill_is_recognised_by_its_arms(tmp_path):
     new(path, urdf=urdf, speed=100, force=True)
     offset = next(line for line in path.read_text().splitlines() if line.startswith("  b:"))
     assert "offset: 90" in offset
-    urdf.write_text(SCARA.format(x=0.31, y=0))  # nobody's: two ranges are open
+    urdf.write_text(SCARA.format(x=0.31, y=0))  # unknown arm: two ranges are open
     assert codes(path, urdf=urdf, speed=100, force=True) == (["RG022"] * 4, 1)
     new(path, urdf=urdf, speed=100, range_=["-120..120"], force=True)
 
@@ -285,7 +285,7 @@ def test_an_arm_of_abb_is_one_whatever_its_neighbours_are_called(tmp_path):
 
 @pytest.fixture
 def person(monkeypatch):
-    """Somebody who answers; what was asked."""
+    """Answer questions as a user; record them."""
     requested = []
 
     def answers(*given):
@@ -309,7 +309,7 @@ def test_user_is_asked_for_open_values(tmp_path, person, capsys):
     )
     requested = person("axis 1", None, None, "eax_a", "0")
     new(tmp_path / "cell.yaml", urdf=tmp_path / "r.urdf")
-    # What is usual comes first; where one is no axis of the arm the other six are told by that.
+    # What is usual comes first; where one is no axis of the arm that identifies the other six.
     joints = load_config(tmp_path / "cell.yaml").groups[0].joints
     assert [(j.name[-1], j.axis) for j in joints] == [
         ("1", "rax_1"), ("2", "rax_2"), ("3", "rax_3"), ("4", "rax_4"), ("5", "rax_5"),
@@ -333,7 +333,7 @@ def test_a_person_names_the_robot(tmp_path, person):
 @pytest.mark.parametrize(
     ("name", "coupling"),
     [
-        ("irb2400_10_150", 1),  # by its name: axes along one line are nobody's
+        ("irb2400_10_150", 1),  # by its name: axes along one line match no arm
         ("irb4600_20_250", 0),
         ("irb8700_550_420", None),
         ("irb580_12", None),

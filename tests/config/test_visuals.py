@@ -49,7 +49,7 @@ def test_a_mesh_is_found_as_ros_finds_it(home, name):
         ("package://arm/meshes/gone.stl", "not there"),
         ("package://arm/meshes/link.txt", "no STL"),
         ("package://arm/meshes/\0.stl", "not there"),
-        ("package://nobody/a.stl", "not found"),
+        ("package://missing/a.stl", "not found"),
         ("package://arm/meshes/out.stl", "outside"),
         ("package://arm/meshes/away/secret.stl", "outside"),
         ("package://arm/meshes/%2e%2e/%2e%2e/%2e%2e/secret.stl", "not there"),

@@ -53,8 +53,8 @@ def _empty(stack, folder, model, generation, release) -> str:
     cfg = base_system(release, [Robot("T_ROB1", "ROB_1")])
     robots = load_config(model).groups
     options = {"autostart": False, "entry_needed": False, "clock": "real", "host": HOST}
-    cabinet = stack.enter_context(ControllerRunner(system, cfg=cfg, robots=robots, **options))
-    cabinet.start()
-    service = serve_rws(cabinet, generation, HOST)
+    runner = stack.enter_context(ControllerRunner(system, cfg=cfg, robots=robots, **options))
+    runner.start()
+    service = serve_rws(runner, generation, HOST)
     stack.callback(service.close)
     return f"{'rws' if generation is Generation.ONE else 'rwss'}://{HOST}:{service.port}"

@@ -1,6 +1,6 @@
 """Whether the site's own search finds what people ask: `python -m tests.docs.findable build/site`.
 
-Each question of docs/start/questions.md, in words that somebody types. Among the first results,
+Each question of docs/start/questions.md, in words that a user types. Among the first results,
 as many as are seen without scrolling, is that page or one that answers; for at least one wording
 it is one that answers. `--table` shows all.
 """

@@ -45,8 +45,8 @@ class Seen:
             kinds.append(type(decode(frame)).__name__)
         arrow = {"in": "──▶", "out": "◀──"}.get(events.change)
         if arrow and kinds:
-            told = Counter(kinds)
-            text = ", ".join(k if n == 1 else f"{k} × {n}" for k, n in told.items())
+            counts = Counter(kinds)
+            text = ", ".join(k if n == 1 else f"{k} × {n}" for k, n in counts.items())
             self._once(events.task, f"client {arrow} {text}")
 
     def _once(self, task: str, text: str) -> None:

@@ -36,7 +36,7 @@ PAGES = [
     *(p for p in sorted((ROOT / "docs").glob("*/*.md")) if p != GENERATED),
 ]
 # Descriptions of robots that the reader of a page has: the shipped one, and what it says otherwise.
-LENT = {
+SAMPLES = {
     "robots.md": {
         "my_robot.urdf": ("irb120", {}),
         "my_robot.xacro": (
@@ -86,7 +86,7 @@ def environment(tmp_path):
 def test_commands(path, tmp_path, environment):
     for name, text in files(path):
         (tmp_path / name).write_text(text, encoding="utf-8")
-    for name, (source, changes) in LENT.get(path.name, {}).items():
+    for name, (source, changes) in SAMPLES.get(path.name, {}).items():
         text = (ROOT / "robots" / "urdf" / f"{source}.urdf").read_text("utf-8")
         for old, new in changes.items():
             assert old in text
@@ -114,7 +114,7 @@ def test_commands(path, tmp_path, environment):
                     (tmp_path / "known").write_text(ready["sftp"]["host_key"] + "\n")
                     stands["127.0.0.1:40022"] = f"127.0.0.1:{ready['sftp']['port']}"
                 continue
-            run, password = unasked, own_password
+            run, password = run_without_terminal, own_password
             if at_address.WRITTEN in line:
                 run, password = agreed, at_address.PASSWORD
             own = {**environment, "RAPIDGEN_PASSWORD": password}
@@ -142,17 +142,17 @@ def served(words, folder, environment):
     """A command that goes on, from what it says when it is ready."""
     server = subprocess.Popen(words, stdout=subprocess.PIPE, text=True, cwd=folder, env=environment)
     try:
-        word, _, told = server.stdout.readline().partition(" ")
+        word, _, listed = server.stdout.readline().partition(" ")
         assert word == "ready", words
-        yield json.loads(told)
+        yield json.loads(listed)
     finally:
         server.terminate()
         server.wait(60)
         server.stdout.close()
 
 
-def unasked(words, **where):
-    """Exit code and output of a command beside which nobody is."""
+def run_without_terminal(words, **where):
+    """Return exit code and output of a command without a terminal."""
     done = subprocess.run(
         words, capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=200, **where
     )
@@ -160,7 +160,7 @@ def unasked(words, **where):
 
 
 def agreed(words, **where):
-    """The same at a terminal where somebody says yes to everything."""
+    """The same at a terminal with the answer yes to every question."""
     ours, theirs = pty.openpty()
     os.write(ours, b"y\n" * 8)
     process = subprocess.Popen(words, stdin=theirs, stdout=theirs, stderr=theirs, **where)
@@ -232,10 +232,10 @@ def test_every_command_that_is_named_exists(path):
 def test_a_table_of_options_names_all_there_are(page, verb):
     text = (ROOT / "docs" / page).read_text(encoding="utf-8")
     rows = [line.split("|")[1] for line in text.splitlines() if line.startswith("| `--")]
-    told = {name for row in rows for name in re.findall(r"--[a-z-]+", row)}
+    listed = {name for row in rows for name in re.findall(r"--[a-z-]+", row)}
     for names in options_of(verb):
-        assert names & told or names & {"--help"}, (page, names)
-    assert told <= {name for names in options_of(verb) for name in names}
+        assert names & listed or names & {"--help"}, (page, names)
+    assert listed <= {name for names in options_of(verb) for name in names}
 
 
 def test_plans_of_faults_and_secrets_can_be_read(tmp_path):

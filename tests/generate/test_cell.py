@@ -303,8 +303,8 @@ def test_routines_and_data_that_their_module_does_not_have(backup, declared, ove
         ("LOCAL PROC weld(INOUT num one, INOUT bool two) ENDPROC", CALLED),
         ("PERS num Count := 1;", COUNTED),
         # Their modules may be loaded later, and a name alone is looked for everywhere.
-        ("", ["routines.away={call: 'nobody:away'}", "routines.home={call: home}"]),
-        ("", ["data.nobody:count={type: num}"]),
+        ("", ["routines.away={call: 'missing:away'}", "routines.home={call: home}"]),
+        ("", ["data.missing:count={type: num}"]),
     ],
 )
 def test_routines_and_data_that_are_there_or_may_come(backup, declared, overrides):

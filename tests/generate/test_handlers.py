@@ -13,7 +13,7 @@ from rapidgen.rapid.syntax import nodes
 from rapidgen.rapid.syntax.walk import walk
 
 RAISING = {
-    # Bytes that somebody else sent, and links that break (rapid.md: raw bytes, sockets).
+    # Bytes of clients, and connections that break (rapid.md: raw bytes, sockets).
     *("unpackrawbytes", "packrawbytes"),
     *("socketcreate", "socketbind", "socketlisten", "socketaccept", "socketreceive"),
     *("socketsend", "socketpeek"),

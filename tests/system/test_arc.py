@@ -1,8 +1,8 @@
 """PROC.cfg of a backup: what arc welding equipment has for signals."""
 
-from rapidgen.system.arc import arc_signals
 from rapidgen.system.backup import read_backup
 from rapidgen.system.cfg import parse_cfg
+from rapidgen.system.cfg_reader import arc_signals
 
 PROC = r"""PROC:CFG_1.0:6:0::
 #

@@ -132,7 +132,7 @@ def test_nothing_comes_in_a_cell_without_gripper(
     with pytest.raises(TimeoutError, match="waits for diPart = 1; diPart is 0"):
         client.receive(until=b";")
 
-def test_a_program_that_serves_nobody(virtual_controller, virtual_client, tmp_path):
+def test_program_without_clients(virtual_controller, virtual_client, tmp_path):
     path = tmp_path / "idle.mod"
     path.write_text("MODULE idle\\n PROC main()\\n  WaitUntil FALSE;\\n ENDPROC\\nENDMODULE")
     controller = virtual_controller(path)

@@ -1,4 +1,4 @@
-"""Work is done once, in order, by whoever is there, and goes on where it was broken off."""
+"""Work is done once, in order, by any worker, and resumes after interruption."""
 
 import io
 import json

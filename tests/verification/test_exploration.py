@@ -14,10 +14,10 @@ from rapidgen.generate import build, make_system
 from rapidgen.machine.network.fault_injection import NetworkRule
 from rapidgen.rapid import check, parse
 from rapidgen.verification.bench_pool import BenchPool
+from rapidgen.verification.minimization import smaller
 from rapidgen.verification.model import Counterexample
 from rapidgen.verification.schedule import Disturbance, TaskSchedule, drawn, named
 from rapidgen.verification.schedule_exploration import STEPS, ScheduleResult, explore, ground_of
-from rapidgen.verification.schedule_minimizer import smaller
 from rapidgen.verification.schedule_selection import ScheduleSelector
 from rapidgen.verification.settings import Setting
 from rapidgen.verification.suite_runner import DriverUnderTest, minimised, schedule
@@ -98,7 +98,7 @@ def test_remaining_steps_of_a_schedule_are_drawn_as_before():
     ("seed", "reply"), [("0", "while nothing disturbs it: length"), ("7", "length")]
 )
 def test_bytes_that_are_no_message_are_a_finding(seed, reply):
-    """Also where they come before a history begins: to whoever looks what the driver executes."""
+    """Also before a history begins, while the driver's statements are recorded."""
     system = make_system(SIX_AXES, build(SIX_AXES))
     modules = [module for task in system.tasks for module in task.modules]
     sends = next(module for module in modules if module.name == "ROS_socket")

@@ -36,7 +36,7 @@ from rapidgen.verification.suite.pendant import _Pendant
 from rapidgen.verification.suite.points import Table
 from tests.verification.made_up import CONFIG, A, B, C, D, along, check_fails
 
-# -- what is told ---------------------------------------------------------------------------------
+# -- reports -------------------------------------------------------------------------------------
 
 
 def test_a_reply_that_does_not_come_is_seen(bench):

@@ -63,7 +63,7 @@ def test_a_prefix_of_the_path_is_followed(seen):
 @pytest.mark.parametrize(
     "seen",
     [
-        # Beside it, straight from first to last point, on to where nobody asked it to go.
+        # Off it, straight from first to last point, and beyond the commanded end.
         along(A, (0.5, 0.1), B),
         along(A, C),
         along(A, B, (1.2, 0.0)),

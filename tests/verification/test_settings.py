@@ -11,9 +11,9 @@ from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.motion.settings import MotionSettings
 from rapidgen.rapid.switches import NOT_THE_DRIVERS, Switches
-from rapidgen.verification.assumption_minimizer import minimal_assumptions, smallest
 from rapidgen.verification.case import SuiteCase
 from rapidgen.verification.covering_array import covering
+from rapidgen.verification.minimization import minimal_assumptions, smallest
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.settings import (
     FIGURES,

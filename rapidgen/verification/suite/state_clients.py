@@ -318,7 +318,7 @@ def _events(bench: Bench) -> None:
     bench.run(0.3)
     seen, started = len(links[0].messages_of(messages.RawEvent, since)), since
     for number in range(100):
-        _write(bench, number, "Nobody listens")
+        _write(bench, number, "No client listens")
     bench.run(0.5)
     bench.assert_healthy()
     since = bench.now

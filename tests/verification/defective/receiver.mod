@@ -45,7 +45,7 @@ MODULE receiver
                 taken_over := came(newcomer);                                 !-R12
             ENDIF
         ENDWHILE
-        ! Nobody waits for that here: the next client may already be talking.
+        ! No task waits for that here: the next client may already be talking.
         stop_asked := (stop_asked + 1) MOD 1000;
         SocketClose client;
     ENDPROC
@@ -114,7 +114,7 @@ MODULE receiver
     ! The end has come: order the whole trajectory, if the robot stands where it begins.
     PROC hand_over()
         IF NOT (right AND begins_here()) RETURN;
-        ! The program was stopped or started meanwhile: what is ordered now nobody expects.
+        ! The program was stopped or started meanwhile: no client expects an order now.
         IF interrupted <> interruptions RETURN;
         right := FALSE;
         duration{1} := 0.2;
