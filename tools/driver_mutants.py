@@ -30,7 +30,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from rapidgen.cli.progress import Bars
+from rapidgen.cli.terminal import Bars
 from rapidgen.config import load_config
 from rapidgen.controller.cell_setup import in_its_cell
 from rapidgen.generate import build, make_system

@@ -1,4 +1,4 @@
-"""The `rapidgen` command: finds the verb, shows diagnostics, sets the exit code.
+"""The `rapidgen` program: find the command, show diagnostics, set the exit code.
 
 Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage.
 """
@@ -7,6 +7,7 @@ import errno
 import gc
 import json
 import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -19,51 +20,50 @@ from typer.exceptions import TyperException
 
 from rapidgen import __version__, _extras
 from rapidgen.cli.option_values import PlainCommand, PlainGroup
-from rapidgen.cli.terminal import use_colour
-from rapidgen.cli.verbosity import set_up
+from rapidgen.cli.terminal import set_up, use_colour
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, render
 
-# Each verb is a file of its own, imported when it is asked for; its help begins with the
-# sentence that stands here (a test compares).
-VERBS = {
-    "robots": "List the shipped models.",
-    "new": "Write a commented configuration that checks and builds.",
-    "check": "Say everything that is wrong with configurations and RAPID.",
-    "explain": "Explain a diagnostic's code or a controller's event number.",
-    "schema": "Print the JSON schema of the configuration file.",
-    "build": "Generate the driver for one controller.",
-    "fmt": "Format RAPID: keywords in upper case, four spaces a level, comments kept.",
-    "run": "Run RAPID on the virtual clock.",
-    "sim": "Run a virtual controller in real time.",
-    "test": "Prove the driver for this robot: every behaviour, stops and faults in many schedules.",
-    "probe": "Write a module that asks a controller what is only assumed about it.",
-    "move": "Move a robot to joints, to a pose, or along a file.",
-    "jog": "Move joints or the tool a little from where they are: at most 11.4 deg or 100 mm.",
-    "pose": "Show where the tool is in the work object, and the joints; as `move` takes them.",
-    "stop": "Stop the robot: every motion group, or one.",
-    "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
-    "record": "Write every joint message to a CSV: `time,<joint names>` in s and rad (m).",
-    "status": "Show a controller: mode, motors, speed, tasks, pointers.",
-    "log": "Show and explain a controller's event log.",
-    "start-program": "Start the program of a controller. THE ROBOT MAY MOVE.",
-    "stop-program": "Stop the program of a controller.",
-    "io": "Show signals of a driver or a controller, or set one.",
-    "symbols": "Show a controller's RAPID data, or set one.",
-    "backup": "Bring a backup of a controller here, which `sim` reads.",
-    "plot": "Draw joints over time, and how far the second file is from the first.",
-    "view": "Show a robot or a recording in the browser, read only.",
-    "plan": "Show what `deploy` would do: files, cfg instances, restarts.",
-    "deploy": "Put the driver on one or several controllers: backup, upload, verify, switch.",
-    "rollback": "Go back to the set before the last deployment, or to backup ID.",
-    "uninstall": "Go back to the state before the first deployment.",
-    "doctor": "Look at a controller: reach, ports, names, RobotWare, disk, what runs.",
-    "ros2": "Write a ROS 2 package: launch files, URDF, SRDF and MoveIt configuration.",
-    "ros1": "Write a catkin package for the unmodified ROS-Industrial nodes.",
-    "demo": "Build a driver, boot it on a virtual controller, move it, and report.",
+# A command's module is imported only when the command is used. The sentence is shown by
+# `rapidgen --help` without that import; a test compares it with the command's docstring.
+COMMANDS = {
+    "robots": ("configuration", "List the shipped robot models."),
+    "new": ("configuration", "Write a commented configuration that checks and builds."),
+    "check": ("source_files", "Check configurations and RAPID files."),
+    "explain": ("configuration", "Explain a diagnostic code or an event number."),
+    "schema": ("configuration", "Print the JSON schema of the configuration file."),
+    "build": ("generation", "Generate the driver for one controller."),
+    "fmt": ("source_files", "Format RAPID source files."),
+    "run": ("run", "Run RAPID on the virtual clock."),
+    "sim": ("sim", "Run a virtual controller in real time."),
+    "test": ("verification", "Test the generated driver on the virtual controller."),
+    "probe": ("verification", "Write a RAPID module that tests a controller's behaviour."),
+    "move": ("motion", "Move a robot to joint values, to a pose or along a file."),
+    "jog": ("motion", "Move joints or the tool by a small step."),
+    "pose": ("observation", "Show the pose of the tool and the joint values."),
+    "stop": ("motion", "Stop all motion groups of a robot, or one."),
+    "monitor": ("observation", "Show the joints, mode and message rate of a robot live."),
+    "record": ("observation", "Record the joint positions of a robot as CSV."),
+    "status": ("controller", "Show the mode, motors, speed and tasks of a controller."),
+    "log": ("controller", "Show and explain the event log of a controller."),
+    "start-program": ("controller", "Start the program of a controller (THE ROBOT MAY MOVE)."),
+    "stop-program": ("controller", "Stop the program of a controller."),
+    "io": ("controller", "Show or set signals of a driver or a controller."),
+    "symbols": ("controller", "Show or set RAPID data of a controller."),
+    "backup": ("controller", "Download a backup of a controller."),
+    "plot": ("observation", "Plot joints over time, from one or two recordings."),
+    "view": ("observation", "Show a robot or a recording in the browser, read only."),
+    "plan": ("deployment", "Show what `deploy` would change on a controller."),
+    "deploy": ("deployment", "Install the driver on one or several controllers."),
+    "rollback": ("deployment", "Restore the driver files of an earlier deployment."),
+    "uninstall": ("deployment", "Remove the driver and restore the original files."),
+    "doctor": ("deployment", "Check a controller: connection, ports, RobotWare, tasks."),
+    "ros2": ("generation", "Write a ROS 2 package with launch files, URDF and MoveIt."),
+    "ros1": ("generation", "Write a catkin package for the ROS-Industrial nodes."),
+    "demo": ("demo", "Build a driver, simulate it, move the robot and report."),
 }
 
-# What the machine refuses is said by RG903. An error of another kind that has no file is a fault of
-# the program and is left to fly.
+# Errors of the operating system that RG903 reports. Any other error without a file name is a defect
+# of rapidgen, so it is not caught.
 _MACHINE = {
     errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS, errno.EMFILE, errno.ENFILE
 }  # fmt: skip
@@ -72,35 +72,34 @@ _BAD_PATH = {
     errno.EEXIST
 }  # fmt: skip
 
-# Options that may stand without a value.
+# Options with an optional value.
 _OPTIONAL_VALUES = {"--profile": "--profile=-"}
 
 
 def run(arguments: list[str] | None = None) -> None:
-    """Entry point: run one verb and leave with its exit code."""
+    """Run one command and exit with its code; the entry point."""
     text = sys.argv[1:] if arguments is None else arguments
     _prepare_streams()
     try:
         code = main([_OPTIONAL_VALUES.get(word, word) for word in text])
     except BrokenPipeError:
-        # While it said what was wrong: that reader has gone, too.
-        code = _unheard()
-    # Python would look through all that is left for rings before it ends.
+        # The reader of stderr has gone while a diagnostic was written.
+        code = _no_reader()
+    # Saves the garbage collection at exit.
     gc.freeze()
     sys.exit(code)
 
 
 def main(text: list[str]) -> int:
-    """Run one verb; its exit code."""
+    """Run one command and return its exit code."""
     as_json = asks_json(text)
-    # There 2 means that there is something to do.
+    # With --detailed-exitcode, 2 means that there are changes.
     usage = 1 if "--detailed-exitcode" in text else 2
     text = set_up(text)
     if "" in text:
         _show((_empty_argument(),), as_json)
         return usage
     command = typer.main.get_command(_app(text))
-    # Who types nothing wants to know what there is.
     text = text or ["--help"]
     try:
         result = command.main(args=text, prog_name="rapidgen", standalone_mode=False)
@@ -111,18 +110,18 @@ def main(text: list[str]) -> int:
     except TyperException as fault:
         _show((_usage(fault, text),), as_json)
         return usage
-    except (_GivenUp, KeyboardInterrupt, typer.Abort):
+    except (_Interrupted, KeyboardInterrupt, typer.Abort):
         if as_json:
-            _show((_given_up(),), as_json)
+            _show((_interruption(),), as_json)
         else:
             sys.stderr.write("\nstopped\n")
         return 130
     except BrokenPipeError:
-        return _unheard()
+        return _no_reader()
     except SystemExit as left:
-        # typer's own answer to a broken pipe; it leaves so for nothing else but completion.
+        # typer exits so after a broken pipe, and otherwise only for completion.
         if isinstance(left.__context__, BrokenPipeError):
-            return _unheard()
+            return _no_reader()
         raise
     except ModuleNotFoundError as fault:
         lacking = _extras.missing(fault)
@@ -133,12 +132,12 @@ def main(text: list[str]) -> int:
     except OSError as fault:
         if fault.filename is None and fault.errno not in _MACHINE | {errno.ENOENT}:
             raise
-        return min(_refused(fault, as_json), usage)
+        return min(_system_error(fault, as_json), usage)
     return result if isinstance(result, int) else 0
 
 
 def _prepare_streams() -> None:
-    """A closed stream takes everything; what a terminal's encoding lacks is written as a code."""
+    """Make output never fail: replace closed streams, escape unencodable characters."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:
@@ -148,7 +147,7 @@ def _prepare_streams() -> None:
 
 
 def _app(text: list[str]) -> typer.Typer:
-    """The command with the asked verb as it is, and the others by name and sentence only."""
+    """Return the program with the requested command; the others are name and sentence only."""
     requested = next((word for word in text if not word.startswith("-")), "")
     completing = "_RAPIDGEN_COMPLETE" in os.environ
     app = typer.Typer(
@@ -160,42 +159,42 @@ def _app(text: list[str]) -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(_root)
-    for verb, sentence in VERBS.items():
-        complete = completing or verb == requested
-        app.command(verb, cls=PlainCommand)(
-            _interruptible(function(verb)) if complete else _named(sentence)
+    for command, (_, sentence) in COMMANDS.items():
+        complete = completing or command == requested
+        app.command(command, cls=PlainCommand)(
+            _interruptible(function(command)) if complete else _placeholder(sentence)
         )
     return app
 
 
-class _GivenUp(Exception):
-    """Ctrl-C in a verb; typer would turn it into an exit code without a word."""
+class _Interrupted(Exception):
+    """Ctrl-C in a command; typer would turn it into an exit code without a message."""
 
 
-def _interruptible(verb: Callable[..., object]) -> Callable[..., object]:
-    @wraps(verb)
-    def carried_out(*arguments: object, **options: object) -> object:
+def _interruptible(command: Callable[..., object]) -> Callable[..., object]:
+    @wraps(command)
+    def execute(*arguments: object, **options: object) -> object:
         try:
-            return verb(*arguments, **options)
-        except KeyboardInterrupt as given_up:
-            raise _GivenUp from given_up
+            return command(*arguments, **options)
+        except KeyboardInterrupt as interrupt:
+            raise _Interrupted from interrupt
 
-    return carried_out
+    return execute
 
 
-def function(verb: str) -> Callable[..., object]:
-    """The function behind a verb."""
-    name = verb.replace("-", "_")
-    result: Callable[..., object] = getattr(import_module(f"rapidgen.cli.{name}"), name)
+def function(command: str) -> Callable[..., object]:
+    """Return the function that implements a command."""
+    module = import_module(f"rapidgen.cli.{COMMANDS[command][0]}")
+    result: Callable[..., object] = getattr(module, command.replace("-", "_"))
     return result
 
 
-def _named(sentence: str) -> Callable[[], None]:
-    def verb() -> None:
+def _placeholder(sentence: str) -> Callable[[], None]:
+    def command() -> None:
         pass
 
-    verb.__doc__ = sentence
-    return verb
+    command.__doc__ = sentence
+    return command
 
 
 def _version(requested: bool) -> None:
@@ -211,39 +210,43 @@ def _root(
     verbose: Annotated[
         int,
         typer.Option(
-            "--verbose", "-v", count=True, show_default=False, help="Say what is done; -vv: all."
+            "--verbose",
+            "-v",
+            count=True,
+            show_default=False,
+            help="Progress messages; -vv: debug output.",
         ),
     ] = 0,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="No progress, errors only.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Show errors only.")] = False,
 ) -> None:
-    # Taken out by `loudness.set_up` before; here for the help.
+    # `terminal.set_up` has removed -v and -q; they are declared for the help.
     pass
 
 
-def _unheard() -> int:
-    """The reader has gone (`| head`): nothing is left to say, and nobody to say it to."""
+def _no_reader() -> int:
+    """Discard further output after a broken pipe (`| head`); return the exit code."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, sys.stdout.fileno())
     os.dup2(nowhere, sys.stderr.fileno())
     return 128 + signal.SIGPIPE
 
 
-def _refused(fault: OSError, as_json: bool) -> int:
-    """Say what the operating system refused; the exit code."""
+def _system_error(fault: OSError, as_json: bool) -> int:
+    """Report an error of the operating system; return the exit code."""
     if fault.filename is not None:
-        message, help = f"cannot use {fault.filename}", "free it, or name another one"
+        message, help = f"cannot use {fault.filename}", "free it, or use another one"
     elif fault.errno in _MACHINE:
-        # What could not be written to stdout must not be tried again when Python ends.
+        # Python must not try to flush stdout again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        message, help = "cannot go on", "look at where the output goes, and at the disk"
+        message, help = "cannot continue", "check the output file and the free disk space"
     else:
-        message, help = "cannot go on", "is the folder that you are in still there?"
+        message, help = "cannot continue", "check that the current folder still exists"
     text = f"{message}: {fault.strerror}"
     _show((error("RG903", None, text, help),), as_json)
     return 2 if fault.errno in _BAD_PATH else 1
 
 
-def _given_up() -> Diagnostic:
+def _interruption() -> Diagnostic:
     return error("RG906", None, "stopped by Ctrl-C, or by a no", "the same command begins anew")
 
 
@@ -252,12 +255,12 @@ def _empty_argument() -> Diagnostic:
         "RG901",
         None,
         "an argument is empty",
-        "is a variable of your shell not set? The folder you are in is called `.`",
+        "set the shell variable that is empty; the current folder is `.`",
     )
 
 
 def asks_json(text: Sequence[str]) -> bool:
-    """Whether stdout is read by a program: then errors are JSON there, too."""
+    """True if errors are to be written to stdout as JSON."""
     return "--json" in text
 
 
@@ -270,15 +273,18 @@ def _show(findings: tuple[Diagnostic, ...], as_json: bool) -> None:
 
 def _usage(fault: TyperException, text: list[str]) -> Diagnostic:
     context = getattr(fault, "ctx", None)
-    # An option without its value is told without a context: then by what was typed.
+    # An option without its value has no context: use the typed command.
     typed = " ".join(["rapidgen", *(word for word in text[:1] if not word.startswith("-"))])
     path = context.command_path if context is not None else typed
-    # pydantic's words where a type is checked; they are no user's.
+    # pydantic's wording, where it checks a type.
     message = (fault.format_message() or "nothing to do").rstrip(".").replace("Value error, ", "")
     message = message.replace("Input should be", "it must be").replace("invalid value: ", "")
+    message = re.sub(r", unable to parse string as an? \w+", "", message)
+    message = message.removeprefix("Invalid value: ")
+    content = "commands" if path == "rapidgen" else "arguments and options"
     return error(
         "RG901",
         None,
         message[0].lower() + message[1:],
-        f"`{path} --help` lists its commands and options",
+        f"`{path} --help` lists the {content}",
     )

@@ -1,4 +1,4 @@
-"""What `run` and `sim` boot: options to wishes, what no controller loads, and what was guessed."""
+"""Options of `run` and `sim` for booting, the load check, and reports on inference."""
 
 import sys
 from collections import Counter
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render
+from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render, suggest
 
 if TYPE_CHECKING:
     from rapidgen.controller.boot_targets import Bootable
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from rapidgen.controller.inference.cell import UndeclaredName
 
 
-def chosen(
+def load_boot_target(
     targets: Sequence[str],
     *,
     tasks: Iterable[str] | None = None,
@@ -29,11 +29,15 @@ def chosen(
     overrides: Sequence[str] | None = None,
     check: bool = True,
 ) -> "Bootable":
-    """Read what is to be booted, and refuse what no controller loads unless `check` is False.
+    """Read the files to boot; reject what no controller loads, unless `check` is False.
 
-    Notes, and what was guessed, are told on stderr. Raises DiagnosticError.
+    Prints notes and inferred declarations on stderr. Raises DiagnosticError.
     """
-    from rapidgen.controller.boot_targets import BootOptions, load_target
+    from rapidgen.controller.boot_targets import INFER, BootOptions, load_target
+
+    if cell and cell != INFER and not Path(cell).exists():
+        help = suggest(cell, [INFER]) or f"use the file of a cell description, or `{INFER}`"
+        raise refusal("RG001", None, f"cannot read {cell}: No such file or directory", help)
 
     options = BootOptions(
         _tasks(tasks or ()),
@@ -49,14 +53,14 @@ def chosen(
     if result.notes:
         sys.stderr.write(render(result.notes, colour=use_colour()))
     if result.likely is not None:
-        one = result.likely
-        reach = f"reaches {one.reached} of {one.targets} targets that its program names"
-        sys.stderr.write(f"guessed robot: {one.model}, which {reach}\n")
+        robot_model = result.likely
+        reach = f"reaches {robot_model.reached} of {robot_model.targets} targets of the program"
+        sys.stderr.write(f"inferred robot: {robot_model.model}, {reach}\n")
     if result.guessed is not None:
-        sys.stderr.write(_table("guessed", result.guessed.named))
-        sys.stderr.write(_table("nobody declares, and it was not guessed", result.guessed.unknown))
+        sys.stderr.write(_table("inferred", result.guessed.named))
+        sys.stderr.write(_table("undeclared, and not inferred", result.guessed.unknown))
     if check:
-        _refuse_unloadable(result)
+        _reject_unloadable(result)
     return result
 
 
@@ -68,14 +72,17 @@ def _release(text: str) -> tuple[int, int] | None:
     major, minor = release(text)
     if minor == ANY_MINOR:
         raise refusal(
-            "RG901", None, "a controller has one release", f"such as --robotware {major}.6"
+            "RG901",
+            None,
+            f"--robotware {text} is not a single version",
+            f"such as --robotware {major}.6",
         )
     return major, minor
 
 
-def _tasks(given: Iterable[str]) -> dict[str, list[str]]:
+def _tasks(options: Iterable[str]) -> dict[str, list[str]]:
     by_task: dict[str, list[str]] = {}
-    for text in given:
+    for text in options:
         name, equals, names = text.partition("=")
         if not equals or not name or not names:
             raise refusal(
@@ -93,7 +100,7 @@ def _numbers(text: str) -> tuple[float, ...]:
         return tuple(float(part) for part in text.strip("[] ").split(",")) if text else ()
     except ValueError as fault:
         help = "such as --start 0,0,0,0,30,0"
-        raise refusal("RG901", None, f"--start '{text}' is no list of numbers", help) from fault
+        raise refusal("RG901", None, f"--start '{text}' is not a list of numbers", help) from fault
 
 
 def _table(title: str, rows: "Sequence[UndeclaredName]") -> str:
@@ -107,30 +114,29 @@ def _table(title: str, rows: "Sequence[UndeclaredName]") -> str:
     return f"{title}:\n{''.join(lines)}"
 
 
-def inference_report(guessed: "InferenceLog") -> str:
-    """What guessed inputs became, how dialogs were answered, and where the guessed robot did not
-    go as programmed."""
-    why = "guessed, because the program waited for it"
-    other = "the guessed robot did not come there as programmed (`--robot` chooses another)"
-    again = "stopped behind an answer that was guessed, and started from main again"
+def inference_report(log: "InferenceLog") -> str:
+    """Report values of inferred inputs, answers to dialogs, restarts and missed targets."""
+    answered = "inferred, because the program waited for it"
+    missed = "the inferred robot did not reach it as programmed (`--robot` selects another)"
+    restarted = "stopped after an inferred answer, restarted from main"
     return (
-        _counted(why, " = ", guessed.answered)
-        + _counted(again, ": ", guessed.stopped)
-        + _counted(other, ": ", guessed.missed)
+        _counted(answered, " = ", log.answered)
+        + _counted(restarted, ": ", log.stopped)
+        + _counted(missed, ": ", log.missed)
     )
 
 
 def _counted(title: str, between: str, message: "Iterable[Answer]") -> str:
-    given = [
+    texts = [
         f"{name}{between}{value if isinstance(value, str) else f'{value:g}'}"
         + (f" ({count} times)" if count > 1 else "")
         for (name, value), count in Counter(message).items()
     ]
-    return f"{title}: {', '.join(given)}\n" if given else ""
+    return f"{title}: {', '.join(texts)}\n" if texts else ""
 
 
-def _refuse_unloadable(result: "Bootable") -> None:
-    """Names that nothing declares are found when reached; warnings are `check`'s business."""
+def _reject_unloadable(result: "Bootable") -> None:
+    """Raise the errors of the load check; undeclared names are reported at run time."""
     from rapidgen.rapid import check
 
     errors = [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR]

@@ -1,4 +1,4 @@
-"""`rapidgen demo`: build, boot, move, report — the main job in one command, without a robot."""
+"""The command `demo`: build, boot, move and report, without a robot."""
 
 import math
 import sys
@@ -13,19 +13,24 @@ if TYPE_CHECKING:
     from rapidgen.client.recording import JointRecording
     from rapidgen.config.model import GroupConfig
 
-_SERVERS = 10.0
-"""s within which the driver's servers must listen."""
-_SAID = 2.0
-"""s after which a line says how far the motion is."""
+_READY_TIMEOUT = 10.0
+"""Seconds in which the driver's servers must listen."""
+_PROGRESS_PERIOD = 2.0
+"""Seconds between two lines of progress."""
 
 
 def demo(
-    config: Annotated[str, typer.Argument(help="Configuration or shipped name.")] = "irb120",
+    config: Annotated[
+        str, typer.Argument(help="Configuration or shipped name.", metavar="CONFIG")
+    ] = "irb120",
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Where the driver and the picture go.")
+        Path,
+        typer.Option(
+            "--output", "-o", help="Folder for the driver and the plots.", metavar="FOLDER"
+        ),
     ] = Path("demo_out"),
 ) -> int:
-    """Build a driver, boot it on a virtual controller, move it, and report."""
+    """Build a driver, simulate it, move the robot and report."""
     from rapidgen.client import Robot, Timeouts
     from rapidgen.config import load_config
     from rapidgen.controller import VirtualController
@@ -42,17 +47,17 @@ def demo(
     with VirtualController.from_folder(folder, clock="real", ports="auto") as controller:
         group = model.groups[0]
         controller.start()
-        address = controller.address(group.name, timeout=_SERVERS)
+        address = controller.address(group.name, timeout=_READY_TIMEOUT)
         tasks = len(controller.tasks)
         _say(f"         {tasks} tasks, RobotWare {model.robotware[0]}, at {address}")
         _say("connect  a Python client, as to a robot")
-        # By the controller's own clock: stamps of reception are as late as this machine is busy.
-        # On a machine that is busy the controller is late: nothing is to be stopped for that.
+        # Time stamps of the controller's clock: those of reception are late on a busy computer.
+        # There the controller is late too, so the timeouts are long.
         patient = Timeouts(hello=10.0, ready=10.0, silence=15.0, heartbeat=15.0)
         with Robot(
             model, address=address, group=group.name, feedback=True, timeouts=patient
         ) as robot:
-            robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _SERVERS)
+            robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _READY_TIMEOUT)
             trajectory = _trajectory(robot)
             _say(f"         rapidgen {robot.driver.version}, {robot.state.status}")
             _say(f"move     {len(trajectory)} points in {trajectory.duration:.0f} s")
@@ -71,12 +76,12 @@ def _say(text: str) -> None:
 
 
 def _followed(robot: "Robot", execution: "Execution") -> "Result":
-    """The end of a motion, and meanwhile a line now and then."""
+    """Wait for the end of a motion; print its progress."""
     from rapidgen.client import RobotTimeout
 
     while True:
         try:
-            return execution.result(timeout=_SAID)
+            return execution.result(timeout=_PROGRESS_PERIOD)
         except RobotTimeout:
             if execution.is_over:
                 raise
@@ -88,15 +93,15 @@ def _next(name: str, output: Path) -> None:
     command = "rapidgen" if which("rapidgen") else sys.argv[0]
     _say(
         f"next:    look at the pictures and at {output / name}/README.md, then\n"
-        f"           {command} new cell.yaml --robot irb120     a configuration of your own\n"
+        f"           {command} new cell.yaml --robot irb120     your own configuration\n"
         f"           {command} sim cell.yaml &                  its driver, running\n"
         f"           {command} move cell.yaml --joints 10,0,0,0,30,0 --to sim\n"
-        "         README.md and docs/use/client.md go on from there"
+        "         README.md and docs/use/client.md describe the next steps"
     )
 
 
 def _trajectory(robot: "Robot") -> "Trajectory":
-    """A wave of every joint, from where the robot stands and back: within limits and speeds."""
+    """A wave of every joint from the current position and back, within the limits."""
     import numpy as np
 
     from rapidgen.client import Trajectory
@@ -105,13 +110,13 @@ def _trajectory(robot: "Robot") -> "Trajectory":
     current = np.array(robot.state.joints)
     times = np.arange(0, 6.01, 0.2)
     swing = np.sin(np.pi * times / times[-1])
-    room = np.array([min(0.5, 0.25 * (j.upper - j.lower)) for j in group.joints])
+    amplitude = np.array([min(0.5, 0.25 * (j.upper - j.lower)) for j in group.joints])
     side = np.where(
-        [h + r < j.upper for h, r, j in zip(current, room, group.joints, strict=True)], 1, -1
+        [h + r < j.upper for h, r, j in zip(current, amplitude, group.joints, strict=True)], 1, -1
     )
     waves = [np.sin(2 * np.pi * times / times[-1] * (1 + i % 3)) for i in range(len(current))]
     offsets = np.stack([0.5 * (1 + w) * swing for w in waves], axis=1)
-    return Trajectory(times, current + side * room * offsets, group.names)
+    return Trajectory(times, current + side * amplitude * offsets, group.names)
 
 
 def _report(
@@ -125,9 +130,9 @@ def _report(
     from rich.table import Table
 
     table = Table("joint", "commanded", "reached", "difference", box=None)
-    stands = robot.group.from_wire(reached)
+    final = robot.group.from_wire(reached)
     for name, requested, stood in zip(
-        robot.group.names, trajectory.positions[-1], stands, strict=True
+        robot.group.names, trajectory.positions[-1], final, strict=True
     ):
         table.add_row(name, f"{requested:.4f}", f"{stood:.4f}", f"{abs(requested - stood):.4f}")
     console = Console(highlight=False)
@@ -135,15 +140,15 @@ def _report(
     times = recording.times
     rate = (len(times) - 1) / times[-1] if len(times) > 1 else 0.0
     console.print(
-        f"{result.points} points, asked for {result.planned_seconds:.2f} s, took "
-        f"{result.seconds:.2f} s; {len(times)} states at {rate:.1f} a second (rad, m)"
+        f"{result.points} points, planned {result.planned_seconds:.2f} s, took "
+        f"{result.seconds:.2f} s; {len(times)} states at {rate:.1f} per second (rad, m)"
     )
 
 
 def _draw(
     output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "GroupConfig"
 ) -> None:
-    _say("draw     what was commanded and executed")
+    _say("plot     commanded and executed joints")
     from rapidgen.viewer import plot
     from rapidgen.viewer.plotting import files_of
 

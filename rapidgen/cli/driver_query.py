@@ -1,4 +1,4 @@
-"""What a driver says on its state port: the questions that `doctor` and `deploy` ask it."""
+"""Queries on a driver's state port, for `doctor` and `deploy`."""
 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
@@ -9,7 +9,10 @@ if TYPE_CHECKING:
 
 
 def hello(host: str, port: int, timeout: float = 3.0) -> str | None:
-    """BUILD_ID that a driver tells on its state port; None for another program. OSError: nobody."""
+    """Return the BUILD_ID of the driver on a state port; None for another program.
+
+    Raises OSError if the port does not answer.
+    """
     from rapidgen.wire.simple_message.messages import HelloReply
 
     for content in _messages(host, port, timeout):
@@ -19,9 +22,9 @@ def hello(host: str, port: int, timeout: float = 3.0) -> str | None:
 
 
 def error_reason(host: str, port: int, timeout: float = 3.0) -> "Reason | None":
-    """The error that a driver of rapidgen tells in its STATUS; None: no error, or no such driver.
+    """Return the error in the STATUS of a rapidgen driver; None: no error or another program.
 
-    OSError: nobody.
+    Raises OSError if the port does not answer.
     """
     from rapidgen.wire.simple_message.messages import HelloReply, StatusReport
     from rapidgen.wire.simple_message.spec import split_error_code
@@ -35,7 +38,7 @@ def error_reason(host: str, port: int, timeout: float = 3.0) -> "Reason | None":
 
 
 def _messages(host: str, port: int, timeout: float) -> "Iterator[Content]":
-    """What comes after a HELLO, until `timeout` s are over or it is none of the protocol."""
+    """Yield the messages after a HELLO, until `timeout` seconds or invalid data."""
     import socket
     import time
 

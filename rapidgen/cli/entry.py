@@ -1,4 +1,4 @@
-"""Where the `rapidgen` command begins: a STOP goes out before anything heavy is imported."""
+"""Entry point of `rapidgen`: send a STOP before anything heavy is imported."""
 
 import gc
 import signal
@@ -6,10 +6,10 @@ import sys
 
 
 def run() -> None:
-    """Run one verb and leave with its exit code."""
-    # Until there is somebody who can tell of it, Ctrl-C ends the process without a traceback.
+    """Run one command and exit with its code."""
+    # Until `raise_on_signals`, Ctrl-C ends the process without a traceback.
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
+    # Imports make tens of thousands of permanent objects: collecting them costs 10 % of a build.
     gc.set_threshold(200_000, 20, 50)
     text = sys.argv[1:]
     if text[:1] == ["stop"]:

@@ -1,64 +1,68 @@
-"""Arguments and options that several verbs have, declared once; each verb says its default."""
+"""Arguments and options of several commands; each command declares the default."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-Config = Annotated[str, typer.Argument(help="Configuration file or shipped name.")]
+Config = Annotated[
+    str, typer.Argument(help="Configuration file or shipped name.", metavar="CONFIG")
+]
 ConfigOrFolder = Annotated[
-    str, typer.Argument(help="Configuration file, shipped name or generated folder.")
+    str,
+    typer.Argument(help="Configuration file, shipped name or generated folder.", metavar="CONFIG"),
 ]
 ConfigOrHost = Annotated[
-    str, typer.Argument(help="Configuration file, shipped name, HOST[:M,S,C], or `sim`.")
+    str,
+    typer.Argument(
+        help="Configuration file, shipped name, HOST[:M,S,C], or `sim`.", metavar="CONFIG|HOST"
+    ),
 ]
 Overrides = Annotated[
     list[str] | None,
     typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
 ]
-Backup = Annotated[
+TargetBackup = Annotated[
     Path | None,
-    typer.Option(help="Backup of the controller that a generated folder is for.", metavar="FOLDER"),
+    typer.Option(help="Backup of the controller for a generated folder.", metavar="FOLDER"),
 ]
-VeryBackup = Annotated[
+BuildBackup = Annotated[
     Path | None,
-    typer.Option(
-        help="Backup of the very controller: what it has is used, what it lacks is written.",
-        metavar="FOLDER",
-    ),
+    typer.Option(help="Backup of the controller to build for.", metavar="FOLDER"),
 ]
-Yes = Annotated[
-    bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
-]
+Yes = Annotated[bool, typer.Option("--yes", "-y", help="Do not ask for confirmation.")]
 LoadCheck = Annotated[
     bool,
-    typer.Option(help="Refuse programs that a controller would not load."),
+    typer.Option(help="Reject programs that a controller would not load."),
 ]
 
-# Of the verbs that boot a virtual controller.
+# Of the commands that boot a virtual controller.
 Tasks = Annotated[
     list[str] | None,
-    typer.Option("--task", metavar="NAME=FILE,FILE", help="A task of its own with these modules."),
+    typer.Option("--task", metavar="NAME=FILE,FILE", help="Separate task with these modules."),
 ]
 Coverage = Annotated[
     list[Path] | None,
     typer.Option(
         "--coverage",
-        metavar="F.lcov|F.html",
-        help="Lines and branches, or the source with hits; may be repeated.",
+        metavar="FILE.lcov|FILE.html",
+        help="Line and branch coverage, as LCOV or as HTML; repeatable.",
     ),
 ]
 Plot = Annotated[
     list[Path] | None,
     typer.Option(
-        "--plot", metavar="F", help="What the robots did: .html, .png, .svg; may be repeated."
+        "--plot", metavar="FILE", help="Plot of the robots' motion: .html, .png, .svg; repeatable."
     ),
 ]
-Entry = Annotated[str, typer.Option("--entry", help="Procedure that tasks start in, not main.")]
+Entry = Annotated[
+    str,
+    typer.Option("--entry", help="Entry procedure of the tasks, instead of main.", metavar="NAME"),
+]
 Release = Annotated[
     str,
     typer.Option(
-        "--robotware", metavar="V", help="Release of a controller of which no file tells it: 7.6."
+        "--robotware", metavar="VERSION", help="RobotWare version, if no file states it: 7.6."
     ),
 ]
 RobotModel = Annotated[
@@ -69,15 +73,15 @@ Cell = Annotated[
     typer.Option(
         "--cell",
         metavar="FILE|infer",
-        help="What stands around the controller; `infer`: whatever the programs name.",
+        help="Description of the cell; `infer`: from the names in the programs.",
     ),
 ]
 Start = Annotated[
     str,
-    typer.Option("--start", metavar="J1,J2,...", help="Where the robot stands at first: deg, mm."),
+    typer.Option("--start", metavar="J1,J2,...", help="Initial joint values: deg, mm."),
 ]
 
-# Of the verbs that reach a controller's files.
+# Of the commands that access the files of a controller.
 Controllers = Annotated[
     list[str],
     typer.Option(
@@ -85,7 +89,7 @@ Controllers = Annotated[
         metavar="URL",
     ),
 ]
-User = Annotated[str, typer.Option(help="User name where the URL has none.")]
+User = Annotated[str, typer.Option(help="User name, if the URL contains none.", metavar="NAME")]
 Secrets = Annotated[
     Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
 ]
@@ -93,55 +97,66 @@ Identity = Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FIL
 KnownHosts = Annotated[
     str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
 ]
-Parallel = Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")]
+Parallel = Annotated[
+    int, typer.Option(min=1, max=64, help="Number of controllers at a time.", metavar="N")
+]
 LoadedCfg = Annotated[
     Path | None,
     typer.Option(
-        help="A backup of this controller: says what is loaded, where that is not seen.",
+        help="Backup of this controller; shows the loaded cfg where the URL does not.",
         metavar="FOLDER",
     ),
 ]
 Overwrite = Annotated[
-    bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
+    bool,
+    typer.Option("--overwrite", help="Replace files that were edited by hand or belong to others."),
 ]
-
 Restart = Annotated[
-    bool, typer.Option("--restart", help="Restart the controller (warm) where that is needed.")
+    bool, typer.Option("--restart", help="Restart the controller (warm start) if necessary.")
 ]
-WaitForPeople = Annotated[
+OperatorWait = Annotated[
     float,
-    typer.Option("--wait", help="Seconds for automatic mode, a stop, a mastership.", metavar="S"),
+    typer.Option(
+        "--wait",
+        help="Waiting time for automatic mode, a program stop or mastership.",
+        metavar="SECONDS",
+    ),
 ]
 
-# Of the verbs that talk to a controller's Robot Web Services.
+# Of the commands that use a controller's Robot Web Services.
 WebServices = Annotated[
     str,
-    typer.Argument(help="Controller: HOST[:PORT], rws:// or rwss:// before it.", metavar="HOST"),
+    typer.Argument(help="Controller: HOST[:PORT], rws://HOST or rwss://HOST.", metavar="HOST"),
 ]
 Fingerprint = Annotated[
     str, typer.Option(help="SHA-256 of the controller's certificate.", metavar="HEX")
 ]
 
-# Of the verbs that talk to a driver.
+# Of the commands that connect to a driver.
 RobotAddress = Annotated[
     str,
     typer.Option(
-        help="Where the robot is: an address, or `sim`, the simulator that runs; default this "
-        "machine.",
+        help="Address of the robot, or `sim`: the running simulator; default 127.0.0.1.",
         metavar="HOST[:M,S,C]|sim",
     ),
 ]
-Group = Annotated[str, typer.Option(help="Motion group, where there are several.")]
-InRad = Annotated[bool, typer.Option("--rad", help="Figures in rad and m, not in deg and mm.")]
-YesHere = Annotated[
-    bool, typer.Option("--yes", "-y", help="Do not ask; answers on this machine only.")
+Group = Annotated[str, typer.Option(help="Motion group, if the robot has several.", metavar="NAME")]
+InRad = Annotated[bool, typer.Option("--rad", help="Values in rad and m, not in deg and mm.")]
+YesOnLoopback = Annotated[
+    bool, typer.Option("--yes", "-y", help="Do not ask for confirmation on this computer.")
 ]
 RealRobot = Annotated[
     str,
     typer.Option(
-        "--move-real-robot", help="The host once more: its area is clear.", metavar="HOST"
+        "--move-real-robot",
+        help="The robot's host again, to confirm that its area is clear.",
+        metavar="HOST",
     ),
 ]
+Reconnect = Annotated[
+    float,
+    typer.Option(help="Time to retry a lost connection.", min=0, metavar="SECONDS"),
+]
 AsJson = Annotated[
-    bool, typer.Option("--json", help="JSON on stdout, errors too; joints are rad and m.")
+    bool, typer.Option("--json", help="JSON on stdout, also for errors; joints in rad and m.")
 ]

@@ -1,7 +1,9 @@
-"""`rapidgen run`: execute RAPID on the virtual clock."""
+"""The command `run`: execute RAPID on the virtual clock."""
 
 import shlex
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -18,18 +20,17 @@ if TYPE_CHECKING:
 
 
 _LONGEST = 1e9
-"""Simulated seconds; 31 years."""
+"""Largest --max-time, simulated seconds: 31 years."""
 _CALLERS = 10
-"""Calls of a fault's stack that are shown."""
+"""Number of calls of an error's stack that are shown."""
 
 
 def run(
     files: Annotated[
         list[Path],
         typer.Argument(
-            metavar="FILE...",
-            help="Modules (.mod .sys .modx .sysx .pgf), a folder of them, a generated folder, "
-            "or an ABB backup.",
+            metavar="FILE",
+            help="Modules (.mod .sys .modx .sysx .pgf), folder, generated folder or ABB backup.",
         ),
     ] = [],  # noqa: B006 - typer wants a list here and does not share it
     task: options.Tasks = None,
@@ -40,57 +41,67 @@ def run(
     start: options.Start = "",
     cycle: Annotated[
         Literal["once", "forever"],
-        typer.Option("--cycle", help="Run main once or again and again."),
+        typer.Option("--cycle", help="Run main once or repeatedly."),
     ] = "once",
     max_time: Annotated[
-        float, typer.Option("--max-time", metavar="S", help="Simulated seconds at most.")
+        float, typer.Option("--max-time", metavar="SECONDS", help="Limit of simulated time.")
     ] = 3600.0,
     max_statements: Annotated[
-        int, typer.Option("--max-statements", help="Statements at most, in all tasks.")
+        int, typer.Option("--max-statements", help="Limit of statements in all tasks.", metavar="N")
     ] = 1_000_000_000,
     max_memory: Annotated[
-        int, typer.Option("--max-memory", metavar="MB", help="Memory at most.")
+        int, typer.Option("--max-memory", metavar="MB", help="Limit of memory.")
     ] = 2048,
-    seed: Annotated[int, typer.Option("--seed", help="Seed of everything that is drawn.")] = 0,
+    seed: Annotated[
+        int, typer.Option("--seed", help="Seed of all random decisions.", metavar="N")
+    ] = 0,
     schedule: Annotated[
         Literal["round-robin", "random", "pers"],
-        typer.Option("--schedule", help="Switching between tasks; pers: at every PERS access."),
+        typer.Option("--schedule", help="Task switching; pers: at every PERS access."),
     ] = "round-robin",
     assume: Annotated[
         str,
-        typer.Option("--assume", metavar="SWITCH=VALUE,...", help="See virtual-controller.md."),
+        typer.Option(
+            "--assume", metavar="SWITCH=VALUE,...", help="Assumptions about the controller."
+        ),
     ] = "",
     answers: Annotated[
-        Path | None, typer.Option("--answers", help="YAML with the operator's answers.")
+        Path | None,
+        typer.Option(
+            "--answers", help="Operator's answers: `rapidgen explain RG420`.", metavar="FILE.yaml"
+        ),
     ] = None,
-    trace: Annotated[bool, typer.Option("--trace", help="Every statement, on stderr.")] = False,
+    trace: Annotated[
+        bool, typer.Option("--trace", help="Print every statement on stderr.")
+    ] = False,
     profile: Annotated[
         str,
-        typer.Option("--profile", metavar="[=F.json]", help="Time by line, on stderr or as JSON."),
+        typer.Option(
+            "--profile", metavar="[=FILE.json]", help="Time by line, on stderr or as JSON."
+        ),
     ] = "",
     coverage: options.Coverage = None,
     plot: options.Plot = None,
-    backup: options.Backup = None,
+    backup: options.TargetBackup = None,
     check: options.LoadCheck = True,
 ) -> None:
     """Run RAPID on the virtual clock.
 
-    What a controller would not load is refused: all its errors are told, nothing runs. Prints one
-    line for each TPWrite. Ends when main of every task has returned and the robots stand; exit
-    code 1 when a task stopped with an error, on a deadlock, and at the limits of time, statements
-    and memory.
+    Rejects programs that a controller would not load, and lists all their errors. Prints one line
+    for each TPWrite. Ends when main of every task has returned and the robots have stopped. The
+    exit code is 1 after an error in a task, at a deadlock and at a limit of time, statements or
+    memory.
     """
-    from rapidgen.cli.boot_options import chosen, inference_report
-    from rapidgen.cli.memory_limit import at_most
+    from rapidgen.cli.boot_options import inference_report, load_boot_target
     from rapidgen.cli.run_outputs import Observed, Outputs
     from rapidgen.controller.controller import VirtualController
     from rapidgen.machine.operator import read_answers
 
     _limits(max_time, max_statements)
     requested = Outputs(trace, profile, tuple(coverage or ()), tuple(plot or ()))
-    requested.refuse_unwritable()
+    requested.check_files_writable()
     _no_configuration(files)
-    result = chosen(
+    result = load_boot_target(
         list(map(str, files)),
         tasks=task,
         robot=robot,
@@ -132,14 +143,16 @@ def _print(_task: str, text: str) -> None:
 
 
 def _limits(max_time: float, max_statements: int) -> None:
-    """Refuse limits that are none."""
+    """Reject invalid limits."""
     if not 0 < max_time <= _LONGEST or max_statements < 1:
-        message = f"--max-time is above 0 and at most {_LONGEST:g} s, --max-statements at least 1"
+        message = (
+            f"--max-time must be above 0 and at most {_LONGEST:g} s, --max-statements at least 1"
+        )
         raise refusal("RG901", None, message, "such as --max-time 60")
 
 
 def _no_configuration(files: list[Path]) -> None:
-    """Refuse what `sim` and `build` take and `run` does not."""
+    """Reject configurations, which only `sim` and `build` accept."""
     from rapidgen.config import shipped_names
 
     for file in files:
@@ -147,8 +160,8 @@ def _no_configuration(files: list[Path]) -> None:
             raise refusal(
                 "RG901",
                 None,
-                f"{file} is a configuration, and run takes RAPID",
-                f"`rapidgen sim {shlex.quote(str(file))}` boots it; or build it and run the folder",
+                f"{file} is a configuration, not RAPID",
+                f"`rapidgen sim {shlex.quote(str(file))}` boots it; `run` takes the built folder",
             )
 
 
@@ -162,14 +175,14 @@ def _assumptions(text: str) -> "Switches":
     except ValueError as fault:
         names = ", ".join(switch.name for switch in fields(Switches))
         raise refusal(
-            "RG901", None, f"--assume: {fault}", f"SWITCH=VALUE; there are {names}"
+            "RG901", None, f"--assume: {fault}", f"write SWITCH=VALUE; switches: {names}"
         ) from fault
 
 
 def _run(
     controller: "VirtualController", max_time: float, max_statements: int, cell: str
 ) -> list[Diagnostic]:
-    """Run to the end; what went wrong."""
+    """Run to the end; return the errors."""
     from rapidgen.controller.runner import run_past_stops
 
     finished = run_past_stops(controller, max_time=max_time, max_statements=max_statements)
@@ -184,15 +197,15 @@ def _run(
             error(
                 "RG405",
                 None,
-                "deadlock: every task waits and nothing is ahead",
-                "let another task, or a device in the file of `--cell`, do what is waited for",
+                "deadlock: every task waits and no event is scheduled",
+                "let another task, or a device in the file of `--cell`, fulfil a condition",
                 notes=where,
             )
         )
     elif finished != "finished":
         limit = f"{max_time:g} s" if finished == "time" else f"{max_statements} statements"
         groups = controller.motion.groups.values()
-        moving = (f"{g.name}: its robot moves" for g in groups if not g.is_standing)
+        moving = (f"{g.name}: the robot is moving" for g in groups if not g.is_standing)
         findings.append(
             error(
                 "RG406",
@@ -205,18 +218,15 @@ def _run(
     return findings
 
 
-def _mend(fault: "FatalError", cell: str) -> str:
-    """What to do about a name that nothing declares, a dialog that nobody answers and a place that
-    the robot, or this posture, does not reach; of other errors the program knows more."""
+def _help(fault: "FatalError", cell: str) -> str:
+    """Help for undeclared names, unanswered dialogs and unreachable targets; else empty."""
     from rapidgen.runtime.motion_interface import NOT_COMPATIBLE
 
     if "ERR_REFUNKDAT" in fault.arguments:
-        declared = "or load the module that declares it"
+        load = "or load the module that declares it"
         if cell:
-            return f"say it in the cell's description (`rapidgen schema --cell`), {declared}"
-        return (
-            f"`--cell infer` makes signals, tools and work objects that programs name, {declared}"
-        )
+            return f"add it to the cell description (`rapidgen schema --cell`), {load}"
+        return f"use `--cell infer` to infer signals, tools and work objects, {load}"
     if {"ERR_REFUNKPRC", "ERR_REFUNKFUN"} & set(fault.arguments):
         return "load the module that declares it"
     if "ERR_TP_NO_CLIENT" in fault.arguments:
@@ -226,13 +236,13 @@ def _mend(fault: "FatalError", cell: str) -> str:
         )
     if {"ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"} & set(fault.arguments):
         return (
-            "look at the target, its tool and its work object; `--robot` takes the robot that "
-            "the program was written for"
+            "check the target, its tool and its work object; select the robot of the program with "
+            "`--robot`"
         )
     if fault.event == NOT_COMPATIBLE:
         return (
-            "`--start` lets the robot begin elsewhere; a program asks for the configuration that "
-            "is reached, or for none with ConfL \\Off and ConfJ \\Off"
+            "set other initial joint values with `--start`, program the configuration that is "
+            "reached, or use ConfL \\Off and ConfJ \\Off"
         )
     return ""
 
@@ -244,13 +254,57 @@ def _fault(task: str, fault: "FatalError", cell: str) -> Diagnostic:
     callers = [f"called from {p}" for p in reversed(fault.stack[:-1])]
     notes += callers[:_CALLERS]
     if len(callers) > _CALLERS:
-        notes.append(f"and {len(callers) - _CALLERS} calls before that")
+        notes.append(f"and {len(callers) - _CALLERS} earlier calls")
     if place is not None and place.origin is not None:
         notes.append(f"generated from {place.origin[0]}:{place.origin[1]}")
     return error(
         "RG407",
         fault.span or (place.span if place is not None else None),
         fault.title,
-        _mend(fault, cell),
+        _help(fault, cell),
         notes=tuple(notes),
     )
+
+
+MB = 2**20
+
+
+@contextmanager
+def at_most(megabytes: int) -> Iterator[None]:
+    """Limit the memory of this process while the block runs.
+
+    Raises DiagnosticError RG406 if it is not enough. The limit is RLIMIT_DATA of the operating
+    system; Windows has none.
+    """
+    if megabytes < 1:
+        raise refusal(
+            "RG901", None, f"--max-memory {megabytes} is not a size", "such as --max-memory 1024"
+        )
+    if sys.platform == "win32":
+        yield
+        return
+    import resource
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    requested = megabytes * MB
+    if hard != resource.RLIM_INFINITY:
+        requested = min(requested, hard)
+    resource.setrlimit(resource.RLIMIT_DATA, (requested, hard))
+    full = False
+    try:
+        yield
+    except MemoryError:
+        full = True
+    finally:
+        resource.setrlimit(resource.RLIMIT_DATA, (soft, hard))
+    if full:
+        # Raised here, after the memory has been freed.
+        raise DiagnosticError(
+            error(
+                "RG406",
+                None,
+                f"the program needs more than {megabytes} MB of memory",
+                "raise --max-memory, or look for growing arrays and recursion",
+            ),
+            exit_code=1,
+        )

@@ -1,5 +1,4 @@
-"""What `run` and `sim` write of a run beside its output: trace, profile, coverage, a plot of the
-motion."""
+"""Additional outputs of `run` and `sim`: trace, profile, coverage, plots of the motion."""
 
 import sys
 from contextlib import contextmanager
@@ -19,14 +18,14 @@ if TYPE_CHECKING:
     from rapidgen.motion.recorder import Recorder
 
 _SAMPLES = 5000
-"""Of a plot, at most; of short runs every 4 ms."""
+"""Maximum number of samples in a plot; the shortest period is 4 ms."""
 _ROWS = 40
-"""Of a profile on the screen."""
+"""Number of rows of a profile on a terminal."""
 
 
 @dataclass(frozen=True)
 class Outputs:
-    """What a user asked for. `profile` is a file, or `-` for stderr."""
+    """The requested outputs. `profile` is a file, or `-` for stderr."""
 
     trace: bool = False
     profile: str = ""
@@ -35,10 +34,10 @@ class Outputs:
 
     @property
     def tracing(self) -> bool:
-        """Whether every statement is to be told of."""
+        """True if the controller has to report every statement."""
         return self.trace or bool(self.profile) or bool(self.coverage)
 
-    def refuse_unwritable(self) -> None:
+    def check_files_writable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
         files = list(self.coverage)
         if self.plots:
@@ -50,7 +49,7 @@ class Outputs:
         twice = next((file for file in files if files.count(file) > 1), None)
         if twice is not None:
             raise refusal("RG901", None, f"{twice} would be written twice", "name another file")
-        refuse_unwritable(files)
+        check_files_writable(files)
 
 
 @dataclass
@@ -58,7 +57,7 @@ class Observed:
     """Watches a controller from before its program starts; `write` at the end."""
 
     controller: "VirtualController"
-    wanted: Outputs
+    requested: Outputs
     _profile: "Profile | None" = None
     _coverage: "Coverage | None" = None
     _recorders: "dict[str, Recorder]" = field(default_factory=dict)
@@ -66,26 +65,26 @@ class Observed:
     def __post_init__(self) -> None:
         from rapidgen.controller.tracing import Coverage, Profile, Trace
 
-        if self.wanted.trace:
+        if self.requested.trace:
             Trace(self.controller, sys.stderr)
-        if self.wanted.profile:
+        if self.requested.profile:
             self._profile = Profile(self.controller)
-        if self.wanted.coverage:
+        if self.requested.coverage:
             self._coverage = Coverage(self.controller)
-        if self.wanted.plots:
+        if self.requested.plots:
             self._recorders = self.controller.record()
 
     def write(self) -> None:
-        """Write all that was asked for."""
+        """Write all requested outputs."""
         if self._profile is not None:
-            _write_profile(self._profile, self.wanted.profile)
+            _write_profile(self._profile, self.requested.profile)
         if self._coverage is not None:
-            for path in self.wanted.coverage:
+            for path in self.requested.coverage:
                 page = path.suffix.lower() in (".html", ".htm")
                 text = _page(self.controller, self._coverage) if page else self._coverage.lcov()
                 write_whole(path, text.encode("utf-8", "replace"))
-        if self.wanted.plots:
-            self._draw(self.wanted.plots)
+        if self.requested.plots:
+            self._draw(self.requested.plots)
 
     def _draw(self, plots: tuple[Path, ...]) -> None:
         from rapidgen.motion.recorder import PERIOD
@@ -104,12 +103,14 @@ class Observed:
 
 @contextmanager
 def observing(runner: "ControllerRunner", requested: Outputs) -> "Iterator[None]":
-    """Write what was asked for when a controller is switched off, and when it restarts: then under
-    names of their own, `F-1.html`, since nothing of before is in it any more."""
+    """Write the outputs at the end and before each restart.
+
+    A restart discards the data. The names of the files before it have a number: `F-1.html`.
+    """
     now = Observed(runner.controller, requested)
 
     def before() -> None:
-        now.wanted = replace(
+        now.requested = replace(
             requested, coverage=numbered(requested.coverage), plots=numbered(requested.plots)
         )
         now.write()
@@ -129,8 +130,8 @@ def observing(runner: "ControllerRunner", requested: Outputs) -> "Iterator[None]
         now.write()
 
 
-def refuse_unwritable(files: "Sequence[Path]") -> None:
-    """Refuse a file that could not be written later. Raises DiagnosticError RG901."""
+def check_files_writable(files: "Sequence[Path]") -> None:
+    """Check that files can be written. Raises DiagnosticError RG901."""
     for path in files:
         try:
             check_writable(path)
@@ -139,7 +140,7 @@ def refuse_unwritable(files: "Sequence[Path]") -> None:
                 "RG901",
                 None,
                 f"cannot write {path}: {fault.strerror}",
-                "name a file in a folder that exists and may be written",
+                "use a file in an existing folder with write permission",
             ) from fault
 
 

@@ -1,8 +1,9 @@
-"""STOP on the wire before anything else is imported.
+"""Send STOP before anything else is imported.
 
-`rapidgen stop` sends it from here first, to the motion and the control port at once, and then goes
-its whole way: checks what was said, sends STOP again, waits until the robot stands, and reports.
-What is not understood here at a glance is left to that way: nothing is guessed.
+`rapidgen stop` first sends STOP from here, to the motion and the control port at once. The command
+then checks its arguments, sends STOP again, waits until the robot has stopped, and reports. This
+module does not guess: arguments and files that it does not fully understand are left to the
+command.
 """
 
 import os
@@ -21,14 +22,14 @@ STOP = pack("<5i12f", 64, 11, 2, 0, -4, *[0.0] * 12)
 _CONNECT = 2.0
 _OTHERS = 0.25
 _ANSWER = 1.0
-"""s for the first connection, for others behind it (one host, several ports), and for the answer:
-hung up on at once, a STOP may be lost unread."""
+"""Seconds for the first connection, for further ones, and for the reply: if the connection closes
+at once, the controller may lose the STOP unread."""
 _PORTS = (11000, 11002, 11001)
 """Motion, state, control."""
 _STEP = 10
 _ONE = "rob1"
-"""A group that nobody named."""
-_OURS = ("groups", "ports", "model")
+"""Default name of the only group."""
+_KEYS_READ = ("groups", "ports", "model")
 _ADDRESS = re.compile(
     r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::(\d{1,5})(?:,(\d{1,5})(?:,(\d{1,5}))?)?)?", re.ASCII
 )
@@ -38,15 +39,14 @@ _PAIR = re.compile(r"(\w+): *(\d{1,5})")
 
 Keys = dict[tuple[str, ...], str]
 Ports = tuple[int, int, int]
-"""Motion, state and control port of a group; control 0: none, or nobody knows which."""
+"""Motion, state and control port of a group; control 0: none or unknown."""
 Place = tuple[str, Ports]
 
 
 def send(text: Sequence[str]) -> None:
-    """Send STOP to all ports that the words behind `stop` name, at once; says nothing.
+    """Send STOP to all ports that the arguments of `stop` name, at once and without output.
 
-    A port that refuses or does not answer keeps no other waiting. The whole way tells what was
-    wrong.
+    A port that does not answer delays no other. The command reports errors afterwards.
     """
     opening = [
         link
@@ -77,7 +77,7 @@ def send(text: Sequence[str]) -> None:
 
 
 def _opening(host: str, port: int) -> list[socket.socket]:
-    """A connection that is being opened to each address of a host."""
+    """Begin a connection to each address of a host."""
     result = []
     with suppress(OSError, UnicodeError):
         for family, kind, protocol, _, address in socket.getaddrinfo(
@@ -91,12 +91,12 @@ def _opening(host: str, port: int) -> list[socket.socket]:
 
 
 def addresses(text: Sequence[str]) -> list[tuple[str, int]]:
-    """Host and motion port of every group meant; none where that takes more than a glance."""
+    """Return host and motion port of each group; none if the arguments are not simple."""
     return [(host, ports[0]) for host, ports in _places(text)]
 
 
 def control_addresses(text: Sequence[str]) -> list[tuple[str, int]]:
-    """Host and control port of every group meant that is known to have one."""
+    """Return host and control port of each group that is known to have one."""
     return [(host, ports[2]) for host, ports in _places(text) if ports[2]]
 
 
@@ -141,7 +141,7 @@ def _at(address: str, ports: list[Ports]) -> list[Place]:
 
 
 def _addressed(own: Ports, hit: re.Match[str]) -> Ports:
-    """The ports of an address; what it does not say as `parse_address` has it."""
+    """Return the ports of an address; defaults as in `parse_address`."""
     motion = int(hit[2])
     state = int(hit[3]) if hit[3] else motion + 2
     moved = motion - own[0]
@@ -169,12 +169,12 @@ def _shipped(name: str) -> str:
 
 
 def motion_ports(path: str) -> dict[str, int]:
-    """The motion port of every group of a configuration; none where that takes a closer look."""
+    """Return the motion port of each group; none if the configuration is not simple."""
     return {name: ports[0] for name, ports in group_ports(path).items()}
 
 
 def group_ports(path: str) -> dict[str, Ports]:
-    """The ports of every group of a configuration; none where that takes a closer look."""
+    """Return the ports of each group; none if the configuration is not simple."""
     keys = _keys(path) or {}
     groups = list(dict.fromkeys(names[1] for names in keys if names[0] == "groups"))
     result: dict[str, Ports] = {}
@@ -191,7 +191,7 @@ def group_ports(path: str) -> dict[str, Ports]:
 
 
 def _keys(path: str) -> Keys | None:
-    """The keys of a configuration over those of its model, all below `groups`."""
+    """Merge the keys of a configuration over those of its model, all below `groups`."""
     try:
         keys = read_keys(read_foreign(path, 1_000_000).decode())
     except (OSError, ValueError):
@@ -201,7 +201,7 @@ def _keys(path: str) -> Keys | None:
     below: Keys | None = {}
     model = _shipped(keys.pop(("model",), ""))
     if model:
-        # A model without a file of its own is one arm.
+        # A model without a file is one arm.
         below = _keys(model) if os.path.isfile(model) else {("groups", _ONE): ""}
     if below is None:
         return None
@@ -216,7 +216,7 @@ def _keys(path: str) -> Keys | None:
 
 
 def read_keys(text: str) -> Keys | None:
-    """Groups, ports and model by their path, of YAML that is written line by line."""
+    """Read groups, ports and model by their path from simple YAML, line by line."""
     result: Keys = {}
     path: list[tuple[int, str]] = []
     for line in text.splitlines():
@@ -225,14 +225,14 @@ def read_keys(text: str) -> Keys | None:
             continue
         hit = _LINE.fullmatch(line)
         if hit is None:
-            # Texts and lists are somebody else's, below a key; a group has none of that.
-            if line == bare or (path[0][1] in _OURS and not bare.startswith("- ")):
+            # Texts and lists below other keys are skipped; a group contains none.
+            if line == bare or (path[0][1] in _KEYS_READ and not bare.startswith("- ")):
                 return None
             continue
         depth, key, value = len(hit[1]), hit[2], hit[3] or ""
         path = [(d, k) for d, k in path if d < depth] + [(depth, key)]
         names = tuple(k for _, k in path)
-        if names[0] not in _OURS or names == ("groups",) or len(names) > 4:
+        if names[0] not in _KEYS_READ or names == ("groups",) or len(names) > 4:
             if names == ("groups",) and value:
                 return None
             continue

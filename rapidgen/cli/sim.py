@@ -1,4 +1,4 @@
-"""`rapidgen sim`: a virtual controller in real time, until it is interrupted."""
+"""The command `sim`: a virtual controller in real time, until it is interrupted."""
 
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,27 +24,29 @@ def sim(
     targets: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="TARGET...",
-            help="Configuration, shipped name, generated folder, ABB backup, or RAPID files.",
+            metavar="TARGET",
+            help="Configuration, shipped name, generated folder, ABB backup or RAPID files.",
         ),
     ] = None,
     host: Annotated[
-        str, typer.Option(help="Address of this machine to serve on; loopback stays private.")
+        str, typer.Option(help="Address to serve on; loopback is private.", metavar="ADDRESS")
     ] = "127.0.0.1",
     port_offset: Annotated[
-        int, typer.Option(help="Added to every port of the program.", metavar="N")
+        int, typer.Option(help="Offset added to every port of the program.", metavar="N")
     ] = 0,
     ports: Annotated[
-        Literal["auto"] | None, typer.Option(help="`auto`: any free ports.", metavar="auto")
+        Literal["auto"] | None, typer.Option(help="Use free ports.", metavar="auto")
     ] = None,
     speed: Annotated[
-        float, typer.Option(help="Simulated seconds in a second.", min=0.001, max=1000.0)
+        float,
+        typer.Option(help="Simulated seconds per second.", min=0.001, max=1000.0, metavar="FACTOR"),
     ] = 1.0,
     motors_off: Annotated[
-        bool, typer.Option("--motors-off", help="Motors off, program not started.")
+        bool, typer.Option("--motors-off", help="Start with motors off and the program stopped.")
     ] = False,
     faults: Annotated[
-        Path | None, typer.Option(help="What is to go wrong: `rapidgen explain RG421`.")
+        Path | None,
+        typer.Option(help="Faults to inject: `rapidgen explain RG421`.", metavar="FILE.yaml"),
     ] = None,
     task: options.Tasks = None,
     robot: options.RobotModel = "",
@@ -54,69 +56,84 @@ def sim(
     start: options.Start = "",
     ftp: Annotated[
         int | None,
-        typer.Option(help="Serve HOME over FTP; 0: any free port.", min=0, max=65_535),
+        typer.Option(
+            help="Port to serve HOME over FTP; 0: any free port.", min=0, max=65_535, metavar="PORT"
+        ),
     ] = None,
     sftp: Annotated[
         int | None,
-        typer.Option(help="Serve HOME over SFTP; 0: any free port.", min=0, max=65_535),
+        typer.Option(
+            help="Port to serve HOME over SFTP; 0: any free port.",
+            min=0,
+            max=65_535,
+            metavar="PORT",
+        ),
     ] = None,
     rws: Annotated[
         Literal["1", "2", "8"] | None,
-        typer.Option(help="Serve Robot Web Services: 1.0, 2.0, or 2.0 as RobotWare 8 has them."),
+        typer.Option(help="Serve Robot Web Services 1.0, 2.0, or 2.0 as in RobotWare 8."),
     ] = None,
     rws_port: Annotated[
-        int, typer.Option(help="Port of Robot Web Services; 0: any free port.", min=0, max=65_535)
+        int,
+        typer.Option(
+            help="Port of Robot Web Services; 0: any free port.",
+            min=0,
+            max=65_535,
+            metavar="PORT",
+        ),
     ] = 0,
     rws_lenient: Annotated[
         bool,
-        typer.Option("--rws-lenient", help="Let through what real web services refuse."),
+        typer.Option("--rws-lenient", help="Accept requests that real controllers reject."),
     ] = False,
     rws_deny: Annotated[
         list[str] | None,
-        typer.Option(help="UAS name of a grant that `Default User` lacks.", metavar="GRANT"),
+        typer.Option(help="UAS grant to deny to `Default User`; repeatable.", metavar="GRANT"),
     ] = None,
     view: Annotated[
-        bool, typer.Option("--view", help="Serve a page that shows the robot: `view` in `ready`.")
+        bool,
+        typer.Option("--view", help="Serve a page that shows the robot; `ready` contains its URL."),
     ] = False,
     view_port: Annotated[
-        int, typer.Option(help="Port of that page; 0: any free port.", min=0, max=65_535)
+        int,
+        typer.Option(help="Port of the page; 0: any free port.", min=0, max=65_535, metavar="PORT"),
     ] = 0,
     record: Annotated[
         Path | None,
-        typer.Option(help="Record everything: FILE.mcap, after a restart FILE-2.mcap ..."),
+        typer.Option(help="Recording; after a restart NAME-2.mcap and so on.", metavar="NAME.mcap"),
     ] = None,
     watch: Annotated[
         list[str] | None,
-        typer.Option(help="Record an expression, too; may be repeated.", metavar="TASK:EXPRESSION"),
+        typer.Option(help="RAPID expression to record; repeatable.", metavar="TASK:EXPRESSION"),
     ] = None,
     answers: Annotated[
-        Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
+        Path | None,
+        typer.Option(help="Operator's answers: `rapidgen explain RG420`.", metavar="FILE.yaml"),
     ] = None,
     coverage: options.Coverage = None,
     plot: options.Plot = None,
     overrides: options.Overrides = None,
-    backup: options.Backup = None,
+    backup: options.TargetBackup = None,
     check: options.LoadCheck = True,
 ) -> int:
     """Run a virtual controller in real time.
 
-    What a controller would not load is refused: all its errors are told, nothing runs. When
-    its servers may be reached, stdout gets one line: `ready` and a JSON object with the ports of
-    each group, of the control socket with its token, and of the file servers with their login.
-    What the operator and the event log would show goes to stderr. Ctrl-C ends it. The other verbs
-    find it by `--to sim`.
+    Rejects programs that a controller would not load, and lists all their errors. When the
+    servers accept connections, stdout gets one line: `ready` and a JSON object with the ports of
+    each group, the control socket with its token, and the file servers with their login. Operator
+    messages and the event log go to stderr. Ctrl-C ends it. Other commands find it by `--to sim`.
     """
-    from rapidgen.cli.boot_options import chosen
+    from rapidgen.cli.boot_options import load_boot_target
     from rapidgen.cli.run_outputs import Outputs, observing
     from rapidgen.controller.faults import FaultPlan, read_plan
     from rapidgen.controller.runner import ControllerRunner
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
-        raise typer.BadParameter("either --port-offset or --ports auto")
+        raise typer.BadParameter("use either --port-offset or --ports auto")
     requested = Outputs(coverage=tuple(coverage or ()), plots=tuple(plot or ()))
-    requested.refuse_unwritable()
-    result = chosen(
+    requested.check_files_writable()
+    result = load_boot_target(
         targets or (),
         tasks=task,
         robot=robot,
@@ -128,7 +145,7 @@ def sim(
         overrides=overrides,
         check=check,
     )
-    # A page lets connections go wrong without a plan.
+    # The page can inject network faults without a plan.
     plan = read_plan(faults) if faults is not None else FaultPlan() if view else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
@@ -147,35 +164,35 @@ def sim(
         answers=script,
         tracing=requested.tracing,
         autostart=not motors_off,
-    ) as cabinet:
-        _tell(cabinet.controller.diagnostics)
+    ) as runner:
+        _print_notes(runner.controller.diagnostics)
         if motors_off:
-            _start_background_tasks(cabinet.controller)
+            _start_background_tasks(runner.controller)
         with (
-            _control(cabinet) as control,
-            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as faces,
-            _page(cabinet, look if view else None, host, view_port) as page,
-            _recording(cabinet, look, record, watch or ()),
-            observing(cabinet, requested),
+            _control(runner) as control,
+            _servers(runner, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as servers,
+            _page(runner, look if view else None, host, view_port) as page,
+            _recording(runner, look, record, watch or ()),
+            observing(runner, requested),
         ):
-            return _serve(cabinet, result, host, speed, {**control, **faces, **page})
+            return _serve(runner, result, host, speed, {**control, **servers, **page})
 
 
 def _serve(
-    runner: "ControllerRunner", target: "Bootable", host: str, speed: float, faces: "Members"
+    runner: "ControllerRunner", target: "Bootable", host: str, speed: float, servers: "Members"
 ) -> int:
-    """Run until a signal comes; the exit code."""
+    """Run until a signal comes; return the exit code."""
     import json
     import os
 
     from rapidgen._simulator_registry import Simulator, published
-    from rapidgen.cli.readiness import PATIENCE, Readiness
-    from rapidgen.cli.termination import on_signal
+    from rapidgen.cli.readiness import READY_TIMEOUT, Readiness
+    from rapidgen.cli.terminal import on_signal
 
     finished = False
 
     def end() -> None:
-        # At once, since nothing can be posted while it restarts; what is posted wakes it.
+        # Set at once: nothing can be posted during a restart. The post wakes the runner.
         nonlocal finished
         finished = True
         runner.post(lambda: None)
@@ -195,7 +212,7 @@ def _serve(
     scheduler.rebase()
     with on_signal(end):
         readiness = Readiness(controller, target)
-        timeout = scheduler.now + round(PATIENCE * speed * 1e9)
+        timeout = scheduler.now + round(READY_TIMEOUT * speed * 1e9)
         scheduler.advance(timeout, lambda: finished or readiness.decided)
         if finished:
             return 0
@@ -208,7 +225,7 @@ def _serve(
             "ports": _ports(controller, target),
             "address": addresses,
             "listeners": {str(p): at[1] for p, at in controller.network.listeners.items()},
-            **faces,
+            **servers,
         }
         if not target.driver:
             for place in controller.where():
@@ -222,13 +239,13 @@ def _serve(
 
 @contextmanager
 def _control(runner: "ControllerRunner") -> "Iterator[Members]":
-    """The control socket, again after each restart; its port and token."""
+    """Open the control socket, also after each restart; yield its port and token."""
     from rapidgen.servers.control_commands import READABLE, commands, subscribe
     from rapidgen.servers.control_socket import ControlSocket
 
     def opened(port: int, token: str) -> ControlSocket:
         controller = runner.controller
-        # Loopback whatever `--host` says.
+        # Always loopback, independent of `--host`.
         return ControlSocket(
             controller.scheduler,
             commands(controller),
@@ -241,15 +258,15 @@ def _control(runner: "ControllerRunner") -> "Iterator[Members]":
     control = opened(0, "")
     port, token = control.address[1], control.token
 
-    def again() -> None:
+    def reopen() -> None:
         nonlocal control
         control = opened(port, token)
 
-    def down() -> None:
+    def close() -> None:
         control.close()
 
-    runner.on_restart.append(down)
-    runner.on_boot.append(again)
+    runner.on_restart.append(close)
+    runner.on_boot.append(reopen)
     try:
         yield {"control": port, "token": token}
     finally:
@@ -257,14 +274,14 @@ def _control(runner: "ControllerRunner") -> "Iterator[Members]":
 
 
 @contextmanager
-def _faces(
+def _servers(
     runner: "ControllerRunner",
     host: str,
     ftp: int | None,
     sftp: int | None,
     rws: tuple[str | None, int, bool, frozenset[str]],
 ) -> "Iterator[Members]":
-    """HOME over FTP and SFTP, Robot Web Services; what `ready` tells of each.
+    """Serve HOME over FTP and SFTP, and Robot Web Services; yield their entries in `ready`.
 
     Raises DiagnosticError RG560, RG561.
     """
@@ -280,7 +297,7 @@ def _faces(
                 continue
             service = serve(runner.controller.files.path("HOME:"), host, at)
             stack.callback(service.close)
-            # The login is new in every run and good on this machine only.
+            # The login is new in every run and valid on this computer only.
             login: Members = {
                 "port": service.port,
                 "user": service.user,
@@ -309,7 +326,7 @@ def _faces(
 
 
 def _look(target: "Bootable") -> "Appearance":
-    """What the robots look like; what of it cannot be drawn is told."""
+    """Return the appearance of the robots; report what cannot be drawn."""
     from rapidgen.viewer.appearance import appearance
 
     look = appearance(target.groups, target.described, target.overrides, target.cell)
@@ -322,7 +339,7 @@ def _look(target: "Bootable") -> "Appearance":
 def _page(
     runner: "ControllerRunner", look: "Appearance | None", host: str, port: int
 ) -> "Iterator[Members]":
-    """The page that shows the robot; what `ready` tells of it.
+    """Serve the page that shows the robot; yield its entry in `ready`.
 
     Raises DiagnosticError RG920, RG921.
     """
@@ -347,15 +364,15 @@ def _recording(
     path: Path | None,
     watches: "Iterable[str]",
 ) -> "Iterator[None]":
-    """A recording while it runs, another one after each restart. Raises OSError."""
+    """Record the run, into a new file after each restart. Raises OSError."""
     pairs = [(task, text) for task, _, text in (watch.partition(":") for watch in watches)]
     for task, text in pairs:
         if not text or task not in runner.controller.rapid_tasks:
             known = ", ".join(runner.controller.rapid_tasks)
-            raise typer.BadParameter(f"--watch takes TASK:EXPRESSION; tasks are {known}")
+            raise typer.BadParameter(f"--watch takes TASK:EXPRESSION; tasks: {known}")
     if path is None or look is None:
         if pairs:
-            raise typer.BadParameter("--watch is for --record")
+            raise typer.BadParameter("--watch needs --record")
         yield
         return
     from rapidgen.viewer.recording.appearance import carried
@@ -367,7 +384,7 @@ def _recording(
     serial = 1
     end = record(runner.controller, path, pairs, saved)
 
-    def again() -> None:
+    def reopen() -> None:
         nonlocal end, serial
         serial += 1
         end = record(runner.controller, path.with_stem(f"{path.stem}-{serial}"), pairs, saved)
@@ -376,7 +393,7 @@ def _recording(
         end()
 
     runner.on_restart.append(stop)
-    runner.on_boot.append(again)
+    runner.on_boot.append(reopen)
     try:
         yield
     finally:
@@ -384,7 +401,7 @@ def _recording(
 
 
 def _start_background_tasks(controller: "VirtualController") -> None:
-    """As after switching on: background tasks run, motors are off, the program waits."""
+    """Start the background tasks only, with motors off, as after power-on."""
     controller.set_motors(False)
     for task in controller.rapid_tasks.values():
         if task.spec.type != "NORMAL":
@@ -413,7 +430,7 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
 
 
 def _addresses(controller: "VirtualController", target: "Bootable", host: str) -> dict[str, str]:
-    """HOST:MOTION,STATE[,CONTROL] of every group, for clients on this machine."""
+    """Return HOST:MOTION,STATE[,CONTROL] of each group, for clients on this computer."""
     current = "127.0.0.1" if host == "0.0.0.0" else host
     result = {}
     for group, ports in _ports(controller, target).items():
@@ -437,14 +454,14 @@ def _check_host(host: str) -> None:
             raise refusal(
                 "RG901",
                 None,
-                f"--host {host} is no address of this machine: {fault.strerror}",
-                "127.0.0.1, or 0.0.0.0 for all that it has; a robot's address goes behind `--to` "
-                "of the verbs that talk to it",
+                f"--host {host} is not an address of this computer: {fault.strerror}",
+                "use 127.0.0.1, or 0.0.0.0 for all addresses; `--to` of other commands takes a "
+                "robot's address",
             ) from fault
 
 
 def _check_release(target: "Bootable", rws: str | None) -> None:
-    """RWS 1.0 is of RobotWare 6 and older, 2.0 of RobotWare 7 and 8."""
+    """Reject RWS 1.0 on RobotWare 7 and later, and 2.0 on RobotWare 6 and earlier."""
     from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
     major, minor = target.system.robotware
@@ -454,8 +471,8 @@ def _check_release(target: "Bootable", rws: str | None) -> None:
             raise refusal(
                 "RG901",
                 None,
-                f"nothing tells that {target.name} is for a RobotWare that serves --rws {rws}",
-                "say so: --robotware 7.6",
+                f"the RobotWare version of {target.name} is unknown, and --rws {rws} depends on it",
+                "state it: --robotware 7.6",
             )
         requested = "1" if major <= 6 else "2 or 8"
         raise typer.BadParameter(
@@ -468,17 +485,19 @@ def _denied(grants: "Iterable[str]") -> frozenset[str]:
 
     unknown = sorted(set(grants) - set(GRANTS))
     if unknown:
-        raise typer.BadParameter(f"--rws-deny knows no grant {unknown[0]}: {', '.join(GRANTS)}")
+        raise typer.BadParameter(
+            f"unknown grant {unknown[0]} in --rws-deny; grants: {', '.join(GRANTS)}"
+        )
     return frozenset(grants)
 
 
 def _check_ports(target: "Bootable", host: str, offset: int) -> None:
-    """Say at once that a port is taken, instead of letting the program fail at it."""
+    """Reject a port in use now, before the program fails at it."""
     import socket
 
-    from rapidgen.cli.readiness import wanted_ports
+    from rapidgen.cli.readiness import required_ports
 
-    for port in wanted_ports(target):
+    for port in required_ports(target):
         if not 0 < port + offset < 65_536:
             raise typer.BadParameter(f"--port-offset moves port {port} to {port + offset}")
         with socket.socket() as probe:
@@ -489,13 +508,13 @@ def _check_ports(target: "Bootable", host: str, offset: int) -> None:
                 raise refusal(
                     "RG431",
                     None,
-                    f"port {port + offset} of {host} cannot be had: {fault.strerror}",
-                    "move all ports with `--port-offset N`, or let `--ports auto` choose",
+                    f"port {port + offset} of {host} is not available: {fault.strerror}",
+                    "move all ports with `--port-offset N`, or use `--ports auto`",
                     exit_code=1,
                 ) from fault
 
 
-def _tell(result: "Iterable[object]") -> None:
+def _print_notes(result: "Iterable[object]") -> None:
     import sys
 
     notes = [d for d in result if isinstance(d, Diagnostic)]

@@ -1,4 +1,4 @@
-"""Where a robot is to go, as people write and read it: joints in deg and mm, poses in mm."""
+"""Targets as text: joints in deg and mm, poses in mm and quaternions."""
 
 import math
 import re
@@ -17,35 +17,35 @@ if TYPE_CHECKING:
 _TURN = 180 / math.pi
 _THOUSAND = 1000.0
 _UNIT = 0.01
-"""By which a quaternion's length may differ from 1: people write three digits."""
+"""Tolerance of a quaternion's length: users write three digits."""
 _NAMED = re.compile(r"\s*([^=\s]+)\s*=\s*(\S+)\s*")
 
 
 @dataclass(frozen=True, slots=True)
 class Units:
-    """What figures are shown and read in: deg and mm, or (`si`) rad and m."""
+    """Units for input and output: deg and mm, or (`si`) rad and m."""
 
     si: bool = False
 
     def joint(self, kind: str) -> tuple[str, float, int]:
-        """Of a joint of a kind: unit, how many of it are one rad or m, digits shown."""
+        """Return the unit of a type of joint, its factor per rad or m, and its decimal places."""
         if kind == "revolute":
             return ("rad", 1.0, 4) if self.si else ("deg", _TURN, 2)
         return ("m", 1.0, 5) if self.si else ("mm", _THOUSAND, 2)
 
     @property
-    def said(self) -> str:
-        """Both units."""
+    def text(self) -> str:
+        """Both units, for display."""
         return "rad, m" if self.si else "deg, mm"
 
     @property
     def length(self) -> tuple[str, float, int]:
-        """As `joint`, of a place."""
+        """As `joint`, for positions."""
         return self.joint("prismatic")
 
 
 def joints_text(units: Units, group: "Group", values: Sequence[float]) -> str:
-    """Joints as `--joints` takes them: all, in the robot's order, between commas."""
+    """Format joints as `--joints` takes them: all, in the robot's order."""
     return ",".join(
         figure(value, *units.joint(joint.kind)[1:])
         for joint, value in zip(group.joints, values, strict=True)
@@ -53,7 +53,7 @@ def joints_text(units: Units, group: "Group", values: Sequence[float]) -> str:
 
 
 def named_text(units: Units, group: "Group", values: Sequence[float]) -> str:
-    """Joints with names and units, for people."""
+    """Format joints with names and units."""
     text = []
     for joint, value in zip(group.joints, values, strict=True):
         unit, factor, digits = units.joint(joint.kind)
@@ -62,12 +62,12 @@ def named_text(units: Units, group: "Group", values: Sequence[float]) -> str:
 
 
 def figure(value: float, factor: float = 1.0, digits: int = 2) -> str:
-    """A number in a unit; never -0."""
+    """Format a number in a unit; never -0."""
     return f"{round(value * factor, digits) + 0.0:.{digits}f}"
 
 
 def pose_text(units: Units, pose: "Pose") -> str:
-    """A pose as `--pose` takes it."""
+    """Format a pose as `--pose` takes it."""
     place, turn = pose
     factor, digits = units.length[1:]
     return ",".join(
@@ -77,15 +77,14 @@ def pose_text(units: Units, pose: "Pose") -> str:
 
 @dataclass(frozen=True, slots=True)
 class Figures:
-    """Joints as they were typed, before a robot is asked: values in the order given, in the units
-    of `Units`, with a name each or none at all."""
+    """Joint values as typed, in the units of `Units`; all of them have a name, or none."""
 
     values: tuple[float, ...]
     names: tuple[str, ...] = ()
 
 
 def read_figures(text: str, option: str = "--joints") -> Figures:
-    """Values between commas, or NAME=VALUE. Raises typer.BadParameter."""
+    """Read comma-separated values or NAME=VALUE. Raises typer.BadParameter."""
     parts = text.split(",")
     hits = [hit for part in parts if (hit := _NAMED.fullmatch(part))]
     if not hits:
@@ -96,7 +95,7 @@ def read_figures(text: str, option: str = "--joints") -> Figures:
     names = tuple(hit[1] for hit in hits)
     for name in names:
         if names.count(name) > 1:
-            raise typer.BadParameter(f"'{name}' is there twice", param_hint=option)
+            raise typer.BadParameter(f"'{name}' is given twice", param_hint=option)
     return Figures(tuple(_number(hit[2], option) for hit in hits), names)
 
 
@@ -107,7 +106,7 @@ def joints_of(
     current: Sequence[float],
     option: str = "--joints",
 ) -> tuple[float, ...]:
-    """All joints in the robot's order, those without a value where they are (`current`); rad, m.
+    """Return all joints in the robot's order, the others at their `current` value; rad, m.
 
     Raises typer.BadParameter.
     """
@@ -129,15 +128,15 @@ def joints_of(
 def named_of(
     figures: Figures, units: Units, kinds: Mapping[str, str], current: Sequence[float], option: str
 ) -> tuple[float, ...]:
-    """All of `kinds`, those without a value where they are (`current`); rad, m.
+    """Return all joints of `kinds`, the others at their `current` value; rad, m.
 
     Raises typer.BadParameter.
     """
     result = dict(zip(kinds, current, strict=True))
     for name, value in zip(figures.names, figures.values, strict=True):
         if name not in kinds:
-            help = suggest(name, list(kinds)) or f"its joints are: {', '.join(kinds)}"
-            raise typer.BadParameter(f"there is no joint '{name}': {help}", param_hint=option)
+            help = suggest(name, list(kinds)) or f"the joints are {', '.join(kinds)}"
+            raise typer.BadParameter(f"unknown joint '{name}': {help}", param_hint=option)
         result[name] = value / units.joint(kinds[name])[1]
     return tuple(result.values())
 
@@ -145,11 +144,11 @@ def named_of(
 def read_pose(
     text: str, units: Units, option: str = "--pose"
 ) -> tuple["Vector", "Quaternion | None"]:
-    """X,Y,Z,Q1,Q2,Q3,Q4, or X,Y,Z without a turn; m. Raises typer.BadParameter."""
+    """Read X,Y,Z,Q1,Q2,Q3,Q4 or X,Y,Z; return m. Raises typer.BadParameter."""
     values = [_number(part, option) for part in text.split(",")]
     if len(values) not in (3, 7):
         raise typer.BadParameter(
-            f"{len(values)} values: X,Y,Z,Q1,Q2,Q3,Q4, or X,Y,Z alone, turned as it is",
+            f"{len(values)} values: give X,Y,Z,Q1,Q2,Q3,Q4, or X,Y,Z to keep the orientation",
             param_hint=option,
         )
     x, y, z = (value / units.length[1] for value in values[:3])
@@ -158,15 +157,14 @@ def read_pose(
     length = math.hypot(*values[3:])
     if abs(length - 1) > _UNIT:
         raise typer.BadParameter(
-            f"Q1,Q2,Q3,Q4 is no unit quaternion: its length is {length:.3f}", param_hint=option
+            f"Q1,Q2,Q3,Q4 is not a unit quaternion: its length is {length:.3f}", param_hint=option
         )
     a, b, c, d = (value / length for value in values[3:])
     return (x, y, z), (a, b, c, d)
 
 
 def plain_number(text: str) -> float:
-    """A number as people write one: `1_0`, ten to Python, is more likely a 1.0. Raises
-    ValueError."""
+    """Read a number. Raises ValueError, also for `1_0`, which Python reads as 10."""
     if "_" in text:
         raise ValueError(text)
     return float(text)
@@ -178,5 +176,5 @@ def _number(text: str, option: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise typer.BadParameter(f"'{text.strip()}' is no number", param_hint=option)
+        raise typer.BadParameter(f"'{text.strip()}' is not a number", param_hint=option)
     return value

@@ -1,7 +1,6 @@
-"""What `rapidgen new` asks in a terminal: a robot, then what the description leaves open."""
+"""Questions of `rapidgen new` in a terminal: the robot, then each missing value."""
 
 import re
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -18,22 +17,15 @@ _SHOWN = re.compile(r"^\s*(?:#.*|tip: .*|rob\w+:|(?:\"[^\"]*\"|\w+): \{axis: .*|
 _AXES = ("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6", "eax_a", "ignore")
 
 
-def is_terminal() -> bool:
-    """Whether a person can answer."""
-    return sys.stdin.isatty() and sys.stderr.isatty()
-
-
 def ask_source() -> tuple[str | None, Path | None]:
-    """A shipped model or a description."""
-    given = typer.prompt(
-        "Robot (a name of `rapidgen robots`) or URDF file", default="irb120", err=True
-    )
-    path = Path(given)
-    return (None, path) if path.suffix or path.exists() else (given, None)
+    """Ask for a shipped model or a description file."""
+    answer = typer.prompt("Robot (see `rapidgen robots`) or URDF file", default="irb120", err=True)
+    path = Path(answer)
+    return (None, path) if path.suffix or path.exists() else (answer, None)
 
 
-def drawn(text: str) -> str:
-    """The arms of a configuration's text as a chain, from the base to the flange."""
+def draw_chain(text: str) -> str:
+    """Draw the arms of a configuration as a chain, from the base to the flange."""
     lines = []
     for line in text.split("# What follows")[0].splitlines():
         if not _SHOWN.match(line) or line.startswith("# Made from"):
@@ -50,19 +42,19 @@ def drawn(text: str) -> str:
 def ask_open(
     make: Callable[[DescriptionChoices], str], answers: DescriptionChoices
 ) -> DescriptionChoices:
-    """Show what is known, and ask until nothing is open that one answer settles."""
+    """Show the known arms and ask for the missing values."""
     text = make(answers)
-    typer.echo(drawn(text), err=True)
+    typer.echo(draw_chain(text), err=True)
     while left := [joint for joint, axis in _axes(text) if axis == OPEN]:
         joint = left[0]
         in_use = {axis for _, axis in _axes(text)}
         usual = next((axis for axis in _AXES if axis not in in_use), "ignore")
-        given = _choice(f"Axis of {joint}", _AXES, usual)
-        if given == "ignore":
+        answer = _choice(f"Axis of {joint}", _AXES, usual)
+        if answer == "ignore":
             answers = replace(answers, ignore=(*answers.ignore, joint))
         else:
-            answers = replace(answers, joints={**answers.joints, joint: given})
-        text = make(answers)  # where the others are told by it, they are not asked for
+            answers = replace(answers, joints={**answers.joints, joint: answer})
+        text = make(answers)  # one answer may settle other joints, which are not asked for
     if f"lower: {OPEN}" in text:
         answers = replace(answers, ranges={**answers.ranges, **_ranges(text)})
     if f"coupling: {OPEN}" in text:
@@ -70,7 +62,7 @@ def ask_open(
         answers = replace(answers, coupling=float(rod))
     if f"speed: {OPEN}" in text:
         speed = typer.prompt(
-            "Largest speed of the axes without one, deg/s (mm/s)", type=float, err=True
+            "Maximum speed of the axes without one, deg/s (mm/s)", type=float, err=True
         )
         answers = replace(answers, speed=speed)
     return answers
@@ -81,7 +73,7 @@ def _axes(text: str) -> list[tuple[str, str]]:
 
 
 def _ranges(text: str) -> dict[str, tuple[float, float]]:
-    """The ranges that a person knows, the last one offered again for the next turning joint."""
+    """Ask for missing ranges; offer the last answer for the next turning joint."""
     made: dict[str, tuple[float, float]] = {}
     usual = ""
     for line in text.splitlines():
@@ -93,15 +85,15 @@ def _ranges(text: str) -> dict[str, tuple[float, float]]:
         while True:
             question = f"Range of {name}, {unit}, LOWER..UPPER (. leaves it open)"
             default = usual if unit == "deg" and usual else "."
-            given = str(typer.prompt(question, default=default, err=True))
-            if given == ".":
+            answer = str(typer.prompt(question, default=default, err=True))
+            if answer == ".":
                 break
             try:
-                made |= ranges([f"{name}={given}"])
+                made |= ranges([f"{name}={answer}"])
             except DiagnosticError as fault:
                 typer.echo(render(fault.diagnostics), err=True, nl=False)
                 continue
-            usual = given if unit == "deg" else usual
+            usual = answer if unit == "deg" else usual
             break
     return made
 
@@ -109,7 +101,7 @@ def _ranges(text: str) -> dict[str, tuple[float, float]]:
 def _choice(question: str, choices: tuple[str, ...], usual: str) -> str:
     while True:
         displayed = f"{question} [{' '.join(choices)}]"
-        given = str(typer.prompt(displayed, default=usual or None, err=True))
-        if given in choices:
-            return given
-        typer.echo(f"one of {' '.join(choices)}", err=True)
+        answer = str(typer.prompt(displayed, default=usual or None, err=True))
+        if answer in choices:
+            return answer
+        typer.echo(f"answer one of {' '.join(choices)}", err=True)

@@ -137,7 +137,7 @@ def write_html(report: SuiteResult, path: Path) -> None:
     It holds verdict, versions, a searchable table for each group, plots of commanded and executed
     joints, and logs of failures.
     """
-    verdict = "everything held" if report.passed else "something did not hold"
+    verdict = "passed" if report.passed else "failed"
     groups = dict.fromkeys(outcome.group for outcome in report.outcomes)
     tables = "".join(
         _group(name, [o for o in report.outcomes if o.group == name]) for name in groups
@@ -154,8 +154,8 @@ def write_html(report: SuiteResult, path: Path) -> None:
 <style>{_STYLE}</style>
 <h1>{html.escape(report.name)}: {verdict}</h1>
 <p>BUILD_ID {html.escape(report.build_id)} · {len(report.tried)} cases ·
-{report.schedules} schedules explored · {report.programs} programs compared with the same in RAPID ·
-on the virtual controller; no real controller was asked.</p>
+{report.schedules} schedules explored · {report.programs} programs compared with RAPID ·
+tested on the virtual controller only.</p>
 <p>{html.escape(_versions())}</p>
 {_coverage(report)}
 {_pairs(report)}
@@ -280,7 +280,7 @@ def _xml(text: str) -> str:
 def _row(outcome: CaseResult) -> str:
     verdict = '<td class="ok">ok' if outcome.passed else '<td class="bad">failed'
     if outcome.untried:
-        verdict = f"<td>nothing to prove: {html.escape(outcome.untried)}"
+        verdict = f"<td>not applicable: {html.escape(outcome.untried)}"
     return (
         f"<tr><td>{html.escape(_name(outcome))}<td>{html.escape(outcome.title)}"
         f"<td>{html.escape(outcome.answers)}<td>{outcome.simulated:.2f} s{verdict}</tr>\n"

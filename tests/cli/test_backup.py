@@ -11,7 +11,7 @@ def built(tmp_path, capsys):
     backup, out = write_backup(tmp_path / "cell"), tmp_path / "out"
     assert main(["build", "irb120", "--backup", str(backup), "-o", str(out)]) == 0
     err = capsys.readouterr().err
-    assert "RobotWare 6.07, T_MOVE moves ROB_1; its own main calls ROS_run" in err
+    assert "RobotWare 6.07, T_MOVE moves ROB_1; the user's main calls ROS_run" in err
     return backup, out
 
 

@@ -29,7 +29,7 @@ def test_a_described_cell(capsys, program, tmp_path):
     assert run(capsys, program, "--cell", cell) == (0, ["done"], "")
 
 
-def test_a_guessed_cell_is_told(capsys, program):
+def test_inferred_cell_is_reported(capsys, program):
     code, out, err = run(capsys, program, "--cell", "infer")
     assert (code, out) == (0, ["done"])
     assert "diGripped  signaldi   work.mod:4" in err
@@ -57,7 +57,7 @@ def test_the_schema_of_a_cell(capsys):
     assert set(schema["properties"]) >= {"robots", "signals", "tools", "devices"}
 
 
-def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path):
+def test_target_out_of_reach_is_reported_with_axis_and_robot(capsys, tmp_path):
     path = tmp_path / "reach.mod"
     path.write_text(
         "MODULE reach\n"
@@ -75,16 +75,24 @@ def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path
 @pytest.mark.parametrize(
     ("statement", "words", "help"),
     [
-        ("SetDO do1, 1;", [], "`--cell infer` makes signals"),
+        ("SetDO do1, 1;", [], "use `--cell infer` to infer signals"),
         ("x := y;", ["--cell", "infer"], "`rapidgen schema --cell`"),
         ("foo;", [], "load the module that declares it"),
         ('TPReadNum n, "how many";', [], "`--answers FILE` answers dialogs"),
-        ("MoveL other, v100, fine, tool0;", [], "for none with ConfL \\Off"),
-        ("MoveL Offs(other,2000,0,0), v100, fine, tool0;", [], "`--robot` takes the robot"),
-        ("MoveAbsJ [[180,0,0,0,0,0],other.extax], v100, fine, tool0;", [], "`--robot` takes"),
+        ("MoveL other, v100, fine, tool0;", [], "use ConfL \\Off"),
+        (
+            "MoveL Offs(other,2000,0,0), v100, fine, tool0;",
+            [],
+            "robot of the program with `--robot`",
+        ),
+        (
+            "MoveAbsJ [[180,0,0,0,0,0],other.extax], v100, fine, tool0;",
+            [],
+            "program with `--robot`",
+        ),
     ],
 )
-def test_what_ends_a_program_has_a_mend(tmp_path, capsys, statement, words, help):
+def test_program_error_has_help(tmp_path, capsys, statement, words, help):
     path = tmp_path / "a.mod"
     path.write_text(
         "MODULE a\nCONST robtarget other := [[300,0,400],[0,0,1,0],[0,2,-2,1],"

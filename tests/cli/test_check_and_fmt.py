@@ -104,7 +104,7 @@ def test_configurations_by_name_and_path(folder, capsys):
     ("line", "code"),
     [("task: T_ROS_RECV", "RG012"), ("tool: {name: num, load: {mass: 1}}", "RG106")],
 )
-def test_what_a_build_would_refuse_is_told(folder, capsys, line, code):
+def test_check_reports_build_errors(folder, capsys, line, code):
     (folder / "taken.yaml").write_text(f"model: irb120\n{line}\n")
     assert main(["check", "taken.yaml", "--format", "json"]) == 1
     (text,) = json.loads(capsys.readouterr().out)
@@ -124,10 +124,10 @@ def test_fmt_writes_once(folder, capsys):
     assert main(["fmt", "ugly.mod", "--check"]) == 0
 
 
-def test_fmt_says_that_a_file_mixes_line_ends(folder, capsys):
+def test_fmt_mixed_line_ends_are_reported(folder, capsys):
     (folder / "mixed.mod").write_bytes(GOOD.encode().replace(b"\n", b"\r\n", 2))
     assert main(["fmt", "mixed.mod"]) == 0
-    assert "mixed.mod mixes line ends (3 LF, 2 CRLF): all become LF" in capsys.readouterr().err
+    assert "mixed.mod mixes line ends (3 LF, 2 CRLF): all changed to LF" in capsys.readouterr().err
     assert (folder / "mixed.mod").read_bytes() == GOOD.encode()
 
 
@@ -163,7 +163,7 @@ def backup(tmp_path):
     return folder
 
 
-def test_modules_of_a_backup_that_no_task_loads_are_judged_alone(backup, capsys):
+def test_check_unloaded_modules_of_backup_one_by_one(backup, capsys):
     part = backup / "HOME" / "parts" / "part.mod"
     part.write_text("MODULE part\n    PROC part1()\n        Helper;\n    ENDPROC\nENDMODULE\n")
     assert main(["check", str(backup)]) == 0
@@ -214,7 +214,7 @@ def overloads(capsys, *text):
     return [f["message"] for f in result if f["code"] == "RG333"]
 
 
-def test_loads_are_compared_with_the_payload_of_the_robot_that_is_named(folder, capsys):
+def test_check_loads_against_payload_of_named_robot(folder, capsys):
     (folder / "good.mod").write_text(LOADED.format(9))
     assert overloads(capsys, "good.mod") == []
     assert overloads(capsys, "good.mod", "--robot", "irb6640") == []

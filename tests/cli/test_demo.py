@@ -6,13 +6,13 @@ from rapidgen.cli.app import main
 from rapidgen.viewer import plotting
 
 
-def test_it_says_each_step_and_what_comes_next(tmp_path, capsys, monkeypatch):
+def test_demo_reports_steps_and_next_commands(tmp_path, capsys, monkeypatch):
     drawn = []
     monkeypatch.setattr(plotting.Plot, "save", lambda plot, path: drawn.append(plot) or path)
     assert main(["demo", "--output", str(tmp_path / "demo")]) == 0
     message = capsys.readouterr()
     steps = re.findall(r"^(\w+):? {2,}", message.err, re.MULTILINE)
-    assert steps == ["build", "boot", "connect", "move", "draw", "next"]
+    assert steps == ["build", "boot", "connect", "move", "plot", "next"]
     assert "%, joints at" in message.err
     assert "31 points" in message.out
     assert (tmp_path / "demo" / "irb120" / "README.md").is_file()

@@ -59,7 +59,7 @@ def plain(text, *words):
     return done.returncode, done.stdout, done.stderr
 
 
-def test_each_package_is_of_the_extra_that_is_named():
+def test_missing_package_names_its_extra():
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))
     extras = dict(project["project"]["optional-dependencies"])
     every = extras.pop("all")
@@ -68,7 +68,7 @@ def test_each_package_is_of_the_extra_that_is_named():
     assert every == [f"rapidgen[{','.join(sorted(extras))}]"]
 
 
-def test_only_what_an_extra_is_for_needs_it():
+def test_extra_is_needed_only_by_its_modules():
     code, out, err = plain(ALL)
     assert code == 0, err
     failed = json.loads(out)
@@ -102,7 +102,7 @@ def test_a_command_names_its_extra(text, extra):
     assert not Path("never.mcap").exists()
 
 
-def test_python_is_told_the_extra_too():
+def test_missing_extra_is_reported_in_python():
     code, _, err = plain("from rapidgen.client import Controller")
     assert code == 1
     assert err.splitlines()[-1] == (

@@ -35,17 +35,17 @@ def shell(command, folder, **environment):
 
 
 @pytest.mark.parametrize("text", ["explain all", "run good.mod", "robots", "--help"])
-def test_output_that_has_no_room_is_said(folder, text):
+def test_full_disk_is_reported(folder, text):
     done = shell(f"$RG {text} >/dev/full", folder)
     assert done.returncode == 1
-    assert "error[RG903]: cannot go on: No space left" in done.stderr
+    assert "error[RG903]: cannot continue: No space left" in done.stderr
     assert "Traceback" not in done.stderr
 
 
-def test_a_folder_that_has_gone_is_said(folder):
+def test_removed_current_folder_is_reported(folder):
     done = shell("mkdir gone && cd gone && rmdir ../gone && $RG build irb120", folder)
     assert done.returncode == 2
-    assert "error[RG903]: cannot go on: No such file" in done.stderr
+    assert "error[RG903]: cannot continue: No such file" in done.stderr
 
 
 @pytest.mark.parametrize("text", ["explain all", "run good.mod", "robots"])
@@ -55,7 +55,7 @@ def test_a_closed_stdout_is_no_fault(folder, text):
 
 
 @pytest.mark.parametrize("text", ["explain all", "run good.mod", "robots", "schema"])
-def test_a_reader_that_has_gone_is_no_fault(folder, text):
+def test_broken_pipe_is_not_an_error(folder, text):
     reader, writer = os.pipe()
     os.close(reader)
     with os.fdopen(writer, "wb") as gone:
@@ -80,7 +80,7 @@ def test_a_closed_stderr_is_no_fault(folder):
     assert shell("$RG check nowhere.mod 2>&-", folder).returncode == 2
 
 
-def test_letters_that_the_terminal_lacks_are_written_as_codes(folder):
+def test_unencodable_characters_are_escaped(folder):
     (folder / "letters.mod").write_text(GOOD.replace("hi", "é"), encoding="latin-1")
     done = shell("$RG run letters.mod", folder, PYTHONIOENCODING="ascii")
     assert (done.returncode, done.stdout) == (0, "\\xe9\n")
@@ -93,7 +93,7 @@ def test_letters_are_shown_as_the_file_has_them(folder, encoding):
     assert (done.returncode, done.stdout) == (0, "é ü\n")
 
 
-def test_a_file_name_that_is_no_text_builds(folder):
+def test_build_accepts_undecodable_file_name(folder):
     Path(os.fsdecode(b"cell\xff.yaml")).write_text("name: cell\nmodel: irb120\n")
     done = shell("$RG build $'cell\\xff.yaml' -o out", folder)
     assert done.returncode == 0, done.stderr

@@ -10,7 +10,7 @@ import sys
 import pytest
 
 from rapidgen.cli.app import main
-from rapidgen.cli.move import within_limits
+from rapidgen.cli.motion import within_limits
 from rapidgen.cli.target_text import Units, joints_of, read_figures
 from rapidgen.client import InvalidTrajectory, Trajectory
 from rapidgen.client.core.group import Group
@@ -61,7 +61,7 @@ def test_joints_are_typed_in_degrees(cell, capsys):
     wanted = [math.radians(angle) for angle in (-10, 5, 0, 0, 30, 0)]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
     columns = next(line for line in displayed.err.splitlines() if "joint " in line).split()
-    assert columns == ["joint", "now", "least", "most", "end", "lower", "upper"]
+    assert columns == ["joint", "now", "min", "max", "end", "lower", "upper"]
     assert max(map(len, displayed.err.splitlines())) < 100
 
 
@@ -80,7 +80,7 @@ def test_a_robot_that_stands_at_its_limit_is_moved_on(cell, capsys):
     assert positions(cell[1])[0] == pytest.approx(math.radians(10), abs=1e-5)
 
 
-def test_what_adds_up_to_the_limit_of_a_coupled_axis_is_inside():
+def test_rounding_at_limit_of_coupled_axis_is_accepted():
     config = load_config("irb2400")
     group = Group.of(config, config.groups[0])
     goal = joints_of(read_figures("0,-29,-31,0,0,0"), Units(), group, [0.0] * 6)
@@ -89,7 +89,7 @@ def test_what_adds_up_to_the_limit_of_a_coupled_axis_is_inside():
         within_limits(group, [*goal[:2], math.radians(-31.01), *goal[3:]], Units())
 
 
-def test_a_pose_as_it_was_told_is_where_the_robot_goes(cell, capsys):
+def test_move_to_printed_pose_reaches_it(cell, capsys):
     path, sim = cell
     told(capsys, "move", path, "--joints", "10,10,0,0,30,5", "--to", "sim")
     before = positions(sim)
@@ -116,13 +116,13 @@ def test_a_dry_run_draws_and_sends_nothing(cell, capsys, tmp_path):
     before = positions(sim)
     text = ["move", path, "--joints", "20,20,20,20,20,20", "--to", "sim", "--dry-run"]
     displayed = told(capsys, *text, "--plot", str(tmp_path / "p.png"))
-    assert displayed.out == "dry run: 2 points would be executed; nothing was sent\n"
+    assert displayed.out == "dry run: 2 points checked, nothing sent\n"
     assert [result.name for result in tmp_path.iterdir()] == ["p.png"]
     assert json.loads(told(capsys, *text, "--json").out)["dry_run"] is True
     assert positions(sim) == before
 
 
-def test_what_was_executed_is_drawn_and_recorded_in_radians(cell, capsys, tmp_path):
+def test_executed_motion_is_plotted_and_recorded_in_radians(cell, capsys, tmp_path):
     path, _ = cell
     at_home(cell, capsys)
     files = ["--plot", str(tmp_path / "p"), "--record", str(tmp_path / "r.csv")]
@@ -178,39 +178,51 @@ def test_signals_of_a_driver_are_read_and_set(cell, capsys):
 @pytest.mark.parametrize(
     ("text", "code", "message"),
     [
-        (["move"], 2, "where to?"),
-        (["move", "--joints", HOME, "--pose", "1,2,3"], 2, "--joints and --pose were given"),
-        (["move", "p.csv", "--joints", HOME], 2, "a file and --joints were given"),
+        (["move"], 2, "no target"),
+        (
+            ["move", "--joints", HOME, "--pose", "1,2,3"],
+            2,
+            "more than one target: --joints and --pose",
+        ),
+        (["move", "p.csv", "--joints", HOME], 2, "more than one target: a file and --joints"),
         (["move", "--joints", "1,2,3"], 2, "3 values for 6 joints"),
-        (["move", "--joints", "1,2,3,4,5,six"], 2, "'six' is no number"),
-        (["move", "--joints", "1,2,3,4,5,nan"], 2, "'nan' is no number"),
-        (["move", "--joints", "1_0,0,0,0,30,0"], 2, "'1_0' is no number"),
-        (["jog", "joint_1=0_5"], 2, "'0_5' is no number"),
-        (["io", "count", "1_0"], 2, "'1_0' is no value of a signal"),
-        (["move", "--joints", "joint_7=1"], 2, "there is no joint 'joint_7': did you mean"),
-        (["move", "--joints", "joint_1=1,joint_1=2"], 2, "'joint_1' is there twice"),
-        (["move", "--joints", "joint_1=166"], 1, "rax_1 goes from -165.00 to 165.00 deg"),
-        (["move", "--pose", "1,2"], 2, "2 values: X,Y,Z,Q1,Q2,Q3,Q4"),
-        (["move", "--pose", "300,0,500,1,1,0,0"], 2, "no unit quaternion: its length is 1.414"),
-        (["move", "--pose", "3000,0,500"], 1, "no posture within the limits reaches the pose"),
-        (["move", "--joints", HOME, "--approach", "3"], 2, "--joints begins where the robot is"),
+        (["move", "--joints", "1,2,3,4,5,six"], 2, "'six' is not a number"),
+        (["move", "--joints", "1,2,3,4,5,nan"], 2, "'nan' is not a number"),
+        (["move", "--joints", "1_0,0,0,0,30,0"], 2, "'1_0' is not a number"),
+        (["jog", "joint_1=0_5"], 2, "'0_5' is not a number"),
+        (["io", "count", "1_0"], 2, "'1_0' is not a signal value"),
+        (["move", "--joints", "joint_7=1"], 2, "unknown joint 'joint_7': did you mean"),
+        (["move", "--joints", "joint_1=1,joint_1=2"], 2, "'joint_1' is given twice"),
+        (
+            ["move", "--joints", "joint_1=166"],
+            1,
+            "use a value from -165.00 to 165.00 deg for rax_1",
+        ),
+        (["move", "--pose", "1,2"], 2, "2 values: give X,Y,Z,Q1,Q2,Q3,Q4"),
+        (["move", "--pose", "300,0,500,1,1,0,0"], 2, "not a unit quaternion: its length is 1.4"),
+        (["move", "--pose", "3000,0,500"], 1, "no joint values within the limits reach the pose"),
+        (
+            ["move", "--joints", HOME, "--approach", "3"],
+            2,
+            "--joints starts at the current position",
+        ),
         (["move", "--joints", HOME, "--speed", "0"], 2, "must be above 0"),
         (["move", "--joints", HOME, "--record", "/nowhere/r.csv"], 2, "cannot write /nowhere"),
         (["jog", "joint_1"], 2, "write JOINT=STEP"),
         (["jog", "joint_1=20"], 2, "at most 11.46 deg at a time"),
-        (["jog", "joint_9=1"], 2, "there is no joint 'joint_9'"),
+        (["jog", "joint_9=1"], 2, "unknown joint 'joint_9'"),
         (["jog", "z=150"], 2, "z by 150.00 mm is too far: at most 100.00 mm"),
-        (["jog", "z=1", "joint_1=1"], 2, "there is no joint 'z'"),
-        (["jog", "z=1", "z=2"], 2, "'z' is there twice"),
-        (["jog", "up=1"], 2, "there is no joint 'up'"),
+        (["jog", "z=1", "joint_1=1"], 2, "unknown joint 'z'"),
+        (["jog", "z=1", "z=2"], 2, "'z' is given twice"),
+        (["jog", "up=1"], 2, "unknown joint 'up'"),
         (["jog", "joint_1=1", "--speed", "-1"], 2, "must be above 0"),
-        (["io", "gripper", "on"], 2, "'on' is no value of a signal"),
+        (["io", "gripper", "on"], 2, "'on' is not a signal value"),
         (["io", "gipper"], 1, "did you mean 'gripper'?"),
         (["io", "part", "1"], 1, "exposed for reading only"),
         (["pose", "--joints", "1"], 2, "1 values for 6 joints"),
     ],
 )
-def test_typed_wrong(cell, capsys, text, code, message):
+def test_usage_error(cell, capsys, text, code, message):
     path, sim = cell
     before = positions(sim)
     verb, *remaining = text
@@ -223,16 +235,16 @@ def test_typed_wrong(cell, capsys, text, code, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (["move", "--joints", "1,2,x"], "'x' is no number"),
+        (["move", "--joints", "1,2,x"], "'x' is not a number"),
         (["move", "--joints", "joint_1=1,2"], "'2' is not NAME=VALUE"),
-        (["move", "--joints", "a=1,a=2"], "'a' is there twice"),
-        (["move", "--pose", "1,2"], "2 values: X,Y,Z,Q1,Q2,Q3,Q4"),
+        (["move", "--joints", "a=1,a=2"], "'a' is given twice"),
+        (["move", "--pose", "1,2"], "2 values: give X,Y,Z,Q1,Q2,Q3,Q4"),
         (["move", "--pose", "1,2,3,1,1,0,0"], "its length is 1.414"),
         (["jog", "joint_1"], "write JOINT=STEP"),
-        (["jog", "joint_1=five"], "'five' is no number"),
+        (["jog", "joint_1=five"], "'five' is not a number"),
     ],
 )
-def test_what_is_typed_wrong_is_told_before_a_robot_is_asked(capsys, text, message):
+def test_wrong_target_is_reported_before_connecting(capsys, text, message):
     verb, *remaining = text
     displayed = told(capsys, verb, "irb120", *remaining, "--to", "127.0.0.1:1,1,1", code=2)
     assert message in " ".join(displayed.err.split())
@@ -259,7 +271,7 @@ def test_interrupted_move_stops_and_prints_position(cell, capsys, ignored, numbe
     _, displayed = process.communicate(timeout=60)
     assert process.returncode == 130
     degrees = math.degrees(positions(sim)[0])
-    told = re.search(r"Ctrl-C: the robot stands at joint_1 (\S+) deg", displayed)
+    told = re.search(r"Ctrl-C: stopped at joint_1 (\S+) deg", displayed)
     assert told, displayed
     # Two decimals, and a state is a message old.
     assert float(told[1]) == pytest.approx(degrees, abs=0.05)

@@ -51,7 +51,7 @@ def test_coverage_as_a_page_beside_the_tracefile(program, tmp_path):
     assert "DA:6,3" in lcov.read_text()
 
 
-def test_a_plot_of_what_the_robot_did(program, tmp_path):
+def test_run_plots_motion(program, tmp_path):
     assert main(["run", str(program), "--plot", str(tmp_path / "motion")]) == 0
     assert (tmp_path / "motion.png").read_bytes().startswith(b"\x89PNG")
     assert "joint_1" in (tmp_path / "motion.html").read_text()
@@ -61,7 +61,7 @@ def test_a_plot_of_what_the_robot_did(program, tmp_path):
     assert third.read_bytes().startswith(b"\x89PNG")
 
 
-def test_what_cannot_be_written_is_refused_before_anything_runs(capsys, program, tmp_path):
+def test_unwritable_output_is_reported_before_the_run(capsys, program, tmp_path):
     for option in ("--plot", "--coverage"):
         code = main(["run", str(program), option, str(tmp_path / "none" / "x.html")])
         captured = capsys.readouterr()
@@ -78,7 +78,7 @@ def test_what_cannot_be_written_is_refused_before_anything_runs(capsys, program,
         ("WaitTestAndSet busy", "WaitTestAndSet waits for its flag"),
     ],
 )
-def test_what_a_task_waits_for_is_told(capsys, tmp_path, statement, text):
+def test_timeout_reports_wait_conditions(capsys, tmp_path, statement, text):
     (tmp_path / "cell.yaml").write_text("signals: {di1: {kind: DI}, gi1: {kind: GI}}")
     path = tmp_path / "waits.mod"
     path.write_text(

@@ -57,7 +57,7 @@ def made(words, cls=None):
 
 
 @pytest.mark.parametrize("text", SAID, ids=" ".join)
-def test_words_become_what_typer_makes_of_them(text):
+def test_fast_conversion_equals_typer(text):
     assert made(text, PlainCommand) == made(text)
 
 

@@ -65,7 +65,7 @@ def test_files_of_a_users_own(tmp_path, text):
         "model: irb120\nports: {motion: 0x2EE0}\n",
     ],
 )
-def test_what_takes_a_closer_look_is_left_to_the_whole_way(tmp_path, text):
+def test_ambiguous_arguments_send_no_early_stop(tmp_path, text):
     path = tmp_path / "cell.yaml"
     path.write_text(text)
     assert motion_ports(str(path)) == {}
@@ -124,7 +124,7 @@ def test_where_it_goes(text, places):
         "10.0.0.1:65535",
     ],
 )
-def test_the_control_port_is_the_one_that_the_whole_way_takes(tmp_path, text, address):
+def test_early_stop_uses_control_port_of_client(tmp_path, text, address):
     path = tmp_path / "cell.yaml"
     path.write_text(text)
     groups = {group.name: group.ports for group in load_config(path).groups}
@@ -169,7 +169,7 @@ def test_stop_goes_to_both_ports_at_once():
 
 
 @pytest.mark.parametrize("refused", [0, 1])
-def test_a_port_that_refuses_keeps_the_other_from_nothing(refused):
+def test_refused_port_does_not_delay_the_other(refused):
     with socket.create_server(("127.0.0.1", 0)) as server:
         with socket.create_server(("127.0.0.1", 0)) as gone:
             free = gone.getsockname()[1]

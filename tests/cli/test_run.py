@@ -102,7 +102,7 @@ def test_limits_of_time_and_statements(capsys, program: Path) -> None:
     code, _, err = run(capsys, program, "--entry", "deadlock", "--max-time", 5)
     assert (code, "RG406" in err) == (1, True)
     code, _, err = run(capsys, program, "--entry", "flies", "--robot", "irb120", "--max-time", 5)
-    assert (code, "RG406" in err, "rob1: its robot moves" in err) == (1, True, True)
+    assert (code, "RG406" in err, "rob1: the robot is moving" in err) == (1, True, True)
 
 
 def test_stop_ends_the_run(capsys, program: Path) -> None:
@@ -190,7 +190,7 @@ def test_a_last_move_with_a_zone_is_made_to_its_end(program: Path) -> None:
         assert controller.positions()["joint_1"] == pytest.approx(radians(90), abs=1e-4)
 
 
-def test_what_no_controller_loads_is_refused_whole(tmp_path, capsys) -> None:
+def test_unloadable_program_is_rejected_with_all_errors(tmp_path, capsys) -> None:
     """Static errors are found at load [K §1.4]; unknown routines when they are reached."""
     path = tmp_path / "a.mod"
     path.write_text(
@@ -222,7 +222,7 @@ def test_what_no_controller_loads_is_refused_whole(tmp_path, capsys) -> None:
         ("--profile=/nonexistent/x.json",),
     ],
 )
-def test_nothing_runs_with_options_that_make_no_sense(program, capsys, options) -> None:
+def test_invalid_options_run_nothing(program, capsys, options) -> None:
     assert main(["run", str(program), *options]) == 2
     out, err = capsys.readouterr()
     assert out == ""
@@ -237,7 +237,7 @@ def test_a_configuration_is_not_taken(tmp_path, monkeypatch, capsys, name):
     assert f"rapidgen sim {name}" in capsys.readouterr().err
 
 
-def test_a_module_that_is_there_twice_is_refused_even_unchecked(capsys, tmp_path: Path) -> None:
+def test_duplicate_module_is_rejected_without_check(capsys, tmp_path: Path) -> None:
     text = "MODULE m\n PROC main()\n  aux;\n ENDPROC\n PROC aux()\n ENDPROC\nENDMODULE\n"
     for name in ("a.mod", "b.mod"):
         (tmp_path / name).write_text(text)

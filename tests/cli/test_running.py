@@ -34,7 +34,7 @@ def test_a_simulator_is_found_while_it_runs():
     assert os.listdir(folder()) == []
 
 
-def test_groups_are_told_apart():
+def test_sim_groups_have_separate_addresses():
     with published(YUMI):
         assert find_simulator("irb14000", "rob_r").motion == 11
         assert "--group rob_l or rob_r" in refusal(find_simulator, "irb14000").diagnostics[0].help
@@ -56,7 +56,7 @@ def test_groups_are_told_apart():
         ([ARM, Simulator("irb120", 9, {})], "irb120", "2 simulators run", "(process 9)"),
     ],
 )
-def test_what_is_not_clear_is_refused(target, name, message, note):
+def test_ambiguous_simulator_is_rejected(target, name, message, note):
     with ExitStack() as stack:
         for one in target:
             stack.enter_context(published(one))
@@ -73,7 +73,7 @@ def test_others_are_not_counted_where_it_is_not_clear_which():
     assert [note.partition(" ")[0] for note in result.notes] == ["irb120", "irb120"]
 
 
-def test_one_that_ended_without_a_word_is_told_of_and_forgotten(caplog):
+def test_killed_simulator_is_reported_and_removed(caplog):
     script = (
         "import os, signal\n"
         "from rapidgen._simulator_registry import Simulator, published\n"
@@ -88,7 +88,7 @@ def test_one_that_ended_without_a_word_is_told_of_and_forgotten(caplog):
     assert os.listdir(folder()) == []
 
 
-def test_a_folder_that_others_may_write_is_not_believed(own):
+def test_world_writable_registry_is_ignored(own):
     own.mkdir()
     own.chmod(0o777)
     with published(ARM) as text:
@@ -104,7 +104,7 @@ def test_damaged_files_are_passed_over(own):
     assert os.listdir(own) == ["notes"]
 
 
-def test_it_is_told_of_where_nobody_answers_on_this_machine(capsys):
+def test_running_simulator_is_suggested_if_no_driver_answers(capsys):
     with published(ARM):
         assert main(["monitor", "irb120", "--to", "127.0.0.1:1,1"]) == 1
     text = "note: a simulator of irb120 runs at 127.0.0.1:11000,11002,11001: `--to sim`"

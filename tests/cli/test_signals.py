@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rapidgen.cli import sim, view
+from rapidgen.cli import observation, sim
 from rapidgen.controller.boot_targets import load_target
 from rapidgen.controller.runner import ControllerRunner
 
@@ -49,8 +49,8 @@ def viewed(monkeypatch):
     def serve(then):
         page = SimpleNamespace(url="", close=lambda: sys.settrace(None))
         monkeypatch.setattr("rapidgen.viewer.server.serve_page", lambda *_: page)
-        monkeypatch.setattr(view.typer, "echo", lambda _: then())
-        return view._serve(None, "127.0.0.1", 0, {})
+        monkeypatch.setattr(observation.typer, "echo", lambda _: then())
+        return observation._serve(None, "127.0.0.1", 0, {})
 
     return serve
 
@@ -77,25 +77,25 @@ def test_view_ends_by_a_signal_that_another_thread_gets(viewed):
 
 
 @pytest.fixture
-def cabinet(tmp_path):
+def runner(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
     result = load_target([path])
-    with ControllerRunner.boot(result, clock="real") as cabinet:
-        cabinet.serve = lambda: sim._serve(cabinet, result, "127.0.0.1", 1.0, {})
-        yield cabinet
+    with ControllerRunner.boot(result, clock="real") as runner:
+        runner.serve = lambda: sim._serve(runner, result, "127.0.0.1", 1.0, {})
+        yield runner
 
 
 @pytest.mark.timeout(60, method="thread")
-def test_sim_ends_by_a_signal_during_a_restart(cabinet):
-    cabinet.on_restart.append(come)
-    cabinet.ask_restart()
-    assert cabinet.serve() == 0
-    assert cabinet.restarts == 1
+def test_sim_ends_by_a_signal_during_a_restart(runner):
+    runner.on_restart.append(come)
+    runner.ask_restart()
+    assert runner.serve() == 0
+    assert runner.restarts == 1
 
 
 @pytest.mark.timeout(60, method="thread")
-def test_sim_ends_by_a_signal_that_another_thread_gets(cabinet, monkeypatch):
+def test_sim_ends_by_a_signal_that_another_thread_gets(runner, monkeypatch):
     other = threading.Timer(0.05, come)
 
     def told(text, **_):
@@ -103,5 +103,5 @@ def test_sim_ends_by_a_signal_that_another_thread_gets(cabinet, monkeypatch):
             other.start()
 
     monkeypatch.setattr(sim.typer, "echo", told)
-    assert cabinet.serve() == 0
+    assert runner.serve() == 0
     other.join()

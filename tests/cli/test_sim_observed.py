@@ -14,19 +14,19 @@ TEXT = (
 )
 
 
-def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
+def test_coverage_is_written_at_end_and_before_restart(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(TEXT)
     wanted = Outputs(coverage=(tmp_path / "c.lcov",), plots=(tmp_path / "p.png",))
     result = load_target([path])
     with (
-        ControllerRunner.boot(result, tracing=wanted.tracing) as cabinet,
-        observing(cabinet, wanted),
+        ControllerRunner.boot(result, tracing=wanted.tracing) as runner,
+        observing(runner, wanted),
     ):
-        cabinet.run(lambda: cabinet.controller.now > 2)
+        runner.run(lambda: runner.controller.now > 2)
         assert not (tmp_path / "c.lcov").exists()
-        cabinet.ask_restart()
-        cabinet.run(lambda: cabinet.restarts > 0)
+        runner.ask_restart()
+        runner.run(lambda: runner.restarts > 0)
     before, after = ((tmp_path / name).read_text() for name in ("c-1.lcov", "c.lcov"))
     assert ("DA:5,1" in before, "DA:5,0" in after) == (True, True), "nothing ran behind it"
     assert sorted(p.name for p in tmp_path.glob("p*")) == ["p-1.png", "p.png"]
@@ -34,4 +34,4 @@ def test_what_was_reached_is_written_at_the_end_and_before_a_restart(tmp_path):
 
 def test_one_file_for_two_things_is_refused(tmp_path):
     with pytest.raises(DiagnosticError, match="written twice"):
-        Outputs(coverage=(tmp_path / "a.png",), plots=(tmp_path / "a.png",)).refuse_unwritable()
+        Outputs(coverage=(tmp_path / "a.png",), plots=(tmp_path / "a.png",)).check_files_writable()

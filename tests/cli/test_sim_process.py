@@ -128,7 +128,7 @@ def a_backup(folder, text):
     return backup
 
 
-def test_a_backup_of_somebody_elses_program(start, tmp_path):
+def test_sim_boots_backup_of_foreign_program(start, tmp_path):
     """The address in it is the controller's own; here it is this machine, on any free port."""
     backup = a_backup(tmp_path, SERVER)
     sim = start(str(backup), "--ports", "auto")
@@ -237,7 +237,7 @@ def test_signals_that_the_configuration_exposes_are_there(start, tmp_path, built
         assert of_signal(own, 3) == 1.5
 
 
-def test_what_no_controller_loads_is_refused_whole(tmp_path):
+def test_unloadable_program_is_rejected_with_all_errors(tmp_path):
     """As `run` does it."""
     backup = a_backup(tmp_path, SERVER.replace("SocketListen", "text := 1;\n        SocketListen"))
     code, out, err = failing(str(backup), "--ports", "auto")
@@ -253,7 +253,7 @@ def failing(*arguments):
     return done.returncode, done.stdout, done.stderr
 
 
-def test_a_port_that_is_taken_is_said_at_once():
+def test_port_in_use_is_reported_before_boot():
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
@@ -273,7 +273,7 @@ def test_each_port_is_looked_at(role, capsys):
         in_use = ports[role] = other.getsockname()[1]
         text = [word for name, port in ports.items() for word in ("--set", f"ports.{name}={port}")]
         assert main(["sim", "irb120", *text]) == 1
-    assert f"error[RG431]: port {in_use} of 127.0.0.1 cannot be had" in capsys.readouterr().err
+    assert f"error[RG431]: port {in_use} of 127.0.0.1 is not available" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

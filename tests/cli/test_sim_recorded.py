@@ -14,9 +14,9 @@ from rapidgen.viewer.recording.reader import RecordingFile
 
 
 @pytest.fixture
-def cabinet():
-    with ControllerRunner.boot(load_target(["irb120"], BootOptions()), clock="virtual") as cabinet:
-        yield cabinet
+def runner():
+    with ControllerRunner.boot(load_target(["irb120"], BootOptions()), clock="virtual") as runner:
+        yield runner
 
 
 @pytest.fixture(scope="module")
@@ -24,13 +24,13 @@ def look():
     return _look(load_target(["irb120"], BootOptions()))
 
 
-def test_a_restart_begins_another_file(cabinet, look, tmp_path):
+def test_a_restart_begins_another_file(runner, look, tmp_path):
     path = tmp_path / "run.mcap"
-    with _recording(cabinet, look, path, ["T_ROB1:ERRNO"]):
-        cabinet.controller.run_for(1.0)
-        cabinet.ask_restart()
-        cabinet.run(lambda: cabinet.restarts > 0)
-        cabinet.controller.run_for(2.0)
+    with _recording(runner, look, path, ["T_ROB1:ERRNO"]):
+        runner.controller.run_for(1.0)
+        runner.ask_restart()
+        runner.run(lambda: runner.restarts > 0)
+        runner.controller.run_for(2.0)
     for name, length in (("run.mcap", 1.0), ("run-2.mcap", 2.0)):
         with RecordingFile(tmp_path / name) as file:
             assert not file.cut
@@ -39,19 +39,19 @@ def test_a_restart_begins_another_file(cabinet, look, tmp_path):
 
 
 @pytest.mark.parametrize("watch", ["ERRNO", "nobody:ERRNO", "T_ROB1:"])
-def test_a_watch_names_a_task_and_an_expression(cabinet, look, tmp_path, watch):
+def test_a_watch_names_a_task_and_an_expression(runner, look, tmp_path, watch):
     with (
         pytest.raises(typer.BadParameter, match="T_ROB1, T_ROS_RECV"),
-        _recording(cabinet, look, tmp_path / "run.mcap", [watch]),
+        _recording(runner, look, tmp_path / "run.mcap", [watch]),
     ):
         pytest.fail("it went on")
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_watch_is_for_a_recording(cabinet):
+def test_a_watch_is_for_a_recording(runner):
     with (
         pytest.raises(typer.BadParameter, match="--record"),
-        _recording(cabinet, None, None, ["T_ROB1:1"]),
+        _recording(runner, None, None, ["T_ROB1:1"]),
     ):
         pytest.fail("it went on")
 

@@ -20,7 +20,7 @@ def rapidgen(*arguments, **environment):
     )
 
 
-def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(start, tmp_path):
+def test_sftp_deployment_arrives_in_home_of_running_sim(start, tmp_path):
     sim = start("irb120", "--ports", "auto", "--ftp", "0", "--sftp", "0")
     sftp, ftp = sim.ready["sftp"], sim.ready["ftp"]
     assert sftp["password"] != ftp["password"]
@@ -51,7 +51,7 @@ def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(star
     assert "Traceback" not in err
 
 
-def test_a_file_port_that_is_taken_and_a_host_of_the_network_are_refused():
+def test_used_file_port_and_network_host_are_rejected():
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()

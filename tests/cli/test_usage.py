@@ -3,6 +3,7 @@
 import inspect
 import json
 import logging
+import os
 import re
 import shlex
 import signal
@@ -12,11 +13,11 @@ from pathlib import Path
 
 import pytest
 
-from rapidgen.cli import verbosity
-from rapidgen.cli.app import VERBS, function, main
+from rapidgen.cli import terminal
+from rapidgen.cli.app import COMMANDS, function, main
 
-ROOMS = ["client", "config", "controller", "deploy", "generate", "servers", "verification"]
-ROOMS += ["viewer"]
+PACKAGES = ["client", "config", "controller", "deploy", "generate", "servers", "verification"]
+PACKAGES += ["viewer"]
 
 
 def rapidgen(*words, **options):
@@ -25,18 +26,19 @@ def rapidgen(*words, **options):
     )
 
 
-def test_help_lists_every_verb_with_a_sentence():
-    done = rapidgen("--help")
+def test_help_lists_every_command_uncut():
+    done = rapidgen("--help", env={**os.environ, "COLUMNS": "80"})
     assert done.returncode == 0
     lines = {line.split()[0]: line for line in done.stdout.splitlines() if line.startswith("  ")}
-    for verb in VERBS:
-        assert len(lines[verb].split()) > 2, verb
+    for command, (_, sentence) in COMMANDS.items():
+        assert len(sentence) <= 60, command
+        assert lines[command].split(maxsplit=1)[1] == sentence
 
 
-@pytest.mark.parametrize("verb", VERBS)
-def test_the_listed_sentence_begins_the_verbs_own_help(verb):
-    text = " ".join((inspect.getdoc(function(verb)) or "").split())
-    assert text.startswith(VERBS[verb])
+@pytest.mark.parametrize("command", COMMANDS)
+def test_listed_sentence_begins_the_commands_help(command):
+    text = " ".join((inspect.getdoc(function(command)) or "").split())
+    assert text.startswith(COMMANDS[command][1])
 
 
 def test_start_up_imports_nothing_heavy():
@@ -50,7 +52,7 @@ def test_start_up_imports_nothing_heavy():
     assert done.stdout == "[]\n", done.stderr
 
 
-def test_an_interruption_while_it_starts_ends_it_without_a_traceback():
+def test_interruption_during_start_up_has_no_traceback():
     script = """if True:
         import os, signal, sys
         from rapidgen.cli.entry import run
@@ -78,7 +80,7 @@ def test_an_interruption_while_it_starts_ends_it_without_a_traceback():
         (["explain", "RG9999"], "RG902"),
     ],
 )
-def test_a_command_typed_wrong_is_told_what_to_do(words, text, capsys):
+def test_wrong_command_is_reported_with_help(words, text, capsys):
     assert main(words) == 2
     displayed = capsys.readouterr()
     assert text.casefold() in (displayed.err + displayed.out).casefold()
@@ -115,7 +117,7 @@ def test_an_error_is_json_where_json_was_asked_for(text, code, exit_code, capsys
     assert displayed.err == ""
 
 
-def test_what_is_given_up_is_told_in_json(monkeypatch, capsys):
+def test_interruption_is_reported_as_json(monkeypatch, capsys):
     def given_up(*_, **__):
         raise KeyboardInterrupt
 
@@ -128,19 +130,19 @@ def test_what_is_given_up_is_told_in_json(monkeypatch, capsys):
     assert capsys.readouterr().err == "\nstopped\n"
 
 
-@pytest.mark.parametrize("room", ROOMS)
-def test_each_room_that_does_something_has_a_logger(room):
-    """One, by the room's name."""
-    files = (Path(verbosity.__file__).parents[1] / room).rglob("*.py")
+@pytest.mark.parametrize("package", PACKAGES)
+def test_each_package_with_actions_has_a_logger(package):
+    """Exactly one, named after the package."""
+    files = (Path(terminal.__file__).parents[1] / package).rglob("*.py")
     named = {
         name
         for file in files
         for name in re.findall(r'getLogger\("(rapidgen[^"]*)', file.read_text("utf-8"))
     }
-    assert named - {"rapidgen"} == {f"rapidgen.{room}"}
+    assert named - {"rapidgen"} == {f"rapidgen.{package}"}
 
 
-def test_what_is_done_is_said(tmp_path, capsys):
+def test_verbose_shows_progress_messages(tmp_path, capsys):
     assert main(["-v", "build", "irb120", "-o", str(tmp_path / "out")]) == 0
     message = capsys.readouterr().err
     assert "rapidgen.config: irb120: " in message
@@ -162,7 +164,7 @@ def test_what_is_done_is_said(tmp_path, capsys):
         (["-q", "check", "irb120"], ["error"]),
     ],
 )
-def test_how_much_is_said(words, levels, capsys):
+def test_verbosity_options_set_log_level(words, levels, capsys):
     assert main(words) == 0
     log = logging.getLogger("rapidgen.client")
     for level in ("debug", "info", "warning", "error"):
@@ -178,7 +180,7 @@ def test_the_package_is_the_command_too():
     assert done.stderr.startswith("error[RG902]")
 
 
-def test_a_command_that_is_told_can_be_typed(tmp_path, monkeypatch, capsys):
+def test_suggested_command_is_quoted_for_a_shell(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["new", "my cell.yaml", "--robot", "irb120"]) == 0
     following = shlex.split(capsys.readouterr().err.split("next: rapidgen ")[1])

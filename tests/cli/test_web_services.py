@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "servers" / "rws"))
 from served import make_runner
 
 from rapidgen.cli.app import main
-from rapidgen.cli.status import show, state
+from rapidgen.cli.controller import controller_state, show_state
 from rapidgen.client.errors import ConnectionLost
 from rapidgen.client.rws.model import LogEvent, Panel, ProgramState, TaskState
 from rapidgen.machine.operator import Answer
@@ -26,9 +26,9 @@ from rapidgen.wire.rws.bodies import Generation
 def host(request, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
-    with make_runner(tmp_path, request.param, clock="real", speed=60) as cabinet:
-        cabinet.start()
-        service = serve_rws(cabinet, request.param)
+    with make_runner(tmp_path, request.param, clock="real", speed=60) as runner:
+        runner.start()
+        service = serve_rws(runner, request.param)
         where = f"rws://{service.host}:{service.port}"
         first = ["status", where]
         if service.host_key:
@@ -51,7 +51,7 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert (text["state"], text["mode"], text["running"]) == ("motoron", "AUTO", False)
     assert main(["start-program", host]) == 2  # nobody is there to answer
     assert main(["start-program", host, "--yes", "--main"]) == 0
-    assert f"{host}: the program runs" in said(capsys)
+    assert f"{host}: program started" in said(capsys)
     assert main(["stop-program", host, "--motors-off"]) == 0
     assert main(["status", host]) == 0
     assert "motoroff" in said(capsys)
@@ -95,7 +95,7 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
         (["start-program"], 2, "THE ROBOT MAY MOVE"),
     ],
 )
-def test_what_is_not_there_is_told_with_what_there_is(host, capsys, text, code, hint):
+def test_unknown_name_is_reported_with_known_names(host, capsys, text, code, hint):
     assert main([text[0], host, *text[1:]]) == code
     output = capsys.readouterr()
     assert output.out.count("\n") == 0 or text == ["start-program"]
@@ -141,19 +141,17 @@ def test_a_followed_log_goes_on_behind_a_lost_connection(back, displayed, monkey
 
 
 @pytest.mark.parametrize(("answer", "code"), [("Grant", 0), ("Deny", 1)])
-def test_in_manual_mode_the_pendant_is_asked_and_that_is_announced(
-    answer, code, tmp_path, monkeypatch, capsys
-):
+def test_manual_mode_asks_for_consent_at_pendant(answer, code, tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
     script = [Answer(answer, dialog="RMMP")]
-    with make_runner(tmp_path, clock="real", speed=60, answers=script) as cabinet:
-        cabinet.controller.set_mode("manual_reduced")
-        cabinet.start()
-        service = serve_rws(cabinet, Generation.ONE)
+    with make_runner(tmp_path, clock="real", speed=60, answers=script) as runner:
+        runner.controller.set_mode("manual_reduced")
+        runner.start()
+        service = serve_rws(runner, Generation.ONE)
         where = f"rws://{service.host}:{service.port}"
         assert main(["symbols", where, "T_ROB1/MainModule/x", "7"]) == code
         output = capsys.readouterr()
-        assert "Press Grant there within 10 s" in output.err
+        assert "press Grant on its pendant within 10 s" in output.err
         assert output.out == ("7\n" if code == 0 else "")
         service.close()
 
@@ -213,20 +211,20 @@ class Tasks:
 @pytest.mark.parametrize(
     ("name", "execution", "words"),
     [
-        ("T_ROS_CONTROL", "stopped", ["T_ROS_CONTROL: does not run", "warm start", "driver"]),
-        ("T_ROS_STATE", "ready", ["T_ROS_STATE: does not run", "`rapidgen log`"]),
-        ("T_OTHER", "stopped", ["T_OTHER: does not run", "warm start"]),
+        ("T_ROS_CONTROL", "stopped", ["T_ROS_CONTROL: not running", "warm start", "driver"]),
+        ("T_ROS_STATE", "ready", ["T_ROS_STATE: not running", "`rapidgen log`"]),
+        ("T_OTHER", "stopped", ["T_OTHER: not running", "warm start"]),
         ("T_ROS_CONTROL", "started", []),
     ],
 )
-def test_status_names_the_fix_of_a_background_task_that_has_ended(name, execution, words, capsys):
-    text = state(
+def test_status_shows_fix_for_stopped_background_task(name, execution, words, capsys):
+    text = controller_state(
         Tasks(
             TaskState("T_ROB1", "normal", "linked", "stopped", True, True),
             TaskState(name, "semistatic", "linked", execution, False, False),
         )
     )
-    show(text)
+    show_state(text)
     fixes = [line for line in capsys.readouterr().out.splitlines() if line.startswith("! ")]
     assert [f"! {fix}" for fix in text["fixes"]] == fixes
     assert len(fixes) == bool(words)

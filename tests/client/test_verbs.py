@@ -49,7 +49,7 @@ def test_move(controller, points, tmp_path, capsys):
     done, at = displayed.out.splitlines()
     assert re.fullmatch(r"done: 2 points in \d\.\d\d s, 0\.0000 \(rad, m\).*", done)
     assert at.startswith("at joint_1 11.46 deg, joint_2 5.73 deg")
-    assert "plain simple_message" in " ".join(displayed.err.split())
+    assert "standard abb_driver" in " ".join(displayed.err.split())
     recorded = Trajectory.from_csv(executed)
     assert recorded.names == tuple(JOINTS)
     assert recorded.positions[-1].tolist() == pytest.approx(GOAL)
@@ -188,7 +188,7 @@ def test_the_live_table(controller):
 def a_second_in_twenty_looks(monkeypatch):
     """However long a state takes on this machine."""
     looks = SimpleNamespace(monotonic=itertools.count(0, 0.05).__next__)
-    monkeypatch.setattr("rapidgen.cli.record.time", looks)
+    monkeypatch.setattr("rapidgen.cli.observation.time", looks)
 
 
 @pytest.mark.usefixtures("a_second_in_twenty_looks")
@@ -253,7 +253,7 @@ def test_move_tells_which_way_the_points_go(streaming, many, capsys, words, way)
     report = json.loads(displayed.out)
     assert (report["way"], report["points"]) == ("stream", 150)
     assert report["starved"] >= 0  # how often depends on this machine's load; test_stream_clock.py
-    assert "sent while it moves" in " ".join(displayed.err.split())
+    assert "sent during the motion" in " ".join(displayed.err.split())
 
 
 def test_move_with_fault_at_point_reports_it(streaming, many, capsys):
@@ -276,7 +276,7 @@ def test_stream_where_the_driver_cannot(controller, points, capsys):
 def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
     import rich.console
 
-    from rapidgen.cli import motion_progress
+    from rapidgen.cli import motion_execution
     from rapidgen.client import Robot
 
     class Terminal(io.StringIO):
@@ -284,14 +284,14 @@ def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
             return True
 
     terminal = Terminal()
-    monkeypatch.setattr(motion_progress.sys, "stderr", terminal)
+    monkeypatch.setattr(motion_execution.sys, "stderr", terminal)
     made = rich.console.Console
     monkeypatch.setattr(
         rich.console, "Console", lambda **_: made(file=terminal, force_terminal=True, width=80)
     )
     with Robot(streaming.address) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.2] * 6], seconds=20)
-        result = motion_progress.follow(robot.execute(path, way="stream"))
+        result = motion_execution.follow(robot.execute(path, way="stream"))
     assert result.points == 2
     assert "moving" in terminal.getvalue()
     assert "done" in terminal.getvalue()
@@ -355,8 +355,8 @@ def test_stop_over_the_control_port_when_the_motion_port_is_dead(streaming, caps
 
 
 def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
-    from rapidgen.cli import motion_progress
-    from rapidgen.cli.verbosity import set_up
+    from rapidgen.cli import motion_execution
+    from rapidgen.cli.terminal import set_up
     from rapidgen.client import RobotTimeout, TrajectoryState
 
     class Execution:
@@ -375,10 +375,10 @@ def test_in_a_pipe_a_line_tells_how_far_it_is(monkeypatch, capsys):
             return "done"
 
     monkeypatch.setattr("sys.stderr.isatty", lambda: False)
-    assert motion_progress.follow(Execution()) == "done"
+    assert motion_execution.follow(Execution()) == "done"
     assert capsys.readouterr().err == "moving: 1 of 9 points\nmoving: 2 of 9 points\n"
     set_up(["-q"])
-    assert motion_progress.follow(Execution()) == "done"
+    assert motion_execution.follow(Execution()) == "done"
     assert capsys.readouterr().err == ""
     set_up([])
 

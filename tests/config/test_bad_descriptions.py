@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from rapidgen.cli.new import new
+from rapidgen.cli.configuration import new
 from rapidgen.config import load_config
 from rapidgen.diagnostics import DiagnosticError, render
 from tests.config.drawing import BASE, XACRO, arm, drawn, joint, links, only, robot, six

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from rapidgen.cli.new import new
+from rapidgen.cli.configuration import new
 from rapidgen.config import load_config
 from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import DiagnosticError

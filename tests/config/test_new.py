@@ -5,10 +5,8 @@ import math
 
 import pytest
 
-from rapidgen.cli import wizard
-from rapidgen.cli.new import new
-from rapidgen.cli.robots import robots
-from rapidgen.cli.schema import schema
+from rapidgen.cli import terminal, wizard
+from rapidgen.cli.configuration import new, robots, schema
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import DiagnosticError
@@ -296,7 +294,7 @@ def person(monkeypatch):
             answer = next(left)
             return default if answer is None else answer
 
-        monkeypatch.setattr(wizard, "is_terminal", lambda: True)
+        monkeypatch.setattr(terminal, "is_terminal", lambda: True)
         monkeypatch.setattr(wizard.typer, "prompt", prompt)
         return requested
 

@@ -8,7 +8,7 @@ import shutil
 
 import pytest
 
-from rapidgen.cli.deploy import deploy as deploy_verb
+from rapidgen.cli.deployment import deploy as deploy_verb
 from rapidgen.deploy import apply, make_plan
 from rapidgen.deploy.command_run import save_neighbours
 from rapidgen.deploy.doctor import run_checks

@@ -10,11 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 import typer
 
-from rapidgen.cli.deploy import deploy
-from rapidgen.cli.doctor import doctor
-from rapidgen.cli.plan import plan
-from rapidgen.cli.rollback import rollback
-from rapidgen.cli.uninstall import uninstall
+from rapidgen.cli.deployment import deploy, doctor, plan, rollback, uninstall
 from rapidgen.deploy import TransportFault, parse_target
 from rapidgen.deploy.driver_set import NEW as STAGED
 from rapidgen.deploy.fleet import Interruption, on_all, parse_targets

@@ -23,7 +23,7 @@ import pytest
 import tomllib
 import typer
 
-from rapidgen.cli.app import VERBS, _app
+from rapidgen.cli.app import COMMANDS, _app
 from rapidgen.controller.faults import read_plan
 from tests.docs import at_address
 from tests.ports import free_port
@@ -215,7 +215,7 @@ def mentioned(text):
 @pytest.mark.parametrize("path", PAGES, ids=lambda p: p.name)
 def test_every_command_that_is_named_exists(path):
     for verb, options in mentioned(path.read_text(encoding="utf-8")):
-        assert verb in VERBS, (path.name, verb)
+        assert verb in COMMANDS, (path.name, verb)
         known = {name for option in options_of(verb) for name in option}
         for option in options:
             assert option in known, (path.name, verb, option)

@@ -231,8 +231,8 @@ def test_two_robots_of_one_name_are_refused(cell):
 @pytest.mark.parametrize(
     ("given", "report"),
     [
-        (["irb120", "irb2400"], "once for each of several robots"),
-        (["irb120", "--base-pose", "0,0,0"], "for several robots only"),
+        (["irb120", "irb2400"], "give it once for each robot"),
+        (["irb120", "--base-pose", "0,0,0"], "only for several robots"),
         (["irb120", "irb2400", "--base-pose", "0,0,0", "--base-pose", "0,1"], "is not X,Y,Z"),
         (["irb120", "irb2400", "--base-pose", "0,0,0", "--base-pose", "nan,0,1"], "is not X,Y,Z"),
     ],

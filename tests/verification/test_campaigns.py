@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.cli.app import main
-from rapidgen.cli.progress import Bars
+from rapidgen.cli.terminal import Bars
 from rapidgen.config import load_config
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.verification.campaign import Limits
@@ -201,7 +201,7 @@ def test_a_program_that_moves_otherwise_is_found_and_replayed(
     assert main([*values, "--jobs", "1"]) == 1
     printed = capsys.readouterr().out
     assert expected in printed
-    assert "rapidgen test irb120 --replay program/0 --record story.mcap" in printed
+    assert "rapidgen test irb120 --replay program/0 --record replay.mcap" in printed
     assert main(["test", "irb120", "--replay", "program/0"]) == 1
     assert expected in capsys.readouterr().out
     monkeypatch.undo()
@@ -267,6 +267,6 @@ def test_a_pipe_gets_a_line_every_ten_seconds():
             now[0] += 1.0
             step("schedules", done, 1024)
     assert stream.getvalue().splitlines() == [
-        "schedules: 10 of 1024, 1 in a second, 16 min 54 s left",
-        "schedules: 20 of 1024, 1 in a second, 16 min 44 s left",
+        "schedules: 10 of 1024, 1 per second, 16 min 54 s left",
+        "schedules: 20 of 1024, 1 per second, 16 min 44 s left",
     ]

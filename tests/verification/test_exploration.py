@@ -205,7 +205,7 @@ def test_replay_prints_the_log(tmp_path, capsys):
     assert main(["test", "irb120", "--replay", "3", *files]) == 0
     out = capsys.readouterr().out
     assert "connect" in out
-    assert "schedule 3: the invariant held" in out
+    assert "schedule 3: invariant not violated" in out
     assert "ROS_motionServer/" in trace.read_text(encoding="utf-8")
     with RecordingFile(recording) as opened:
         assert opened.end > 1

@@ -223,7 +223,7 @@ def test_command_writes_reports_and_names_failures(tmp_path, capsys):
     junit, html = tmp_path / "r.xml", tmp_path / "r.html"
     values = ["test", "irb120", "--quick", "--jobs", "1", "--case", "whole-trajectory"]
     assert main([*values, "--junit", str(junit), "--html", str(html)]) == 0
-    assert "everything held" in capsys.readouterr().out
+    assert "): passed, in " in capsys.readouterr().out
     suite = ElementTree.parse(junit).getroot()[0]
     assert suite.get("failures") == "0"
     page = html.read_text(encoding="utf-8")
@@ -267,7 +267,7 @@ def test_interrupted_run_reports_its_results(jobs, monkeypatch, capsys):
         if done == 1:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("rapidgen.cli.progress.Bars._step", interrupted)
+    monkeypatch.setattr("rapidgen.cli.terminal.Bars._step", interrupted)
     values = ["--case", "hello", "--case", "single-point", "--quick", "--jobs", jobs, "--json"]
     assert main(["test", "irb120", *values]) == 130
     reply = json.loads(capsys.readouterr().out)
@@ -341,11 +341,11 @@ def test_case_that_does_not_apply_is_not_counted_as_passed(override, case, why, 
     reply = capsys.readouterr()
     assert "RG811" in reply.err
     assert why in reply.err
-    assert "held" not in reply.out
+    assert "passed" not in reply.out
     assert not report.exists()
     assert main([*values, case, "--case", "ping", "--junit", str(report)]) == 0
     reply = capsys.readouterr().out
-    assert f"nothing to prove: {why}" in reply
+    assert f"not applicable: {why}" in reply
     assert re.findall(r"^ (\w+) +(\d+) +(\d+)", reply, re.MULTILINE) == [("compatible", "1", "1")]
     suite = ElementTree.parse(report).getroot()[0]
     assert (suite.get("skipped"), len(suite.findall("testcase/skipped"))) == ("1", 1)

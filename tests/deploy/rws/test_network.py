@@ -9,8 +9,7 @@ from contextlib import ExitStack
 import pytest
 import typer
 
-from rapidgen.cli.doctor import doctor
-from rapidgen.cli.plan import plan
+from rapidgen.cli.deployment import doctor, plan
 from rapidgen.deploy import Access, connect, parse_target
 from rapidgen.deploy.command_run import FleetJob, apply_all, plan_all
 from rapidgen.deploy.fleet import parse_targets

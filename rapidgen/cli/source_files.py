@@ -1,4 +1,4 @@
-"""`rapidgen check`: configurations, RAPID files, folders, generated folders and backups."""
+"""The commands `check` and `fmt`: configurations and RAPID sources."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from rapidgen.rapid.syntax.nodes import Declaration, Module
     from rapidgen.system import System
 
+
 _CONFIG_SUFFIXES = (".yaml", ".yml")
 _TASK_FOLDERS = ("PROGMOD", "SYSMOD")
 
@@ -35,32 +36,31 @@ def check(
     paths: Annotated[
         list[str],
         typer.Argument(
-            help="Configurations (or shipped names), RAPID files, folders, backups.",
-            metavar="PATH...",
+            help="Configurations, shipped names, RAPID files, folders or backups.",
+            metavar="PATH",
         ),
     ],
     robotware: Annotated[
         str | None,
-        typer.Option(help="RobotWare to check for, such as 6.15; default 6.", metavar="V"),
+        typer.Option(help="RobotWare version, such as 6.15; default: 6.", metavar="VERSION"),
     ] = None,
     backup: Annotated[
         Path | None,
         typer.Option(
-            help="Backup of the controller that configurations and generated folders are for.",
+            help="Backup of the controller for configurations and generated folders.",
             metavar="FOLDER",
         ),
     ] = None,
     robot: Annotated[
-        str, typer.Option(help="Robot that RAPID files are for: what it may carry.", metavar="NAME")
+        str, typer.Option(help="Robot of the RAPID files, for its maximum payload.", metavar="NAME")
     ] = "",
-    format: Annotated[Format, typer.Option(help="How findings are shown.")] = Format.FULL,
-    as_json: Annotated[bool, typer.Option("--json", help="As --format json.")] = False,
+    format: Annotated[Format, typer.Option(help="Format of the findings.")] = Format.FULL,
+    as_json: Annotated[bool, typer.Option("--json", help="Same as --format json.")] = False,
 ) -> int:
-    """Say everything that is wrong with configurations and RAPID.
+    """Check configurations and RAPID files.
 
-    What is unknown is judged by what was given: a lone file may use names of modules that are
-    not there, a backup may not. With --backup a configuration is built for that controller, and a
-    generated folder is loaded onto it; nothing is written.
+    A single file may use names of other modules; a backup may not. With --backup, configurations
+    and generated folders are checked for that controller. Reads only.
     """
     format = Format.JSON if as_json else format
     dialect = _dialect(robotware)
@@ -68,16 +68,16 @@ def check(
     cell = _cell(backup)
     findings: list[Diagnostic] = []
     modules: list[Path] = []
-    for given in paths:
-        path = Path(given)
+    for name in paths:
+        path = Path(name)
         is_name = not path.exists() and not path.suffix and len(path.parts) == 1
         try:
             if is_name or path.suffix.lower() in _CONFIG_SUFFIXES:
-                findings += _configuration(given, cell)
+                findings += _configuration(name, cell)
             elif path.is_dir():
                 findings += _folder(path, dialect, backup, payload)
             elif not path.exists():
-                raise _nothing(given)
+                raise _nothing_to_check(name)
             elif path.suffix.lower() == ".cfg":
                 _cfg(path)
             else:
@@ -107,7 +107,7 @@ def _dialect(robotware: str | None) -> "Dialect | None":
 
 
 def _payload(robot: str) -> "Payload":
-    """What a robot may carry; without a name what no robot exceeds."""
+    """Return a robot's maximum payload; without a name, that of the strongest ABB robot."""
     from rapidgen.config.plausibility import LARGEST_PAYLOAD
     from rapidgen.rapid.checks import Payload
 
@@ -122,7 +122,7 @@ def _robots(name: str) -> "Sequence[GroupConfig]":
 
 
 def _payload_of(name: str, groups: "Sequence[GroupConfig]") -> "Payload | None":
-    """That of the strongest one; None where one is not known."""
+    """Return the largest payload of some groups; None if one is unknown."""
     from rapidgen.rapid.checks import Payload
 
     if not groups or not all(group.max_payload for group in groups):
@@ -131,22 +131,22 @@ def _payload_of(name: str, groups: "Sequence[GroupConfig]") -> "Payload | None":
 
 
 def _payloads(groups: "Sequence[GroupConfig]", otherwise: "Payload") -> "dict[str, Payload]":
-    """By the lower-case name of the task that moves the robot."""
+    """Map the lower-case name of each motion task to its payload."""
     return {
         group.task.lower(): _payload_of(group.model or group.name, [group]) or otherwise
         for group in groups
     }
 
 
-def _configuration(given: str, cell: "Cell | None") -> list[Diagnostic]:
+def _configuration(name: str, cell: "Cell | None") -> list[Diagnostic]:
     from rapidgen.config import load_config
 
-    model = load_config(given)
+    model = load_config(name)
     return [*model.diagnostics, *(_built(model) if cell is None else _on(cell, model))]
 
 
 def _built(model: "RobotConfig") -> list[Diagnostic]:
-    """What a build would refuse, for any controller."""
+    """Return the errors of a build for any controller."""
     from rapidgen.generate import build
 
     try:
@@ -157,7 +157,7 @@ def _built(model: "RobotConfig") -> list[Diagnostic]:
 
 
 def _on(cell: "Cell", model: "RobotConfig") -> list[Diagnostic]:
-    """What is wrong with a configuration on the controller that it is for."""
+    """Return the findings about a configuration on one controller."""
     from rapidgen.generate import build
     from rapidgen.generate.existing_controller import fit
 
@@ -185,7 +185,7 @@ def _cfg(path: Path) -> None:
 
 
 def _modules(path: Path) -> list[Path]:
-    """Module files that a file stands for: itself, or those of a program."""
+    """Return the module files of a path: the file, or those of a program file."""
     from rapidgen.system.loading import expand
 
     return expand(path)
@@ -199,7 +199,7 @@ def _parsed(paths: list[Path], dialect: "Dialect | None") -> "list[Module]":
 
 
 def _files(paths: list[Path], dialect: "Dialect | None", payload: "Payload") -> list[Diagnostic]:
-    """Files named one by one: they know each other."""
+    """Check files that were named one by one; they see each other's names."""
     from rapidgen.rapid import check as check_rapid
 
     modules: list[Module] = []
@@ -215,7 +215,7 @@ def _files(paths: list[Path], dialect: "Dialect | None", payload: "Payload") -> 
 def _folder(
     path: Path, dialect: "Dialect | None", backup: Path | None, payload: "Payload"
 ) -> list[Diagnostic]:
-    """A generated folder, a backup, or a folder with modules or such folders in it."""
+    """Check a generated folder, a backup, or a folder that contains modules or such folders."""
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_backup, is_generated
 
@@ -225,7 +225,7 @@ def _folder(
     systems: list[Path] = []
     _search(path, groups, systems)
     if not groups and not systems:
-        raise _nothing(str(path))
+        raise _nothing_to_check(str(path))
     findings: list[Diagnostic] = []
     for system in systems:
         findings += _system(system, dialect, backup, payload)
@@ -240,7 +240,7 @@ def _folder(
 
 
 def _rapid(modules: "list[Module]", findings: list[Diagnostic]) -> "list[Module]":
-    """The modules of a folder that are RAPID; of the others a note is made."""
+    """Return the modules that are RAPID; add a finding for each other file."""
     from rapidgen.rapid.syntax.text import is_rapid
 
     saved = []
@@ -250,7 +250,7 @@ def _rapid(modules: "list[Module]", findings: list[Diagnostic]) -> "list[Module]
             saved.append(module)
         else:
             at = Span(module.source.path, 1, 1)
-            message = "the file is named like a module, but it is no RAPID: left out"
+            message = "the file has the suffix of a module, but contains no RAPID: skipped"
             findings.append(error("RG208", at, message, severity=Severity.INFO))
     return saved
 
@@ -283,22 +283,23 @@ def _system(
 
 
 def _of_backup(system: "System", otherwise: "Payload") -> "dict[str, Payload]":
-    """Those of the robots of a backup, as far as they are known; what stands in says nothing."""
+    """Return the payloads of the robots of a backup, as far as they are known."""
     from rapidgen.controller.mechanics import mechanics, motion_tasks
 
     try:
         return _payloads(mechanics(system)[0], otherwise)
     except DiagnosticError:
-        # A type of robot that is not known: `run` says so, here it is no fault.
+        # An unknown robot type is an error of `run` only.
         return {task.lower(): otherwise for task in motion_tasks(system)}
 
 
 def _not_loaded(
     path: Path, system: "System", dialect: "Dialect", payload: "Payload"
 ) -> list[Diagnostic]:
-    """Errors in RAPID of a backup's HOME that no task loads: a program may, while it runs.
+    """Return errors in RAPID files of a backup's HOME that no task loads.
 
-    Each is judged as a lone file. Its warnings are left out: HOME keeps old copies.
+    A program may load them while it runs. Each is checked as a single file, without warnings,
+    because HOME often contains old copies.
     """
     from rapidgen.system.paths import module_files
 
@@ -318,7 +319,7 @@ def _not_loaded(
 
 
 def _search(folder: Path, groups: list[list[Path]], systems: list[Path]) -> None:
-    """Groups of modules that belong together, and systems."""
+    """Collect the modules of each task, and the systems, below a folder."""
     from rapidgen.system import is_backup, is_generated
     from rapidgen.system.paths import module_files
 
@@ -336,10 +337,100 @@ def _search(folder: Path, groups: list[list[Path]], systems: list[Path]) -> None
             _search(subfolder, groups, systems)
 
 
-def _nothing(given: str) -> Exception:
+def _nothing_to_check(path: str) -> Exception:
     return refusal(
         "RG904",
         None,
-        f"there is nothing to check at {given}",
-        "name a configuration, a RAPID file, a folder with modules or a backup",
+        f"nothing to check at {path}",
+        "use a configuration, a RAPID file, a folder with modules or a backup",
     )
+
+
+_SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
+
+
+def fmt(
+    paths: Annotated[list[Path], typer.Argument(help="RAPID files or folders.", metavar="PATH")],
+    check: Annotated[
+        bool, typer.Option("--check", help="Do not write; exit with 1 if a file would change.")
+    ] = False,
+    diff: Annotated[bool, typer.Option("--diff", help="Do not write; show the changes.")] = False,
+) -> int:
+    """Format RAPID source files.
+
+    Writes keywords in upper case and indents by four spaces; comments stay. The encoding and the
+    line ends stay, unless a file mixes line ends: it gets the most frequent one, with a message.
+    Files with syntax errors are not changed.
+    """
+    from rapidgen._atomic_write import write_whole
+    from rapidgen.rapid import format_source
+    from rapidgen.system.paths import read_limited
+
+    wrong: list[Diagnostic] = []
+    changed = 0
+    for path in _files_to_format(paths):
+        before = read_limited(path)
+        try:
+            after = format_source(before, path=str(path))
+        except DiagnosticError as fault:
+            if any(d.severity is Severity.ERROR for d in fault.diagnostics):
+                wrong += fault.diagnostics
+            else:
+                typer.echo(f"skipped {path}: {fault.diagnostics[0].message}", err=True)
+            continue
+        if after == before:
+            continue
+        changed += 1
+        ends = _line_ends(before)
+        if len(ends) > 1:
+            displayed = ", ".join(f"{number} {name}" for name, number in ends)
+            typer.echo(
+                f"{path} mixes line ends ({displayed}): all changed to {ends[0][0]}", err=True
+            )
+        if diff:
+            typer.echo(_difference(path, before, after), nl=False)
+        elif check:
+            typer.echo(f"would format {path}", err=True)
+        else:
+            write_whole(path, after)
+            typer.echo(f"formatted {path}", err=True)
+    if wrong:
+        raise DiagnosticError(wrong, exit_code=1)
+    return 1 if changed and (check or diff) else 0
+
+
+def _line_ends(data: bytes) -> list[tuple[str, int]]:
+    """Count the line ends of a file; the most frequent is first."""
+    pairs, feeds, returns = data.count(b"\r\n"), data.count(b"\n"), data.count(b"\r")
+    result = {"CRLF": pairs, "LF": feeds - pairs, "CR": returns - pairs}
+    return sorted(((k, v) for k, v in result.items() if v), key=lambda pair: -pair[1])
+
+
+def _files_to_format(paths: list[Path]) -> list[Path]:
+    result: list[Path] = []
+    for path in paths:
+        if path.is_dir():
+            inside = sorted(
+                file
+                for file in path.rglob("*")
+                if file.suffix.lower() in _SUFFIXES and file.is_file()
+            )
+            if not inside:
+                help = f"RAPID files end in {', '.join(sorted(_SUFFIXES))}"
+                raise refusal("RG904", None, f"no RAPID file in {path}", help)
+            result += inside
+        elif path.exists():
+            result.append(path)
+        else:
+            raise refusal("RG904", None, f"{path} does not exist", "use RAPID files or folders")
+    return result
+
+
+def _difference(path: Path, before: bytes, after: bytes) -> str:
+    from difflib import unified_diff
+
+    from rapidgen.rapid.syntax.lexer import decode
+
+    old = [line + "\n" for line in decode(before)[0].splitlines()]
+    new = [line + "\n" for line in decode(after)[0].splitlines()]
+    return "".join(unified_diff(old, new, f"a/{path}", f"b/{path}"))

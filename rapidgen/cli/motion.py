@@ -1,5 +1,6 @@
-"""`rapidgen move`: to joints, to a pose, or along a file; checked, shown, confirmed, executed."""
+"""The commands `move`, `jog` and `stop`: motions of a robot."""
 
+import math
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -12,6 +13,7 @@ from rapidgen.cli.target_text import (
     Units,
     figure,
     joints_of,
+    named_of,
     named_text,
     read_figures,
     read_pose,
@@ -31,46 +33,50 @@ if TYPE_CHECKING:
 def move(
     config: options.Config,
     points: Annotated[
-        Path | None, typer.Argument(help="CSV `time,<joint names>` (s, rad, m), or JSON.")
+        Path | None,
+        typer.Argument(help="CSV `time,<joint names>` (s, rad, m), or JSON.", metavar="FILE"),
     ] = None,
     joints: Annotated[
         str,
-        typer.Option(help="Go there: all joints, or some as NAME=VALUE.", metavar="J1,J2,..."),
+        typer.Option(help="Target joint values: all, or some as NAME=VALUE.", metavar="J1,J2,..."),
     ] = "",
     pose: Annotated[
         str,
         typer.Option(
-            help="Go there: the tool in the work object; X,Y,Z alone keeps the orientation.",
+            help="Target pose of the tool in the work object; X,Y,Z keeps the orientation.",
             metavar="X,Y,Z,Q1..Q4",
         ),
     ] = "",
     to: options.RobotAddress = "",
     group: options.Group = "",
     dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Check and show; send nothing.")
+        bool, typer.Option("--dry-run", help="Check and show the motion without sending it.")
     ] = False,
-    yes: options.YesHere = False,
+    yes: options.YesOnLoopback = False,
     move_real_robot: options.RealRobot = "",
     speed: Annotated[
         float | None,
         typer.Option(
-            help="Share of the file's speed, or of the axes'; a first run on a real host has 0.1."
+            help="Fraction of the file's or axes' speed; first run on a real robot: 0.1.",
+            metavar="FRACTION",
         ),
     ] = None,
     approach: Annotated[
         float | None,
-        typer.Option(help="Go to the first point first, in so many seconds.", metavar="S"),
+        typer.Option(help="Duration of a first motion to the first point.", metavar="SECONDS"),
     ] = None,
     resample: Annotated[
         float | None,
-        typer.Option(help="A point about every so many seconds instead.", metavar="S"),
+        typer.Option(help="Distance in time between resampled points.", metavar="SECONDS"),
     ] = None,
     record: Annotated[
-        Path | None, typer.Option(help="Write the executed joints as CSV.", metavar="FILE")
+        Path | None, typer.Option(help="CSV file for the executed joint positions.", metavar="FILE")
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(help="Draw commanded and executed joints: .html, .png, .svg.", metavar="FILE"),
+        typer.Option(
+            help="Plot of commanded and executed joints: .html, .png, .svg.", metavar="FILE"
+        ),
     ] = None,
     rad: options.InRad = False,
     as_json: options.AsJson = False,
@@ -78,19 +84,19 @@ def move(
         bool | None,
         typer.Option(
             "--stream/--download",
-            help="Send points while the robot moves, or all before it does; default what fits.",
+            help="Send points during the motion, or all of them before it; default: automatic.",
         ),
     ] = None,
 ) -> int:
-    """Move a robot to joints, to a pose, or along a file. Ctrl-C stops it.
+    """Move a robot to joint values, to a pose or along a file.
 
-    To joints and to a pose all axes go together, from where the robot stands. Figures are deg and
-    mm, with --rad rad and m; files are always rad and m.
+    Ctrl-C stops the robot. To joint values and to a pose, all axes move together from the current
+    position. Values are deg and mm, with --rad rad and m; files are always rad and m.
 
     rapidgen move cell.yaml --joints 0,10,0,0,30,0 --to sim
     """
-    from rapidgen.cli.motion_commands import confirm_at, execute_motion, permitted
-    from rapidgen.cli.plot import draw_motion
+    from rapidgen.cli.motion_execution import confirm_at, execute_motion, permitted
+    from rapidgen.cli.observation import draw_motion
     from rapidgen.client import Robot
     from rapidgen.client.permission import first_speed, remember
 
@@ -111,7 +117,7 @@ def move(
         elif figures is not None:
             trajectory = _straight(robot, _joints(robot, units, figures), used)
         else:
-            assert requested is not None, "_one_goal has seen to it"
+            assert requested is not None, "checked by _one_goal"
             trajectory = _straight(robot, _posture(robot, *requested), used)
         if resample is not None:
             trajectory = _resampled(trajectory, resample)
@@ -149,21 +155,23 @@ def _one_goal(points: Path | None, joints: str, pose: str, approach: float | Non
         given.insert(0, "a file")
     if len(given) != 1:
         raise typer.BadParameter(
-            f"where to? {' and '.join(given)} were given"
+            f"more than one target: {' and '.join(given)}"
             if given
-            else "where to? Give a file of points, --joints, or --pose"
+            else "no target: give a file of points, --joints or --pose"
         )
     if approach is not None and points is None:
-        raise typer.BadParameter(f"{given[0]} begins where the robot is", param_hint="--approach")
+        raise typer.BadParameter(
+            f"{given[0]} starts at the current position", param_hint="--approach"
+        )
 
 
 def _writable(record: Path | None, plot: Path | None) -> list[Path]:
-    """The plot's files; all that is to be written is refused now where it cannot be."""
-    from rapidgen.cli.run_outputs import refuse_unwritable
+    """Return the files of the plot. Raises RG901 if an output file cannot be written."""
+    from rapidgen.cli.run_outputs import check_files_writable
     from rapidgen.viewer.plotting import files_of
 
     files = files_of(plot) if plot is not None else []
-    refuse_unwritable([*([record] if record is not None else []), *files])
+    check_files_writable([*([record] if record is not None else []), *files])
     return files
 
 
@@ -182,7 +190,7 @@ def _joints(robot: "Robot", units: Units, figures: Figures) -> tuple[float, ...]
 
 
 def _posture(robot: "Robot", place: "Vector", turn: "Quaternion | None") -> tuple[float, ...]:
-    """The posture nearest to where the robot stands; without a turn it keeps its own."""
+    """Return the nearest joint values for a pose; without `turn`, the orientation stays."""
     pose = (place, robot.pose[1] if turn is None else turn)
     result = robot.joints_for(pose)
     if not result:
@@ -191,7 +199,7 @@ def _posture(robot: "Robot", place: "Vector", turn: "Quaternion | None") -> tupl
 
 
 def _straight(robot: "Robot", goal: "Sequence[float]", speed: float) -> "Trajectory":
-    """From where the robot stands to a goal, all axes together, at a share of their speed."""
+    """Move all axes together to a goal, at a fraction of their speed."""
     from rapidgen.client import Trajectory
 
     ends = [robot.state.joints, goal]
@@ -201,7 +209,7 @@ def _straight(robot: "Robot", goal: "Sequence[float]", speed: float) -> "Traject
 
 
 def within_limits(group: "Group", goal: "Sequence[float]", units: Units) -> None:
-    """Refuse a goal outside the axes' limits, in the units that it was typed in."""
+    """Reject a goal outside the axes' limits, in the units in which it was typed."""
     from rapidgen.axes.limits import ROUNDING
     from rapidgen.client import InvalidTrajectory
 
@@ -216,7 +224,7 @@ def within_limits(group: "Group", goal: "Sequence[float]", units: Units) -> None
                 "RG614",
                 f"{joint.name} is outside its limits: "
                 f"axis {joint.axis} would be at {requested} {unit}",
-                f"{joint.axis} goes from {lower} to {upper} {unit}",
+                f"use a value from {lower} to {upper} {unit} for {joint.axis}",
             )
 
 
@@ -226,14 +234,14 @@ def _unreached(robot: "Robot", pose: "Pose") -> "InvalidTrajectory":
     current = robot.group.map.to_controller(robot.state.joints)
     return InvalidTrajectory.because(
         "RG614",
-        f"no posture within the limits reaches the pose: "
+        f"no joint values within the limits reach the pose: "
         f"{robot.group.poses.why_not(pose, current)}",
-        "`rapidgen pose` tells where the tool is now",
+        "`rapidgen pose` shows the current pose of the tool",
     )
 
 
 def _resampled(trajectory: "Trajectory", period: float) -> "Trajectory":
-    """Other points on the same path; a path without one is left for the checks to refuse."""
+    """Resample a trajectory; an invalid one is left to the checks."""
     import numpy as np
 
     times = trajectory.times
@@ -260,14 +268,14 @@ def _show_plan(
 
     console = Console(stderr=True, highlight=False)
     driver = robot.driver
-    who = f"rapidgen driver {driver.version}" if driver.is_rapidgen else "plain simple_message"
+    who = f"rapidgen driver {driver.version}" if driver.is_rapidgen else "standard abb_driver"
     console.print(
         f"{len(trajectory)} points, {trajectory.duration:.2f} s at {speed}, to {robot.address} "
-        f"({who}), sent {'while' if way == 'stream' else 'before'} it moves"
+        f"({who}), sent {'during' if way == 'stream' else 'before'} the motion"
     )
     table = Table("joint", box=None)
-    # Least and most are of all points; lower and upper are limits of the controller's axes.
-    for title in ("now", "least", "most", "end", "lower", "upper", ""):
+    # min and max are of all points; lower and upper are limits of the controller's axes.
+    for title in ("now", "min", "max", "end", "lower", "upper", ""):
         table.add_column(title, justify="right" if title else "left")
     ordered = trajectory.reordered(robot.group.names)
     current = robot.state
@@ -282,7 +290,7 @@ def _show_plan(
 
 def _report_dry(trajectory: "Trajectory", way: "Way", as_json: bool) -> None:
     if as_json:
-        _say_json(
+        _print_json(
             {
                 "dry_run": True,
                 "points": len(trajectory),
@@ -294,10 +302,10 @@ def _report_dry(trajectory: "Trajectory", way: "Way", as_json: bool) -> None:
             }
         )
     else:
-        typer.echo(f"dry run: {len(trajectory)} points would be executed; nothing was sent")
+        typer.echo(f"dry run: {len(trajectory)} points checked, nothing sent")
 
 
-def _say_json(text: dict[str, object]) -> None:
+def _print_json(text: dict[str, object]) -> None:
     import json
 
     typer.echo(json.dumps(text))
@@ -305,7 +313,7 @@ def _say_json(text: dict[str, object]) -> None:
 
 def _report(robot: "Robot", result: "Result", units: Units, as_json: bool) -> None:
     if as_json:
-        _say_json(
+        _print_json(
             {
                 "points": result.points,
                 "seconds": result.seconds,
@@ -322,3 +330,139 @@ def _report(robot: "Robot", result: "Result", units: Units, as_json: bool) -> No
         f"{result.deviation:.4f} (rad, m) from the last point ({result.way})\n"
         f"at {named_text(units, robot.group, result.state.joints)}"
     )
+
+
+_PLACE = "JOINT=STEP"
+_DEFAULT_SPEED = 0.05
+"""Speed of the tool without --speed, m/s."""
+
+
+def jog(
+    config: options.Config,
+    by: Annotated[
+        list[str],
+        typer.Argument(
+            help="Steps: joint_1=5 joint_3=-2, or z=20 x=-5 in the work object.",
+            metavar="JOINT=STEP",
+        ),
+    ],
+    to: options.RobotAddress = "",
+    group: options.Group = "",
+    yes: options.YesOnLoopback = False,
+    move_real_robot: options.RealRobot = "",
+    speed: Annotated[
+        float,
+        typer.Option(
+            help="Speed of the tool, mm/s (m/s with --rad).",
+            metavar="SPEED",
+            show_default="50 mm/s",
+        ),
+    ] = 0.0,
+    rad: options.InRad = False,
+    as_json: options.AsJson = False,
+) -> int:
+    """Move joints or the tool by a small step.
+
+    A step is at most 11.4 deg or 100 mm. x, y and z move the tool on a line in the work object
+    and keep its orientation. Ctrl-C stops the robot. The controller stops it if it receives no
+    message for 0.2 s. Needs the driver's control port.
+
+    rapidgen jog cell.yaml joint_1=5 joint_3=-2 --to sim
+
+    rapidgen jog cell.yaml z=20 --to sim
+    """
+    from rapidgen.cli.motion_execution import confirm_at, permitted, report_interruption
+    from rapidgen.client import Robot
+
+    units = Units(rad)
+    if speed < 0 or not math.isfinite(speed):
+        raise typer.BadParameter(f"must be above 0, not {speed}", param_hint="--speed")
+    requested = _read(by)
+    robot = Robot(config, address=to or None, group=group)
+    must_ask = permitted(robot, to, yes=yes, real_robot=move_real_robot)
+    with robot:
+        steps = _steps(robot, units, requested)
+        if must_ask:
+            confirm_at(robot)
+        with report_interruption(robot, units):
+            result = robot.jog(speed=speed / units.length[1] or _DEFAULT_SPEED, **steps)
+        if as_json:
+            import json
+
+            typer.echo(json.dumps({"seconds": result.seconds, "joints": result.state.by_name}))
+        else:
+            typer.echo(f"at {named_text(units, robot.group, result.state.joints)}")
+    return 0
+
+
+def _read(by: list[str]) -> Figures:
+    if not all("=" in step for step in by):
+        raise typer.BadParameter(
+            "write JOINT=STEP, such as joint_1=5, or x=5, y=5, z=5", param_hint=_PLACE
+        )
+    return read_figures(",".join(by), _PLACE)
+
+
+def _steps(robot: "Robot", units: Units, requested: Figures) -> dict[str, float]:
+    """Steps in rad and m by joint or direction. Raises typer.BadParameter."""
+    from rapidgen.client.flows.program import DIRECTIONS, LONGEST_JOG
+
+    kinds = {joint.name: joint.kind for joint in robot.group.joints}
+    if not set(requested.names) & set(kinds) and set(requested.names) <= set(DIRECTIONS):
+        kinds = {name: "prismatic" for name in DIRECTIONS}
+    nothing = [0.0] * len(kinds)
+    result = named_of(requested, units, kinds, nothing, _PLACE)
+    steps = {}
+    for name, step in zip(kinds, result, strict=True):
+        most = LONGEST_JOG[kinds[name]]
+        if abs(step) > most:
+            unit, factor, _ = units.joint(kinds[name])
+            raise typer.BadParameter(
+                f"{name} by {figure(step, factor)} {unit} is too far: at most "
+                f"{figure(most, factor)} {unit} at a time; `rapidgen move` goes farther",
+                param_hint=_PLACE,
+            )
+        if step:
+            steps[name] = step
+    return steps
+
+
+def stop(
+    config: options.ConfigOrHost,
+    to: options.RobotAddress = "",
+    group: Annotated[
+        str, typer.Option(help="Motion group to stop; default: all.", metavar="NAME")
+    ] = "",
+    rad: options.InRad = False,
+    as_json: options.AsJson = False,
+) -> int:
+    """Stop all motion groups of a robot, or one.
+
+    Not a safety function.
+    """
+    # `send_stop` has sent the first STOP before this module was imported.
+    from rapidgen.client import Cell, Robot, Timeouts
+    from rapidgen.client.connect_target import groups_of
+
+    names = [group] if group else groups_of(config)
+    quick = Timeouts(connect=2, stop=2)
+    cell = Cell({n: Robot(config, address=to or None, group=n, timeouts=quick) for n in names})
+    try:
+        # All groups get STOP before the state of any is read.
+        cell.stop()
+    finally:
+        cell.close()
+    text = {}
+    for name in names:
+        with Robot(config, address=to or None, group=name, watch=True) as watcher:
+            state = watcher.wait_until(lambda s: not s.is_moving, timeout=5)
+            text[name] = state.by_name
+            if not as_json:
+                label = f"{name}: " if name else ""
+                where = named_text(Units(rad), watcher.group, state.joints)
+                typer.echo(f"{label}stopped at {where}")
+    if as_json:
+        import json
+
+        typer.echo(json.dumps({"stopped": True, "groups": text}))
+    return 0

@@ -1,4 +1,4 @@
-"""`rapidgen test`: the driver's own suite, on the virtual controller, for this robot."""
+"""The commands `test` and `probe`: assumptions about controllers."""
 
 from contextlib import nullcontext
 from functools import partial
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.progress import Bars
+from rapidgen.cli.terminal import Bars
 from rapidgen.diagnostics import DiagnosticError, error, refusal, suggest
 
 if TYPE_CHECKING:
@@ -24,84 +24,96 @@ if TYPE_CHECKING:
 
 def test(
     config: options.Config,
-    seeds: Annotated[int, typer.Option(help="Random schedules to explore.", min=0)] = 100,
+    seeds: Annotated[
+        int, typer.Option(help="Number of random schedules to explore.", min=0, metavar="N")
+    ] = 100,
     programs: Annotated[
-        int, typer.Option(help="Random motion programs, each beside the same in RAPID.", min=0)
+        int,
+        typer.Option(
+            help="Number of random motion programs, compared with RAPID.", min=0, metavar="N"
+        ),
     ] = 0,
     jobs: Annotated[
-        int | None, typer.Option(help="Processes; default one for each core.", min=1)
+        int | None,
+        typer.Option(help="Number of processes; default: one per core.", min=1, metavar="N"),
     ] = None,
     case: Annotated[
-        list[str] | None, typer.Option(help="Only this case (repeatable).", metavar="NAME")
+        list[str] | None, typer.Option(help="Test case to run; repeatable.", metavar="NAME")
     ] = None,
     list_cases: Annotated[
-        bool, typer.Option("--list", help="List the cases by group; prove nothing.")
+        bool, typer.Option("--list", help="Only list the test cases by group.")
     ] = False,
     durations: Annotated[
-        int, typer.Option(help="Tell the N cases that took longest.", min=0, metavar="N")
+        int, typer.Option(help="Number of slowest cases to list.", min=0, metavar="N")
     ] = 0,
     quick: Annotated[
-        bool, typer.Option("--quick", help="Only the default of every assumption.")
+        bool, typer.Option("--quick", help="Test only the default of each assumption.")
     ] = False,
     strength: Annotated[
-        int, typer.Option(help="Any N assumptions meet in some setting.", min=1, max=3, metavar="N")
+        int,
+        typer.Option(
+            help="Number of assumptions that are combined in all ways.", min=1, max=3, metavar="N"
+        ),
     ] = 2,
     assume: Annotated[
         list[str] | None,
-        typer.Option(help="Only this setting (repeatable).", metavar="NAME=ANSWER,..."),
+        typer.Option(help="Setting to test; repeatable.", metavar="SWITCH=VALUE,..."),
     ] = None,
     replay: Annotated[
         str | None,
         typer.Option(
-            help="One schedule or program again, exactly; its story on stdout.", metavar="NAME"
+            help="Schedule or program to repeat exactly; its log goes to stdout.", metavar="NAME"
         ),
     ] = None,
     trace: Annotated[
         Path | None,
-        typer.Option(help="With --replay: every statement of RAPID.", metavar="FILE"),
+        typer.Option(help="With --replay: file for every executed statement.", metavar="FILE"),
     ] = None,
     record: Annotated[
         Path | None,
-        typer.Option(help="With --replay: all of it, for `rapidgen view`.", metavar="FILE.mcap"),
+        typer.Option(help="With --replay: recording for `rapidgen view`.", metavar="FILE.mcap"),
     ] = None,
     uncovered: Annotated[
-        bool, typer.Option("--uncovered", help="List the lines of RAPID that no case reaches.")
+        bool, typer.Option("--uncovered", help="List the RAPID lines that no case reaches.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")] = False,
-    junit: Annotated[Path | None, typer.Option(help="Write JUnit XML.", metavar="FILE")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="JSON object on stdout.")] = False,
+    junit: Annotated[Path | None, typer.Option(help="JUnit XML report.", metavar="FILE")] = None,
     html: Annotated[
-        Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
+        Path | None, typer.Option(help="HTML report with plots.", metavar="FILE")
     ] = None,
     cluster: Annotated[
         str | None,
-        typer.Option(help="Work on the workers of this Dask scheduler.", metavar="ADDRESS"),
+        typer.Option(help="Dask scheduler whose workers run the tests.", metavar="ADDRESS"),
     ] = None,
     results: Annotated[
         Path | None,
-        typer.Option(help="Keep every result in FILE as it comes.", metavar="FILE"),
+        typer.Option(help="File to which each result is written at once.", metavar="FILE"),
     ] = None,
     resume: Annotated[
-        bool, typer.Option("--resume", help="Go on where --results FILE was broken off.")
+        bool, typer.Option("--resume", help="Continue an interrupted run from --results FILE.")
     ] = False,
     budget: Annotated[
-        str | None, typer.Option(help="Begin nothing more after that.", metavar="30min")
+        str | None,
+        typer.Option(
+            help="Time after which no test is started: 90s, 30min, 2h.", metavar="DURATION"
+        ),
     ] = None,
     stop_on_failure: Annotated[
-        bool, typer.Option("--stop-on-failure", help="End with the first that does not hold.")
+        bool, typer.Option("--stop-on-failure", help="Stop at the first failure.")
     ] = False,
     overrides: options.Overrides = None,
     backup: Annotated[
         Path | None,
         typer.Option(
-            help="Prove the driver that is built for the controller of this backup.",
+            help="Backup of the controller for which the driver is built.",
             metavar="FOLDER",
         ),
     ] = None,
 ) -> int:
-    """Prove the driver for this robot: every behaviour, stops and faults in many schedules.
+    """Test the generated driver on the virtual controller.
 
-    Runs on the virtual controller; what is assumed about real controllers is also tried the
-    other way round, any two assumptions together. Exit code 1 when something did not hold.
+    Runs test cases, stops and faults in many schedules. Assumptions about real controllers are
+    also inverted, any two of them together. The exit code is 1 if a test fails.
     """
     import json
 
@@ -126,7 +138,7 @@ def test(
     assumed(assuming)
     limits = Limits(_seconds(budget), stop_on_failure)
     if resume and results is None:
-        raise _resumes_nothing()
+        raise _no_results_to_resume()
     for path in (junit, html, results):
         _check_writable(path)
     try:
@@ -146,10 +158,10 @@ def test(
                 resume=resume,
             )
     except WorkersLost as lost:
-        mend = "take fewer --jobs; keep what is found with --results FILE, and --resume"
-        raise refusal("RG809", None, str(lost), mend) from lost
+        help = "use fewer --jobs; save results with --results FILE, and continue with --resume"
+        raise refusal("RG809", None, str(lost), help) from lost
     if case and not report.tried and not report.broken_off and not report.left:
-        raise _nothing(report)
+        raise _not_applicable(report)
     if junit is not None:
         write_junit(report, junit)
     if html is not None:
@@ -160,22 +172,22 @@ def test(
         _show(report, uncovered, durations, _command(config, overrides, backup))
     if report.broken_off:
         if as_json:
-            # The report says it: a second object would make both none.
+            # The report says it already: a second object would make invalid JSON.
             return 130
         raise KeyboardInterrupt
     return 0 if report.passed else 1
 
 
-def _nothing(report: "SuiteResult") -> DiagnosticError:
-    """What was asked for is about what this driver does not have."""
+def _not_applicable(report: "SuiteResult") -> DiagnosticError:
+    """Return the error for requested cases that do not apply to this driver."""
     names = ", ".join(dict.fromkeys(f"'{o.case}'" for o in report.outcomes))
     whys = ", ".join(dict.fromkeys(o.untried for o in report.outcomes))
-    help = "ask for another case, or for a driver that has it; `--list` shows the cases"
-    return refusal("RG811", None, f"of {names} there is nothing to prove: {whys}", help)
+    help = "select another case (`--list`), or a driver that supports it"
+    return refusal("RG811", None, f"{names} cannot be tested: {whys}", help)
 
 
 def _fitted(model: "RobotConfig", backup: Path) -> "RobotConfig":
-    """The driver for a cell: its names, release, main; its own programs do not run."""
+    """Fit the driver to a cell's names, release and main; the cell's programs do not run."""
     from rapidgen.generate import build
     from rapidgen.generate.existing_controller import fit, read_cell
 
@@ -195,7 +207,7 @@ def _check_names(names: list[str]) -> None:
             error(
                 "RG801",
                 None,
-                f"there is no case '{name}'",
+                f"unknown test case '{name}'",
                 suggest(name, known) or "`rapidgen test CONFIG --list` shows the cases",
             )
             for name in wrong
@@ -203,7 +215,7 @@ def _check_names(names: list[str]) -> None:
 
 
 def _check_writable(path: Path | None) -> None:
-    """Say before a long run that its report has nowhere to go."""
+    """Check before a long run that its report can be written."""
     from rapidgen._atomic_write import check_writable
 
     if path is None:
@@ -215,7 +227,7 @@ def _check_writable(path: Path | None) -> None:
             "RG803",
             None,
             f"{path} cannot be written: {fault.strerror}",
-            "name a file in a folder that exists and may be written",
+            "use a file in an existing folder with write permission",
         ) from fault
 
 
@@ -226,7 +238,7 @@ def _of_cluster(address: str) -> "Callable[[DriverUnderTest], WorkerPool]":
 
 
 def _command(config: str, overrides: list[str] | None, backup: Path | None) -> str:
-    """What proves the same driver again, for a shell."""
+    """Return the shell command that tests the same driver again."""
     import shlex
 
     words = ["rapidgen", "test", config]
@@ -247,17 +259,17 @@ def _seconds(budget: str | None) -> float:
     text = re.fullmatch(r"(\d+(?:\.\d+)?) ?(s|min|h|d)", budget)
     if text is None:
         help = f"write a number and one of {', '.join(_UNITS)}: --budget 30min"
-        raise refusal("RG806", None, f"'{budget}' is no time", help)
+        raise refusal("RG806", None, f"'{budget}' is not a duration", help)
     return float(text[1]) * _UNITS[text[2]]
 
 
-def _resumes_nothing() -> DiagnosticError:
-    help = "name the file that has them: --results FILE --resume"
-    return refusal("RG805", None, "--resume goes on with results, and no file was named", help)
+def _no_results_to_resume() -> DiagnosticError:
+    help = "name the file with the results: --results FILE --resume"
+    return refusal("RG805", None, "--resume needs --results", help)
 
 
 def _list(as_json: bool) -> int:
-    """What there is to prove, by group."""
+    """List the test cases by group."""
     import json
 
     from rapidgen.verification.suite import CASES
@@ -283,7 +295,7 @@ def _show(report: "SuiteResult", uncovered: bool, durations: int, command: str) 
     from rapidgen.verification.report import complaint, met, missed, slowest, untried
 
     console = Console(highlight=False)
-    table = Table("group", "held", "of", "answers", box=None)
+    table = Table("group", "passed", "of", "answers", box=None)
     groups = dict.fromkeys(o.group for o in report.tried)
     for group in groups:
         own = [o for o in report.tried if o.group == group]
@@ -300,7 +312,7 @@ def _show(report: "SuiteResult", uncovered: bool, durations: int, command: str) 
         table.add_row("lines of RAPID", str(reached), str(of), f"{reached / of:.1%} covered")
     console.print(table)
     if why := untried(report):
-        console.print(f"nothing to prove: {why}", markup=False)
+        console.print(f"not applicable: {why}", markup=False)
     if uncovered:
         for path, lines in missed(report):
             console.print(f"not reached: {path}: {lines}", markup=False, soft_wrap=True)
@@ -311,18 +323,18 @@ def _show(report: "SuiteResult", uncovered: bool, durations: int, command: str) 
             console.print(f"failed: {complaint(outcome)}", markup=False)
     for finding in report.findings:
         console.print(f"failed: {finding.detail}", markup=False)
-        again = f"{command} --replay {finding.schedule} --record story.mcap"
+        again = f"{command} --replay {finding.schedule} --record replay.mcap"
         console.print(f"  {again}", markup=False, soft_wrap=True)
     if report.curve:
         console.print(met(report), markup=False)
-    verdict = "everything held" if report.passed else "something did not hold"
+    verdict = "passed" if report.passed else "failed"
     if report.left:
-        verdict += f", {report.left} were not tried"
+        verdict += f", {report.left} not tried"
     if report.broken_off:
-        verdict = "broken off"
+        verdict = "interrupted"
     console.print(
         f"{report.name} (build {report.build_id}): {verdict}, in {report.elapsed:.0f} s. "
-        "On the virtual controller: no real controller was asked.",
+        "Tested on the virtual controller only.",
         markup=False,
     )
 
@@ -330,7 +342,7 @@ def _show(report: "SuiteResult", uncovered: bool, durations: int, command: str) 
 def _recorder(
     config: "RobotConfig", file: Path, overrides: "Overrides", path: Path
 ) -> "Callable[[VirtualController], Callable[[], None]]":
-    """What begins a recording into a file, with what the robots look like."""
+    """Return a function that begins a recording with the robots' appearance."""
     from rapidgen.viewer.appearance import appearance
     from rapidgen.viewer.recording.writer import record
 
@@ -349,13 +361,50 @@ def _replay(
     from rapidgen.verification.suite_runner import replay
 
     _check_writable(trace)
-    with trace.open("w", encoding="utf-8") if trace else nullcontext() as story:
-        explored = replay(config, name, story, begin)
+    with trace.open("w", encoding="utf-8") if trace else nullcontext() as log:
+        explored = replay(config, name, log, begin)
     typer.echo(explored.plan)
     if explored.finding is None:
-        held = "it moved as the same in RAPID" if is_program(name) else "the invariant held"
-        typer.echo(f"{title(name)}: {held}")
+        verdict = "same motion as in RAPID" if is_program(name) else "invariant not violated"
+        typer.echo(f"{title(name)}: {verdict}")
         return 0
     typer.echo("\n".join(explored.finding.log))
     typer.echo(f"{title(name)}: {explored.finding.detail}")
     return 1
+
+
+def probe(
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="File to write; default: stdout.", metavar="FILE"),
+    ] = None,
+    moving: Annotated[
+        bool,
+        typer.Option("--moving", help="Test motion: THE ROBOT TURNS ITS AXIS 6."),
+    ] = False,
+) -> int:
+    """Write a RAPID module that tests a controller's behaviour.
+
+    Load it alone into a NORMAL task and start it. Each line on the pendant is an assumption that
+    `rapidgen run --assume` takes. It sets no output and does not move the robot. The module of
+    --moving turns axis 6 by 10 degrees, after a confirmation on the pendant.
+    """
+    from rapidgen._atomic_write import write_whole
+    from rapidgen._data import data_folder
+
+    name = "ROS_probe_motion.mod" if moving else "ROS_probe.mod"
+    text = (data_folder("templates") / name).read_text(encoding="latin-1")
+    if output is None:
+        typer.echo(text, nl=False)
+        return 0
+    try:
+        write_whole(output, text.encode("latin-1"))
+    except OSError as fault:
+        raise refusal(
+            "RG802",
+            None,
+            f"{output} cannot be written: {fault.strerror}",
+            "use a file in an existing folder with write permission",
+        ) from fault
+    typer.echo(f"{output}: load it alone into a NORMAL task, PP to main, Start", err=True)
+    return 0

@@ -1,4 +1,4 @@
-"""Commands typed wrong: each is told what is wrong with what, why, and the mend."""
+"""Usage errors: each has a code, a message and a help."""
 
 import io
 import re
@@ -10,7 +10,7 @@ import pytest
 from rapidgen.cli.app import main
 
 ROW = re.compile(r"^\$ (.*)\n    (\d) (RG\d+) (.*)\n    (.*)\n", re.MULTILINE)
-ROWS = ROW.findall(Path(__file__).with_name("wrong_usages.txt").read_text("utf-8"))
+ROWS = ROW.findall(Path(__file__).with_name("usage_errors.txt").read_text("utf-8"))
 FILES = {
     "good.mod": "MODULE good\n    PROC main()\n    ENDPROC\nENDMODULE\n",
     "bad.mod": "MODULE bad\n    PROC main()\n        x := ;\n    ENDPROC\nENDMODULE\n",
@@ -43,20 +43,20 @@ def place(tmp_path, monkeypatch):
     return tmp_path
 
 
-def test_all_rows_are_read():
-    text = Path(__file__).with_name("wrong_usages.txt").read_text("utf-8")
+def test_all_usage_errors_are_read():
+    text = Path(__file__).with_name("usage_errors.txt").read_text("utf-8")
     assert len(ROWS) == text.count("\n$ ") > 100
 
 
-@pytest.mark.parametrize(("words", "exit_code", "code", "told", "help"), ROWS)
-def test_typed_wrong(place, capsys, words, exit_code, code, told, help):
+@pytest.mark.parametrize(("words", "exit_code", "code", "message", "help"), ROWS)
+def test_usage_error(place, capsys, words, exit_code, code, message, help):
     folder = str(place / "folder")
     before = sorted(place.rglob("*"))
     assert main(shlex.split(words.replace("{folder}", folder))) == int(exit_code)
     displayed = capsys.readouterr()
     text = displayed.err + displayed.out
     result = text[text.index(f"error[{code}]: ") :]
-    assert told.replace("{folder}", folder) in result
+    assert message.replace("{folder}", folder) in result
     assert help in result.partition("= help: ")[2]
     assert "Traceback" not in text
     assert sorted(place.rglob("*")) == before
