@@ -83,7 +83,7 @@ def parse_address(text: str, ports: Ports | None = None) -> Address:
             return Address(host, motion, state, int(control))
     raise InvalidTarget.because(
         "RG607",
-        f"'{text}' is no address of a robot",
+        f"'{text}' is not an address of a robot",
         "HOST, HOST:MOTION, HOST:MOTION,STATE or HOST:MOTION,STATE,CONTROL, for example "
         "192.168.125.1:11000,11002",
         exit_code=2,

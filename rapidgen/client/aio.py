@@ -177,7 +177,7 @@ class AsyncFlowRunner:
                 await link.is_writable.wait()
         except TimeoutError as error:
             raise RobotTimeout.because(
-                "RG603", f"the controller took no byte for {timeout:g} s", "look at it"
+                "RG603", f"the controller read no byte for {timeout:g} s", "look at the controller"
             ) from error
 
     async def _wait(self, effect: Wait) -> bool:

@@ -77,7 +77,9 @@ class Channel:
                 # The rest of a frame goes out before any other byte.
                 self._is_offered = True
                 raise RobotTimeout.because(
-                    "RG603", f"the controller took no byte for {timeout:g} s", "look at it"
+                    "RG603",
+                    f"the controller read no byte for {timeout:g} s",
+                    "look at the controller",
                 )
             else:
                 self._wait_writable(_SLICE)
@@ -100,7 +102,7 @@ class Channel:
                 waited = 0.0
             elif waited >= timeout:
                 raise RobotTimeout.because(
-                    "RG603", f"the controller took no byte for {timeout:g} s"
+                    "RG603", f"the controller read no byte for {timeout:g} s"
                 )
             else:
                 self._wait_writable(_SLICE)
@@ -160,7 +162,9 @@ class Channel:
         name = self.port.name.lower()
         reason = os_reason(error)
         return ConnectionLost.because(
-            "RG602", f"the connection to the {name} port was lost: {reason}", "look at it"
+            "RG602",
+            f"the connection to the {name} port was lost: {reason}",
+            "look at the controller",
         )
 
     def close(self) -> None:

@@ -223,4 +223,4 @@ def _seconds(value: object) -> float:
         raise ValueError("time_from_start has neither secs nor sec")
     if isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
-    raise ValueError("time_from_start is no time")
+    raise ValueError("time_from_start is not a time")

@@ -37,7 +37,7 @@ def _number(value: object, what: str, help: str) -> float:
     """
     if isinstance(value, SupportsFloat):
         return float(value)
-    raise _malformed(f"{value!r} is no {what}", help)
+    raise _malformed(f"{value!r} is not a {what}", help)
 
 
 @dataclass(frozen=True, slots=True)
@@ -480,7 +480,7 @@ def joints_of(joints: Sequence[float]) -> tuple[float, ...]:
         return tuple(map(float, joints))
     except (TypeError, ValueError) as error:
         help = "joints are numbers in rad and m, one for each, such as [0, 0.1, 0, 0, 0.5, 0]"
-        raise _malformed(f"{joints!r} are no joints", help) from error
+        raise _malformed(f"{joints!r} are not joints", help) from error
 
 
 def pose_of(pose: Pose) -> Pose:
@@ -490,4 +490,4 @@ def pose_of(pose: Pose) -> Pose:
         return (float(x), float(y), float(z)), (float(w), float(a), float(b), float(c))
     except (TypeError, ValueError) as error:
         help = "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first"
-        raise _malformed(f"{pose!r} is no pose", help) from error
+        raise _malformed(f"{pose!r} is not a pose", help) from error

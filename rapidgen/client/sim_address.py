@@ -44,7 +44,7 @@ def find_simulator(name: str = "", group: str = "") -> Address:
 def _unclear(name: str, own: list[Simulator], result: list[Simulator]) -> InvalidTarget:
     displayed = tuple(f"{one.name} (process {one.pid}): {_places(one)}" for one in own or result)
     if own:
-        message, help = f"{len(own)} simulators run", "end the others, or say --to with an address"
+        message, help = f"{len(own)} simulators run", "end the others, or add --to with an address"
     elif result:
         message = f"no simulator of '{name}' runs, but others do"
         help = f"`rapidgen sim` with the configuration of '{name}', or the other configuration here"

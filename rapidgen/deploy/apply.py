@@ -176,8 +176,8 @@ def _other_driver_error(plan: Plan, other: OtherDriver) -> Diagnostic:
     return error(
         "RG534",
         None,
-        f"another driver lies in {plan.target}, and what is loaded is not seen",
-        "where it is not loaded, say so with a backup of the controller: --backup FOLDER; else "
+        f"another driver is in {plan.target}, and loaded cfg is not visible",
+        "if it is not loaded, show it with a backup of the controller: --backup FOLDER; else "
         + help,
         notes=tuple(f"HOME:/{path}" for path in other.files),
     )
@@ -414,7 +414,9 @@ def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
                 None,
                 f"{plan.verb} of {plan.target} was cut while it switched files",
                 f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
-                notes=("what lies there now is the old set, the new set, or refuses to move",),
+                notes=(
+                    "the files there are the old set, the new set, or a set that refuses to move",
+                ),
             ),
         ],
         exit_code=1,
@@ -429,20 +431,20 @@ def _conflict(change: FileChange) -> Diagnostic:
             f"{change.shown}: {change.doubt}",
             "--overwrite continues without it: the driver's file is deleted without a replacement"
             if change.after is None
-            else "--overwrite puts back what the copy holds now: look at the file afterwards",
+            else "--overwrite restores the content of the copy: look at the file afterwards",
         )
     if change.conflict == "foreign":
         return error(
             "RG521",
             None,
-            f"{change.shown} is there already, and rapidgen did not put it there",
+            f"{change.shown} exists already, and rapidgen did not create it",
             "rename or remove it, or --overwrite: a copy stays on the controller, and "
-            "`rapidgen uninstall` puts it back",
+            "`rapidgen uninstall` restores it",
         )
     return error(
         "RG520",
         None,
-        f"{change.shown} was edited by hand since the last deployment",
+        f"{change.shown} was changed locally since the last deployment",
         "take the edit over into the configuration, or --overwrite: a copy stays in the backup",
         notes=(change.note,) if change.note else (),
     )

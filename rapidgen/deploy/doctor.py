@@ -345,7 +345,7 @@ def _configuration(plan: Plan, desired: DriverSet) -> Iterator[Check]:
     yield Check(
         "configuration",
         "warn",
-        f"what is loaded is not what the driver needs: {text}; the first is {away[0].key}",
+        f"loaded cfg differs from what the driver needs: {text}; the first is {away[0].key}",
         "`rapidgen plan` names each, and the steps",
     )
 

@@ -168,5 +168,5 @@ def differs(path: str) -> TransportFault:
         "denied",
         f"{path} reads back otherwise than it was written",
         code="RG526",
-        help="the line or the disk of the controller spoils data: look at both, then run again",
+        help="the connection or the disk damages data: check both, then run again",
     )

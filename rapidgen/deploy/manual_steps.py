@@ -98,9 +98,7 @@ def _files(names: Sequence[str]) -> str:
 
 def other_driver_steps(neighbour: OtherDriver) -> tuple[ManualStep, ...]:
     """Return the steps that remove another driver before ours is loaded."""
-    steps = [
-        ManualStep("pendant", "back the controller up: that is the way back to the other driver")
-    ]
+    steps = [ManualStep("pendant", "back the controller up: a restore returns to the other driver")]
     sections: dict[str, list[str]] = {}
     for one in neighbour.instances:
         name = one.shown.removeprefix(one.section).strip()
@@ -135,7 +133,7 @@ def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
     for change in cfg:
         if change.action == "remove" or (change.action == "change" and not change.named):
             section, _, name = change.key.partition(" ")
-            again = "" if change.action == "remove" else " (comes back changed)"
+            again = "" if change.action == "remove" else " (restored with changes)"
             sections.setdefault(section, []).append(name + again)
     sections = {s: _by_file(n) if s == "CAB_TASK_MODULES" else n for s, n in sections.items()}
     return [

@@ -18,8 +18,8 @@ from rapidgen.deploy.state_folder import FileRecord, Manifest, StateFolder
 from rapidgen.system import CfgText
 
 DAMAGED = (
-    "`rapidgen deploy ... --overwrite` writes a new one: the newest backup's, with the files as "
-    "they lie there now; a backup keeps all of them"
+    "`rapidgen deploy ... --overwrite` writes a new one: the newest backup's, with the current "
+    "files; a backup keeps all of them"
 )
 """Help of RG531."""
 
@@ -63,10 +63,10 @@ class FileChange:
     def doubt(self) -> str:
         """The conflict in words."""
         if self.conflict == "kept":
-            return f"the copy of what was there before the first deployment is {self.note}"
+            return f"the copy of the state before the first deployment is {self.note}"
         if self.conflict == "edited":
             return f"changed locally since the last deployment{': ' * bool(self.note)}{self.note}"
-        return "not put there by rapidgen" if self.conflict else ""
+        return "not created by rapidgen" if self.conflict else ""
 
     @property
     def shown(self) -> str:

@@ -42,7 +42,7 @@ def plan_text(plan: Plan) -> str:
     where = f": {plan.live.shown}" if plan.live else ""
     out = [f"{plan.name or 'driver'} ({ware}{build})  via {plan.target}{where}"]
     if plan.interrupted:
-        out.append(f"  * {plan.interrupted}: this run puts it right")
+        out.append(f"  * {plan.interrupted}: this run repairs it")
     if plan.damaged:
         in_use = "the newest backup's" if plan.had and plan.had.history else "no backup's"
         out.append(f"  ? {plan.damaged}: {in_use} is assumed  -> needs --overwrite")
@@ -187,7 +187,7 @@ def _words(change: FileChange) -> str:
     if change.action == "restore":
         return "restores the state before the first deployment"
     if change.action == "same":
-        return "same, not put there by rapidgen" if change.foreign else "same"
+        return "same, not created by rapidgen" if change.foreign else "same"
     added, removed = change.counts()
     return f"+{added} -{removed}"
 

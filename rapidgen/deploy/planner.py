@@ -211,7 +211,7 @@ def make_plan(
 def _nothing_there(transport: Transport) -> DiagnosticError:
     return refused(
         "RG529",
-        f"{transport.shown}: no deployment of rapidgen lies there",
+        f"{transport.shown}: no deployment of rapidgen is there",
         "check the URL; `rapidgen doctor` shows the files there",
     )
 

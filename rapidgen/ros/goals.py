@@ -300,7 +300,8 @@ class _Tolerances:
         for tolerance in requested:
             if tolerance.name not in self.names:
                 raise GoalRefused(
-                    Code.INVALID_GOAL, f"{where} names '{tolerance.name}', which is no joint here"
+                    Code.INVALID_GOAL,
+                    f"{where} names '{tolerance.name}', which is not a joint here",
                 )
             i = list(self.names).index(tolerance.name)
             place = f"{where} of {tolerance.name}"

@@ -66,7 +66,7 @@ def _argument(value: Message) -> Argument:
         return (at.x, at.y, at.z), (turned.w, turned.x, turned.y, turned.z)
     if value.type == Value.JOINTTARGET:
         return [float(joint) for joint in value.joints]
-    raise ValueError(f"{value.type} is no type of rapidgen_interfaces/Value")
+    raise ValueError(f"{value.type} is not a type of rapidgen_interfaces/Value")
 
 
 def _values(results: Sequence[Left]) -> list[Message]:

@@ -80,7 +80,7 @@ def _given() -> str:
         raise refusal(
             "RG922",
             None,
-            "RAPIDGEN_VIEW_TOKEN is no token",
+            "RAPIDGEN_VIEW_TOKEN is not a token",
             "16 or more letters, digits, `-` or `_`; without it each run makes a new one",
         )
     return token

@@ -61,7 +61,7 @@ class Broadcaster:
         handler = self._handlers.get(type(requested.request))
         text = refused = ""
         if handler is None:
-            refused = "what is viewed here is not commanded from here"
+            refused = "this subject accepts no such request"
         else:
             try:
                 text = handler(requested.request)

@@ -59,7 +59,7 @@ def test_the_robot_stands_when_execute_raises(fault, way):
     with lossy(once("motion", fault, kind=kind)) as (robot, controller):
         with pytest.raises(LOST, match="the robot is at rest") as error:
             robot.execute(wiggle(robot), way=way)
-        assert "then go on" in error.value.diagnostics[0].help
+        assert "then continue" in error.value.diagnostics[0].help
         assert stands(robot, controller)
 
 
@@ -213,7 +213,7 @@ def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
     [
         ({"motion", "control"}, True, "the controller did not answer STOP"),
         ({"state"}, True, "STOP was answered, and the robot was not observed at rest"),
-        ({"state"}, False, "STOP was answered, and the state port sends no data any more"),
+        ({"state"}, False, "STOP was answered, and the state port stopped sending data"),
     ],
 )
 def test_unknown_stop_result_is_reported(silent, is_reached, why):

@@ -385,7 +385,7 @@ UPRIGHT = ((0.0, 0.0, 0.1), (1.0, 0.0, 0.0, 0.0))
         (UserTool(UPRIGHT, 1.0, inertia=(0.0, 1.0)), "moments"),
         (UserTool(UPRIGHT, 1.0, centre=(0.0, 101.0, 0.0)), "centre"),
         (UserTool(UPRIGHT, 1.0, axes=(1.0, 1.0, 0.0, 0.0)), "quaternion"),
-        (UserTool((0.0, 0.0, 0.1), 1.0), "is no pose"),
+        (UserTool((0.0, 0.0, 0.1), 1.0), "is not a pose"),
         (UserTool(UPRIGHT, "heavy"), "heavy"),
         (UserWorkObject(((float("inf"), 0.0, 0.0), UPRIGHT[1])), "finite"),
         (UserWorkObject(UPRIGHT, ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))), "object frame"),

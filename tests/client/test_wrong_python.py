@@ -42,14 +42,14 @@ WRONG = {
         InvalidProgram, "5 joints, the robot has 6", "joint_1, joint_2"),
     "a text for a pose's joints": (
         lambda: Robot("irb120").pose_of("0,0,0,0,0,0"),
-        InvalidProgram, "'0,0,0,0,0,0' are no joints", "numbers in rad"),
+        InvalidProgram, "'0,0,0,0,0,0' are not joints", "numbers in rad"),
     "joints too many to be near": (
         lambda: Robot("irb120").joints_for(((0.3, 0, 0.5), (1, 0, 0, 0)), near=[0] * 7),
         InvalidProgram, "7 joints, the robot has 6", "joint_1, joint_2"),
     "a cell of a name": (
         lambda: Cell("irb120"), InvalidTarget, "robots by name, not of str", "Cell({"),
     "a number for a controller": (
-        lambda: Controller(5), DiagnosticError, "'5' is no address", "rws://"),
+        lambda: Controller(5), DiagnosticError, "'5' is not an address", "rws://"),
     "a file where numbers belong": (
         lambda: Trajectory("p.csv", None), InvalidTrajectory, "a trajectory needs numbers", ""),
     "one value a point": (
@@ -66,12 +66,13 @@ WRONG = {
         lambda: Trajectory.from_csv("x.csv"), InvalidTrajectory, "cannot read x.csv", "path"),
     "joints as a text": (
         lambda: Program().move_joints("0,0,0,0,0,0"),
-        InvalidProgram, "'0,0,0,0,0,0' are no joints", "numbers in rad"),
+        InvalidProgram, "'0,0,0,0,0,0' are not joints", "numbers in rad"),
     "joints as nothing": (
         lambda: Program().move_joints(None),
-        InvalidProgram, "None are no joints", "numbers in rad"),
+        InvalidProgram, "None are not joints", "numbers in rad"),
     "a place for a pose": (
-        lambda: Program().move_linear((0.3, 0, 0.5)), InvalidProgram, "is no pose", "quaternion"),
+        lambda: Program().move_linear((0.3, 0, 0.5)),
+        InvalidProgram, "is not a pose", "quaternion"),
     "a word for a speed": (
         lambda: Program(speed="fast"), InvalidProgram, "'fast' is no speed", "m/s of the TCP"),
     "a word in a Speed": (
@@ -81,12 +82,13 @@ WRONG = {
     "a list for a zone": (
         lambda: Program(zone=[0.01]), InvalidProgram, "[0.01] is no zone", "z10"),
     "a word for a wait": (
-        lambda: Program().wait("long"), InvalidProgram, "'long' is no time", "seconds"),
+        lambda: Program().wait("long"), InvalidProgram, "'long' is not a time", "seconds"),
     "a word for a time-out": (
         lambda: Program().wait_for("part", timeout=None),
-        InvalidProgram, "None is no time", "seconds"),
+        InvalidProgram, "None is not a time", "seconds"),
     "a word for a limit": (
-        lambda: Program().call("weld", timeout="5 s"), InvalidProgram, "'5 s' is no time", "sec"),
+        lambda: Program().call("weld", timeout="5 s"),
+        InvalidProgram, "'5 s' is not a time", "seconds"),
     "a word for a level": (
         lambda: Program().set("glue", "on"), InvalidProgram, "'on' is no value", "0 or 1"),
     "a word for a place": (

@@ -415,7 +415,7 @@ def test_goal_time_counts_the_override_that_was_asked_for():
     [
         (Tolerance("joint_1", position=-2.0), "-1 for none"),
         (Tolerance("joint_1", velocity=float("nan")), "velocity"),
-        (Tolerance("elbow", position=0.1), "no joint here"),
+        (Tolerance("elbow", position=0.1), "not a joint here"),
     ],
 )
 def test_tolerances_that_mean_nothing_are_refused(tolerance, text):

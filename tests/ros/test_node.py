@@ -111,7 +111,7 @@ def test_refused_is_aborted_with_its_reason(up):
     status, code, text = ended(action(node).send(stamped))
     assert (status, code) == ("aborted", -3)
     toleranced = goal(0.0, 0.1, path_tolerance=[JointTolerance(name="elbow", position=1.0)])
-    assert "no joint here" in ended(action(node).send(toleranced))[2]
+    assert "not a joint here" in ended(action(node).send(toleranced))[2]
 
 
 def test_good_goal_after_refused_one_succeeds(up):
@@ -223,7 +223,7 @@ def test_end_of_link_is_logged(up):
     ("parameters", "report"),
     [
         ({"config": "irb12o"}, "irb12o"),
-        ({"config": "irb120", "address": "not an address"}, "is no address of a robot"),
+        ({"config": "irb120", "address": "not an address"}, "is not an address of a robot"),
         ({"config": "irb14000", "address": "127.0.0.1:11000"}, "irb14000 has 2 of them"),
         ({"config": "irb120", "overrides": ["ports.moton=1"]}, "unknown key 'moton'"),
         # An override is of a motion: the first goal would have gone at full speed.

@@ -116,7 +116,7 @@ def test_a_routine_gets_values_of_every_type_and_tells_its_results(node, cell):
     assert not reply.success
     assert "ERR_ARGVALERR" in reply.message
     reply = node.services["call_routine"](name="weld", arguments=[Value(type=9)])
-    assert (reply.success, reply.message) == (False, "9 is no type of rapidgen_interfaces/Value")
+    assert (reply.success, reply.message) == (False, "9 is not a type of rapidgen_interfaces/Value")
 
 
 def test_without_the_package_the_node_runs_and_says_so(sourced, cell, monkeypatch):

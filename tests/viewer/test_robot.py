@@ -26,7 +26,7 @@ def test_a_robot_is_watched_and_not_moved(irb120, open_page):
             {"do": "override", "value": 0},
         ):
             requested = "request => rapidgen.link.ask(request).catch(why => why.message)"
-            assert "not commanded from here" in page.evaluate(requested, request)
+            assert "accepts no such request" in page.evaluate(requested, request)
         copy = {"do": "copy", "group": "rob1", "form": "jointtarget"}
         text = page.evaluate("request => rapidgen.link.ask(request)", copy)
         assert text.endswith(",[9E9,9E9,9E9,9E9,9E9,9E9]]")

@@ -373,7 +373,7 @@ def _speeds(requested: _CheckInput) -> Iterator[Diagnostic]:
         unit = "rad/s" if joint.kind == "revolute" else "m/s"
         yield requested.finding(
             "RG615",
-            f"{joint.name} is too fast on the way to",
+            f"{joint.name} is too fast on the segment to",
             points,
             f"{joint.axis} would need {worst:.3f} {unit}, and has {joint.speed:.3f} {unit}",
             f"`scaled({0.99 * joint.speed / worst:.3g})` would fit; in the shell, a `--speed` that "

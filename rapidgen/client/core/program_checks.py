@@ -215,7 +215,7 @@ def _to_joints(walk: ProgramTraversal, step: ProgramStep) -> standing.Checked:
     if len(step.joints) != len(group.names) or not all(map(isfinite, step.joints)):
         walk.say(
             "RG670",
-            f"{list(step.joints)} are no joints of this robot",
+            f"{list(step.joints)} are not joints of this robot",
             f"numbers, rad and m, of {', '.join(group.names)}",
         )
         return (), 0.0

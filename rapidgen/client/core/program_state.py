@@ -61,7 +61,7 @@ def operands(pose: Pose, posture: Posture) -> tuple[float, ...]:
 def unit(walk: ProgramTraversal, pose: Pose | None) -> Pose | None:
     """Return a pose with a quaternion of length 1."""
     if pose is None or not all(isfinite(value) for part in pose for value in part):
-        walk.say("RG670", f"{pose} is no pose", "finite numbers")
+        walk.say("RG670", f"{pose} is not a pose", "finite numbers")
         return None
     size = sqrt(sum(value * value for value in pose[1]))
     if abs(size - 1) > _UNIT:

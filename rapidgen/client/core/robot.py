@@ -313,7 +313,7 @@ class Core:
         if not run.is_over and self.heartbeat.is_late(now, port.listening):
             run.failed(
                 self.state_port.late(
-                    "the control port does not answer any more while the robot may be moving",
+                    "the control port stopped answering while the robot may be moving",
                     "a STOP was sent; look at the robot",
                 )
             )

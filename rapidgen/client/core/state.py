@@ -187,14 +187,14 @@ class Driver:
         missing = []
         if not self.is_rapidgen:
             missing.append("report its version, joint map and capacity")
-            missing.append("say why it refuses or stops")
+            missing.append("report why it refuses or stops")
         if Feature.PROGRESS not in self.features:
             missing.append("report the end of a trajectory: position, in_motion and time decide")
         if Feature.STREAMING not in self.features:
             missing.append("accept points during a motion: a trajectory is sent whole, and ends")
         if Feature.CONTROL not in self.features or self.control_fault:
             why = f" ({self.control_fault})" if self.control_fault else ""
-            missing.append(f"accept STOP in parallel to points: it waits after what was sent{why}")
+            missing.append(f"accept STOP in parallel to points: it waits after earlier data{why}")
             missing.append("pause, change the speed, or watch for this client's heartbeat")
         return tuple(missing)
 

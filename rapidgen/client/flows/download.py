@@ -60,7 +60,7 @@ class DownloadInProgress:
         if motion.error is not None:
             raise motion.error
         raise core.state_port.late(
-            f"the controller did not answer within {timeout:.1f} s whether it took the trajectory",
+            f"the controller did not answer within {timeout:.1f} s if it accepted the trajectory",
             "a STOP was sent; look at the robot",
         )
 

@@ -115,7 +115,7 @@ def _check_steps(group: Group, by: Mapping[str, float]) -> None:
         if name not in kinds:
             raise InvalidProgram.because(
                 "RG670",
-                f"'{name}' is no joint and no direction",
+                f"'{name}' is neither a joint nor a direction",
                 suggest(name, list(kinds)) or f"there are {', '.join(kinds)}",
             )
         most, unit = LONGEST_JOG[kinds[name]], "rad" if kinds[name] == "revolute" else "m"

@@ -15,7 +15,7 @@ def wait_until(core: Core, condition: Callable[[State], bool], timeout: float) -
 
     Raises RobotTimeout, ConnectionLost.
     """
-    return (yield from _until(core, condition, timeout, "what was waited for"))
+    return (yield from _until(core, condition, timeout, "the awaited state"))
 
 
 def _until(

@@ -174,9 +174,9 @@ def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
     if state is not None and not unknown:
         if motion.stood is None:
             motion.stood = state.joints
-        error.amend("a STOP was sent, and the robot is at rest", "look at the robot, then go on")
+        error.amend("a STOP was sent, and the robot is at rest", "look at the robot, then continue")
         return error
-    unknown = unknown or "STOP was answered, and the state port sends no data any more"
+    unknown = unknown or "STOP was answered, and the state port stopped sending data"
     error.amend(
         f"it is not known whether the robot is at rest ({unknown})",
         "look at the robot; use the emergency stop if it moves",

@@ -58,5 +58,5 @@ def parse_address(text: str) -> RwsAddress:
 def _bad(displayed: str, why: str = "") -> DiagnosticError:
     because = f": {why}" if why else ""
     help = "rws://[USER@]HOST[:PORT], or rwss:// where TLS is a must"
-    message = f"'{displayed}' is no address of Robot Web Services{because}"
+    message = f"'{displayed}' is not an address of Robot Web Services{because}"
     return DiagnosticError(fault("RG657", message, help))

@@ -42,7 +42,7 @@ _WHERE = {
     "/rw/dipc": "a queue is made by `make_queue`; those of tasks are RMQ_TASK, and take type;value",
     "/rw/elog": "domain 0 has the entries of all",
     "/rw/motionsystem": "`mechanical_units()`: the units that there are",
-    "/fileservice": "`list_files()`: what lies there",
+    "/fileservice": "`list_files()` shows the files there",
 }
 _REJECTED = (
     "motors on and start are refused after a stop until it is reset at the robot; a signal's "

@@ -38,7 +38,7 @@ def write(value: RapidValue) -> str:
         return str(value)
     if isinstance(value, float):
         if not abs(value) < 1e39:
-            raise ValueError(f"{value} is no number of RAPID")
+            raise ValueError(f"{value} is not a number of RAPID")
         return repr(int(value)) if value.is_integer() and abs(value) < 1e9 else repr(value).upper()
     return "[" + ",".join(write(part) for part in value) + "]"
 

@@ -184,7 +184,7 @@ def _missing(run: OnlineRun, *, granted: bool) -> tuple[str, str] | None:
         return what, "let them release it, or end their session"
     stops = (run.options.restart and run.live.restart) or run.rearranges
     if stops and run.services.execution().running:
-        what = f"the program of {target} runs, and what is planned stops it"
+        what = f"the program of {target} runs, and the plan stops it"
         return what, f"when the robot may stop: `rapidgen stop-program {target}`"
     return None
 
@@ -252,7 +252,7 @@ def after_files(run: OnlineRun) -> None:
                 _point(run)
         return
     if not run.options.restart:
-        run.work.say("restart pending: what was loaded counts after a warm start (--restart)")
+        run.work.say("restart pending: loaded cfg takes effect after a warm start (--restart)")
         return
     with _steps(run):
         last = max((event.number for event in run.services.log(count=1)), default=0)

@@ -114,7 +114,7 @@ def _open_to_write(path: Path) -> BinaryIO:
     file = open(os.open(path, flags, 0o666), "wb")  # noqa: SIM115 - the caller closes it
     try:
         if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
-            raise OSError(errno.EINVAL, "it is no regular file", str(path))
+            raise OSError(errno.EINVAL, "it is not a regular file", str(path))
         file.truncate()
     except OSError:
         file.close()

@@ -49,7 +49,7 @@ class FtpTransport:
         writes_cfg=False,
         unseen=(
             "loaded configuration, tasks, operating mode and running programs are not seen",
-            "FTP is not encrypted: password and modules can be read and changed on the way",
+            "FTP is not encrypted: password and modules can be read and changed in transit",
         ),
     )
 

@@ -31,7 +31,7 @@ _CODES: dict[Kind, tuple[str, str]] = {
     "full": ("RG507", "free space on the controller's disk (old backups, logs), then run again"),
     "lost": ("RG505", "run the same command again: it finishes or undoes the interrupted run"),
     "garbled": ("RG504", "look whether this is the controller's server, then run again"),
-    "login": ("RG502", "check user and password (`rapidgen deploy --help` says where from)"),
+    "login": ("RG502", "check user and password (`rapidgen deploy --help` lists the sources)"),
     "outside": ("RG508", "paths stay inside the folder that the URL names"),
 }
 

@@ -237,7 +237,7 @@ def _unpacked(stream: BinaryIO, piece: StoredChunk) -> bytes:
         case "zstd":
             text = zstandard.frame_content_size(chunk.data)
             if text != size:
-                raise RecordingDamaged("a chunk is not as large as it says")
+                raise RecordingDamaged("a chunk has a wrong size")
             data = zstandard.ZstdDecompressor().decompress(chunk.data, max_output_size=size)
         case other:
             raise RecordingDamaged(f"compression {other!r} is not that of rapidgen's recordings")

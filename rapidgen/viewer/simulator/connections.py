@@ -95,7 +95,7 @@ class ConnectionsProvider:
         for device in self._sockets.in_use:
             if id(device) == number and _peer(device):
                 return device
-        raise RequestRejected("this connection has gone")
+        raise RequestRejected("this connection is closed")
 
     def _cut(self, request: Request) -> str:
         assert isinstance(request, ResetConnection)

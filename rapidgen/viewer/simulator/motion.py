@@ -117,7 +117,7 @@ class MotionProvider:
             raise RequestRejected(f"{group.name} does not carry its TCP")
         turned = request.orientation or now[1]
         if not any(turned):
-            raise RequestRejected("this is no orientation")
+            raise RequestRejected("this is not an orientation")
         x, y, z = (
             own if own is not None else at for own, at in zip(request.position, now[0], strict=True)
         )

@@ -71,7 +71,7 @@ class OperatorOutputProvider:
         try:
             self._controller.operator.answer(request.number, request.value)
         except KeyError as error:
-            raise RequestRejected("the dialog has gone") from error
+            raise RequestRejected("the dialog is closed") from error
         except ValueError as error:
             raise RequestRejected(str(error)) from error
         return ""

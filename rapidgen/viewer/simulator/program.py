@@ -176,7 +176,7 @@ class ProgramProvider:
         assert isinstance(request, p.ReadSource)
         match = next((t for t, number in self._texts.items() if number == request.number), None)
         if match is None:
-            raise RequestRejected("it is not loaded any more")
+            raise RequestRejected("it is no longer loaded")
         return match
 
     def _origin(self, request: Request) -> str:

@@ -40,8 +40,8 @@ def connect(core: RwsCore) -> Flow[None]:
         if not core.certificate:
             raise LoginFailed.because(
                 "RG651",
-                f"{core.where} wants the password in clear over plain HTTP",
-                "Robot Web Services 2.0 use TLS: say rwss://, and look who answers there",
+                f"{core.where} requests the password in clear over plain HTTP",
+                "Robot Web Services 2.0 use TLS: use rwss://, and check which server answers there",
             )
         core.generation = Generation.TWO
         yield LogIn("basic")
@@ -94,7 +94,7 @@ def _reach(core: RwsCore) -> Flow[str]:
                 f"{core.where} does not speak TLS",
                 "this controller was met with a certificate before: who answers there now?"
                 if trusted
-                else "say rws:// for a controller with RobotWare 6",
+                else "use rws:// for a controller with RobotWare 6",
             )
         core.port = address.port or 80
         yield UseEndpoint(core.port)
@@ -126,7 +126,7 @@ def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
             "RG652",
             f"the certificate of {core.where} is another one than before",
             "was the controller installed anew, or does another machine answer? If it is right, "
-            f"say --fingerprint {fingerprint}",
+            f"add --fingerprint {fingerprint}",
             f"known: {known_certificates.shown(requested)}",
             f"there: {known_certificates.shown(fingerprint)}",
         )
@@ -134,7 +134,7 @@ def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
         raise LoginFailed.because(
             "RG652",
             f"the certificate of {core.where} is not confirmed; no password was sent",
-            "compare it with the controller's and say `--fingerprint ...` (`fingerprint=`)",
+            "compare it with the controller's and add `--fingerprint ...` (`fingerprint=`)",
             f"there: {known_certificates.shown(fingerprint)}",
         )
     known_certificates.remember(core.pins, core.where, fingerprint)

@@ -169,7 +169,7 @@ def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
         return read(text)
     except ValueError as error:
         raise NotConfirmed.because(
-            "RG655", f"{path} at {core.where} is no literal: {text!r}"
+            "RG655", f"{path} at {core.where} is not a literal: {text!r}"
         ) from error
 
 
