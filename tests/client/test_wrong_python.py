@@ -74,13 +74,13 @@ WRONG = {
         lambda: Program().move_linear((0.3, 0, 0.5)),
         InvalidProgram, "is not a pose", "quaternion"),
     "a word for a speed": (
-        lambda: Program(speed="fast"), InvalidProgram, "'fast' is no speed", "m/s of the TCP"),
+        lambda: Program(speed="fast"), InvalidProgram, "'fast' is not a speed", "m/s of the TCP"),
     "a word in a Speed": (
-        lambda: Speed("fast"), InvalidProgram, "'fast' is no speed", "m/s of the TCP"),
+        lambda: Speed("fast"), InvalidProgram, "'fast' is not a speed", "m/s of the TCP"),
     "a word in a Zone": (
-        lambda: Zone(tcp="z10"), InvalidProgram, "'z10' is no radius", "Zone.of"),
+        lambda: Zone(tcp="z10"), InvalidProgram, "'z10' is not a radius", "Zone.of"),
     "a list for a zone": (
-        lambda: Program(zone=[0.01]), InvalidProgram, "[0.01] is no zone", "z10"),
+        lambda: Program(zone=[0.01]), InvalidProgram, "[0.01] is not a zone", "z10"),
     "a word for a wait": (
         lambda: Program().wait("long"), InvalidProgram, "'long' is not a time", "seconds"),
     "a word for a time-out": (
@@ -90,11 +90,11 @@ WRONG = {
         lambda: Program().call("weld", timeout="5 s"),
         InvalidProgram, "'5 s' is not a time", "seconds"),
     "a word for a level": (
-        lambda: Program().set("glue", "on"), InvalidProgram, "'on' is no value", "0 or 1"),
+        lambda: Program().set("glue", "on"), InvalidProgram, "'on' is not a value", "0 or 1"),
     "a word for a place": (
-        lambda: pulse("glue", "5 mm", 0.01), InvalidProgram, "'5 mm' is no place", "m or s"),
+        lambda: pulse("glue", "5 mm", 0.01), InvalidProgram, "'5 mm' is not a place", "m or s"),
     "a word for a trigger's level": (
-        lambda: Trigger.after(0.1, "glue", "on"), InvalidProgram, "'on' is no value", "0 or 1"),
+        lambda: Trigger.after(0.1, "glue", "on"), InvalidProgram, "'on' is not a value", "0 or 1"),
 }  # fmt: skip
 
 
