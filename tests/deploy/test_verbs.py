@@ -416,7 +416,7 @@ def test_password_without_terminal_is_not_tried(run, home, built, monkeypatch):
     try:
         url = f"ftp://{server.user}@127.0.0.1:{server.port}/"
         code, _, err = run("plan", built(OLD), "--to", url)
-        assert (code, "error[RG512]: 127.0.0.1 wants a password" in err) == (2, True)
+        assert (code, "error[RG512]: 127.0.0.1 requires a password" in err) == (2, True)
         monkeypatch.setenv("RAPIDGEN_PASSWORD", "")
         assert "RG502" in run("plan", built(OLD), "--to", url)[2]
     finally:
