@@ -230,6 +230,7 @@ def _points(
     ordered, group, durations = requested.ordered, requested.group, requested.durations
     # Times are rounded, not durations: rounding errors would add up over a long stream.
     steps = np.diff(np.rint(ordered.times * FIXED_SCALE), prepend=np.rint(since * FIXED_SCALE))
+    # Rounding must not shorten a segment below the minimum that the planner follows.
     least = np.rint(np.minimum(durations, group.policy.min_segment) * FIXED_SCALE)
     wire = quantised(requested.wire, group)
     last = LastPoint(len(ordered) + requested.origin, float(ordered.times[-1]), wire[-1])
@@ -239,6 +240,7 @@ def _points(
 def quantised(wire: Array, group: Group) -> Array:
     """Round axis values (n, k) to the wire's steps, inside the limits."""
     with np.errstate(invalid="ignore"):
+        # Rounded inwards: one step beyond a limit would be refused.
         low = np.ceil(np.array([joint.lower for joint in group.joints]) * FIXED_SCALE)
         high = np.floor(np.array([joint.upper for joint in group.joints]) * FIXED_SCALE)
     steps: Array = np.clip(np.rint(wire * FIXED_SCALE), low, high) / FIXED_SCALE
@@ -362,6 +364,7 @@ def _speeds(requested: _CheckInput) -> Iterator[Diagnostic]:
     seconds = requested.durations[:, None]
     rates = np.divide(steps, seconds, out=np.zeros_like(steps), where=seconds > 0)
     if before is None and requested.ordered.times[0] <= 0:
+        # This first point is the position of the robot: `_start` checks its distance.
         rates[0] = 0.0
     for column, joint in enumerate(requested.group.joints):
         # A segment from or to a value that is not finite has no speed, and no scale helps.

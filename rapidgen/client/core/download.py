@@ -159,6 +159,7 @@ class Download(CommandedMotion):
         if self._stood_since is None:
             self._stood_since = now
         elapsed = now - self._began
+        # Before that time the robot may cross its last point, or not have left it yet.
         if elapsed < self.planned_seconds - self.approach - _EARLY:
             return
         if self._deviation(state) <= GOAL_TOLERANCE and (self._seen_moving or self._is_still):

@@ -144,6 +144,7 @@ class CommandedMotion(ABC):
     def is_superseded(self) -> bool:
         """True if the controller executes or has executed a later motion."""
         progress = self._state_port.progress
+        # As in `_current_progress`: the first message may combine old and new values.
         newer = self._state_port.progresses >= self._first_progress + 2
         return (
             newer
@@ -191,6 +192,7 @@ class CommandedMotion(ABC):
         if not self.is_over:
             self.phase = Phase.OVER
             self.error = error
+            # A refused order moves nothing, so it needs no STOP.
             self.is_settled = isinstance(error, TrajectoryRefused)
             self._note(str(error))
 
@@ -218,6 +220,7 @@ class CommandedMotion(ABC):
         if self._state_port.is_progress_lost:
             self._without_progress()
             return
+        # PROGRESS is back: a later loss starts to count the time at rest anew.
         self._at_rest_since = None
         report = self._current_progress()
         if report is not None:
@@ -307,6 +310,7 @@ class CommandedMotion(ABC):
     def _by_progress(self, report: messages.ProgressReport) -> None:
         match report.state:
             case TrajectoryState.DONE:
+                # PROGRESS and STATUS are different messages: both must show the end.
                 if self._state_port.status.in_motion is not TriState.TRUE:
                     self._succeed()
             case TrajectoryState.STOPPED:

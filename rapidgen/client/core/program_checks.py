@@ -341,6 +341,7 @@ def _along(
     begin, nodes = walk.here, [walk.here]
     for number in range(1, count + 1):
         fraction = number / count
+        # External axes move evenly to their end; the arm stays on its branch.
         near = tuple(
             a + (b - a) * fraction if joint.axis.startswith("eax") else current
             for joint, a, b, current in zip(walk.group.joints, begin, outer, nodes[-1], strict=True)

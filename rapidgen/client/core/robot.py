@@ -231,6 +231,7 @@ class Core:
             if isinstance(content, messages.Stopped):
                 self._stood(content)
                 continue
+            # A rapidgen driver answers orders with data: its bare replies belong to STOP.
             has_data = self.state_port.driver.is_rapidgen
             if frame.comm != Comm.REPLY or not talk.answered(
                 frame.number, content, orders_have_data=has_data
@@ -642,6 +643,7 @@ class Core:
     def _begin(self, queue: SendQueue) -> PointStream:
         hello = self.state_port.driver.hello
         assert hello is not None
+        # Numbers run from 1 to INDEX_WRAP - 1 and begin again.
         self._streams = self._streams % (INDEX_WRAP - 1) + 1
         self.override = 1.0
         self.motion = motion = PointStream(

@@ -260,6 +260,7 @@ class PointStream(CommandedMotion):
                 flags |= StreamFlag.FLUSH
                 self._is_flushing = False
         elif size < self._least:
+            # Due only because the robot rests with a full ring buffer (`_is_stuck`).
             flags |= StreamFlag.FLUSH
             self._is_filled = True
         frame = self.queue.frame(self.stream, self._sent, size, flags)
@@ -295,6 +296,7 @@ class PointStream(CommandedMotion):
     def _answered(self, end: int, reply: Content) -> None:
         match reply:
             case messages.PointsAccepted() if reply.stream == self.stream:
+                # A program for download is accepted as a whole, with its last batch.
                 if self.number is None and (self.way == "stream" or end == self.total):
                     self.accepted(reply.trajectory)
                 self._accepted = end
