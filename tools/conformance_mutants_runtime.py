@@ -18,7 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from tools.mutation.runtime import BROAD, GREEN, Campaign, all_files, outcome
+from tools.mutation.runtime import BROAD, PASSED, Campaign, all_files, outcome
 
 
 def main():
@@ -31,7 +31,7 @@ def main():
     everything = all_files()
     expected = [f for f in everything if not arguments.file or f.program.name in arguments.file]
     files = expected[:: arguments.every]
-    failing = [file for file in files if outcome(file) != GREEN]
+    failing = [file for file in files if outcome(file) != PASSED]
     if failing:
         raise SystemExit("not green without a mutant: " + ", ".join(map(str, failing)))
     started = time.monotonic()

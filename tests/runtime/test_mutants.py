@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from tools.mutation.runtime import BROAD, GREEN, RED, Campaign, all_files, outcome
+from tools.mutation.runtime import BROAD, FAILED, PASSED, Campaign, all_files, outcome
 
 FILES = {file.program.name: file for file in all_files()}
 SAMPLE = [FILES[name] for name in ("goto", "for_counts")]
@@ -21,10 +21,10 @@ def campaign() -> Campaign:
 def test_each_file_of_a_sample_is_red_for_a_mutant(campaign: Campaign) -> None:
     assert campaign.left == []
     for file, (mutant, _) in campaign.shown.items():
-        assert (outcome(file), outcome(file, mutant)) == (GREEN, RED)
+        assert (outcome(file), outcome(file, mutant)) == (PASSED, FAILED)
 
 
 def test_a_file_that_says_something_else_is_red() -> None:
     goto = SAMPLE[0].program
     other = replace(goto, text=goto.text.replace("! expect: ", "! expect: not ", 1))
-    assert outcome(replace(SAMPLE[0], program=other)) == RED
+    assert outcome(replace(SAMPLE[0], program=other)) == FAILED
