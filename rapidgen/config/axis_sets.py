@@ -63,8 +63,7 @@ def resolve_held_axes(
                 f"group '{draft.name}' has no axis of a robot",
                 where,
                 "only external axes",
-                "a positioner or a track moves with the robot whose group it belongs to: map it "
-                "there to eax_a..eax_f",
+                "a positioner or track belongs to its robot's group: map it there to eax_a..eax_f",
                 key=True,
             )
         elif unkept:

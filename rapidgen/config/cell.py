@@ -59,7 +59,7 @@ class CellRobotKeys(StrictModel):
     ] = field(default_factory=list)
     base: Annotated[
         FrameKeys | None,
-        Rule("Where the page draws its base; what RAPID says stays in the robot's own world."),
+        Rule("Position of its base on the page; RAPID coordinates stay in the robot's own world."),
     ] = None
 
 

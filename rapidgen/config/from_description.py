@@ -196,7 +196,7 @@ def _group(
     else:
         head.append("# No known variant has these axes: check every line against the data sheet.")
         if not cell.is_claimed:
-            head.append("# Nothing in the description says that it is a robot of ABB.")
+            head.append("# The description does not name ABB.")
     in_use = {*answers.joints.values(), *(("eax_a",) if "eax_a" in arm.axes else ())}
     free = [axis for axis in _EXTERNAL if axis not in in_use]
     mapped = [(joint, axis) for joint, axis in zip(arm.joints, arm.axes, strict=True)]

@@ -39,8 +39,8 @@ def find_shipped(name: str, span: Span | None = None) -> Path:
             span,
             f"{variant.name} is known, but not well enough to be a model; it lacks: "
             + "; ".join(missing),
-            "`rapidgen new --urdf` with a description of it takes what is known and leaves the "
-            "rest open",
+            "`rapidgen new --urdf` with a description of it uses the known figures and "
+            "marks the others as open",
         )
     meant = suggest(name, _alike(name, (*known, *variant_model.names())))
     raise refusal(

@@ -147,7 +147,7 @@ def from_urdf(
         raise refusal(
             "RG020",
             None,
-            f"the name {urdf.name!a} has characters that are not printed",
+            f"the name {urdf.name!a} has non-printable characters",
             "give the file another name",
         )
     value = schema.UrdfKeys(

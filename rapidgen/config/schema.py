@@ -139,20 +139,18 @@ class JointKeys(StrictModel):
     sign: Annotated[
         Literal[1, -1] | None, Rule("-1 when the URDF turns against the controller's axis.")
     ] = None
-    offset: Annotated[float | None, Rule("Controller value where the URDF says 0, deg or mm.")] = (
-        None
-    )
-    source: Annotated[Text | None, Rule("Where the figures come from.")] = None
-    unsure: Annotated[list[Figure], Rule("Figures without a sure source; a build says so.")] = (
-        field(default_factory=list)
-    )
+    offset: Annotated[float | None, Rule("Controller value at the URDF's 0, deg or mm.")] = None
+    source: Annotated[Text | None, Rule("Source of the figures.")] = None
+    unsure: Annotated[
+        list[Figure], Rule("Figures without a reliable source; a build reports them.")
+    ] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
 class ChainStepKeys(StrictModel):
     """One step of the kinematic chain, from the base to the flange."""
 
-    joint: Annotated[str, Rule("Joint that turns or slides here; none: a fixed step.")] = ""
+    joint: Annotated[str, Rule("Joint of this step; none: a fixed step.")] = ""
     xyz: Annotated[Vector, Rule("Shift before the joint, mm.")] = field(default_factory=_origin)
     rpy: Annotated[Vector, Rule("Rotation before the joint about fixed x, y, z, deg.")] = field(
         default_factory=_origin
@@ -427,11 +425,11 @@ class GroupKeys(StrictModel):
     ports: Annotated[PortsKeys, Rule("TCP ports.")] = field(default_factory=PortsKeys)
     source: Annotated[
         dict[GroupFigure, Text],
-        Rule("Where the group's figures come from."),
+        Rule("Source of the group's figures."),
     ] = field(default_factory=dict)
     unsure: Annotated[
         list[Literal["chain", "coupling", "mapping", "tcp_speed_limit", "max_payload"]],
-        Rule("Parts without a sure source; a build says so."),
+        Rule("Parts without a reliable source; a build reports them."),
     ] = field(default_factory=list)
 
 
@@ -549,7 +547,7 @@ class ConfigurationKeys(StrictModel):
     )
     groups: Annotated[
         dict[GroupName, GroupKeys],
-        Rule("Motion groups by name; for one group its keys may stand at the top."),
+        Rule("Motion groups by name; the keys of a single group may be at the top."),
     ] = field(default_factory=dict)
     trajectory: Annotated[TrajectoryKeys, Rule("What the motion server accepts.")] = field(
         default_factory=TrajectoryKeys

@@ -189,7 +189,8 @@ def _reason(item: ErrorDetails, is_key: bool) -> str:
     if kind == "literal_error":
         words = [w.strip("'") for w in context["expected"].replace(" or ", ", ").split(", ")]
         meant = suggest(str(value), words)
-        return f"'{_short(value)}' is none of {', '.join(words)}" + (f"; {meant}" if meant else "")
+        listed = ", ".join(words)
+        return f"'{_short(value)}' is not one of {listed}" + (f"; {meant}" if meant else "")
     bounds = {
         "greater_than": ("gt", "more than"),
         "greater_than_equal": ("ge", "at least"),

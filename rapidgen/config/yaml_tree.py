@@ -155,9 +155,8 @@ def _syntax(fault: Any, text: str, displayed: str, at: Span | None) -> Diagnosti
         return error(
             "RG003",
             at or Span(displayed, began.line + 1, began.column + 1),
-            f"not YAML: `{opened}` is opened here and not closed",
-            f"close it with `{_CLOSE[opened]}`, or see what is wrong in line {marker.line + 1}: "
-            f"{problem}",
+            f"not YAML: `{opened}` is opened here but not closed",
+            f"close it with `{_CLOSE[opened]}`, or correct line {marker.line + 1}: {problem}",
         )
     span = at or (
         Span(displayed, marker.line + 1, marker.column + 1) if marker else Span(displayed, 1, 1)

@@ -59,7 +59,7 @@ def fit(config: RobotConfig, cell: Cell) -> RobotConfig:
     if (config.controller == "omnicore") != (robotware[0] >= _OMNICORE_SINCE):
         raise _unfit(
             f"the backup is of RobotWare {robotware[0]}, '{config.controller}' is another family",
-            "set controller.type to what the cell has",
+            "set controller.type to the cell's type",
         )
     header = tuple(
         (text.domain, *text.version)

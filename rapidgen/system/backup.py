@@ -229,7 +229,7 @@ def _unknown_release(cfg: CfgText) -> Diagnostic:
     return error(
         "RG713",
         None,
-        f"the backup does not say its RobotWare; {_main(cfg)}.0 is taken from SYS.cfg",
+        f"the backup has no RobotWare version; {_main(cfg)}.0 is taken from SYS.cfg",
         "name it with --robotware",
         severity=Severity.WARNING,
     )

@@ -137,7 +137,7 @@ def _header(base: ControllerCfg, text: CfgText) -> Iterator[Diagnostic]:
             Span(text.path, 1, 1),
             f"event 120003: {text.domain} is written for {_digits(text.version)}",
             "build for the release of this controller: controller.robotware, or --backup",
-            label=f"this controller (RobotWare {_release(base)}) wants {_digits(expected)}",
+            label=f"this controller (RobotWare {_release(base)}) requires {_digits(expected)}",
         )
 
 
@@ -191,7 +191,7 @@ def _exists(text: CfgText, section: str, new: Instance, old: Instance) -> Diagno
         "RG721",
         Span(text.path, max(new.line, 1), 1),
         f"event 120006: {section} '{name}' exists",
-        "leave out what the controller has: build with --backup, or give it a new name",
+        "omit the controller's instances: build with --backup, or rename it",
         label=f"the controller has it (line {old.line} of its {text.domain})",
     )
 
@@ -208,7 +208,7 @@ def _left_out(text: CfgText, findings: Sequence[Diagnostic]) -> Iterator[Diagnos
             first.code,
             Span(text.path, 1, 1),
             f"counts as refused, whole: {first.message}",
-            "nothing: the driver does without; only the controller can tell",
+            "no change needed: the driver works without it",
             notes=tuple(f"line {d.span.line}: {d.message}" for d in findings[1:] if d.span),
             severity=Severity.WARNING,
         )

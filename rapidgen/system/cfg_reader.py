@@ -252,7 +252,7 @@ def _word(cfg: CfgText, instance: Instance, attribute: str, word: str, kind: obj
         raise _fault(
             cfg,
             instance,
-            f"-{attribute} '{word}' is none of {', '.join(known.values())}",
+            f"-{attribute} '{word}' is not one of {', '.join(known.values())}",
             suggest(word, list(known.values())),
         )
     return match

@@ -69,7 +69,7 @@ class Place:
         value = self.instance.text(attribute)
         if value and value.casefold() not in {word.casefold() for word in known}:
             yield self.fault(
-                f"-{attribute} '{value}' is none of {', '.join(known)}",
+                f"-{attribute} '{value}' is not one of {', '.join(known)}",
                 suggest(value, list(known)),
             )
 

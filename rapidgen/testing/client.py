@@ -75,7 +75,7 @@ class Client:
 
         expected = repr(until) if until else f"{count or 'any'} bytes"
         seconds = self._timeout if timeout is None else timeout
-        self._until(target, f"{expected} did not come, only {self._read!r}", seconds)
+        self._until(target, f"{expected} did not arrive, only {self._read!r}", seconds)
         size = count or len(self._read)
         if until and until in self._read:
             size = self._read.index(until) + len(until)

@@ -156,7 +156,7 @@ class Cluster:
                 return outcome
 
     def _again(self, given: _Given) -> None:
-        self._tell(f"worker {given.worker} was lost: what it was at is done again")
+        self._tell(f"worker {given.worker} was lost: its items are done again")
         self.give(given.piece.again())
 
     def _look(self) -> None:

@@ -1,9 +1,9 @@
-"""confdata of arms with six axes against targets in backups of controllers, with tool0 in wobj0.
+"""confdata of six-axis arms against targets in backups.
 
-HANGING: an IRB 120, RobotWare 6.07 (PaulaFreudenberger/ABB-Rapid-Git; base_frame_orient of MOC.cfg
-[0, -0.707107, 0.707107, 0]); all 29 targets agree. STANDING: a CRB 15000-5/0.95 (rparak's
-Unity3D_ABB_CRB_15000_GoFa_EGM, backup of 2023-02-03); 47 of 48 agree, one has no such posture. The
-rows are those that differ: place (mm), orientation, confdata.
+With tool0 in wobj0. HANGING: an IRB 120, RobotWare 6.07 (PaulaFreudenberger/ABB-Rapid-Git;
+base_frame_orient of MOC.cfg [0, -0.707107, 0.707107, 0]); all 29 targets agree. STANDING: a CRB
+15000-5/0.95 (rparak's Unity3D_ABB_CRB_15000_GoFa_EGM, backup of 2023-02-03); 47 of 48 agree, one
+has no such posture. The rows are those that differ: place (mm), orientation, confdata.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""Figures through measured points, against points that were made from a known figure."""
+"""Fits to measured points, generated from a known figure."""
 
 import pytest
 

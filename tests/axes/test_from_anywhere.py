@@ -1,5 +1,7 @@
-"""A place that a posture reaches is reached with that posture's configuration, wherever the robot
-stands: a target that CRobT gave is no refusal on the way back."""
+"""A pose with its posture's configuration is reached from any start.
+
+A target that CRobT gave is not refused on the way back.
+"""
 
 import math
 import random

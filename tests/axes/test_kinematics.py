@@ -1,4 +1,4 @@
-"""Kinematics of the shipped robots against other implementations and known poses."""
+"""Kinematics of the shipped robots against other sources and known poses."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""Joint map: URDF values, controller values, RAPID's degrees and millimetres."""
+"""Joint map: URDF values, controller values, RAPID's degrees and mm."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Arms whose axis 6 passes beside axes 4 and 5: all their postures, and the one nearby."""
+"""Offset wrists: all postures, and the one nearby."""
 
 import math
 import random

@@ -1,4 +1,4 @@
-"""Every pose that some posture within the ranges reaches is found, from far away."""
+"""Every reachable pose within the ranges is found, from far away."""
 
 import random
 

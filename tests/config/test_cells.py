@@ -1,4 +1,4 @@
-"""`new` on cells: tracks, gantries, positioners, grippers, several arms; and what is no robot."""
+"""`rapidgen new` on cells: tracks, gantries, positioners, several arms."""
 
 import re
 

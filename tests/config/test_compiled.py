@@ -1,4 +1,4 @@
-"""What is kept of a shipped model is what its file says."""
+"""The cache of a shipped model equals its file."""
 
 import json
 import sys

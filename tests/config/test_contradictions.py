@@ -1,4 +1,4 @@
-"""What a configuration says against what is known of the arm, on every way in."""
+"""Contradictions between a configuration and its known arm."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""YAML that tries to grow, to run code, or never to end: robots, cells, answers and fault plans."""
+"""Hostile YAML: growing, executing or endless input in all kinds of files."""
 
 import pytest
 

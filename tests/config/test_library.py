@@ -1,4 +1,4 @@
-"""The library of arms: shipped models as their files have them, every figure with its source."""
+"""Library of arms: equal to shipped models, every figure with source."""
 
 import json
 

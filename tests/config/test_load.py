@@ -1,4 +1,4 @@
-"""Configurations: all faults at once with their places, layers, overrides, hostile input."""
+"""Configurations: all faults with places, layers, overrides, hostile input."""
 
 import json
 import math
@@ -428,7 +428,7 @@ def test_a_slip_in_the_letters_suggests_the_robot(name):
 def test_unclosed_text_is_reported_at_its_start(tmp_path, text, opened, closing):
     (fault,) = faults(tmp_path, text)
     assert places([fault]) == [("RG003", 1, 4)]
-    assert f"`{opened}` is opened here and not closed" in fault.message
+    assert f"`{opened}` is opened here but not closed" in fault.message
     assert f"close it with `{closing}`" in fault.help
 
 

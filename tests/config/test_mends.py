@@ -1,7 +1,7 @@
-"""What a finding about a description prints is pasted: it builds and moves right, or stays open.
+"""Lines printed by findings about descriptions work when pasted.
 
-Every code from RG031 to RG059 has a case: in LINES one whose lines are pasted, in WORDS one that
-shows it has none.
+The result builds and moves correctly, or stays open. Every code from RG031 to RG059 has a case: in
+LINES one whose lines are pasted, in WORDS one that shows it has none.
 """
 
 import json

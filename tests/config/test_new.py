@@ -1,4 +1,7 @@
-"""`rapidgen new`: what it writes loads, or it says exactly what is missing and leaves nothing."""
+"""`rapidgen new`: its output loads, or it reports what is missing.
+
+Then it leaves no file.
+"""
 
 import json
 import math

@@ -1,4 +1,4 @@
-"""The pitfalls that 303 public models of ABB robots showed, each on a small URDF of its shape."""
+"""Pitfalls of 303 public models of ABB robots, each on a small URDF."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Loads, frames and figures of axes that no robot has: each finding with its place and figures."""
+"""Implausible loads, frames and axis figures: findings with places."""
 
 import pytest
 

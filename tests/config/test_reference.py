@@ -1,4 +1,4 @@
-"""The schema has one source: what loads, what editors see and what the docs say agree."""
+"""One source of the schema: loading, editors and docs agree."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The shipped models: figures with sources, poses known from outside, URDFs that agree."""
+"""The shipped models: sources, known poses, agreement with URDFs."""
 
 import math
 import re

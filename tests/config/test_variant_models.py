@@ -1,4 +1,4 @@
-"""Known variants as models: those that two sources know load as they are, others say why not."""
+"""Known variants as models: complete ones load, others name the gaps."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""Which files of a description are read for its looks: those of its packages, and no other."""
+"""Files of a description that may be read for visuals: only its packages'."""
 
 import pytest
 

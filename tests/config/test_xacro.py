@@ -1,4 +1,4 @@
-"""xacro without ROS: where packages are found, macros, hostile XML, what is left untouched."""
+"""xacro without ROS: packages, macros, hostile XML, restored names."""
 
 import os
 import sys

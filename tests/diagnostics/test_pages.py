@@ -1,4 +1,4 @@
-"""Every code that the source uses has a page with both examples, and no page is left over."""
+"""Every code in use has a page with both examples, and vice versa."""
 
 import re
 from pathlib import Path

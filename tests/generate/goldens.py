@@ -1,4 +1,7 @@
-"""Writes rapid_out/ again after a wanted change: `python -m tests.generate.goldens`."""
+"""Write rapid_out/ after an intended change.
+
+Run `python -m tests.generate.goldens`.
+"""
 
 import shutil
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A build for a controller that exists: what its backup has is used, what it lacks is written."""
+"""Build for an existing controller: reuse its backup, add the rest."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""docs/rapid/cfg.md has a row for each line that a build writes, and no row without a line."""
+"""docs/rapid/cfg.md has exactly one row for each written cfg line."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Tool, work object and load that a module of the customer's declares; names that are taken."""
+"""Tool, work object and load of a user module; names in use."""
 
 import pytest
 

@@ -1,6 +1,6 @@
-"""rapid_out/: what the examples give, kept so that a change to the output is seen in review.
+"""rapid_out/: output of the examples, for reviews of changes.
 
-Three are kept whole, of the others the cfg text. After a wanted change: `python -m
+Three are stored completely, of the others the cfg text. After an intended change: `python -m
 tests.generate.goldens`.
 """
 

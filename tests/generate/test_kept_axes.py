@@ -1,4 +1,4 @@
-"""An axis that no joint drives is held where it stands, whole downloads and streams alike."""
+"""An axis without a joint keeps its position, in downloads and streams."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""RAPID compares names without case, and a module's names meet those of its task [K §2.3, 2.12]."""
+"""Names without case: a module's names meet those of its task [K §2.3, 2.12]."""
 
 from pathlib import Path
 

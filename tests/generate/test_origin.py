@@ -1,4 +1,4 @@
-"""Which line of which template made a line of RAPID, and that nothing else is called a template."""
+"""Template lines of generated RAPID lines."""
 
 import pytest
 

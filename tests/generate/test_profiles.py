@@ -1,4 +1,4 @@
-"""What the basic profile leaves out."""
+"""Features that the basic profile omits."""
 
 import pytest
 

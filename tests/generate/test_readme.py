@@ -1,4 +1,4 @@
-"""What the README of a build tells an integrator, by generation and by what the driver serves."""
+"""README of a build, by generation and driver features."""
 
 import re
 from pathlib import PurePosixPath

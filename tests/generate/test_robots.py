@@ -1,4 +1,4 @@
-"""Every shipped model, in every RobotWare generation that it exists for, boots and moves."""
+"""Every shipped model boots and moves in each RobotWare generation."""
 
 from dataclasses import replace
 

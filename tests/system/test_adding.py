@@ -1,7 +1,7 @@
-"""Loading a cfg file onto a controller: events that controllers answered with (docs/rapid/cfg.md).
+"""Load a cfg file onto a controller: known events (docs/rapid/cfg.md).
 
-Each base is one of the delivered ones; each fault was met by a controller, or contradicts what
-all backups and ABB's own files show.
+Each base is one of the delivered ones; each fault was reported by a controller, or contradicts all
+backups and ABB's own files.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""cfg text: layout of facts from files of real controllers, and the way back."""
+"""cfg text: layout of real controllers' files, and round trip."""
 
 import pytest
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""Backups that lead elsewhere or never end: each is refused or read, and nothing outside of it."""
+"""Hostile backups: rejected or read, and no file outside is read."""
 
 import os
 import time

@@ -1,4 +1,4 @@
-"""Boundary values in every field of every message; a driver that they harm is found."""
+"""Boundary values in every message field; a driver that ends is detected."""
 
 import random
 import struct

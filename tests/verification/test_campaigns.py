@@ -1,4 +1,4 @@
-"""Work is done once, in order, by any worker, and resumes after interruption."""
+"""Work is done once, in order, by any worker, and resumes."""
 
 import io
 import json

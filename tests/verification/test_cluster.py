@@ -1,4 +1,4 @@
-"""Workers of a Dask scheduler: the same results as here, none lost with a worker."""
+"""Workers of a Dask scheduler: equal results, none lost with a worker."""
 
 import os
 import re
@@ -121,7 +121,7 @@ def test_a_worker_that_is_killed_in_the_middle_loses_nothing(scheduler, hired, t
     with Cluster(scheduler, tmp_path / "was-killed", message.append) as workers:
         assert list(each(workers, range(12), function)) == list(range(12))
     assert (tmp_path / "was-killed").exists()
-    assert any("was lost: what it was at is done again" in line for line in message)
+    assert any("was lost: its items are done again" in line for line in message)
 
 
 def test_a_worker_that_comes_later_works_too(scheduler, hired):

@@ -1,4 +1,4 @@
-"""The exploration finds what drivers in use get wrong, and nothing where nothing is wrong."""
+"""The exploration finds known defects, and none in a correct driver."""
 
 import io
 import re

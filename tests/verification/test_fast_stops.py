@@ -1,4 +1,4 @@
-"""A driver goes on after a stop at speed that has left its path; one that does not is found."""
+"""A driver recovers after a stop at speed off its path; others are detected."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""Mutants are judged by the cases that reach them, in copies of a booted controller."""
+"""Mutants are judged by the cases that reach them, in forks."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""The layouts of the proof and the specification say the same, though neither knows the other."""
+"""The independent layouts and the specification agree."""
 
 import random
 

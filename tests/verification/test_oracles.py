@@ -1,6 +1,6 @@
-"""What else the cases judge by: good runs pass, and each kind of bad one is seen.
+"""Oracles of the cases: good runs pass, and each kind of bad one fails.
 
-Of positions: test_positions_judged.py.
+For positions see test_positions_judged.py.
 """
 
 from types import SimpleNamespace

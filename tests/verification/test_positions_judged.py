@@ -1,4 +1,4 @@
-"""What is judged of the robot's positions: good runs pass, and each kind of bad one is seen."""
+"""Checks on positions: good runs pass, and each kind of bad one fails."""
 
 import pytest
 

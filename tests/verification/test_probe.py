@@ -1,4 +1,4 @@
-"""The probe, run on the virtual controller, tells how that one is switched."""
+"""The probe on the virtual controller reports its switches."""
 
 from dataclasses import replace
 from functools import partial

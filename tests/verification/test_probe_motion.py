@@ -1,4 +1,4 @@
-"""The moving probe, run on the virtual controller, tells how that one's motion is switched."""
+"""The moving probe on the virtual controller reports its motion switches."""
 
 import re
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The answers to any two open questions meet in some setting; what breaks one names them."""
+"""Settings combine any two answers; failures name their assumptions."""
 
 import json
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""The suite holds for every kind of robot, and sees defects when there are some."""
+"""The suite passes for every kind of robot, and detects defects."""
 
 import json
 import re

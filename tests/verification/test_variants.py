@@ -1,4 +1,4 @@
-"""What a configuration asks for besides, and controllers that are quicker, slower or unlike."""
+"""Configuration options, and controllers with other timing."""
 
 from dataclasses import replace
 from functools import cache

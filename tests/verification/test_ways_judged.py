@@ -1,4 +1,4 @@
-"""How far a robot was from a way: what `farthest` has to see, and where the TCP is."""
+"""Deviation of a robot from a path: `farthest` and the TCP."""
 
 import math
 import random

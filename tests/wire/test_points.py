@@ -1,4 +1,4 @@
-"""POINTS: numpy against the codec, against arithmetic written by hand, and against damage."""
+"""POINTS: numpy against the codec, hand arithmetic and damage."""
 
 import struct
 

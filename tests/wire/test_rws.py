@@ -1,4 +1,4 @@
-"""Bodies, forms, paths and logins of Robot Web Services, as controllers were seen to write them."""
+"""RWS bodies, forms, paths and logins, as recorded from controllers."""
 
 import hashlib
 from contextlib import suppress

@@ -1,4 +1,4 @@
-"""The declarations against simple_message's own figures, themselves, and their page."""
+"""Message declarations against simple_message's figures and the page."""
 
 from pathlib import Path
 

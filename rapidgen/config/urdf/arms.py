@@ -175,16 +175,16 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
         yield error(
             "RG059",
             place,
-            "a delta robot: several arms move one flange, and no chain of joints tells how",
-            "say its axes by hand: `joints:` with rax_1 to rax_4, ranges and speeds, "
+            "a delta robot: several arms move one flange, which is no chain of joints",
+            "write its axes: `joints:` with rax_1 to rax_4, ranges and speeds, "
             "and `held_axes: [rax_5, rax_6]`",
         )
     elif mimic := _arms_mimic(cell):
         yield error(
             "RG042",
             mimic.span or place,
-            f"joint '{mimic.name}' mimics '{mimic.mimic}' and is no axis of its own: too few are "
-            "left for an arm",
+            f"joint '{mimic.name}' mimics '{mimic.mimic}' and drives no axis: too few joints "
+            "are left for an arm",
             "take the <mimic> out where the joint is an axis",
         )
     elif cell.arms and not (cell.is_claimed or any(all(arm.axes) for arm in cell.arms)):
@@ -192,9 +192,9 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
         yield error(
             "RG059",
             place,
-            f"{most} joints in one chain are no arm of ABB that is known, and nothing says ABB",
-            "where it is one, say its axes: --joint NAME=rax_1 for each; of a cell give the arm's "
-            "end: --tip LINK",
+            f"{most} joints in one chain match no known ABB arm, and no name contains ABB",
+            "if it is an ABB robot, give its axes: --joint NAME=rax_1 for each; of a cell give the "
+            "arm's end: --tip LINK",
         )
     elif not cell.arms:
         count = sum(len(chain) for chain in cell.positioners)

@@ -42,7 +42,7 @@ def check_coupling(
         yield error(
             "RG047",
             place,
-            f"IRB {known} couples axes 2 and 3 in a way of its own; `coupling` is not given",
+            f"IRB {known} couples axes 2 and 3 in a special way; `coupling` is missing",
             "compare postures with the controller, and give the factor that you find",
         )
     elif draft.coupling is None and who:

@@ -108,7 +108,7 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
                 "RG051",
                 place,
                 f"{len(roots)} links have no parent: {', '.join(roots[:6])}",
-                "one root is usual; what is not below the robot's root is ignored",
+                "only links below the robot's root are used",
                 severity=Severity.WARNING,
             )
         )

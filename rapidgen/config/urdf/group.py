@@ -222,7 +222,7 @@ def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Iterator[Diag
         yield error(
             "RG042",
             known.span or place,
-            f"joint '{joint.name}' mimics '{known.mimic}' and is no axis of its own",
+            f"joint '{joint.name}' mimics '{known.mimic}' and drives no axis",
             f"map '{known.mimic}' instead",
         )
     elif known.kind == "fixed":

@@ -171,7 +171,7 @@ def _shape(
         return error(
             "RG042",
             mimics[0].span or place,
-            f"joint '{mimics[0].name}' mimics '{mimics[0].mimic}' and is no axis of its own: "
+            f"joint '{mimics[0].name}' mimics '{mimics[0].mimic}' and drives no axis: "
             f"{len(joints)} joints are left for the axes of the arm",
             "take the <mimic> out where the joint is an axis",
             label="not an axis",

@@ -19,7 +19,10 @@ CAPACITY = 40
 
 
 def small_driver(defect: str = "") -> System:
-    """The driver for one robot of six axes on port 11000; sound without a defect."""
+    """Return the driver for one robot of six axes on port 11000.
+
+    It is correct without a defect.
+    """
 
     def module(name: str) -> ModuleFile:
         text = (FOLDER / name).read_text(encoding="ascii")
