@@ -262,7 +262,7 @@ def test_a_range_has_two_ends_and_a_joint_that_exists(tmp_path, words):
         ("kukaIiwa7", "", 7, "'kuka'"),
         ("arm", "kinova_description", 6, "'kinova'"),
         ("schunk_lwa4p", "", 6, "'schunk'"),
-        ("leg", "", 8, "nothing says ABB"),
+        ("leg", "", 8, "no name contains ABB"),
     ],
 )
 def test_another_makers_robot_is_reported(tmp_path, name, mesh, count, word):
