@@ -13,7 +13,7 @@ __all__ = ["Dialect", "check", "format_source", "parse"]
 
 
 def __getattr__(name: str) -> object:
-    """Checker and formatter are imported when they are asked for: most users only parse."""
+    """Import checker and formatter on demand: most users only parse."""
     if name == "check":
         from rapidgen.rapid.checks import check
 

@@ -1,4 +1,4 @@
-"""Which RobotWare a text is for."""
+"""RobotWare version of a text."""
 
 from dataclasses import dataclass
 
@@ -11,19 +11,22 @@ class Dialect:
 
     robotware: tuple[int, int] = UNKNOWN_ROBOTWARE
     some: bool = False
-    """Some release of that number, as of a backup that does not say which."""
+    """Any release of that number, as of a backup without an exact version."""
 
     @property
     def told(self) -> bool:
-        """Whether the release is known. Where it is not, what another one brings is no fault."""
+        """True if the release is known.
+
+        With an unknown release, features of other releases are not errors.
+        """
         return self.robotware != UNKNOWN_ROBOTWARE and not self.some
 
     @property
     def has_radix(self) -> bool:
-        """0x, 0o and 0b numbers: not in K (RobotWare 5.0)."""
+        """True for 0x, 0o and 0b numbers: not in K (RobotWare 5.0)."""
         return self.robotware >= (6, 0)
 
     @property
     def has_dnum(self) -> bool:
-        """The type dnum came within RobotWare 5."""
+        """True for the type dnum, which RobotWare 5 introduced."""
         return self.some or self.robotware >= (5, 12)

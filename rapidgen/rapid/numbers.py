@@ -1,4 +1,7 @@
-"""Values of num, dnum and string, and numbers as text."""
+"""Values of num, dnum and string, and numbers as text.
+
+Checker, compiler and run time use them [K §2.5, 2.13].
+"""
 
 import math
 import struct
@@ -10,14 +13,14 @@ MAX_STRING: Final = 80
 MAX_SINGLE: Final = 3.4028235677973366e38
 """The first value that single precision cannot hold any more."""
 EXACT: Final = 1 << 24
-"""Single precision holds every whole number up to here."""
+"""Single precision represents every whole number up to this limit."""
 _SINGLE: Final = struct.Struct("<f")
 
 
 def single(value: float) -> float:
-    """`value` as a num: rounded to IEEE single, ties to even. Whole numbers become int.
+    """Return `value` rounded to IEEE single, ties to even.
 
-    OverflowError when it does not fit (ERR_NUM_LIMIT in RAPID).
+    Whole numbers become int. OverflowError: it does not fit (ERR_NUM_LIMIT in RAPID).
     """
     if value.__class__ is int and -EXACT <= value <= EXACT:
         return value
@@ -30,9 +33,9 @@ def single(value: float) -> float:
 
 
 def dnum(value: float, bits: int) -> float:
-    """`value` as a dnum that counts whole numbers to 2^`bits`: what is larger loses its last bits.
+    """Return `value` as a dnum that counts whole numbers to 2^`bits`.
 
-    Infinity and NaN stay what they are.
+    Larger values lose their last bits. Infinity and NaN stay unchanged.
     """
     limit = 1 << bits
     if -limit <= value <= limit or not math.isfinite(value):
@@ -42,22 +45,22 @@ def dnum(value: float, bits: int) -> float:
 
 
 def is_single(value: float) -> bool:
-    """Whether single precision holds the value at all."""
+    """Return True if single precision covers the value."""
     return -MAX_SINGLE < value < MAX_SINGLE
 
 
 def is_exact_single(value: int) -> bool:
-    """Whether single precision holds a whole number exactly."""
+    """Return True if single precision represents a whole number exactly."""
     return is_single(value) and int(single(value)) == value
 
 
 # -- Numbers as text -------------------------------------------------------------------------------
 #
-# Numbers as RAPID writes them: ValToStr, TPWrite \Num, Write, NumToStr.
+# Numbers in RAPID's formats: ValToStr, TPWrite \Num, Write, NumToStr.
 #
-# One "standard format" for all [S4 reference: ValToStr, TPWrite, Write]: 6 significant digits
-# (15 of a dnum [mem]), no trailing zeros, no point for a whole number; a num whose fraction is
-# below 0.000005 or above 0.999995 counts as whole. Exponents look like 1E+10 [mem].
+# All share one "standard format" [S4 reference: ValToStr, TPWrite, Write]: 6 significant digits (15
+# of a dnum [mem]), no trailing zeros, no point for a whole number. A num whose fraction is below
+# 0.000005 or above 0.999995 counts as whole. Exponents have the form 1E+10 [mem].
 
 
 NUM_DIGITS: Final = 6
@@ -65,11 +68,14 @@ DNUM_DIGITS: Final = 15
 """Significant digits of the standard format."""
 _FRACTION: Final = 0.000005
 _ALL_DIGITS: Final = Context(prec=800)
-"""Enough for every float with decimals behind it."""
+"""Enough for every float with decimals."""
 
 
 def number_text(value: float, digits: int = NUM_DIGITS, *, complete: bool = False) -> str:
-    """A number in the standard format; `complete`: all digits of one that is whole and exact."""
+    """Return a number in the standard format.
+
+    `complete`: all digits of a whole and exact number.
+    """
     if digits == NUM_DIGITS and math.isfinite(value):
         fraction = abs(value) % 1
         if fraction < _FRACTION or fraction > 1 - _FRACTION:
@@ -81,20 +87,23 @@ def number_text(value: float, digits: int = NUM_DIGITS, *, complete: bool = Fals
 
 
 def to_places(value: float, places: int, *, truncate: bool = False) -> Decimal:
-    """`value` rounded (half away from zero) or cut to a number of decimals."""
+    """Round `value` (half away from zero) or truncate it to decimals."""
     step = Decimal(1).scaleb(-places)
     rounding = ROUND_DOWN if truncate else ROUND_HALF_UP
     return Decimal(value).quantize(step, rounding, _ALL_DIGITS)
 
 
 def fixed_text(value: float, places: int) -> str:
-    """`value` with so many decimals."""
+    """Return `value` with a number of decimals."""
     text = f"{to_places(value, places):f}"
     return text[1:] if text.startswith("-") and not text.strip("-0.") else text
 
 
 def exponent_text(value: float, places: int) -> str:
-    """`value` as 3.85E-01: so many decimals and an exponent of two digits or more."""
+    """Return `value` as 3.85E-01 with a number of decimals.
+
+    The exponent has two digits or more.
+    """
     number = Decimal(value)
     exponent = number.adjusted() if number else 0
     mantissa = number.scaleb(-exponent).quantize(Decimal(1).scaleb(-places), ROUND_HALF_UP)

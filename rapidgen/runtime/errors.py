@@ -1,7 +1,7 @@
-"""Errors and other ways out of RAPID code.
+"""Errors and other exits of RAPID code.
 
-`RapidError` is what an ERROR handler can handle: it has a number (ERRNO). `FatalError` stops
-the task. Numbers of the ERR_ constants are in no public source; they are opaque and distinct.
+An ERROR handler can handle a `RapidError`, which has a number (ERRNO). A `FatalError` stops the
+task. No public source has the numbers of the ERR_ constants; they are opaque and distinct.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from rapidgen.rapid.builtins import signatures
 LARGEST_USER_ERROR = 90
 """RAISE takes 1 to 90 [K §4.8]."""
 FIRST_BOOKED_ERROR = 2001
-"""BookErrNo hands out numbers from here: above every ERR_ constant."""
+"""First number of BookErrNo, above every ERR_ constant."""
 
 
 @cache
@@ -32,18 +32,18 @@ def _names() -> dict[int, str]:
 
 
 def errnum(name: str) -> int:
-    """Number of an ERR_ constant (any case). KeyError: there is no such constant."""
+    """Return the number of an ERR_ constant (any case), or raise KeyError."""
     return _numbers()[name.upper()]
 
 
 def error_name(number: float) -> str:
-    """`ERR_DIVZERO` for its number; the number as text when it is a user's own."""
+    """Return `ERR_DIVZERO` for its number, a user's number as text."""
     return _names().get(int(number), f"error {number:g}")
 
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where a routine of the call stack is."""
+    """A place of a routine in the call stack."""
 
     module: str
     routine: str
@@ -57,7 +57,7 @@ class Location:
 
 
 class RapidError(Exception):
-    """A recoverable error of execution. `text` says more for the event log."""
+    """A recoverable error of execution; `text` adds details for the log."""
 
     __slots__ = ("number", "raised", "settled", "target", "text", "way")
 
@@ -66,22 +66,22 @@ class RapidError(Exception):
         self.number: int = errnum(name) if isinstance(name, str) else name
         self.text = text
         self.settled = False
-        """Whether the task's budget was put right for it."""
+        """True after the correction of the task's budget."""
         self.raised = False
-        """Whether RAISE with a number made it."""
+        """True if RAISE with a number raised it."""
         self.target: FrameType | None = None
-        """Python frame of the routine whose handler it jumps to [K §7.2, 7.3]."""
+        """Python frame of the routine whose handler receives the error [K §7.2, 7.3]."""
         self.way: int | None = None
         """How that handler has ended, when it has run already."""
 
     @property
     def name(self) -> str:
-        """The constant's name."""
+        """Name of the constant."""
         return error_name(self.number)
 
 
 class FatalError(Exception):
-    """An error without a number: the event is logged and the task stops."""
+    """An error without a number: it is logged and stops the task."""
 
     __slots__ = ("arguments", "cause", "event", "restartable", "span", "stack", "title")
 
@@ -101,27 +101,27 @@ class FatalError(Exception):
         self.span = span
         """Where it is, when that is not where it was raised."""
         self.cause = cause
-        """The error that nobody handled."""
+        """The unhandled error."""
         self.restartable = restartable
-        """Whether a start may try the statement again."""
+        """True if a start may execute the statement again."""
         self.stack: tuple[Location, ...] = ()
         """Call stack at the error, outermost first."""
 
 
 class Unwind(BaseException):
-    """Leaves every routine of the task and runs their UNDO handlers."""
+    """Leaves every routine of the task and runs the UNDO handlers."""
 
 
 class ExitCycle(Unwind):
-    """Back to the first statement of the entry routine; data are kept."""
+    """Returns to the first statement of the entry routine; data stay."""
 
 
 class EndOfRun(Unwind):
-    """EXIT, or PP was moved: the run is over."""
+    """Ends the run: EXIT, or a moved program pointer."""
 
 
 class ResumeInside(Unwind):
-    """RaiseToUser \\Continue: the user's handler said RETRY or TRYNEXT to what failed here."""
+    """RaiseToUser \\Continue: RETRY or TRYNEXT for the inner statement."""
 
     def __init__(self, way: int) -> None:
         super().__init__(way)
@@ -129,14 +129,14 @@ class ResumeInside(Unwind):
 
 
 class PointerMoved(Unwind):
-    """Everything is left and goes on where the program pointer is: no UNDO."""
+    """Leaves everything without UNDO, for the program pointer."""
 
 
 class EventStopped(Unwind):
-    """Stop in an event routine: the routine is left, and the program stands."""
+    """Stop in an event routine: leaves it and stops the program."""
 
 
-# Python's own exceptions in compiled code, and what RAPID calls them.
+# Python exceptions in compiled code and their RAPID errors.
 PYTHON_ERRORS: dict[type[Exception], str] = {
     ZeroDivisionError: "ERR_DIVZERO",
     KeyError: "ERR_OUTOFBND",
@@ -146,7 +146,7 @@ RECOVERABLE: tuple[type[Exception], ...] = (RapidError, *PYTHON_ERRORS)
 
 
 def python_error(kind: type[BaseException]) -> int:
-    """Number of the RAPID error that a Python exception in compiled code stands for."""
+    """Return the RAPID error number of a Python exception."""
     for known, name in PYTHON_ERRORS.items():
         if issubclass(kind, known):
             return errnum(name)
@@ -154,5 +154,5 @@ def python_error(kind: type[BaseException]) -> int:
 
 
 def as_rapid_error(error: BaseException) -> RapidError:
-    """The RAPID error that one of `RECOVERABLE` stands for."""
+    """Return one of `RECOVERABLE` as a RAPID error."""
     return error if isinstance(error, RapidError) else RapidError(python_error(type(error)))

@@ -1,4 +1,9 @@
-"""What tasks and built-ins may ask of their controller, and what is asked of a task in turn."""
+"""Interfaces between tasks and their controller.
+
+`Host` is the controller as tasks and built-ins use it. `RapidTask` is a task as its parts, its
+controller and other tasks use it. Both are protocols, because the classes themselves would import
+each other.
+"""
 
 from collections.abc import Mapping
 from types import FrameType
@@ -34,26 +39,26 @@ TaskState: TypeAlias = Literal["ready", "running", "stopped", "finished", "error
 
 
 class TaskObserver(Protocol):
-    """What tasks tell of themselves, for the controller to stop others and the robots."""
+    """Reports from tasks, for stopping other tasks and the robots."""
 
     def task_changed(self) -> None:
-        """The state of a task changed."""
+        """Report a changed task state."""
 
     def task_failed(self, task: "RapidTask", fatal: FatalError) -> None:
-        """A task stopped with an error."""
+        """Report a task that stopped with an error."""
 
     def program_stopped(self, task: "RapidTask") -> None:
-        """Stop or Break in a task."""
+        """Report Stop or Break in a task."""
 
     def step_moves(self) -> None:
-        """The robots may move during a step."""
+        """Permit robot motion during a step."""
 
     def step_ended(self) -> None:
-        """A task has done its step."""
+        """Report the end of a task's step."""
 
 
 class Host(Protocol):
-    """A controller, as its tasks and built-ins know it."""
+    """A controller, as its tasks and built-ins use it."""
 
     # How it executes programs.
     system: System
@@ -73,14 +78,14 @@ class Host(Protocol):
     texts: TextTables
     queues: QueueSystem
     robot_data: dict[str, RobotData]
-    """What programs have set, by motion group."""
+    """Settings of programs, by motion group."""
     test_signals: dict[int, float]
     """Values of the servos' test signals by channel."""
     booked: set[int]
     """Error numbers that BookErrNo gave."""
     meetings: SyncPoints
     arcs: dict[str, ArcEquipment]
-    """What tasks weld with."""
+    """Welding equipment, by task."""
     cameras: dict[str, Camera]
     """By lower-case name."""
     egm: EgmSessions
@@ -92,7 +97,7 @@ class Host(Protocol):
 
     # What runs.
     statements: Statements
-    """Who wants to know of statements."""
+    """Tracers and breakpoints."""
 
     @property
     def rapid_tasks(self) -> "Mapping[str, RapidTask]":
@@ -112,26 +117,26 @@ class Host(Protocol):
 
     @property
     def tasks(self) -> Mapping[str, object]:
-        """What there is of every task, by name."""
+        """State of every task, by name."""
 
     def parse_module(self, file: ModuleFile) -> n.Module:
-        """The tree of a module file."""
+        """Parse a module file."""
 
     def recovered(self, task: str, number: int, text: str) -> None:
-        """A handler dealt with an error."""
+        """Record an error that a handler recovered."""
 
     def set_motors(self, on: bool) -> None:
-        """Motors on or off; off stops the program."""
+        """Switch the motors on or off; off stops the program."""
 
     def stop_program(self) -> None:
         """Stop all NORMAL tasks and the robots."""
 
     def power_loss(self) -> None:
-        """Power goes and comes back."""
+        """Simulate a power failure with restart."""
 
 
 class RapidTask(MotionWaiter, Protocol):
-    """A `Task`, as its parts, its controller and other tasks know it."""
+    """A `Task`, as its parts, its controller and other tasks use it."""
 
     name: str
     spec: TaskSpec
@@ -139,7 +144,7 @@ class RapidTask(MotionWaiter, Protocol):
     controller: Host
     program: Program
     b: int
-    """What is left of the budget, ns."""
+    """Remaining budget, ns."""
     state: TaskState
     fault: FatalError | None
     cycles: int
@@ -151,36 +156,36 @@ class RapidTask(MotionWaiter, Protocol):
 
     @property
     def frame(self) -> FrameType | None:
-        """Innermost Python frame while it is suspended."""
+        """Innermost Python frame while the task is suspended."""
 
     @property
     def leaving(self) -> bool:
-        """Whether routines are still being left for PP to main."""
+        """True while routines are left for PP to main."""
 
     @property
     def is_stopped(self) -> bool:
-        """Whether the program is stopped."""
+        """True if the program is stopped."""
 
     def stack(self) -> tuple[Location, ...]:
-        """Call stack, outermost first."""
+        """Call stack, outermost routine first."""
 
     def charge(self, cost: int) -> None:
-        """Spend `cost` nanoseconds of CPU."""
+        """Spend `cost` nanoseconds of CPU time."""
 
     def wake_at_next_statement(self) -> None:
-        """Let `process_pending()` be called before the next statement."""
+        """Call `process_pending()` before the next statement."""
 
     def process_pending(self) -> None:
-        """Obey, stand, serve traps, as is due."""
+        """Execute pending orders, stops and traps."""
 
     def order(self, order: BaseException) -> None:
-        """Leave what is being executed by raising `order` in it."""
+        """Raise `order` in the current code."""
 
     def obey(self) -> None:
-        """Raise what was ordered."""
+        """Raise a pending order."""
 
     def enter(self, state: TaskState) -> None:
-        """Change the state, and tell the controller."""
+        """Change the state and report it."""
 
     def stand(self) -> None:
-        """Stand here until the program is started again."""
+        """Wait until the program is started again."""

@@ -1,4 +1,4 @@
-"""Modules loaded at run time, and the disks that hold them."""
+"""Modules loaded at run time, and the disks that store them."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -39,19 +39,22 @@ def _in_rapid() -> Iterator[None]:
 
 
 def file_path(task: RapidTask, path: str, file: str = "") -> Path:
-    """Where a path (with \\File behind it) lies. ERR_FILEACC: on no disk, or outside of it."""
+    """Return the path of a program's file name.
+
+    `file` is the argument \\File. ERR_FILEACC: outside all disks.
+    """
     with _in_rapid():
         return task.controller.files.path(path, file)
 
 
 def hold(task: RapidTask, device: IODevice | Directory) -> None:
-    """A file or folder is open for the task; ERR_FILEOPEN when too many are."""
+    """Register an open file or folder. ERR_FILEOPEN: too many."""
     with _in_rapid():
         task.controller.files.hold(device, task.name)
 
 
 def spend(task: RapidTask, count: int) -> None:
-    """Account for bytes that are written; ERR_FILEACC when the disk is full."""
+    """Account for written bytes. ERR_FILEACC: the disk is full."""
     with _in_rapid():
         task.controller.files.spend(count)
 
@@ -69,10 +72,10 @@ LARGEST_MODULE = 8_000_000
 
 
 def load(task: RapidTask, words: str, *, dynamic: bool, check: bool) -> str:
-    """Link the module of a file into a task; its name.
+    """Load the module of a file into a task and return its name.
 
-    RapidError: ERR_FILNOTFND, ERR_IOERROR, ERR_PRGMEMFULL, ERR_SYNTAX, ERR_LOADED,
-    ERR_LINKREF (`check`).
+    RapidError: ERR_FILNOTFND, ERR_IOERROR, ERR_PRGMEMFULL, ERR_SYNTAX, ERR_LOADED, ERR_LINKREF
+    (`check`).
     """
     path = _found(task, words)
     try:
@@ -105,7 +108,10 @@ def load(task: RapidTask, words: str, *, dynamic: bool, check: bool) -> str:
 
 
 def unload(task: RapidTask, words: str, *, save_first: bool = False) -> None:
-    """Remove what the same words have loaded; ERR_UNLOAD when there is none, or it runs."""
+    """Remove a module by the path that loaded it.
+
+    ERR_UNLOAD: not loaded, or in execution.
+    """
     for name, module in task.program.modules.items():
         if module.origin is not None and _same(module.file.path, words):
             if any(place.module.lower() == name for place in task.stack()):
@@ -118,7 +124,7 @@ def unload(task: RapidTask, words: str, *, save_first: bool = False) -> None:
 
 
 def erase(task: RapidTask, module: str) -> None:
-    """Remove a module by its name; ERR_MODULE when there is none, or it is being executed."""
+    """Remove a module by name. ERR_MODULE: unknown, or in execution."""
     running = any(place.module.lower() == module.lower() for place in task.stack())
     loaded = task.program.modules.get(module.lower())
     if running or loaded is None or loaded.installed:  # not for installed ones [manual]
@@ -127,7 +133,7 @@ def erase(task: RapidTask, module: str) -> None:
 
 
 def save(task: RapidTask, module: str, words: str) -> None:
-    """Write a module to a file, with the current values of its persistents."""
+    """Write a module with current values of its persistents."""
     loaded = task.program.modules.get(module.lower())
     if loaded is None or loaded.installed:
         raise RapidError("ERR_MODULE", module)
@@ -144,14 +150,17 @@ def save(task: RapidTask, module: str, words: str) -> None:
 
 
 def drop_dynamic(task: RapidTask) -> None:
-    """PP to main: modules that were loaded with \\Dynamic go."""
+    """Remove modules loaded with \\Dynamic, for PP to main."""
     for name, module in tuple(task.program.modules.items()):
         if module.origin is not None and module.origin.dynamic:
             task.program.unload(name)
 
 
 def time(task: RapidTask, module: str) -> int:
-    """Seconds since 1970 of a module's file; ERR_MOD_NOTLOADED when it is not loaded."""
+    """Return the time of a module's file in seconds since 1970.
+
+    ERR_MOD_NOTLOADED: the module is not loaded.
+    """
     loaded = task.program.modules.get(module.lower())
     if loaded is None:
         raise RapidError("ERR_MOD_NOTLOADED", module)
@@ -161,7 +170,7 @@ def time(task: RapidTask, module: str) -> int:
 
 
 def words_of(path: str, file: str | None) -> str:
-    """The text that names a file: FilePath and \\File in one."""
+    """Join FilePath and \\File into one text."""
     if not file:
         return path
     return path + file if path.endswith(("/", ":")) else f"{path}/{file}"
@@ -179,7 +188,7 @@ def _same(one: str, other: str) -> bool:
 
 
 def module_text(task: RapidTask, module: LoadedModule) -> str:
-    """Source of a module in which every PERS has its present value [K §2.18, 2.23]."""
+    """Return the source of a module with present PERS values [K §2.18, 2.23]."""
     source = module.tree.source
     changes: list[tuple[int, int, str]] = []
     for key, declaration in module.declarations.items():

@@ -1,4 +1,17 @@
-"""Interface to the motion planner: its faults in RAPID, settings of programs."""
+"""Interface to the motion planner.
+
+The planner (`rapidgen.motion`) knows neither RAPID nor its errors. It rejects a move with a
+`MotionFault`: a reason and the values. This module maps every reason to its consequence in a
+program:
+
+1. A RAPID error (`_Error`) with an ERR_ constant, which an ERROR handler may handle.
+2. An event (`_Stop`) with a number of the log, which stops the task. [mem] marks numbers without a
+   public source.
+
+`planned` wraps built-ins that call the planner, so that no MotionFault leaves a built-in. Events on
+the path run outside a built-in; the task maps their faults itself (`Task.poll`). Units end here:
+RAPID has degrees and mm, the planner rad and m (`builtins/motion/targets.py`).
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -36,7 +49,7 @@ _R = TypeVar("_R")
 
 @dataclass(frozen=True, slots=True)
 class _Error:
-    """A recoverable error; its text takes the facts of the fault."""
+    """A recoverable error; its text contains the values of the fault."""
 
     name: str
     text: str = ""
@@ -92,12 +105,12 @@ _MEANINGS: dict[FaultReason, _Error | _Stop] = {
 
 
 def in_rapid(fault: MotionFault) -> RapidError | FatalError:
-    """What a refusal of the planner is in RAPID."""
+    """Return a planner's fault as a RAPID error or event."""
     return _MEANINGS[fault.refusal].made(*fault.facts)
 
 
 def planned(function: Callable[_P, _R]) -> Callable[_P, _R]:
-    """The function, whose planner's refusals come out as errors of RAPID."""
+    """Wrap a function so that planner faults become RAPID errors."""
 
     @wraps(function)
     def call(*arguments: _P.args, **named: _P.kwargs) -> _R:
@@ -111,7 +124,7 @@ def planned(function: Callable[_P, _R]) -> Callable[_P, _R]:
 
 # -- Settings of programs --------------------------------------------------------------------------
 #
-# What programs have set for a robot and its planner need not know, in RAPID's own values.
+# Settings of programs for a robot, in RAPID values. The planner does not use them.
 
 
 NO_OFFSETS = (0.0,) * 6
@@ -119,7 +132,10 @@ NO_OFFSETS = (0.0,) * 6
 
 @dataclass(slots=True)
 class RobotData:
-    """Of one robot. Tool and work object outlive PP to main, the rest does not."""
+    """Settings of one robot.
+
+    Tool and work object survive PP to main, the others do not.
+    """
 
     tool: Record | None = None
     """tooldata of the last move, None before the first."""
@@ -134,22 +150,22 @@ class RobotData:
     carried: float = 0.0
     """kg of the last move, tool and payload."""
     extra: dict[str, object] = field(default_factory=dict)
-    """Settings that change no motion here: a program can set them and read them."""
+    """Settings without an effect on motion: programs can write and read them."""
 
     @classmethod
     def of(cls, group: MotionGroup) -> "RobotData":
-        """Those of a robot, which its reset resets."""
+        """Return new settings of a robot, reset together with it."""
         data = cls()
         group.on_reset.append(data.reset)
         return data
 
     def use(self, tool: Record | None, work_object: Record | None) -> None:
-        """Tool and work object of the move that follows are the active ones from now on."""
+        """Activate tool and work object of the next move."""
         self.tool = tool.copy() if tool is not None else None
         self.work_object = work_object.copy() if work_object is not None else None
 
     def reset(self) -> None:
-        """PP to main."""
+        """Reset the settings, for PP to main."""
         self.external_offset = NO_OFFSETS
         self.partners = frozenset()
         self.suspended = False

@@ -1,7 +1,7 @@
-"""RAPID message queues: one for each task, reached by the name RMQ_<task>.
+"""RAPID message queues: one per task, with the name RMQ_<task>.
 
-Limits are those of the task's configuration (RmqMaxNoOfMsg, RmqMaxMsgSize). A message whose type
-has an interrupt ordered in the receiving task goes to its trap, any other one waits to be read.
+The configuration of the task sets the limits (RmqMaxNoOfMsg, RmqMaxMsgSize). A message goes to a
+trap if the receiving task has ordered an interrupt for its type. Other messages wait to be read.
 """
 
 from collections import deque
@@ -17,7 +17,7 @@ from rapidgen.system.model import QueueSpec, TaskSpec
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """What travels: a value by copy, its type, and who sent it."""
+    """A message: a copied value, its type, and its sender."""
 
     type: Type
     dims: tuple[int, ...]
@@ -26,7 +26,7 @@ class Message:
     user: float
 
     def is_a(self, type_: Type, dims: tuple[int, ...]) -> bool:
-        """Whether the message is of a type; records are compared by name."""
+        """Return True if the message has a type; records compare by name."""
         return self.type.name == type_.name and self.dims == dims
 
 
@@ -40,7 +40,7 @@ class MessageBox:
 
 
 class Slot:
-    """An `rmqslot`: the name of a queue, or nothing."""
+    """An `rmqslot`: the name of a queue, or empty."""
 
     __slots__ = ("name",)
 
@@ -71,30 +71,36 @@ class QueueSystem:
 
     @staticmethod
     def slot_name(task: str) -> str:
-        """Name of a task's queue."""
+        """Return the name of a task's queue."""
         return f"RMQ_{task}"
 
     def queue(self, task: str) -> Queue:
-        """Queue of a task."""
+        """Return the queue of a task."""
         return self._queues.setdefault(self.slot_name(task).lower(), Queue())
 
     def named(self, slot: str) -> Queue | None:
-        """The queue of a name; None: there is none."""
+        """Return the queue of a name, None if unknown."""
         return self._queues.get(slot.lower())
 
     def open(self, slot: str, spec: QueueSpec) -> Queue:
-        """A queue of somebody outside, whom tasks can answer. ValueError: the name is taken."""
+        """Open a queue of an external client, to which tasks can answer.
+
+        ValueError: the name is in use.
+        """
         if slot.lower() in self._queues:
             raise ValueError(slot)
         queue = self._queues[slot.lower()] = Queue(spec)
         return queue
 
     def close(self, slot: str) -> None:
-        """No more of a queue that was opened."""
+        """Close the queue of an external client."""
         self._queues.pop(slot.lower(), None)
 
     def send(self, slot: str, message: Message) -> None:
-        """Put a message into a queue; ERR_RMQ_INVALID, ERR_RMQ_MSGSIZE, ERR_RMQ_FULL."""
+        """Put a message into a queue.
+
+        Raises ERR_RMQ_INVALID, ERR_RMQ_MSGSIZE or ERR_RMQ_FULL.
+        """
         if not slot:
             raise RapidError("ERR_RMQ_INVALID")
         queue = self._queues.setdefault(slot.lower(), Queue())

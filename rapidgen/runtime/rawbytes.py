@@ -1,9 +1,9 @@
-"""Containers of raw bytes: 0 to 1024 valid bytes, little endian by default [manual 3HAC16581-1].
+"""Containers of 0 to 1024 raw bytes, little endian by default.
 
-`data` holds the valid bytes only; everything behind counts as 0. Indexes are RAPID's, from 1.
-Which error a value out of range raises is in no public source (switch `argument_error`): a number
-that is not whole raises ERR_INT_NOTVAL, one that does not fit ERR_ARGVALERR, a place outside
-ERR_OUTOFBND.
+Source: [manual 3HAC16581-1]. `data` contains the valid bytes only; the bytes after them count as 0.
+Indexes are those of RAPID, from 1. No public source has the error of a value out of range (switch
+`argument_error`). Here a number that is not whole raises ERR_INT_NOTVAL, one that is too large
+ERR_ARGVALERR, and an outside index ERR_OUTOFBND.
 """
 
 import struct
@@ -26,7 +26,7 @@ class RawBytes:
         self.data = bytearray(data)
 
     def put(self, index: int, data: bytes) -> None:
-        """Write bytes from `index` on; the valid length grows when they end behind it."""
+        """Write bytes from `index` on; extend the valid length as needed."""
         end = index - 1 + len(data)
         if index < 1 or end > CAPACITY:
             raise RapidError("ERR_OUTOFBND", f"bytes {index} to {end} of a rawbytes")
@@ -35,7 +35,10 @@ class RawBytes:
         self.data[index - 1 : end] = data
 
     def take(self, index: int, count: int) -> bytes:
-        """`count` valid bytes from `index` on; ERR_OUTOFBND beyond the valid length."""
+        """Return `count` valid bytes from `index` on.
+
+        ERR_OUTOFBND: beyond the valid length.
+        """
         if index < 1 or index - 1 + count > len(self.data):
             raise RapidError(
                 "ERR_OUTOFBND",
@@ -48,7 +51,7 @@ register_type("rawbytes", RawBytes)
 
 
 def whole(value: float, error: str = "ERR_INT_NOTVAL") -> int:
-    """`value` as an int, or the given error when it is not whole."""
+    """Return `value` as an int, or raise the error if it is not whole."""
     number = int(value)
     if number != value:
         raise RapidError(error, f"{value:g} is not whole")
@@ -56,7 +59,7 @@ def whole(value: float, error: str = "ERR_INT_NOTVAL") -> int:
 
 
 def integer_bytes(value: float, kind: float, *, network: bool) -> bytes:
-    """An integer of one of the inttypes."""
+    """Return the bytes of an integer of an inttype."""
     code = _code(kind)
     number = whole(value)
     try:
@@ -66,7 +69,7 @@ def integer_bytes(value: float, kind: float, *, network: bool) -> bytes:
 
 
 def integer_from(raw: RawBytes, index: int, kind: float, *, network: bool) -> int:
-    """The integer of one of the inttypes at `index`."""
+    """Return the integer of an inttype at `index`."""
     code = _code(kind)
     data = raw.take(index, struct.calcsize("<" + code))
     number: int = struct.unpack((">" if network else "<") + code, data)[0]
@@ -74,18 +77,18 @@ def integer_from(raw: RawBytes, index: int, kind: float, *, network: bool) -> in
 
 
 def float_bytes(value: float, *, network: bool) -> bytes:
-    """An IEEE single."""
+    """Return the bytes of an IEEE single."""
     return struct.pack(">f" if network else "<f", value)
 
 
 def float_from(raw: RawBytes, index: int, *, network: bool) -> float:
-    """The IEEE single at `index`."""
+    """Return the IEEE single at `index`."""
     number: float = struct.unpack(">f" if network else "<f", raw.take(index, 4))[0]
     return number
 
 
 def byte_value(value: float) -> int:
-    """A `byte`: whole, 0 to 255; ERR_ARGVALERR otherwise."""
+    """Return a `byte`: whole, 0 to 255. ERR_ARGVALERR otherwise."""
     number = whole(value, "ERR_ARGVALERR")
     if not 0 <= number <= 255:
         raise RapidError("ERR_ARGVALERR", f"{number} is no byte")

@@ -1,11 +1,11 @@
-"""Where Python functions meet the names of RAPID's built-in routines.
+"""Registry of the Python functions of RAPID's built-in routines.
 
-`@builtin("SocketSend", cost="socket")` binds a function that is called
-`function(task, *arguments)`, one positional argument for each parameter of the signature in
-order: the value for IN, a `values.Ref` for VAR, INOUT, PERS and REF of value types (the object
-itself for non-value types and signals), None for an absent optional parameter, True for a
-present switch. A parameter of type `anytype` always comes as a Ref. Array arguments by mode IN
-are the dict itself: do not change it.
+`@builtin("SocketSend", cost="socket")` binds a function that is called `function(task,
+*arguments)`, with one positional argument for each parameter of the signature in order: the value
+for IN, a `values.Ref` for VAR, INOUT, PERS and REF of value types (the object itself for non-value
+types and signals), None for an absent optional parameter, True for a present switch. A parameter of
+type `anytype` is always a Ref. Array arguments by mode IN are the dict itself: the function must
+not change it.
 """
 
 import importlib
@@ -22,15 +22,15 @@ Arguments: TypeAlias = Mapping[str, Value]
 """By the names of the parameters; None: left out."""
 Cost: TypeAlias = Literal["call", "string", "socket", "move"]
 COSTS: dict[Cost, int] = {"call": 5_000, "string": 50_000, "socket": 500_000, "move": 1_000_000}
-"""Nanoseconds of the reference cost model, on top of the statement's own."""
+"""Nanoseconds of the reference cost model, in addition to the cost of the statement."""
 
 
 @dataclass(frozen=True, slots=True)
 class Builtin:
     """A bound built-in.
 
-    `pure` promises: result and errors depend on the arguments alone, it never waits, makes no
-    event and does not look at the clock or the task. Such calls cost less of real time.
+    A `pure` function depends on its arguments only: it never waits, causes no event and reads
+    neither clock nor task. Its calls cost less real time.
     """
 
     name: str
@@ -61,13 +61,13 @@ def builtin(
 def builtins(
     functions: Mapping[str, Callable[..., Value]], *, cost: Cost = "call", pure: bool = False
 ) -> None:
-    """Bind a table of functions, each of which says in one expression what its built-in does."""
+    """Bind a table of functions that are single expressions."""
     for name, function in functions.items():
         builtin(name, cost=cost, pure=pure)(function)
 
 
 def by_name(*names: str, cost: Cost = "call") -> Callable[[_Function], _Function]:
-    """Bind a function that is called `function(task, name, arguments)`: built-ins of many."""
+    """Bind `function(task, name, arguments)` to several built-ins."""
 
     def bind(function: _Function) -> _Function:
         for name in names:
@@ -92,13 +92,13 @@ def _parameters(name: str) -> tuple[str, ...]:
 
 
 def bound(name: str) -> Builtin | None:
-    """The binding of a built-in (any case), or None when there is none."""
+    """Return the binding of a built-in (any case), None without one."""
     _load()
     return _BOUND.get(name.lower())
 
 
 def bound_names() -> list[str]:
-    """Names of all bound built-ins, sorted."""
+    """Return the names of all bound built-ins, sorted."""
     _load()
     return sorted(b.name for b in _BOUND.values())
 

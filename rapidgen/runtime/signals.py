@@ -18,7 +18,7 @@ from rapidgen.system.model import SignalType
 
 
 class SignalAlias:
-    """A signal that a program declares: nothing until AliasIO connects it."""
+    """A signal declared by a program, without effect before AliasIO."""
 
     __slots__ = ("target", "type")
 
@@ -28,19 +28,19 @@ class SignalAlias:
 
     @property
     def signal(self) -> Signal:
-        """The signal behind the alias; ERR_NO_ALIASIO_DEF when there is none."""
+        """The connected signal; ERR_NO_ALIASIO_DEF without one."""
         if self.target is None:
             raise RapidError("ERR_NO_ALIASIO_DEF")
         return self.target
 
     @property
     def value(self) -> float:
-        """Its value, for expressions such as `IF di1 = 1`."""
+        """The value, for expressions such as `IF di1 = 1`."""
         return self.signal.value
 
 
 AnySignal: TypeAlias = Signal | SignalAlias
-"""What a VAR signalxx argument is: both have `.signal` and `.value`."""
+"""A VAR signalxx argument: both classes have `.signal` and `.value`."""
 
 for _type in get_args(SignalType):
     register_type(f"signal{_type}", partial(SignalAlias, _type), "semivalue")
@@ -52,7 +52,10 @@ for _type in get_args(SignalType):
 
 
 def value_of(argument: object) -> tuple[Value, Type]:
-    """Value and type; a signal counts as its num [K §2.16]. FatalError: it is no value."""
+    """Return value and type; a signal counts as num [K §2.16].
+
+    FatalError: the argument has no value.
+    """
     if isinstance(argument, Ref | PersistentCell):
         return argument.get(), argument.type
     if isinstance(argument, Signal | SignalAlias):
@@ -61,7 +64,10 @@ def value_of(argument: object) -> tuple[Value, Type]:
 
 
 def target_of(argument: object) -> Ref | PersistentCell:
-    """Where a value can be put. FatalError: the argument is of no value type."""
+    """Return the reference to write to.
+
+    FatalError: the argument has no value type.
+    """
     if isinstance(argument, Ref | PersistentCell):
         return argument
     raise _no_value(argument)
@@ -85,7 +91,7 @@ MOST = 60
 
 @dataclass(slots=True, eq=False)
 class CyclicBool:
-    """One condition and where its value goes."""
+    """A condition and the target of its value."""
 
     scheduler: Scheduler
     flag: Value
@@ -93,18 +99,18 @@ class CyclicBool:
     look: Callable[[], bool]
     watched: tuple[WaitSet, ...]
     follow: Callable[[bool], None]
-    """Tells the signal that has the same value, if there is one."""
+    """Writes the signal with the same value, if there is one."""
     _due: bool = False
     _gone: bool = False
 
     def start(self) -> None:
-        """Evaluate now, and in the cycle behind each change."""
+        """Evaluate now, and in the cycle after each change."""
         for changing in self.watched:
             changing.add(self._changed)
         self._evaluate()
 
     def stop(self) -> None:
-        """The persistent and the signal keep the value that they have."""
+        """Stop; persistent and signal keep their values."""
         self._gone = True
         for changing in self.watched:
             changing.remove(self._changed)
@@ -126,18 +132,18 @@ class CyclicBool:
 
 @dataclass(slots=True)
 class CyclicBools:
-    """Those of one task, by lower-case name of the persistent."""
+    """Cyclic conditions of one task, by lower-case persistent name."""
 
     known: dict[str, CyclicBool] = field(default_factory=dict)
 
     def put(self, name: str, condition: CyclicBool) -> None:
-        """Set one up; the persistent's former condition goes."""
+        """Set up a condition in place of the persistent's former one."""
         self.remove(name)
         self.known[name.lower()] = condition
         condition.start()
 
     def remove(self, name: str) -> bool:
-        """Whether there was one of that name."""
+        """Remove the condition of a persistent; False without one."""
         result = self.known.pop(name.lower(), None)
         if result is not None:
             result.stop()
@@ -152,7 +158,7 @@ class CyclicBools:
 def follower(
     signal: Signal | None, set_signal: Callable[[Signal, float], None]
 ) -> Callable[[bool], None]:
-    """What hands the value of a condition to a signal."""
+    """Return a function that writes a condition's value to a signal."""
 
     def follow(value: bool) -> None:
         if signal is not None:

@@ -1,4 +1,4 @@
-"""Values as RAPID writes them, and back: ValToStr, TPWrite, Write, StrToVal."""
+"""RAPID values as text and back: ValToStr, TPWrite, StrToVal."""
 
 import math
 import re
@@ -14,7 +14,7 @@ _BLANK = re.compile(r"\s*")
 
 
 def limited(text: str) -> str:
-    """`text` itself; ERR_STRTOOLNG when it is no RAPID string any more."""
+    """Return `text`; ERR_STRTOOLNG: too long for a RAPID string."""
     if len(text) > MAX_STRING:
         raise RapidError("ERR_STRTOOLNG", f"{len(text)} characters")
     return text
@@ -26,7 +26,10 @@ def value_text(
     *,
     complete: bool = False,
 ) -> str:
-    """Any value in the standard format: texts quoted, aggregates without blanks."""
+    """Return any value in the standard format.
+
+    Texts are quoted, aggregates have no blanks.
+    """
     if value.__class__ is dict:
         return "[" + ",".join(value_text(v, type_, complete=complete) for v in value.values()) + "]"
     if isinstance(value, Record):
@@ -41,7 +44,7 @@ def value_text(
 
 
 def literal_text(value: Value, type_: Type) -> str:
-    """A value as a literal that reads back as exactly the same value."""
+    """Return a value as a literal that parses to exactly this value."""
     if value.__class__ is dict:
         return "[" + ",".join(literal_text(v, type_) for v in value.values()) + "]"
     if isinstance(value, Record):
@@ -61,16 +64,16 @@ def literal_text(value: Value, type_: Type) -> str:
 
 
 class NotALiteral(Exception):
-    """The text is no literal of the wanted type."""
+    """The text is not a literal of the expected type."""
 
 
 def parse_value(
     text: str, type_: Type, dims: tuple[int, ...] = (), *, escaped: bool = False
 ) -> Value:
-    """The value of a literal or literal aggregate of a type.
+    """Return the value of a literal or literal aggregate of a type.
 
-    `escaped`: a backslash is doubled in texts, as `literal_text` and source have it.
-    NotALiteral: the text is something else, or does not fit the type.
+    `escaped`: texts contain doubled backslashes, as in `literal_text` and source. NotALiteral: the
+    text is not a literal of the type.
     """
     tokens = _tokens(text)
     if escaped:

@@ -1,6 +1,7 @@
-"""Built-ins that are known and checked, but that nothing here stands behind, and why.
+"""Built-ins without an implementation here, and the reasons.
 
-Loading a program says which of them it uses; reaching one stops the task with an event.
+The checker knows them. Loading a program reports which of them it uses; a call stops the task with
+an event.
 """
 
 from functools import cache
@@ -133,18 +134,20 @@ _REASONS: Final = {name.lower(): reason for reason, names in _GROUPS for name in
 
 
 def reason(name: str) -> str:
-    """Why a built-in without a binding, or a name of an option, cannot be executed. KeyError: it
-    can."""
+    """Return the reason for a built-in or option name.
+
+    KeyError: it is implemented.
+    """
     key = name.lower()
     return OPTION if key in option_routines() else _REASONS[key]
 
 
 @cache
 def option_routines() -> frozenset[str]:
-    """Lower-case names of routines of options of which nothing else is known."""
+    """Return lower-case names of option routines without signatures."""
     return signatures.option_names("procedures") | signatures.option_names("functions")
 
 
 def names() -> frozenset[str]:
-    """Lower-case names of all that are left out on purpose."""
+    """Return lower-case names of all deliberate omissions."""
     return frozenset(_REASONS)

@@ -1,9 +1,9 @@
-"""RAPID values as Python objects: types, records, arrays, references, shared cells.
+"""RAPID values as Python objects: types, records, arrays, references.
 
-num and dnum are float, or int when known whole; bool and string are Python's; a record is an
-instance of a slotted class made once per record type; an array is a dict from 1. Variables of
-record and array type keep one object for life: assignment writes into it, so passing the
-object is passing by reference.
+num and dnum are float, or int when known whole; bool and string are Python's. A record is an
+instance of a slotted class, made once per record type; an array is a dict from 1. A variable of
+record or array type keeps one object: assignment writes into it, so that passing the object is
+passing by reference.
 """
 
 import math
@@ -27,7 +27,7 @@ ATOMIC = frozenset({"num", "dnum", "bool", "string"})
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Type:
-    """One RAPID type. Aliases are resolved: an `errnum` is a `num` (K §2.17)."""
+    """A RAPID type, aliases resolved: an `errnum` is a `num` (K §2.17)."""
 
     name: str
     """Lower case; of an alias its base."""
@@ -38,13 +38,13 @@ class Type:
     """Makes a fresh datum with its initial value (record, nonvalue, semivalue)."""
 
     def default(self) -> Value:
-        """The value of an uninitialised datum [K §2.22]."""
+        """Return the value of an uninitialised datum [K §2.22]."""
         if self.make is not None:
             return self.make()
         return {"num": 0, "dnum": 0, "bool": False, "string": ""}[self.kind]
 
     def component(self, name: str) -> "Type | None":
-        """Type of a component, by lower-case name."""
+        """Return the type of a component, by lower-case name."""
         for own, kind in self.components:
             if own == name:
                 return kind
@@ -52,14 +52,17 @@ class Type:
 
     @property
     def is_value(self) -> bool:
-        """Whether it may be assigned and compared [K §2.16]."""
+        """True if it can be assigned and compared [K §2.16]."""
         if self.kind == "record":
             return all(t.is_value for _, t in self.components)
         return self.kind not in ("nonvalue", "semivalue")
 
 
 class Record:
-    """Base of all record classes. Components are attributes, see `attribute`."""
+    """Base of all record classes; components are attributes.
+
+    See `attribute` for their names.
+    """
 
     __slots__ = ()
     fields: tuple[str, ...] = ()
@@ -72,7 +75,7 @@ class Record:
     """Takes over every component of another instance, by value."""
 
     def values(self) -> tuple[Value, ...]:
-        """Components in order."""
+        """Return the components in order."""
         return tuple(getattr(self, name) for name in self.fields)
 
     def __repr__(self) -> str:
@@ -84,7 +87,7 @@ _TAKEN = frozenset({"fields", "rapid_type", "copy", "assign", "values"})
 
 
 def attribute(component: str) -> str:
-    """Python attribute of a record's component."""
+    """Return the Python attribute of a record's component."""
     name = component.lower()
     return name + "_" if iskeyword(name) or name in _TAKEN else name
 
@@ -96,9 +99,10 @@ STRING = Type("string", "string")
 
 
 def make_record(name: str, components: Sequence[tuple[str, Type]]) -> type[Value]:
-    """A record class with the given components; its `Type` is the class attribute `rapid_type`.
+    """Return a record class with the given components.
 
-    Components may be given by position; those left out start at their default value.
+    Its `Type` is the class attribute `rapid_type`. The constructor takes components by position;
+    missing ones get their default value.
     """
     fields = tuple(attribute(component) for component, _ in components)
     kinds = [kind for _, kind in components]
@@ -171,7 +175,10 @@ RmqHeader = _predefined("RmqHeader")
 
 
 def register_type(name: str, make: Callable[[], Value], kind: Kind = "nonvalue") -> Type:
-    """Declare the Python class behind an atomic type that is no value, e.g. `socketdev`."""
+    """Register the Python class of a type without values.
+
+    An example is `socketdev`.
+    """
     saved = Type(name.lower(), kind, (), make)
     TYPES[name.lower()] = saved
     return saved
@@ -181,14 +188,14 @@ def register_type(name: str, make: Callable[[], Value], kind: Kind = "nonvalue")
 
 
 def make_array(dims: Sequence[int], element: Callable[[], Value]) -> dict[int, Value]:
-    """An array of the given sizes, `{1: ..}`, nested for more dimensions."""
+    """Return an array of the given sizes, `{1: ..}`, nested by dimension."""
     if len(dims) == 1:
         return {i: element() for i in range(1, dims[0] + 1)}
     return {i: make_array(dims[1:], element) for i in range(1, dims[0] + 1)}
 
 
 def dimensions(value: Value, degree: int = 3) -> tuple[int, ...]:
-    """Sizes of an array value; `()` for anything else."""
+    """Return the sizes of an array value, `()` for other values."""
     sizes = []
     while value.__class__ is dict and degree:
         sizes.append(len(value))
@@ -197,7 +204,7 @@ def dimensions(value: Value, degree: int = 3) -> tuple[int, ...]:
 
 
 def copy_value(value: Value) -> Value:
-    """A copy by value: records and arrays deeply, atoms as they are."""
+    """Return a copy: records and arrays deeply, atoms as they are."""
     if value.__class__ is dict:
         first = value[1]
         if first.__class__ is dict or isinstance(first, Record):
@@ -207,7 +214,10 @@ def copy_value(value: Value) -> Value:
 
 
 def assign_array(target: dict[int, Value], value: dict[int, Value]) -> None:
-    """Write every element of `value` into `target`, which keeps its elements' identity."""
+    """Write every element of `value` into `target`.
+
+    The elements of `target` keep their identity.
+    """
     if target is value:
         return
     if len(target) != len(value):
@@ -234,7 +244,10 @@ _WANTED = {
 
 
 def misfit(value: Value, type: Type, dims: tuple[int, ...] = ()) -> str:
-    """What a datum takes instead of `value`, which whoever tests has made; "": it fits."""
+    """Return the expected value if `value` does not fit a datum.
+
+    The value comes from Python tests. "" means that it fits.
+    """
     if dims:
         size, *inner = dims
         if value.__class__ is not dict or list(value) != list(range(1, size + 1)):
@@ -272,10 +285,9 @@ def _short(value: Value) -> str:
 
 
 class PersistentCell(WaitSet):
-    """One PERS: its value and who watches it. `w` is the list of watchers.
+    """A PERS: its value and its watchers, the list `w`.
 
-    With `variable` it is no persistent, but a VAR that all tasks have in common: of a shared
-    module [K §14.2].
+    With `variable` it is a VAR that all tasks share, of a shared module [K §14.2].
     """
 
     __slots__ = ("_variable", "dims", "name", "type", "v")
@@ -298,20 +310,23 @@ class PersistentCell(WaitSet):
 
     @property
     def cell(self) -> "PersistentCell | None":
-        """Itself: a cell stands wherever a built-in wants a `Ref`. None tells a variable."""
+        """The cell itself: built-ins accept a cell as a `Ref`.
+
+        None denotes a variable.
+        """
         return None if self._variable else self
 
     @property
     def whole(self) -> bool:
-        """A cell is a whole PERS."""
+        """True: a cell is a whole PERS."""
         return True
 
     def get(self) -> Value:
-        """The current value itself, not a copy. As of any `Ref`."""
+        """Return the current value itself, not a copy."""
         return self.v
 
     def set(self, value: Value) -> None:
-        """Store a value (taken over by value) and wake IPers, WaitUntil and whoever waits."""
+        """Store a copy of a value, and wake IPers, WaitUntil and waiters."""
         store(self, value)
         if self.w:
             self.notify()
@@ -320,8 +335,8 @@ class PersistentCell(WaitSet):
 class Ref:
     """A datum that a built-in or a VAR parameter may read and write.
 
-    `v` reads and writes without rounding; `get()` and `set()` are for built-ins: `set` rounds
-    a num, copies records and arrays, limits a string and wakes the watchers of a PERS.
+    `v` reads and writes without rounding. `get()` and `set()` are for built-ins: `set` rounds a
+    num, copies records and arrays, limits a string and wakes the watchers of a PERS.
     """
 
     __slots__ = ("cell", "dims", "name", "type", "whole")
@@ -346,7 +361,7 @@ class Ref:
         """The cell when it is (part of) a PERS."""
 
     def get(self) -> Value:
-        """The current value itself, not a copy."""
+        """Return the current value itself, not a copy."""
         return self.v
 
     def set(self, value: Value) -> None:
@@ -357,7 +372,7 @@ class Ref:
 
 
 class ValueRef(Ref):
-    """A Ref that holds its value: a routine's variable that is passed by reference."""
+    """A Ref with its own value: a routine's variable passed by reference."""
 
     __slots__ = ("v",)
 
@@ -369,7 +384,7 @@ class ValueRef(Ref):
 
 
 def store(target: "Ref | PersistentCell", value: Value) -> None:
-    """Store by value what a built-in made: rounded, limited, copied."""
+    """Store a value of a built-in: rounded, limited, copied."""
     kind = target.type.kind
     if target.dims:
         if len(target.dims) > 1 or target.type.kind != "num":

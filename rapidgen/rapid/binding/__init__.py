@@ -1,7 +1,7 @@
-"""Binding: what names, types, constants and arguments of RAPID mean. The one resolver.
+"""Binding: meaning of names, types, constants and arguments of RAPID.
 
-The checker judges by it, the compiler makes code by it, an editor asks it for places. It judges
-nothing itself. `names` has the rules; a task's modules are bound by
+This is the only resolver: the checker, the compiler and editors use it. It reports no errors;
+unknown names and types are None. `names` has the rules. A task's modules are bound by
 
     task = TaskScope()
     module = task.add(parse(text))
@@ -9,7 +9,7 @@ nothing itself. `names` has the rules; a task's modules are bound by
     module.routine(node).find("i")               # as seen inside a routine
     constant(expression, module)                 # a value, or None
     match(symbol.parameters, call.arguments, fitting)
-    Bound(module).at(12, 5)                      # what stands at a place
+    BoundModule(module).at(12, 5)                # the symbol at a place
 """
 
 from rapidgen.rapid.binding.arguments import (

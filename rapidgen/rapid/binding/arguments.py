@@ -1,18 +1,18 @@
-"""Which argument goes to which parameter [K §3.10, 5.1].
+"""Matching of arguments to parameters [K §3.10, 5.1].
 
-Arguments and parameters are walked together, because they have the same order:
+Arguments and parameters are traversed together, because they have the same order:
 
-* `value` goes to the next required parameter behind the last one that got an argument; of
-  required alternatives (built-ins only) to the one that it fits, else to the first.
+* `value` goes to the next required parameter after the last one with an argument; of required
+  alternatives (built-ins only) to the one with the same type, else to the first.
 * `Par:=value` goes to the required parameter of that name; `\\Opt:=value`, `\\Switch` and
-  `\\Opt?par` to the optional one. An argument may not name a parameter that stands before one
-  that has an argument already.
-* Of alternatives (`\\A | \\B`) one may have an argument; of conditional ones run time decides.
+  `\\Opt?par` to the optional one. An argument may not name a parameter before one that has an
+  argument already.
+* Of alternatives (`\\A | \\B`) one may have an argument; run time decides on conditional ones.
 * Every required parameter gets an argument, of required alternatives one of them.
-* A reference parameter takes a datum that is held as its mode says (`may_pass`).
+* A reference parameter takes a datum whose storage permits its mode (`may_pass`).
 
-What breaks these rules is said as data: the checker makes diagnostics of it, the compiler
-refuses the routine, and a late call fails with ERR_CALLPROC.
+Violations are data: the checker makes diagnostics of them, the compiler rejects the routine, and a
+late call fails with ERR_CALLPROC.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,15 +25,15 @@ from rapidgen.rapid.syntax.nodes import Mode
 
 
 class Formal(Protocol):
-    """What matching asks of a parameter; `nodes.Parameter` has it."""
+    """Properties of a parameter for matching, see `nodes.Parameter`."""
 
     @property
     def name(self) -> str:
-        """In any case."""
+        """Name in any case."""
 
     @property
     def optional(self) -> bool:
-        """Whether it may be left out, or is named by a backslash."""
+        """True if it may be absent, or is named by a backslash."""
 
     @property
     def group(self) -> int:
@@ -41,7 +41,7 @@ class Formal(Protocol):
 
 
 class Actual(Protocol):
-    """What matching asks of an argument; `nodes.Argument` has it."""
+    """Properties of an argument for matching, see `nodes.Argument`."""
 
     @property
     def kind(self) -> str:
@@ -49,14 +49,14 @@ class Actual(Protocol):
 
     @property
     def name(self) -> str | None:
-        """The parameter's, where it is written."""
+        """Name of the parameter, if written."""
 
 
 A = TypeVar("A", bound=Actual)
 
 
 class ArgumentFault(Enum):
-    """How an argument can break the rules."""
+    """Violations of the rules by an argument."""
 
     SURPLUS = "no required parameter is left for it"
     UNKNOWN = "no parameter of this sort has the name"
@@ -67,7 +67,7 @@ class ArgumentFault(Enum):
 
 @dataclass(slots=True)
 class Pairing(Generic[A]):
-    """One argument, the index of its parameter (-1: none), and what is wrong with it."""
+    """An argument, its parameter's index (-1: none) and its faults."""
 
     argument: A
     parameter: int
@@ -78,13 +78,16 @@ class Pairing(Generic[A]):
 
 @dataclass(slots=True)
 class Matching(Generic[A]):
-    """The arguments of a call in their order, and the required parameters that got none."""
+    """Arguments of a call, and required parameters without an argument."""
 
     pairs: list[Pairing[A]]
     missing: list[int]
 
     def in_order(self, count: int) -> list[A | None]:
-        """Argument of each of `count` parameters, None where there is none; the last one wins."""
+        """Return the argument of each of `count` parameters.
+
+        None marks a missing argument; of several the last one counts.
+        """
         result: list[A | None] = [None] * count
         for pair in self.pairs:
             if pair.parameter >= 0:
@@ -100,8 +103,8 @@ def match(
 ) -> Matching[A]:
     """Match the arguments of a call to the parameters of its routine.
 
-    `fitting` is asked which of several required alternatives (indices of parameters) an argument
-    means; see `first_fit`.
+    `fitting` selects one of several required alternatives (indices of parameters) for an argument;
+    see `first_fit`.
     """
     at = 0
     in_use: dict[int, A] = {}
@@ -143,9 +146,10 @@ def match(
 
 
 def first_fit(result: str | None, alternatives: Sequence[int], types: Sequence[str | None]) -> int:
-    """Of alternatives the first that has the type `result` exactly; else the first.
+    """Return the first alternative of exactly the type `result`.
 
-    `types` are those of the alternatives. A literal number means the first.
+    Without one it is the first alternative, also for a literal number. `types` are those of the
+    alternatives.
     """
     if result is not None and result != NUMBER:
         for k, expected in zip(alternatives, types, strict=True):
@@ -158,7 +162,10 @@ Held = Literal["VAR", "PERS", "either", "read-only"]
 
 
 def held_as(datum: DataSymbol) -> Held:
-    """How a datum is held: `either` is known at run time only, of an INOUT parameter."""
+    """Return the storage of a datum.
+
+    `either`: known at run time only, for an INOUT parameter.
+    """
     if datum.readonly:
         return "read-only"
     if datum.kind == "PARAMETER":
@@ -167,7 +174,7 @@ def held_as(datum: DataSymbol) -> Held:
 
 
 def may_pass(datum: DataSymbol, mode: Mode) -> bool:
-    """Whether a datum may be the argument of a parameter of a mode, as far as is known [K §5.1]."""
+    """Return True if a mode permits a datum, as far as known [K §5.1]."""
     held = held_as(datum)
     if mode in ("", "REF"):
         return True
@@ -183,7 +190,7 @@ def _next_required(parameters: Sequence[Formal], at: int, in_use: dict[int, A]) 
 
 
 def _alternatives(parameters: Sequence[Formal], k: int) -> list[int]:
-    """Required parameters from `k` on that are alternatives of parameter `k`."""
+    """Return required alternatives of parameter `k`, from `k` on."""
     group = parameters[k].group
     return [
         other

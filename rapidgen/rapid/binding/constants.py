@@ -1,7 +1,7 @@
-"""Values of expressions that are known before the program runs [K §3.1, 3.2, 3.11].
+"""Values of expressions known before execution [K §3.1, 3.2, 3.11].
 
-Numbers are RAPID's: a literal in a place of type num, and the value of a num constant, are
-rounded to single precision; operators in between are not. A literal beside a dnum is one.
+Numbers are those of RAPID: a literal in a place of type num and the value of a num constant are
+rounded to single precision; operators in between are not. A literal combined with a dnum is a dnum.
 Records and arrays are tuples.
 """
 
@@ -29,7 +29,7 @@ from rapidgen.rapid.syntax.nodes import (
 )
 
 _MAX_DEPTH: Final = 200
-"""Of an expression: the parser's own limit."""
+"""Maximum depth of an expression, the parser's own limit."""
 _COMPARE: Final[dict[str, Callable[[Value, Value], bool]]] = {
     "=": operator.eq,
     "<>": operator.ne,
@@ -39,11 +39,11 @@ _COMPARE: Final[dict[str, Callable[[Value, Value], bool]]] = {
     ">=": operator.ge,
 }
 _Typed = tuple[Value, str | None]
-"""A value and its type; None of a literal number, which is what its place wants."""
+"""A value and its type; None for a literal number, which takes the type of its place."""
 
 
 class NotConstant(Exception):
-    """An expression has no value before the run; `node` is the place."""
+    """An expression without a value before execution; `node` is its place."""
 
     def __init__(self, message: str, node: Expression) -> None:
         super().__init__(message)
@@ -51,7 +51,10 @@ class NotConstant(Exception):
 
 
 def constant(node: Expression, scope: Scope, want: str | None = "num") -> Value | None:
-    """Value of an expression in a place of type `want`, or None where it is not known."""
+    """Return the value of an expression, None if unknown.
+
+    `want` is the type of its place.
+    """
     if isinstance(node, NumberLiteral):
         return node.value if isfinite(node.value) else None
     if isinstance(node, Name):
@@ -64,7 +67,10 @@ def constant(node: Expression, scope: Scope, want: str | None = "num") -> Value 
 
 
 def evaluate(node: Expression, scope: Scope, want: str) -> Value:
-    """Value of an expression as the type `want` (see types.py). NotConstant: it has none."""
+    """Return the value of an expression of type `want`.
+
+    See `names` for types as texts. NotConstant: it has no value.
+    """
     value, result = _value(node, want, scope, 0)
     if result is not None and result != want:
         raise NotConstant(f"the value is {result}, not {want}", node)
@@ -72,9 +78,9 @@ def evaluate(node: Expression, scope: Scope, want: str) -> Value:
 
 
 def value_of(symbol: DataSymbol, scope: Scope) -> Value | None:
-    """Value of a constant; None for any other datum, and where it is not known.
+    """Return the value of a constant, None for other data or if unknown.
 
-    `scope` is where its name was found: a constant of a routine is worked out there.
+    `scope` is the scope that contains its name: a routine's constant is evaluated there.
     """
     if symbol.kind != "CONST":
         return None
@@ -84,7 +90,7 @@ def value_of(symbol: DataSymbol, scope: Scope) -> Value | None:
     values = scope.module.task.values
     if symbol in values:
         return values[symbol]
-    values[symbol] = None  # so that constants that name each other come to an end
+    values[symbol] = None  # Constants that refer to each other end the recursion here.
     if symbol.initial is not None:
         inside: Scope = symbol.module if symbol.routine is None else scope
         expected = inside.module.type_of(symbol)
@@ -97,7 +103,10 @@ def value_of(symbol: DataSymbol, scope: Scope) -> Value | None:
 
 
 def sizes_of(symbol: DataSymbol, scope: Scope) -> list[Value | None]:
-    """Sizes that a declaration gives to an array, None where one is not known; see `value_of`."""
+    """Return the declared sizes of an array, None for unknown ones.
+
+    See `value_of` for `scope`.
+    """
     away = symbol.routine is None and symbol.module is not None
     inside = symbol.module if away and symbol.module else scope
     return [constant(size, inside) for size in symbol.dimensions]
@@ -159,7 +168,7 @@ def _named(node: Name, scope: Scope) -> _Typed:
 
 
 def _aggregate(node: Aggregate, want: str | None, scope: Scope, depth: int) -> _Typed:
-    """Members of an array or a record; its type comes from its place."""
+    """Return members of an array or record of the type of its place."""
     if want is None:
         raise NotConstant("an aggregate has no type here", node)
     members = node.members
@@ -273,7 +282,7 @@ def _whole(value: float) -> int:
 
 
 def _position(value: tuple[Value, ...], node: Expression) -> tuple[float, ...]:
-    """Coordinates of a pos: the only record that operators take here."""
+    """Return the coordinates of a pos, the only record with operators."""
     numbers = tuple(part for part in value if isinstance(part, int | float))
     if len(numbers) != 3 or len(value) != 3:
         raise NotConstant("of records only pos has operators", node)

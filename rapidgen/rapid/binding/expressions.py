@@ -1,6 +1,6 @@
-"""Static types of expressions, without judging them [K §2.17, 3].
+"""Static types of expressions, without error reports [K §2.17, 3].
 
-Where an expression breaks a rule its type is None, as where something is not known.
+An expression that violates a rule has the type None, like one with an unknown part.
 """
 
 from typing import Final
@@ -40,14 +40,20 @@ _TRUTH: Final = LOGICAL | EQUALITY | RELATIONS
 
 
 def root(node: Expression, scope: Scope) -> Symbol | None:
-    """What a data reference starts from; None for any other expression, or an unknown name."""
+    """Return the first symbol of a data reference.
+
+    None for other expressions and unknown names.
+    """
     while isinstance(node, Index | Member):
         node = node.base
     return scope.find(node.name) if isinstance(node, Name) else None
 
 
 def declared_type(node: Expression, scope: Scope) -> str | None:
-    """Type of a data reference as it is declared, signals and non-values included."""
+    """Return the declared type of a data reference.
+
+    Includes signals and non-value types.
+    """
     if isinstance(node, Name):
         symbol = scope.find(node.name)
         return scope.module.type_of(symbol) if isinstance(symbol, DataSymbol) else None
@@ -63,7 +69,7 @@ def declared_type(node: Expression, scope: Scope) -> str | None:
 
 
 def type_of(node: Expression, scope: Scope) -> str | None:
-    """Type of an expression whose value is read; a signal reads as num."""
+    """Return the type of a read expression; a signal reads as num."""
     match node:
         case NumberLiteral():
             return NUMBER

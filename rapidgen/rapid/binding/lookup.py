@@ -1,7 +1,7 @@
-"""What stands at a place of a text: for editors, and for whoever looks for all uses of a name.
+"""Symbols at a place of a text, and all uses of a symbol.
 
-`BoundModule(scope).at(line, column)` is the symbol that is named there. A parameter that an
-argument names, and a procedure that a late call names with a literal, are found as well.
+`BoundModule(scope).at(line, column)` is the symbol named there. It also covers parameters named by
+an argument and procedures named by a literal in a late call.
 """
 
 from bisect import bisect_right
@@ -30,27 +30,27 @@ from rapidgen.rapid.syntax.nodes import (
 from rapidgen.rapid.syntax.walk import children
 
 _Mention = tuple[int, Symbol]
-"""Token of a name, and what it stands for."""
+"""Token of a name, and its symbol."""
 
 
 @dataclass(slots=True, eq=False)
 class BoundModule:
-    """A module whose names have been looked up. They are, when something is first asked."""
+    """A module with its names looked up on first use."""
 
     scope: ModuleScope
     _named: dict[int, Symbol] = field(default_factory=dict)
 
     @property
     def names(self) -> dict[int, Symbol]:
-        """Every token that names something known, and what it names; declarations included."""
+        """Every token that names a known symbol, including declarations."""
         if not self._named:
             self._named.update(_mentions(self.scope))
         return self._named
 
     def at(self, line: int, column: int) -> Symbol | None:
-        """What the name at a line and column (from 1, code points) stands for.
+        """Return the symbol at a line and column (from 1, code points).
 
-        Right behind its last letter is still on the name.
+        The position after the last letter belongs to the name.
         """
         source = self.scope.tree.source
         offset = source.offset(line, column)
@@ -63,7 +63,10 @@ class BoundModule:
         return None
 
     def uses(self, symbol: Symbol) -> list[Span]:
-        """Places of this module that name a symbol, in order; its declaration is none."""
+        """Return places that name a symbol, in order.
+
+        The declaration is not included.
+        """
         own = symbol.token if symbol.module is self.scope else -1
         span = self.scope.tree.source.span
         tokens = sorted(t for t, s in self.names.items() if s is symbol and t != own)
@@ -79,7 +82,10 @@ def _mentions(module: ModuleScope) -> Iterator[_Mention]:
 
 
 def _below(start: Node, outer: ModuleScope) -> Iterator[_Mention]:
-    """Names in a declaration of a module; the scope changes with routines and loops."""
+    """Iterate over names in a declaration of a module.
+
+    The scope changes with routines and loops.
+    """
     stack: list[tuple[Node, Scope]] = [(start, outer)]
     while stack:
         node, scope = stack.pop()
@@ -103,7 +109,7 @@ def _below(start: Node, outer: ModuleScope) -> Iterator[_Mention]:
 
 
 def _named(node: Node, scope: Scope) -> Iterator[_Mention]:
-    """Names that stand in a node itself, not below it."""
+    """Iterate over the names of a node itself, not of its children."""
     match node:
         case Name(name=name):
             yield from _found(node.first, scope.find(name))
@@ -134,7 +140,7 @@ def _named(node: Node, scope: Scope) -> Iterator[_Mention]:
 def _arguments(
     arguments: list[Argument], routine: Symbol | None, scope: Scope
 ) -> Iterator[_Mention]:
-    """Parameters that arguments name."""
+    """Iterate over parameters named by arguments."""
     if not isinstance(routine, RoutineSymbol):
         return
     known = {p.name.lower(): p for p in scope.module.task.parameters(routine)}

@@ -1,4 +1,7 @@
-"""Names: symbols, types as texts and the scopes of a task."""
+"""Names: symbols, types as texts and the scopes of a task.
+
+See "Scopes" below for the rules of name resolution.
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -26,10 +29,10 @@ from rapidgen.rapid.syntax.walk import walk
 
 # -- Types as texts --------------------------------------------------------------------------------
 #
-# Types as texts, and what the operators make of them [K §2.17, 3.11].
+# Types as texts, and the results of operators [K §2.17, 3.11].
 #
-# A type is the lower-case name behind aliases, with `{*}`, `{*,*}` or `{*,*,*}` behind it for
-# arrays: `num`, `robtarget{*}`. None stands for a type that is not known.
+# A type is the lower-case name after resolution of aliases. Arrays append `{*}`, `{*,*}` or
+# `{*,*,*}`: `num`, `robtarget{*}`. None is an unknown type.
 
 
 NUMBER: Final = "number"
@@ -37,29 +40,29 @@ NUMBER: Final = "number"
 AGGREGATE: Final = "aggregate"
 NUMERIC: Final = frozenset((NUMBER, "num", "dnum"))
 ATOMIC: Final = frozenset(("num", "dnum", "bool", "string"))
-"""What surely has no components; of some installed types they are not known."""
+"""Types without components; those of some installed types are unknown."""
 LOGICAL: Final = frozenset(("AND", "OR", "XOR", "NOT"))
 EQUALITY: Final = frozenset(("=", "<>"))
 RELATIONS: Final = frozenset(("<", "<=", ">", ">="))
 
 
 def array(base: str, degree: int) -> str:
-    """The type of an array of `base`."""
+    """Return the type of an array of `base`."""
     return base + "{" + ",".join("*" * degree) + "}" if degree else base
 
 
 def degree(type_name: str) -> int:
-    """Dimensions of a type."""
+    """Return the number of dimensions of a type."""
     return type_name.count("*")
 
 
 def element(type_name: str) -> str:
-    """Type of an element of an array type, the type itself when it is no array."""
+    """Return the element type of an array type, else the type itself."""
     return type_name.partition("{")[0]
 
 
 def equal(left: str, right: str) -> bool:
-    """Whether types are equal; a literal number is what its partner is."""
+    """Return True if types are equal; a literal number fits both types."""
     if left == right:
         return True
     if left == NUMBER:
@@ -68,7 +71,7 @@ def equal(left: str, right: str) -> bool:
 
 
 def arithmetic(operator: str, left: str, right: str) -> str | None:
-    """Type of `left operator right`, or None when the operator does not take these."""
+    """Return the type of `left operator right`, None if not permitted."""
     if left in NUMERIC and right in NUMERIC:
         if not equal(left, right):
             return None
@@ -89,10 +92,10 @@ def arithmetic(operator: str, left: str, right: str) -> str | None:
 
 # -- Symbols ---------------------------------------------------------------------------------------
 #
-# What a name stands for. Symbols are made once and not changed.
+# Meanings of names. Symbols are made once, do not change, and compare by identity.
 #
-# They are compared by identity. `module` is the scope that declares one; None for what is built
-# in or installed by the configuration. Names keep the spelling of the declaration.
+# `module` is the declaring scope, None for built-in and installed objects. Names keep the spelling
+# of the declaration.
 
 
 DataRole = Literal["VAR", "PERS", "CONST", "PARAMETER", "LOOP", "INSTALLED"]
@@ -106,7 +109,7 @@ DATA: Final[frozenset[Role]] = frozenset(("VAR", "PERS", "CONST", "PARAMETER", "
 
 @dataclass(slots=True, eq=False)
 class Symbol:
-    """One named thing."""
+    """A named object."""
 
     name: str
     kind: Role
@@ -118,12 +121,15 @@ class Symbol:
 
     @property
     def token(self) -> int:
-        """Index of the name in the declaring module's tokens; -1 where there is none."""
+        """Index of the name in the module's tokens, -1 without a declaration."""
         return -1
 
     @property
     def declared_at(self) -> Span | None:
-        """Place of the name in its declaration; None for built-in and installed objects."""
+        """Place of the name in its declaration.
+
+        None for built-in and installed objects.
+        """
         if self.module is None or self.token < 0:
             return None
         return self.module.tree.source.span(self.token, self.token)
@@ -131,14 +137,17 @@ class Symbol:
 
 @dataclass(slots=True, eq=False)
 class DataSymbol(Symbol):
-    """A variable, persistent, constant, parameter, loop variable or installed object."""
+    """A datum: variable, persistent, constant, parameter, loop or signal.
+
+    `INSTALLED` objects are signals, mechanical units and task identities.
+    """
 
     node: DataDeclaration | Parameter | For | None = None
     type: str = "num"
     """As declared: before aliases, and without dimensions."""
     degree: int = 0
     routine: RoutineDeclaration | None = None
-    """Whose parameter, datum or loop variable it is; None for module data."""
+    """Routine of a parameter, datum or loop variable; None for module data."""
     readonly: bool = False
     """A program cannot assign it: CONST, loop variables, ERRNO, INTNO."""
 
@@ -152,12 +161,12 @@ class DataSymbol(Symbol):
 
     @property
     def mode(self) -> Mode:
-        """Of a parameter: how it is passed."""
+        """Passing mode of a parameter."""
         return self.node.mode if isinstance(self.node, Parameter) else ""
 
     @property
     def optional(self) -> bool:
-        """Whether it is an optional parameter."""
+        """True for an optional parameter."""
         return isinstance(self.node, Parameter) and self.node.optional
 
     @property
@@ -167,7 +176,7 @@ class DataSymbol(Symbol):
 
     @property
     def dimensions(self) -> Sequence[Expression]:
-        """Sizes of a declaration; of an array parameter none, see `degree`."""
+        """Sizes of a declaration; an array parameter has only a `degree`."""
         return self.node.dimensions if isinstance(self.node, DataDeclaration) else ()
 
 
@@ -187,7 +196,7 @@ class RoutineSymbol(Symbol):
 
     @property
     def parameters(self) -> Sequence[Parameter] | None:
-        """In the order of the call; None when they are not known."""
+        """Parameters in the order of the call, None if unknown."""
         if self.signature is not None:
             return self.signature.parameters if self.signature.checked else None
         if self.node is None or any(p.name.startswith("<") for p in self.node.parameters):
@@ -197,7 +206,10 @@ class RoutineSymbol(Symbol):
 
 @dataclass(slots=True, eq=False)
 class TypeSymbol(Symbol):
-    """A record, an alias or a predefined type; predefined records are of kind `TYPE`."""
+    """A record, an alias or a predefined type.
+
+    Predefined records have the kind `TYPE`.
+    """
 
     node: RecordDeclaration | AliasDeclaration | None = None
     base: str | None = None
@@ -220,7 +232,7 @@ class TypeSymbol(Symbol):
 
 @dataclass(slots=True, eq=False)
 class ModuleSymbol(Symbol):
-    """The name of a module: global in its task, and of use to nobody but a late call."""
+    """The name of a module: global in its task, used by late calls only."""
 
     node: Module | None = None
 
@@ -244,32 +256,36 @@ class LabelSymbol(Symbol):
 
 # -- Scopes ----------------------------------------------------------------------------------------
 #
-# Which declaration a name means: the scopes of a task [K §2.12, 2.20, 4.3, 4.15, 5.2, 9.1, 13.1].
+# Scopes of a task [K §2.12, 2.20, 4.3, 4.15, 5.2, 9.1, 13.1].
 #
 # RAPID compares names without case. There is one space of names: a datum, a type, a routine and a
-# module of the same name hide or hinder each other. A name stands for what the innermost of these
-# scopes declares:
+# module of the same name hide each other or clash. A name denotes the object of the innermost of
+# these scopes:
 #
 # 1. a FOR loop: its variable, inside DO .. ENDFOR only;
-# 2. the routine: parameters and data, in the body and in all its handlers. Data of a routine know
-#    only those that are declared above them. Labels are looked up by GOTO alone, in the whole
-#    routine; they may not have the name of one of its data;
-# 3. the module: everything that it declares, LOCAL or not. References in declarations of the module
-#    start here. A LOCAL object hides a global one of another module;
-# 4. the task: what its modules declare without LOCAL, and the modules' names. Of equal global names
-#    the first that was loaded counts, and the clash is an error;
+# 2. the routine: parameters and data, in the body and in all its handlers. A datum of a routine
+#    sees only data declared above it. GOTO alone looks up labels, in the whole routine; a label may
+#    not have the name of one of its data;
+# 3. the module: all its declarations, LOCAL or not. References in declarations of the module start
+#    here. A LOCAL object hides a global one of another module;
+# 4. the task: declarations of its modules without LOCAL, and the modules' names. Of equal global
+#    names the first loaded one counts, and the clash is an error;
 # 5. installed modules (built in, or shared by all tasks): their global names. The program may hide
-#    them. An installed module itself sees its own names, those of installed modules and what lies
-#    further out, but never the program;
-# 6. what the configuration installs: signals, mechanical units, task identities; where a name is
-#    called they hide no predefined routine (`called`): a signal may have the name of a function;
+#    them. An installed module sees its own names, those of installed modules and of the scopes
+#    below, but never the program;
+# 6. the configuration: signals, mechanical units, task identities. In a call they hide no
+#    predefined routine (`called`): a signal may have the name of a function;
 # 7. the predefined data, types and routines of RAPID (`builtins/*.rapid`).
 #
-# A type behind aliases is found from the module that declares its object. What two tasks declare
-# differently under one name has no known type where both are looked at together.
+# The module that declares an object resolves the aliases of its type. If two tasks declare a name
+# differently, its type is unknown where both are checked together.
 #
-# Nothing here judges: a name that nothing declares is None, a type that is not known is None, and
-# objects of a module or a task with the same name are kept as pairs in `clashes`.
+# This module reports no errors: an undeclared name is None, an unknown type is None, and objects of
+# a module or a task with the same name are pairs in `clashes`.
+#
+# Costs: look-ups are cached per module and spelling (`known`, `bases`, `classes`), because the
+# checker looks up each name of a large program many times. Adding or removing a module clears all
+# caches of the task (`_forget`): a new global name may hide or provide any other.
 
 
 _MAX_ALIASES: Final = 4
@@ -279,7 +295,10 @@ Clash = tuple[Symbol, Symbol]
 
 @dataclass(slots=True, eq=False)
 class TaskScope:
-    """The modules of one task and what they all see. Modules may be added and removed."""
+    """Modules of a task and all that they see.
+
+    Modules may be added and removed.
+    """
 
     configured: Mapping[str, Symbol] = field(default_factory=dict)
     """Signals, mechanical units and task identities, by lower-case name."""
@@ -292,17 +311,17 @@ class TaskScope:
     clashes: list[Clash] = field(default_factory=list)
     """Global objects of different modules with the same name."""
     types: dict[Symbol, str | None] = field(default_factory=dict)
-    """What `ModuleScope.type_of` has found."""
+    """Cache of `ModuleScope.type_of`."""
     values: dict[DataSymbol, Value | None] = field(default_factory=dict)
-    """What `constants.value_of` has found; None while it is at it, and for what has none."""
+    """Cache of `constants.value_of`; None during evaluation and for data without a value."""
     records: dict[TypeSymbol, Mapping[str, str | None]] = field(default_factory=dict)
-    """What `ModuleScope.components` has found."""
+    """Cache of `ModuleScope.components`."""
     _parameters: dict[RoutineSymbol, tuple[DataSymbol, ...]] = field(default_factory=dict)
     _scopes: list["ModuleScope"] = field(default_factory=list)
     """All modules, of equal names as well."""
 
     def add(self, tree: Module, *, installed: bool = False) -> "ModuleScope":
-        """Take a module in; its global names are known to all modules from now on."""
+        """Add a module; all modules see its global names from now on."""
         module = ModuleScope(tree, self, installed)
         self.modules[tree.name.lower()] = module
         self._scopes.append(module)
@@ -315,7 +334,7 @@ class TaskScope:
             if first is None:
                 result[key] = symbol
             elif first.module is not module or "MODULE" in (first.kind, symbol.kind):
-                # Of a module that is there twice, the module's name says it all.
+                # For a module loaded twice, report only the module's name.
                 again = first.module and first.module.tree.name.lower() == tree.name.lower()
                 if symbol is own or first.kind == "MODULE" or not again:
                     self.clashes.append((first, symbol))
@@ -323,7 +342,7 @@ class TaskScope:
         return module
 
     def remove(self, module: "ModuleScope") -> None:
-        """Take a module out, and its global names."""
+        """Remove a module and its global names."""
         self._scopes.remove(module)
         key = module.tree.name.lower()
         if self.modules.get(key) is module:
@@ -334,7 +353,7 @@ class TaskScope:
         self._forget()
 
     def _forget(self) -> None:
-        """What has been found of names, types and values may be different now."""
+        """Clear all caches of names, types and values."""
         for result in (self.types, self.values, self.records):
             result.clear()
         for scope in self._scopes:
@@ -342,7 +361,10 @@ class TaskScope:
                 known.clear()
 
     def find(self, key: str, *, program: bool = True) -> Symbol | None:
-        """A name as seen from no module: by lower-case name, with or without the program's."""
+        """Return the symbol of a lower-case name as seen from no module.
+
+        `program` includes the names of the program.
+        """
         return (
             (self.globals.get(key) if program else None)
             or self.installed.get(key)
@@ -351,13 +373,16 @@ class TaskScope:
         )
 
     def conflicting_objects(self, clash: Clash) -> None:
-        """Two tasks' objects of one name: where they differ, the type is not known."""
+        """Make the type of an object unknown if two tasks declare it differently."""
         first, second = clash
         if first.kind != second.kind or _shape(first) != _shape(second):
             self.types[first] = None
 
     def parameters(self, routine: RoutineSymbol) -> tuple[DataSymbol, ...]:
-        """Parameters of a routine as symbols, in order; empty where they are not known."""
+        """Return the parameters of a routine as symbols, in order.
+
+        Empty if they are unknown.
+        """
         match = self._parameters.get(routine)
         if match is None:
             match = self._parameters[routine] = tuple(
@@ -376,21 +401,21 @@ def _shape(symbol: Symbol) -> tuple[str | None, int]:
 
 @dataclass(slots=True, eq=False)
 class ModuleScope:
-    """A module: its own names, and the way to the task's and the built-in ones."""
+    """A module: its own names and the access to outer scopes."""
 
     tree: Module
     task: TaskScope
     installed: bool = False
     own: dict[str, Symbol] = field(default_factory=dict)
-    """What it declares, by lower-case name."""
+    """Declared symbols, by lower-case name."""
     clashes: list[Clash] = field(default_factory=list)
     """Objects of this module with the same name [K §2.12]."""
     known: dict[str, Symbol | None] = field(default_factory=dict)
-    """What `find` has found, by name as it was asked for."""
+    """Cache of `find`, by name as spelled."""
     bases: dict[str, str | None] = field(default_factory=dict)
-    """What `base` has found."""
+    """Cache of `base`."""
     classes: dict[str, TypeClass | None] = field(default_factory=dict)
-    """What `type_class` has found; None of a record while it is at it."""
+    """Cache of `type_class`; None for a record in progress."""
     _routines: dict[RoutineDeclaration, "RoutineScope"] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -419,11 +444,11 @@ class ModuleScope:
 
     @property
     def module(self) -> "ModuleScope":
-        """Itself: what asks a scope for its module need not know which sort it has."""
+        """The module itself, so that all scopes have this property."""
         return self
 
     def find(self, name: str) -> Symbol | None:
-        """What a name means in this module outside routines."""
+        """Return the symbol of a name outside routines."""
         if name in self.known:
             return self.known[name]
         key = name.lower()
@@ -432,7 +457,7 @@ class ModuleScope:
         return match
 
     def routine(self, node: RoutineDeclaration) -> "RoutineScope":
-        """The scope of a routine of this module, with everything that it declares."""
+        """Return the scope of a routine with all its declarations."""
         match = self._routines.get(node)
         if match is None:
             match = self._routines[node] = RoutineScope(self, node)
@@ -448,9 +473,9 @@ class ModuleScope:
     # -- types ---------------------------------------------------------------------------
 
     def type_symbol(self, name: str) -> TypeSymbol | None:
-        """The record or predefined type behind aliases, or None when there is no such type.
+        """Return the type after resolution of aliases, None if unknown.
 
-        An alias of an alias is an error [K §2.15]; aliases of each other come to no end.
+        An alias of an alias is an error [K §2.15]; aliases of each other end here.
         """
         scope: ModuleScope = self
         for _ in range(_MAX_ALIASES):
@@ -463,7 +488,7 @@ class ModuleScope:
         return None
 
     def base(self, name: str) -> str | None:
-        """Lower-case name of the type behind aliases, or None when there is no such type."""
+        """Return the lower-case name after aliases, None if unknown."""
         if name in self.bases:
             return self.bases[name]
         symbol = self.type_symbol(name)
@@ -472,7 +497,10 @@ class ModuleScope:
         return result
 
     def type_of(self, symbol: Symbol) -> str | None:
-        """Type of a datum, parameter or function, with its dimensions."""
+        """Return the type of a datum, parameter or function.
+
+        It includes the dimensions.
+        """
         types = self.task.types
         if symbol in types:
             return types[symbol]
@@ -487,7 +515,10 @@ class ModuleScope:
         return result
 
     def components(self, type_name: str) -> Mapping[str, str | None] | None:
-        """Lower-case component to its type, of a record; None for what is no record."""
+        """Return the types of a record's lower-case components.
+
+        None for other types.
+        """
         symbol = self.find(type_name)
         if not isinstance(symbol, TypeSymbol) or symbol.components is None:
             return None
@@ -499,12 +530,12 @@ class ModuleScope:
         return match
 
     def knows_in_part(self, type_name: str) -> bool:
-        """Whether a predefined record has components whose names are not public."""
+        """Return True if some components of a record are not public."""
         symbol = self.find(type_name)
         return isinstance(symbol, TypeSymbol) and symbol.partly
 
     def takes(self, type_name: str, members: int) -> bool:
-        """Whether an aggregate of so many members is a value of a record type."""
+        """Return True if a record type permits an aggregate of this length."""
         symbol = self.find(type_name)
         if not isinstance(symbol, TypeSymbol) or symbol.components is None:
             return False
@@ -512,7 +543,10 @@ class ModuleScope:
         return most - symbol.newer <= members <= most
 
     def type_class(self, type_name: str) -> TypeClass | None:
-        """Value class of a type behind aliases; an array has that of its element [K §2.16]."""
+        """Return the value class of a type after aliases.
+
+        An array has the class of its element [K §2.16].
+        """
         if type_name in self.classes:
             return self.classes[type_name]
         self.classes[type_name] = None
@@ -530,7 +564,7 @@ class ModuleScope:
 
 @dataclass(slots=True, eq=False)
 class RoutineScope:
-    """A routine, or a FOR loop in it: its names, and the way to the module's."""
+    """A routine, or a FOR loop in it: its names, and the outer scopes."""
 
     module: ModuleScope
     node: RoutineDeclaration
@@ -539,7 +573,7 @@ class RoutineScope:
     _labels: dict[str, LabelSymbol] | None = None
 
     def declare(self, symbol: DataSymbol) -> DataSymbol | None:
-        """Add a parameter or a datum, unless there is one of that name already: gives that one."""
+        """Add a parameter or datum; return an existing one of that name."""
         key = symbol.name.lower()
         first = self.names.get(key)
         if first is None and not key.startswith("<"):
@@ -548,7 +582,10 @@ class RoutineScope:
 
     @property
     def labels(self) -> dict[str, LabelSymbol]:
-        """By lower-case name; the first of a name counts. Looked for when they are asked for."""
+        """Labels by lower-case name, collected on demand.
+
+        Of equal labels the first one counts.
+        """
         routine = self.module.routine(self.node)
         if routine is not self:
             return routine.labels
@@ -561,7 +598,10 @@ class RoutineScope:
         return self._labels
 
     def loop(self, node: For) -> "RoutineScope":
-        """The scope of a loop's statements: its variable hides any other name [K §4.15]."""
+        """Return the scope of a loop's statements [K §4.15].
+
+        The loop variable hides other names.
+        """
         variable = DataSymbol(
             node.variable, "LOOP", self.module, node=node, routine=self.node, readonly=True
         )
@@ -569,7 +609,7 @@ class RoutineScope:
         return RoutineScope(self.module, self.node, names)
 
     def find(self, name: str) -> Symbol | None:
-        """What a name means in this routine."""
+        """Return the symbol of a name in this routine."""
         return self.names.get(name.lower()) or self.module.find(name)
 
 
@@ -580,7 +620,7 @@ Scope = ModuleScope | RoutineScope
 def datum_symbol(
     d: DataDeclaration, module: ModuleScope, routine: RoutineDeclaration | None = None
 ) -> DataSymbol:
-    """What a declaration of data gives, in a module or a routine."""
+    """Return the symbol of a data declaration."""
     local, degree = d.scope == "LOCAL", len(d.dimensions)
     return DataSymbol(d.name, d.kind, module, local, d, d.type, degree, routine, d.kind == "CONST")
 
@@ -588,13 +628,19 @@ def datum_symbol(
 def parameter_symbol(
     p: Parameter, module: ModuleScope | None, routine: RoutineDeclaration | None
 ) -> DataSymbol:
-    """What a parameter is inside its routine; both None: of a built-in."""
+    """Return the symbol of a parameter inside its routine.
+
+    Both arguments are None for a built-in.
+    """
     return DataSymbol(p.name, "PARAMETER", module, False, p, p.type, p.dimensions, routine)
 
 
 @cache
 def builtin(key: str) -> Symbol | None:
-    """A predefined object by lower-case name: one symbol for all tasks."""
+    """Return a predefined symbol by lower-case name.
+
+    All tasks share it.
+    """
     datum = signatures.constant(key)
     if datum is not None:
         return DataSymbol(datum.name, datum.kind, type=datum.type, readonly=datum.readonly)
@@ -615,7 +661,10 @@ def builtin(key: str) -> Symbol | None:
 
 
 def called(symbol: Symbol | None) -> Symbol | None:
-    """What a call of a name means: what the configuration installs hides no predefined routine."""
+    """Return the symbol of a called name.
+
+    An object of the configuration hides no predefined routine.
+    """
     if symbol is not None and symbol.kind == "INSTALLED":
         routine = builtin(symbol.name.lower())
         return routine if isinstance(routine, RoutineSymbol) else symbol
@@ -623,5 +672,5 @@ def called(symbol: Symbol | None) -> Symbol | None:
 
 
 def installed_objects(objects: Iterable[tuple[str, str]]) -> dict[str, Symbol]:
-    """(name, type) of signals, units and task identities, as `TaskScope.configured`."""
+    """Return symbols of (name, type), for `TaskScope.configured`."""
     return {name.lower(): DataSymbol(name, "INSTALLED", type=of) for name, of in objects}

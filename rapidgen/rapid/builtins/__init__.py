@@ -1,1 +1,1 @@
-"""RAPID's own routines, types and data, as headers in its own syntax."""
+"""Built-in routines, types and data of RAPID, as headers in its syntax."""

@@ -86,9 +86,9 @@ _NEWER: Final = re.compile(r"^!newer (\w+) (.*)$", re.MULTILINE)
 class Signature:
     """A built-in routine.
 
-    `parameters` are in the order of the call. Of parameters with the same `group` >= 0 at most
-    one has an argument, and exactly one when they are required (then it is the one whose mode
-    and type the argument fits).
+    `parameters` are in the order of the call. Of parameters with the same `group` >= 0 at most one
+    has an argument, and exactly one if they are required (the one whose mode and type the argument
+    fits).
     """
 
     name: str
@@ -98,18 +98,21 @@ class Signature:
     since: Version | None = None
     until: Version | None = None
     marks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    """What stands behind the header: each mark with the lower-case names that follow it."""
+    """Marks after the header: each mark with the lower-case names after it."""
     everywhere: bool = True
-    """Whether every controller has it, whatever its release and its options."""
+    """True if every controller has it, whatever its release and options."""
 
     def argument_version(self, marker: Literal["came", "went"], name: str) -> Version | None:
-        """With which RobotWare an argument came or went, None: it has always been there."""
+        """Return the RobotWare version of an argument's addition or removal.
+
+        None: it has always existed.
+        """
         words = self.marks.get(marker, ())
         return _version(words) if name.lower() in words[1:] else None
 
     @property
     def checked(self) -> bool:
-        """Whether its arguments are known."""
+        """True if its arguments are known."""
         return "open" not in self.marks
 
 
@@ -129,7 +132,7 @@ class PredefinedRecord:
 class Predefined:
     """A predefined constant, persistent or variable.
 
-    `value` is a number (int when whole), bool, str or nested tuples; None = the type's default.
+    `value` is a number (int if whole), bool, str or nested tuples; None means the type's default.
     """
 
     name: str
@@ -146,7 +149,7 @@ def _read(name: str) -> str:
 
 @cache
 def _themes() -> tuple[str, ...]:
-    """The files with routines; one of a family has its types and data, too."""
+    """Return the files with routines; a file may also have types and data."""
     result = _FOLDER.iterdir()
     names = sorted(file.name for file in result if file.name.endswith(".rapid"))
     return tuple(n for name in names if (n := name.removesuffix(".rapid")) not in _WITHOUT_ROUTINES)
@@ -154,7 +157,10 @@ def _themes() -> tuple[str, ...]:
 
 @cache
 def _headers() -> dict[str, tuple[str, str | None, str, str | None, bool]]:
-    """Lower-case name to (name, type, parameters as text, marks, whether it is of an option)."""
+    """Return (name, type, parameters, marks, option) by lower-case name.
+
+    Parameters and marks are text; `option` is True for routines of an option.
+    """
     result: dict[str, tuple[str, str | None, str, str | None, bool]] = {}
     for file in _themes():
         of_option = file in _OF_OPTIONS
@@ -165,7 +171,7 @@ def _headers() -> dict[str, tuple[str, str | None, str, str | None, bool]]:
 
 @cache
 def routine(name: str) -> Signature | None:
-    """The built-in PROC or FUNC of that name (any case), or None."""
+    """Return the built-in PROC or FUNC of a name (any case), or None."""
     header = _headers().get(name.lower())
     if header is None:
         return None
@@ -180,7 +186,7 @@ def routine(name: str) -> Signature | None:
 
 
 def _marks(text: str) -> dict[str, tuple[str, ...]]:
-    """Each mark with what follows it up to the next one."""
+    """Return each mark with the text up to the next one."""
     result: dict[str, tuple[str, ...]] = {}
     last = ""
     for keyword in text.split():
@@ -201,26 +207,29 @@ def _version(words: tuple[str, ...]) -> Version | None:
 
 @cache
 def marked(marker: str) -> frozenset[str]:
-    """Lower-case names of the built-in routines with a mark behind their header."""
+    """Return lower-case names of built-in routines with a mark."""
     headers = _headers().items()
     return frozenset(name for name, header in headers if marker in _marks(header[3] or ""))
 
 
 @cache
 def routines() -> Mapping[str, Signature]:
-    """All built-in routines by lower-case name."""
+    """Return all built-in routines by lower-case name."""
     result = {name: routine(name) for name in _headers()}
     return MappingProxyType({name: s for name, s in result.items() if s is not None})
 
 
 def routine_names() -> tuple[str, ...]:
-    """Names of all built-in routines, without reading their parameters."""
+    """Return the names of all built-in routines.
+
+    It does not parse their parameters.
+    """
     return tuple(header[0] for header in _headers().values())
 
 
 @cache
 def option_names(kind: Literal["procedures", "functions", "types", "values"]) -> frozenset[str]:
-    """Lower-case names that options and add-ins have; nothing more is known of them."""
+    """Return lower-case names of options and add-ins without details."""
     result = _NAMES.findall(_read("names"))
     return frozenset(name.lower() for of, names in result if of == kind for name in names.split())
 
@@ -235,7 +244,7 @@ class _Types:
 
 @cache
 def _declared() -> str:
-    """What the files of families declare beside their routines."""
+    """Return declarations of types and data in the files of families."""
     return "\n".join(result for name in _themes() for result in _DECLARATION.findall(_read(name)))
 
 
@@ -277,38 +286,41 @@ def _types() -> _Types:
 
 
 def type_class(name: str) -> TypeClass | None:
-    """Value class of a predefined type (any case), or None when there is no such type."""
+    """Return the value class of a predefined type, or None."""
     return _types().classes.get(name.lower())
 
 
 def type_names() -> tuple[str, ...]:
-    """Names of all predefined types."""
+    """Return the names of all predefined types."""
     return tuple(_types().names.values())
 
 
 def alias(name: str) -> str | None:
-    """Base type of a predefined alias (`errnum` -> `num`), or None."""
+    """Return the base type of a predefined alias, or None.
+
+    Example: `errnum` -> `num`.
+    """
     return _types().aliases.get(name.lower())
 
 
 def aliases() -> Mapping[str, str]:
-    """All predefined aliases: lower-case name to base type."""
+    """Return all predefined aliases: lower-case name to base type."""
     return _types().aliases
 
 
 def record(name: str) -> PredefinedRecord | None:
-    """The predefined record of that name (any case), or None."""
+    """Return the predefined record of a name (any case), or None."""
     return _types().records.get(name.lower())
 
 
 def records() -> Mapping[str, PredefinedRecord]:
-    """All predefined records by lower-case name."""
+    """Return all predefined records by lower-case name."""
     return _types().records
 
 
 @cache
 def predefined() -> Mapping[str, Predefined]:
-    """All predefined constants, persistents and variables by lower-case name."""
+    """Return all predefined data by lower-case name."""
     result: dict[str, Predefined] = {}
     text = _read("constants") + _read("data") + _declared()
     read_only, writable = (
@@ -324,7 +336,7 @@ def predefined() -> Mapping[str, Predefined]:
 
 
 def constant(name: str) -> Predefined | None:
-    """The predefined constant, persistent or variable of that name (any case), or None."""
+    """Return the predefined datum of a name (any case), or None."""
     return predefined().get(name.lower())
 
 

@@ -1,7 +1,7 @@
-"""The checker: what a program means, as far as that is known before it runs.
+"""Checker: errors of a program that are known before execution.
 
-`check` takes a module, modules that belong together, or a `System`. What is unknown is judged
-by what was given: see `given.Given`.
+`check` takes a module, modules that belong together, or a `System`. `CheckContext` decides whether
+an unknown name is an error.
 """
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
@@ -25,7 +25,7 @@ from rapidgen.rapid.syntax.parser import parse
 from rapidgen.system import System, TaskSpec
 
 _TREE_STANDS = frozenset(("RG213", "RG215", "RG216", "RG220"))
-"""Errors of the text that leave a tree whose meaning can be checked."""
+"""Errors of the text whose tree can be checked nevertheless."""
 _LOADERS = frozenset(("load", "startload"))
 _SIGNAL_TYPES = {
     "DI": "signaldi",
@@ -46,14 +46,13 @@ def check(
     elsewhere: Collection[str] = frozenset(),
     payloads: Mapping[str, Payload] = MappingProxyType({}),
 ) -> list[Diagnostic]:
-    """Everything wrong with a text, a module, modules that belong together, or a system.
+    """Return all errors of a text, a module, related modules, or a system.
 
-    What modules do not declare may be anywhere; `elsewhere` are lower-case names that other
-    modules declare which were given too. A system declares everything, unless `gaps` says that
-    something is missing that a name could come from. A system's own RobotWare decides unless
-    `dialect` is given. `payloads` are those of the robots by the lower-case name of the task that
-    moves them, of modules without a task by an empty name. Findings of the parser are included.
-    Sorted by place.
+    Other modules may declare what the given ones do not; `elsewhere` are lower-case names of
+    further given modules. A system declares everything, unless `gaps` names a missing source of
+    names. A system's own RobotWare applies unless `dialect` is given. `payloads` are those of the
+    robots by the lower-case name of the task that moves them; modules without a task use an empty
+    name. Errors of the parser are included. The result is sorted by place.
     """
     if isinstance(given, System):
         return _check_system(
@@ -72,7 +71,10 @@ def check(
 
 
 def _check_modules(modules: Sequence[Module], given: CheckContext) -> list[Diagnostic]:
-    """Modules of one folder: they may belong to several tasks, so equal names do not clash."""
+    """Check modules of one folder.
+
+    They may belong to several tasks, so equal names do not clash.
+    """
     task = TaskScope()
     scopes = [task.add(module) for module in modules]
     for clash in task.clashes:
@@ -86,7 +88,10 @@ def _check_module(
     clashes: Sequence[tuple[Symbol, Symbol]] = (),
     entry: str = "",
 ) -> list[Diagnostic]:
-    """One module; `clashes` are those with other modules of its task, which starts in `entry`."""
+    """Check one module; `clashes` are those with other modules.
+
+    The task starts in `entry`.
+    """
     findings = Findings(scope, given)
     for first, second in scope.clashes:
         _clash(findings, first, second, "in this module")
@@ -147,7 +152,10 @@ def _check_system(
 
 
 def _entry(spec: TaskSpec, task: TaskScope, given: CheckContext) -> list[Diagnostic]:
-    """A task starts in a procedure without parameters [K §9]; without modules it never does."""
+    """Check that a task starts in a procedure without parameters [K §9].
+
+    A task without modules never starts.
+    """
     symbol = task.find(spec.entry.lower())
     if not isinstance(symbol, RoutineSymbol) or symbol.module is None or symbol.node is None:
         if given.gaps or not spec.modules:
@@ -176,7 +184,10 @@ def _entry(spec: TaskSpec, task: TaskScope, given: CheckContext) -> list[Diagnos
 
 
 def _installed(system: System) -> Iterator[tuple[str, str]]:
-    """Name and type of signals, mechanical units and task identities of a configuration."""
+    """Iterate over name and type of installed objects.
+
+    These are signals, mechanical units and task identities of a configuration.
+    """
     for signal in system.signals:
         yield signal.name, _SIGNAL_TYPES[signal.type]
     for group in system.groups:
@@ -190,7 +201,7 @@ def _installed(system: System) -> Iterator[tuple[str, str]]:
 
 
 def _unreadable(module: Module) -> bool:
-    """Whether something of a file is not known that other modules may name."""
+    """Return True if some declarations of a file are unknown."""
     return not module.name or any(
         d.severity is Severity.ERROR or d.code == "RG217" for d in module.diagnostics
     )
@@ -201,7 +212,7 @@ def _any_unreadable(modules: Iterable[Module]) -> bool:
 
 
 def _loads(modules: Iterable[Module]) -> bool:
-    """Whether a program loads further modules while it runs."""
+    """Return True if a program loads modules during execution."""
     return any(
         token.lower() in _LOADERS for module in modules for token in set(module.source.tokens)
     )

@@ -1,4 +1,4 @@
-"""Arguments of calls against the routine's parameters [K §3.10, 5.1]."""
+"""Checks of arguments against the routine's parameters [K §3.10, 5.1]."""
 
 from collections.abc import Sequence
 from typing import Final, Protocol
@@ -39,7 +39,7 @@ from rapidgen.rapid.syntax.nodes import (
 from rapidgen.system.releases import ANY_MINOR
 
 _Call = FunctionCall | ProcedureCall | LateCall
-"""Minor release that stands for a whole line of them."""
+"""A call with arguments."""
 _RAW_BYTES: Final = 1024
 """Bytes of a rawbytes."""
 _OTHER: Final = ("a module that is not given may declare another routine of that name [K §2.12]",)
@@ -83,7 +83,7 @@ class CallChecker:
         self.types = types
 
     def call(self, node: ProcedureCall) -> None:
-        """A procedure call."""
+        """Check a procedure call."""
         findings = self.findings
         symbol = called(findings.find(node.name))
         if symbol is None:
@@ -107,13 +107,13 @@ class CallChecker:
         )
 
     def loose_arguments(self, arguments: Sequence[Argument]) -> None:
-        """Look at arguments of a routine that is not known."""
+        """Check arguments of an unknown routine."""
         for argument in arguments:
             if argument.value is not None:
                 self.types.used(argument.value)
 
     def check_arguments(self, symbol: RoutineSymbol, node: _Call) -> None:
-        """Arguments against the parameters of a known routine."""
+        """Check arguments against the parameters of a known routine."""
         parameters = symbol.parameters
         if parameters is None:
             self.loose_arguments(node.arguments)
@@ -127,7 +127,9 @@ class CallChecker:
         for pair in result.pairs:
             again = surplus and ArgumentFault.SURPLUS in pair.misfits
             surplus = surplus or ArgumentFault.SURPLUS in pair.misfits
-            if pair.misfits and not again:  # one argument too many says it all
+            if (
+                pair.misfits and not again
+            ):  # one surplus argument is reported, the others follow from it
                 self._misfits(symbol, parameters, pair, hidden)
             if pair.parameter < 0 or hidden:
                 self.loose_arguments([pair.argument])
@@ -148,10 +150,10 @@ class CallChecker:
     def _may_be_hidden(
         self, symbol: RoutineSymbol, node: _Call, pairs: Sequence[Pairing[Argument]]
     ) -> bool:
-        """Whether a module that is not here may declare the routine that is meant [K §2.12].
+        """Return True if another module may declare the routine [K §2.12].
 
-        Public programs hide built-ins by procedures without parameters (Reset), and those that not
-        every controller has by procedures with more of them (GetJointData) [code].
+        Public programs hide built-ins by procedures without parameters (Reset), and built-ins that
+        not every controller has by procedures with more parameters (GetJointData) [code].
         """
         if symbol.signature is None or self.findings.given.is_complete:
             return False
@@ -174,7 +176,7 @@ class CallChecker:
     def _release(
         self, what: str, since: Version | None, until: Version | None, node: Node | int
     ) -> None:
-        """Say what the release lacks: a fault, or a note where the release is not told."""
+        """Report what the release lacks; a note if the release is unknown."""
         dialect = self.findings.given.dialect
         if since is not None and dialect.robotware < since:
             message = f"{what} came with RobotWare {since[0]}.{since[1]}"
@@ -197,7 +199,7 @@ class CallChecker:
     def _fitting(
         self, parameters: Sequence[Parameter], argument: Argument, these: Sequence[int]
     ) -> int:
-        """Of required alternatives, the one that the argument fits."""
+        """Return the required alternative that the argument fits."""
         current, value = self.findings.here, argument.value
         result: str | None = None
         if isinstance(value, Name | Index | Member):
@@ -217,8 +219,10 @@ class CallChecker:
         pair: Pairing[Argument],
         hidden: bool,
     ) -> None:
-        """Say what is wrong with the place of an argument; `hidden`: of a routine that may be
-        another one."""
+        """Report the faults of an argument.
+
+        `hidden`: another module may declare the routine.
+        """
         argument = pair.argument
         for misfit in pair.misfits:
             if misfit is ArgumentFault.SURPLUS:
@@ -379,7 +383,10 @@ class CallChecker:
 
 
 def _up_to_placeholder(arguments: Sequence[Argument]) -> Sequence[Argument]:
-    """Arguments before a placeholder: behind one it is not known which parameter is meant."""
+    """Return arguments before a placeholder.
+
+    The parameters of later ones are unknown.
+    """
     for i, argument in enumerate(arguments):
         if argument.name == "<ID>" or (
             isinstance(argument.value, Placeholder) and argument.kind == "required"
@@ -389,7 +396,7 @@ def _up_to_placeholder(arguments: Sequence[Argument]) -> Sequence[Argument]:
 
 
 def _listed(parameters: Sequence[Parameter]) -> str:
-    """Parameters in short, for help."""
+    """Return a short list of parameters, for help texts."""
     out = []
     for parameter in parameters[:12]:
         marker = "\\" if parameter.optional else ""

@@ -1,4 +1,4 @@
-"""What the checker was given, and therefore what it may call unknown."""
+"""Input of the checker, which decides on the treatment of unknown names."""
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ _LONG: Final = 7
 
 @dataclass(frozen=True, slots=True)
 class Payload:
-    """What a robot may carry, in kg, and its name for people."""
+    """The payload of a robot in kg, and the robot's display name."""
 
     robot: str
     mass: float
@@ -20,7 +20,7 @@ class Payload:
 
 @dataclass(frozen=True, slots=True)
 class CheckContext:
-    """Dialect and extent."""
+    """Dialect and completeness of the input."""
 
     dialect: Dialect
     system: bool = False
@@ -29,21 +29,21 @@ class CheckContext:
     gaps: bool = False
     """Parts of the task are not there to be read."""
     elsewhere: Collection[str] = ()
-    """Lower-case names that modules of other tasks declare: not known here, nor unknown."""
+    """Lower-case names that modules of other tasks declare: neither known nor unknown."""
     payload: Payload | None = None
     """Of the robot that the task moves; None: not known."""
 
     @property
     def is_complete(self) -> bool:
-        """Whether nothing else can declare a name: then an unknown one is an error."""
+        """True if the input declares all names: an unknown one is an error."""
         return self.system and not self.gaps
 
 
 def closest(keyword: str, known: Iterable[str]) -> str:
-    """The known name that `keyword` looks like a slip of the keyboard for, or an empty text.
+    """Return the known name that `keyword` may be a typing error of.
 
-    One slip, or two in a long name: a letter too many, too few, wrong, or two swapped. Names
-    that differ in their digits only (p10, p20) are siblings, not slips.
+    Returns "" without one. It accepts one slip, or two in a long name: a letter too many, too few,
+    wrong, or two swapped. Names that differ only in digits (p10, p20) are not slips.
     """
     folded = keyword.lower()
     allowed = 1 if len(folded) < _LONG else 2
@@ -67,7 +67,7 @@ def closest(keyword: str, known: Iterable[str]) -> str:
 
 
 def _slips(one: str, other: str, limit: int) -> int:
-    """Slips that make one word from the other, or `limit` when there are as many or more."""
+    """Return the number of slips between two words, at most `limit`."""
     before: list[int] = []
     row = list(range(len(other) + 1))
     for i, letter in enumerate(one, 1):

@@ -1,4 +1,4 @@
-"""Declarations: types, records, data, parameters, routines [K §2.11-2.24, 5]."""
+"""Checks of types, records, data, parameters, routines [K §2.11-2.24, 5]."""
 
 from typing import Final
 
@@ -35,7 +35,7 @@ _MAX_DEGREE: Final = 3
 
 
 def check_module(findings: Findings) -> None:
-    """Judge everything in a module."""
+    """Check all declarations of a module."""
     _ModuleChecker(findings).module()
 
 
@@ -49,7 +49,7 @@ class _ModuleChecker:
         self.types = TypeChecker(findings)
 
     def module(self) -> None:
-        """Everything in the module."""
+        """Check the module."""
         for declaration in self.scope.tree.declarations:
             if isinstance(declaration, DataDeclaration):
                 self._data(declaration, routine=False)
@@ -63,7 +63,7 @@ class _ModuleChecker:
         self.findings.note_other_scopes()
 
     def _type(self, name: str, at: int) -> str | None:
-        """Base of a declared type; reports a name that is no type."""
+        """Return the base of a declared type; report an unknown one."""
         symbol = self.findings.find(name)
         if symbol is None:
             self.findings.unknown("type", name, at)
@@ -203,7 +203,10 @@ class _ModuleChecker:
             )
 
     def _constant_expression(self, node: Expression) -> None:
-        """No variable, persistent or call at any depth [K §3.1]."""
+        """Check that an expression has no variable or call [K §3.1].
+
+        It also excludes persistents, at any depth.
+        """
         if isinstance(node, NumberLiteral | StringLiteral | BoolLiteral | Placeholder):
             return
         if isinstance(node, Aggregate):
@@ -337,7 +340,10 @@ class _ModuleChecker:
             )
 
     def _unused_local(self) -> None:
-        """LOCAL objects that nothing in the module names; persistents are seen from outside."""
+        """Report LOCAL objects without a use in the module.
+
+        Persistents are visible from outside.
+        """
         late = any(
             isinstance(statement, LateCall)
             for routine in self.scope.tree.routines

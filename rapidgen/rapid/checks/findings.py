@@ -1,4 +1,4 @@
-"""Findings of the checker: places, severities, and what is said about unknown names."""
+"""Findings of the checker: places, severities and unknown names."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
@@ -36,7 +36,7 @@ _MAY_COME: Final = {
     " module",
     "RG303": "another module may bring them, or an option or add-in of RobotWare",
 }
-"""What may bring a name that nothing at hand declares."""
+"""Sources of names that the input does not declare."""
 HARDWARE: Final = frozenset(
     ("signaldi", "signaldo", "signalgi", "signalgo", "signalai", "signalao", "mecunit", "taskid")
 )
@@ -46,7 +46,7 @@ _LISTED: Final = 8
 
 
 class Findings:
-    """What is found in one module, and what its names are known to be used for."""
+    """Findings in one module, and the uses of its names."""
 
     def __init__(self, module: ModuleScope, given: CheckContext) -> None:
         self.module = module
@@ -94,7 +94,10 @@ class Findings:
         self.report(code, message, node, label=label, help=help, severity=Severity.WARNING)
 
     def add_warnings(self, judge: Callable[[], None], note: str) -> None:
-        """Add as warnings what is found in addition: faults that only execution meets."""
+        """Add the findings of a check as warnings.
+
+        They are faults that only execution meets.
+        """
         marker = len(self.found)
         judge()
         known, more = self.found[:marker], self.found[marker:]
@@ -105,7 +108,7 @@ class Findings:
         ]
 
     def find(self, name: str) -> Symbol | None:
-        """What a name means here; it counts as used."""
+        """Return the symbol of a name and count it as used."""
         symbol = self.here.find(name)
         if symbol is not None:
             self.used.add(symbol)
@@ -113,11 +116,11 @@ class Findings:
 
     @property
     def locals(self) -> dict[str, DataSymbol]:
-        """Parameters, data and loop variables of the routine, by lower-case name."""
+        """Parameters, data and loop variables by lower-case name."""
         return self.here.names if isinstance(self.here, RoutineScope) else {}
 
     def declared(self, symbol: Symbol) -> tuple[Label, ...]:
-        """A label at the declaration of a symbol, where it has a place."""
+        """Return a label at the declaration of a symbol, if it has a place."""
         if symbol.node is None or symbol.module is None or symbol.kind == "LOOP":
             return ()
         source = symbol.module.tree.source
@@ -128,10 +131,11 @@ class Findings:
         return (Label(source.span(at, at), f"'{symbol.name}' is declared here"),)
 
     def unknown(self, role: str, name: str, node: Node | int, expected: str | None = None) -> None:
-        """A name that nothing declares: an error where it is certain that nothing can.
+        """Report an undeclared name, once per name.
 
-        Elsewhere a name that looks like a slip is worth a warning, any other one a place in the
-        module's note (`note_other_scopes`). `expected` is the type of a datum. Once a name.
+        It is an error if the input is complete. Otherwise a name that looks like a typing error
+        gives a warning, another one an entry in the module's note (`note_other_scopes`). `expected`
+        is the type of a datum.
         """
         code, kinds, options = _ROLES[role]
         key = (role, name.lower())
@@ -152,7 +156,7 @@ class Findings:
             self._elsewhere.setdefault(code, []).append((is_reported, node))
 
     def note_other_scopes(self) -> None:
-        """Notes of the names that other modules, the configuration or an option may bring."""
+        """Add notes of names that other modules or the system may declare."""
         for code, names in self._elsewhere.items():
             listed = [name for name, _ in names]
             more = f" and {len(listed) - _LISTED} more" if len(listed) > _LISTED else ""
@@ -165,7 +169,7 @@ class Findings:
             )
 
     def _candidates(self, kinds: frozenset[str], expected: str | None) -> Iterable[str]:
-        """Names that could stand there; of data those of another type could not."""
+        """Return names for a suggestion; data must have the expected type."""
         task = self.module.task
         for symbols in (
             self.locals,
@@ -188,7 +192,7 @@ class Findings:
 
 
 def _fits(result: str | None, expected: str | None) -> bool:
-    """Whether a datum may stand where `expected` is; also where either type is not known."""
+    """Return True if a datum fits the type `expected`, or one is unknown."""
     if result is None or expected is None or expected in ("anytype", AGGREGATE):
         return True
     return equal(element(result), element(expected))

@@ -1,6 +1,6 @@
-"""Statements of a routine: types, places where they may stand, and what can be reached.
+"""Checks of statements: types, permitted places, reachability.
 
-Each statement function says whether execution can go on behind the statement.
+Each statement function returns True if execution can continue after the statement.
 """
 
 from collections.abc import Callable, Sequence
@@ -56,7 +56,7 @@ class FlowChecker:
         self.returns = 0
 
     def statements(self, body: Sequence[Statement]) -> bool:
-        """Check a list; whether its end can be reached."""
+        """Check a list; return True if its end is reachable."""
         alive, is_reported = True, False
         for statement in body:
             if type(statement) is Label:
@@ -113,7 +113,7 @@ class FlowChecker:
         return True
 
     def _hint(self, node: Assignment) -> str | None:
-        """Type of the value, where a literal tells it: for an unknown target."""
+        """Return the type of a literal value, for an unknown target."""
         if isinstance(node.value, BoolLiteral):
             return "bool"
         return "robtarget" if isinstance(node.value, Aggregate) else None
@@ -142,7 +142,7 @@ class FlowChecker:
     def _late(self, node: LateCall) -> bool:
         self.types.expect(node.procedure, "string", "the name of the procedure")
         name = self.types.constant(node.procedure)
-        # `module:name` may reach a LOCAL procedure of a module that is not looked at here.
+        # `module:name` may reach a LOCAL procedure of a module that is not checked here.
         known = name.removeprefix(":") if isinstance(name, str) else ""
         symbol = self.findings.find(known) if known and ":" not in known else None
         if isinstance(symbol, RoutineSymbol) and symbol.kind == "PROC":
@@ -208,7 +208,7 @@ class FlowChecker:
         else:
             self.types.expect(node.number, "num", "the error number")
             if self.part == "ERROR":
-                # ABB's own modules for RobotWare 7 do it: no error, no fault.
+                # ABB's modules for RobotWare 7 contain it, so it is not an error.
                 self.report(
                     "RG321",
                     "RAISE with a number in a handler gives the caller that error",

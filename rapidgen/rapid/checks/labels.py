@@ -1,4 +1,7 @@
-"""Labels and GOTO: a GOTO may leave a list of statements, but not enter one [K §4.3, 4.6]."""
+"""Labels and GOTO [K §4.3, 4.6].
+
+A GOTO may leave a statement list, but not enter one.
+"""
 
 from collections.abc import Iterator, Sequence
 
@@ -21,7 +24,7 @@ Path = tuple[int, ...]
 
 
 def _inner(statement: Statement) -> list[Sequence[Statement]]:
-    """Statement lists inside a statement."""
+    """Return the statement lists inside a statement."""
     if isinstance(statement, If):
         bodies: list[Sequence[Statement]] = [b.body for b in statement.branches]
         return bodies if statement.otherwise is None else [*bodies, statement.otherwise]
@@ -36,7 +39,7 @@ def _inner(statement: Statement) -> list[Sequence[Statement]]:
 
 
 def _jumps(body: Sequence[Statement], path: Path) -> Iterator[tuple[Label | Goto, Path]]:
-    """All labels and GOTOs of a list with their paths."""
+    """Iterate over labels and GOTOs of a list with their paths."""
     number = 0
     for statement in body:
         if isinstance(statement, Label | Goto):
@@ -48,7 +51,7 @@ def _jumps(body: Sequence[Statement], path: Path) -> Iterator[tuple[Label | Goto
 
 
 def flat(body: Sequence[Statement]) -> Iterator[Statement]:
-    """All statements of a list and of the lists inside it."""
+    """Iterate over statements of a list and its nested lists."""
     for statement in body:
         yield statement
         for inner in _inner(statement):
@@ -56,7 +59,7 @@ def flat(body: Sequence[Statement]) -> Iterator[Statement]:
 
 
 def bodies(routine: RoutineDeclaration) -> list[tuple[str, Sequence[Statement]]]:
-    """Body and handlers of a routine, with the names that statements go by there."""
+    """Return body and handlers of a routine with their display names."""
     result: list[tuple[str, Sequence[Statement]]] = [("body", routine.body)]
     if routine.backward:
         result.append(("BACKWARD", routine.backward.body))
@@ -68,7 +71,7 @@ def bodies(routine: RoutineDeclaration) -> list[tuple[str, Sequence[Statement]]]
 
 
 def check_labels(findings: Findings, routine: RoutineDeclaration) -> None:
-    """Report labels that clash, are missing or unused, and GOTOs into blocks."""
+    """Report clashing, missing and unused labels, and GOTOs into blocks."""
     labels: dict[str, tuple[Label, Path]] = {}
     gotos: list[tuple[Goto, Path]] = []
     for number, (_, body) in enumerate(bodies(routine)):

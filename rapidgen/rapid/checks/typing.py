@@ -1,7 +1,7 @@
 """Types of expressions [K §2.17, 3].
 
-`type_of` gives the type of an expression that is read; `expect` checks one against the type
-that its place wants, which is also where an aggregate gets its type from.
+`type_of` returns the type of a read expression. `expect` checks an expression against the type of
+its place, which also gives an aggregate its type.
 """
 
 from collections.abc import Callable, Sequence
@@ -62,7 +62,7 @@ _MAX_DEPTH: Final = 50
 
 
 class TypeChecker:
-    """Finds types of expressions, and says where they do not fit."""
+    """Determines types of expressions and reports violations."""
 
     def __init__(self, findings: Findings) -> None:
         self.findings = findings
@@ -73,9 +73,9 @@ class TypeChecker:
     # -- reading -------------------------------------------------------------------------
 
     def type_of(self, node: Expression) -> str | None:
-        """Type of an expression whose value is read; None when it is not known.
+        """Return the type of a read expression, None if unknown.
 
-        An expression that is nested deeper than anybody writes is not judged further in.
+        Expressions nested beyond the limit are not checked further.
         """
         if self._depth >= _MAX_DEPTH:
             return None
@@ -114,7 +114,10 @@ class TypeChecker:
         return self.type_of(node.inner)
 
     def _read(self, node: Name | Index | Member) -> str | None:
-        """A datum in value context: a signal reads as num, a non-value cannot be read."""
+        """Check a datum in value context.
+
+        A signal reads as num; a non-value datum cannot be read.
+        """
         result = self.datum(node)
         if result is None:
             return None
@@ -152,7 +155,7 @@ class TypeChecker:
         return self.findings.module.type_of(symbol)
 
     def used(self, node: Expression) -> None:
-        """Look at an expression whose place says nothing about its type."""
+        """Check an expression in a place without a required type."""
         if isinstance(node, Name | Index | Member):
             self.datum(node)
         elif isinstance(node, Binary) and node.has_type_of_place:
@@ -164,11 +167,17 @@ class TypeChecker:
     # -- data ----------------------------------------------------------------------------
 
     def root(self, node: Expression) -> Symbol | None:
-        """The datum that a reference starts from, without marking or reporting."""
+        """Return the first symbol of a data reference.
+
+        It neither marks nor reports.
+        """
         return root(node, self.findings.here)
 
     def datum(self, node: Name | Index | Member, expected: str | None = None) -> str | None:
-        """Declared type of a data reference, signals and non-values included."""
+        """Return the declared type of a data reference.
+
+        It includes signals and non-value types.
+        """
         if isinstance(node, Name):
             symbol = self.findings.find(node.name)
             if symbol is None:
@@ -213,7 +222,7 @@ class TypeChecker:
         help = ""
         if symbol.kind == "FUNC":
             help = f"a function is called with parentheses: {symbol.name}()"
-        # A module that is not here may declare a datum that hides the built-in routine.
+        # A module outside the input may declare a datum that hides the built-in routine.
         hidden = isinstance(symbol, RoutineSymbol) and symbol.node is None
         hidden = hidden and self._may_be_hidden
         self.report(
@@ -228,8 +237,7 @@ class TypeChecker:
 
     @property
     def _may_be_hidden(self) -> bool:
-        """Whether something that is not here, as a signal, may have the name of a predefined
-        object."""
+        """True if an unknown object, such as a signal, may hide a predefined one."""
         return not self.findings.given.is_complete
 
     def _indexed(self, node: Index) -> str | None:
@@ -280,7 +288,7 @@ class TypeChecker:
                 )
 
     def constant(self, node: Expression) -> Value | None:
-        """Value of a constant expression in this place."""
+        """Return the value of a constant expression."""
         return constant(node, self.findings.here)
 
     # -- operators -----------------------------------------------------------------------
@@ -326,7 +334,10 @@ class TypeChecker:
         return result
 
     def _operands(self, node: Binary) -> tuple[str | None, str | None]:
-        """Types of both operands; one aggregate gets its type from the other side."""
+        """Return the types of both operands.
+
+        An aggregate takes its type from the other side.
+        """
         if isinstance(node.left, Aggregate) and isinstance(node.right, Aggregate):
             self.report(
                 "RG330",
@@ -369,7 +380,7 @@ class TypeChecker:
     # -- places --------------------------------------------------------------------------
 
     def expect(self, node: Expression, expected: str | None, place: str) -> str | None:
-        """Check that an expression has the type `expected`; gives `expected` when it fits."""
+        """Check that an expression has the type `expected` and return it."""
         if expected is None or expected == "anytype":
             return self.type_of(node)
         if isinstance(node, Aggregate):
@@ -394,7 +405,7 @@ class TypeChecker:
         return expected
 
     def same_sizes(self, node: Node, target: Expression, value: Expression) -> None:
-        """Whole arrays have the same sizes [K §2.17], where both show them."""
+        """Check that whole arrays have the same sizes, if known [K §2.17]."""
         ours = self._sizes(target)
         if isinstance(value, Aggregate):
             self.members_of(value, ours)
@@ -405,12 +416,15 @@ class TypeChecker:
             self.report("RG318", "the arrays differ in size", node)
 
     def _sizes(self, node: Expression) -> Sequence[Value | None]:
-        """Declared sizes of a whole array; None where one is not known, none for what is none."""
+        """Return the declared sizes of a whole array.
+
+        None marks an unknown size; other expressions have none.
+        """
         symbol = self.root(node) if isinstance(node, Name) else None
         return sizes_of(symbol, self.findings.here) if isinstance(symbol, DataSymbol) else ()
 
     def members_of(self, value: Expression, sizes: Sequence[Value | None]) -> None:
-        """Members of an aggregate against the declared sizes of an array."""
+        """Check the members of an aggregate against an array's sizes."""
         if not sizes or not isinstance(value, Aggregate):
             return
         size = sizes[0]
@@ -426,7 +440,7 @@ class TypeChecker:
             self.members_of(member, sizes[1:])
 
     def mismatch(self, node: Expression, expected: str, result: str, place: str) -> None:
-        """Say that types differ."""
+        """Report that types differ."""
         help = ""
         if {expected, result} == {"num", "dnum"}:
             help = "convert with NumToDnum or DnumToNum"
@@ -444,7 +458,7 @@ class TypeChecker:
         )
 
     def _single(self, node: NumberLiteral) -> None:
-        """A literal in a place of type num."""
+        """Check a literal in a place of type num."""
         value = node.value
         if not is_single(value):
             self.report("RG319", f"num cannot hold {node.text}", node, notes=("num [K §2.5]",))
@@ -459,7 +473,10 @@ class TypeChecker:
             )
 
     def load(self, node: Expression) -> None:
-        """The mass of a load, where it is known: negative, or more than the robot carries."""
+        """Check the mass of a load, if known.
+
+        It must not be negative, or above the payload of the robot.
+        """
         mass = self.constant(node)
         if isinstance(mass, bool) or not isinstance(mass, int | float):
             return
@@ -483,7 +500,7 @@ class TypeChecker:
             )
 
     def _members(self, node: Aggregate, expected: str, place: str) -> None:
-        """Members of an aggregate against the array or record that its place wants."""
+        """Check the members of an aggregate against its type."""
         members = node.members
         dimensions = degree(expected)
         if dimensions:
@@ -519,7 +536,7 @@ class TypeChecker:
 
 
 def shown(type_name: str) -> str:
-    """How a type is called in a message."""
+    """Return the display name of a type."""
     return "a number" if type_name == NUMBER else type_name
 
 

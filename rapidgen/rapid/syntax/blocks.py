@@ -1,8 +1,8 @@
 """Blocks of statements, and recovery from errors in them [K §4.2].
 
-An error is caught by the innermost statement list: it is reported once, and the list goes on
-behind the next `;` or at the next token that can only start or end a statement. A block that
-lacks its end is closed where an outer one ends.
+The innermost statement list reports an error once. It continues after the next `;`, or at the next
+token that can only start or end a statement. A block without its end is closed where an outer one
+ends.
 """
 
 from typing import Final
@@ -29,7 +29,7 @@ ENDS: Final = {
     "WHILE": frozenset(("ENDWHILE",)),
     "TEST": frozenset(("ENDTEST", "CASE", "DEFAULT")),
 }
-"""What ends a statement list, by the block that it is in."""
+"""Tokens that end a statement list, by its block."""
 
 STARTERS: Final = frozenset(
     """IF FOR WHILE TEST GOTO RETURN RAISE RETRY TRYNEXT EXIT CONNECT VAR PERS CONST LOCAL TASK
@@ -43,7 +43,7 @@ BLOCK_ENDS: Final = {"ENDIF": "IF", "ENDFOR": "FOR", "ENDWHILE": "WHILE", "ENDTE
 
 
 class Blocks:
-    """The blocks that are open, and how to go on behind an error."""
+    """Open blocks, and recovery from errors."""
 
     def __init__(self, expressions: ExpressionParser) -> None:
         self.expressions = expressions
@@ -52,16 +52,19 @@ class Blocks:
         self.suspect = (-1, -1)
         """The last compact IF, and its statement: if on another line, a THEN may be missing."""
         self.forgiven: list[str] = []
-        """Ends that belong to a block whose start was reported as missing."""
+        """Ends of blocks whose start was reported as missing."""
 
     def start(self, keyword: str, i: int) -> None:
-        """Open a routine: what was suspected before it counts no more."""
+        """Open a routine and forget earlier suspicions."""
         self.open.append((keyword, i))
         self.forgiven.clear()
         self.suspect = (-1, -1)
 
     def resume(self, start: int, at: int, expected: str = "") -> int:
-        """Index from which to go on after an error at token `at` of what began at `start`."""
+        """Return the index to continue from after an error at token `at`.
+
+        `start` is the first token of the construct.
+        """
         kinds = self.kinds
         if kinds[at] is UNTERMINATED:
             return at + 1  # the quote took the rest of its line
@@ -88,9 +91,9 @@ class Blocks:
             at += 1
 
     def misplaced(self, i: int, kind: str) -> int:
-        """Deal with a token that starts no statement and does not end this list.
+        """Handle a token that neither starts a statement nor ends this list.
 
-        The index from which to go on, or -1 when the list ends here all the same.
+        Returns the index to continue from, or -1 if the list ends here.
         """
         blocks = self.open
         if blocks[-1][1] < 0:
@@ -139,13 +142,16 @@ class Blocks:
         return i + 2 if self.kinds[i + 1] == ";" else i + 1
 
     def _close(self, missing: int) -> None:
-        """Mark the `missing` innermost blocks as closed by the report just made."""
+        """Mark the `missing` innermost blocks as closed by the last report."""
         for k in range(1, missing + 1):
             keyword, _ = self.open[-k]
             self.open[-k] = (keyword, -1)
 
     def _ends_this(self, i: int, inner: str) -> bool:
-        """Whether a wrong END stands for the innermost block's own: does that come later?"""
+        """Return True if a wrong END belongs to the innermost block.
+
+        That is the case if the block's own END does not follow.
+        """
         own = CLOSER[inner]
         opener = "THEN" if inner == "IF" else inner
         balance = 0
@@ -161,7 +167,7 @@ class Blocks:
         return True
 
     def reaches(self, at: int, expected: str) -> bool:
-        """Whether `wanted` comes before the statement at token `at` can end."""
+        """Return True if `expected` follows before the end of the statement."""
         kinds = self.kinds
         while kinds[at] != expected:
             if kinds[at] == ";" or kinds[at] in STARTERS:
@@ -183,7 +189,10 @@ class Blocks:
         self.open.append((keyword, i))
 
     def leave(self, end: int) -> int:
-        """Close the innermost block, whose list ended at token `end`; its last token."""
+        """Close the innermost block and return its last token.
+
+        Its list ended at token `end`.
+        """
         keyword, at = self.open.pop()
         kind = self.kinds[end]
         if kind == CLOSER[keyword]:
@@ -191,11 +200,14 @@ class Blocks:
         if at < 0:
             return end - 1
         if kind in BLOCK_ENDS and keyword in BLOCK_ENDS.values():
-            return end  # reported as standing for this block's own end
+            return end  # reported as the end of this block
         return end - 1
 
     def header(self, i: int, result: SyntaxFault, wanted: str) -> int:
-        """Report an error in a block's header; the index behind it, or -1 if it has no end."""
+        """Report an error in a block's header.
+
+        Returns the index after the header, or -1 without an end.
+        """
         self.expressions.fault(result)
         kinds, at = self.kinds, result.at
         while True:

@@ -23,7 +23,10 @@ MODULE_STOPS: Final = _DECLARATIONS | {"ENDMODULE", "MODULE", EOF}
 
 
 class DataParser:
-    """Parses data and parameters. `builtin` allows what only predefined routines have: REF."""
+    """Parser of data and parameters.
+
+    `builtin` permits REF, which only predefined routines have.
+    """
 
     def __init__(self, expressions: ExpressionParser, *, builtin: bool) -> None:
         self.expressions = expressions
@@ -32,7 +35,10 @@ class DataParser:
         self.builtin = builtin
 
     def semicolon_here(self, i: int, expected: str) -> int:
-        """Index of the `;` at i. A missing one before a new line is reported and passed over."""
+        """Return the index of the `;` at i.
+
+        A missing one before a new line is reported and skipped.
+        """
         if self.kinds[i] == ";":
             return i
         fault = SyntaxFault(i, expected)
@@ -42,7 +48,7 @@ class DataParser:
         raise fault
 
     def data_declaration(self, i: int) -> DataDeclaration:
-        """VAR, PERS or CONST, with LOCAL or TASK before it [K §2.18-2.24]."""
+        """Parse VAR, PERS or CONST, after LOCAL or TASK [K §2.18-2.24]."""
         kinds, texts = self.kinds, self.texts
         first = i
         scope: Scope = ""
@@ -75,7 +81,7 @@ class DataParser:
         )
 
     def _dimensions(self, i: int) -> tuple[list[Expression], int]:
-        """Sizes in braces, and the index behind them."""
+        """Parse sizes in braces; return the index after them."""
         kinds = self.kinds
         sizes: list[Expression] = []
         at = i
@@ -91,7 +97,7 @@ class DataParser:
                 raise SyntaxFault(at, "'}', ',' or an operator")
 
     def parameters(self, i: int) -> tuple[list[Parameter], int]:
-        """Parameters up to ')', and the index behind it [K §5.1]."""
+        """Parse parameters up to ')'; return the index after it [K §5.1]."""
         kinds = self.kinds
         result: list[Parameter] = []
         if kinds[i] == ")":

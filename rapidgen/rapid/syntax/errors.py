@@ -25,7 +25,10 @@ _STEPS: Final = {"+": "Incr a;", "-": "Decr a;"}
 
 
 def foreign_syntax_help(source: Source, at: int) -> str:
-    """The mend for what was meant at token `at`; "" where nothing of that kind is seen."""
+    """Return help for syntax of another language at token `at`.
+
+    Returns "" for other errors.
+    """
     tokens = source.tokens
     current, before = _token(source, at), _token(source, at - 1)
     if current in _CHARACTERS:
@@ -45,13 +48,13 @@ def foreign_syntax_help(source: Source, at: int) -> str:
 
 
 def followed_by_unequal(source: Source, at: int) -> bool:
-    """Whether `!=` stands behind token `at`, and is no line of a drawing."""
+    """Return True if `!=` follows token `at`, outside a line of `=`."""
     gap = source.gaps[at].lstrip()
     return gap.startswith("!=") and not gap.startswith("!==")
 
 
 def second_if(source: Source, at: int) -> bool:
-    """Whether the IF at token `at` was probably meant for an ELSEIF."""
+    """Return True if the IF at token `at` was probably an ELSEIF."""
     return (
         _token(source, at).upper() == "IF"
         and _token(source, at - 1).upper() == "ELSE"
@@ -64,13 +67,13 @@ def _token(source: Source, at: int) -> str:
 
 
 def _touches(source: Source, at: int) -> bool:
-    """Whether nothing stands between token `at` and the next one."""
+    """Return True if token `at` touches the next one."""
     return at >= 0 and not source.gaps[at]
 
 
 # -- Reports ---------------------------------------------------------------------------------------
 #
-# What is said about wrong text: one function a diagnostic, and the parser's own exceptions.
+# Reports on wrong text: one function per diagnostic, and the parser's exceptions.
 
 
 _LOOKED_BACK: Final = 2_000
@@ -121,7 +124,7 @@ _LEXICAL: Final = {
 
 
 class SyntaxFault(Exception):
-    """What the parser raises at a token that it cannot use; caught by the nearest list."""
+    """An unusable token; the nearest statement list catches it."""
 
     def __init__(self, at: int, expected: str, help: str = "") -> None:
         super().__init__(expected)
@@ -132,7 +135,7 @@ class SyntaxFault(Exception):
 
 
 class ParseAborted(Exception):
-    """Ends the parse of a text that is beyond the limits, or too wrong to go on."""
+    """Ends the parse of a text beyond the limits or with too many errors."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.message)
@@ -140,7 +143,7 @@ class ParseAborted(Exception):
 
 
 def place(source: Source, at: int) -> Span:
-    """Place of token `at`, or of the end of the text behind the last token."""
+    """Return the place of token `at`, or of the end of the text."""
     if at < len(source.tokens):
         return source.span(at, at)
     line, column = source.position(len(source.text))
@@ -148,7 +151,7 @@ def place(source: Source, at: int) -> Span:
 
 
 def describe_token(source: Source, kinds: Sequence[str], at: int) -> str:
-    """How a token is called in a message."""
+    """Return the display name of a token."""
     if at >= len(source.tokens):
         return lexer.EOF
     text = source.tokens[at]
@@ -161,7 +164,10 @@ def describe_token(source: Source, kinds: Sequence[str], at: int) -> str:
 
 
 def still_open(source: Source, blocks: Sequence[Block]) -> tuple[tuple[Label, ...], str]:
-    """A label at the innermost open block, and a note that lists the open ones."""
+    """Return a label at the innermost open block.
+
+    A note lists all open blocks.
+    """
     if not blocks:
         return (), ""
     keyword, at = blocks[-1]
@@ -179,7 +185,7 @@ def unexpected(
     blocks: Sequence[Block],
     help: str = "",
 ) -> Diagnostic:
-    """Token `at` does not fit: what was met, what was expected, and what is open."""
+    """Report an unexpected token: the token, the expectation, open blocks."""
     span = place(source, at)
     lexical = _LEXICAL.get(kinds[at])
     if lexical:
@@ -218,7 +224,10 @@ def _mend(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
 def unclosed(
     source: Source, kinds: Sequence[str], at: int, blocks: Sequence[Block], missing: int
 ) -> Diagnostic:
-    """Token `at` closes an outer block while `missing` inner ones are open."""
+    """Report that token `at` closes an outer block.
+
+    `missing` inner blocks are open.
+    """
     inner = blocks[len(blocks) - missing :]
     closers = " and ".join(CLOSER[keyword] for keyword, _ in reversed(inner[-3:]))
     related, note = still_open(source, blocks)
@@ -236,7 +245,7 @@ def unclosed(
 
 
 def too_many(last: Diagnostic, limit: int) -> Diagnostic:
-    """Says that the rest of a text was not looked at."""
+    """Report that the rest of a text was not checked."""
     return error(
         "RG214",
         last.span,
@@ -253,9 +262,9 @@ def unmatched(
     blocks: Sequence[Block],
     suspect: int,
 ) -> Diagnostic:
-    """Token `at` ends or divides a block that is not open.
+    """Report a token that ends or divides a block that is not open.
 
-    `suspect` is a compact IF behind whose condition a THEN may be missing, or -1.
+    `suspect` is a compact IF whose THEN may be missing, or -1.
     """
     related, note = still_open(source, blocks)
     if suspect >= 0:

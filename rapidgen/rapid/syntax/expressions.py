@@ -1,11 +1,11 @@
-"""Expressions and arguments: the part of the parser that is run most.
+"""Expressions and arguments: the most frequently executed parser part.
 
-[K §3]: precedence, high to low, `* / DIV MOD`, `+ -`, relations (one a level), AND,
-OR XOR. K derives NOT only at the start of an expression and a sign only at the start of a
-sum; both are accepted elsewhere, where they bind to the next operand, with a warning.
+[K §3]: precedence, high to low, `* / DIV MOD`, `+ -`, relations (one a level), AND, / OR XOR. K
+derives NOT only at the start of an expression and a sign only at the start of a sum; both are
+accepted elsewhere with a warning, where they bind to the next operand.
 
-The functions take the index of the first token and give the node; the next token is at
-`node.last + 1`. Nothing is consumed: there is no cursor.
+The functions take the index of the first token and return the node; the next token is at `node.last
++ 1`. There is no cursor that they consume.
 """
 
 from typing import Final
@@ -49,9 +49,9 @@ _LEVELS: Final = {
     "*": 6, "/": 6, "DIV": 6, "MOD": 6,
 }  # fmt: skip
 _BEHIND_NAMES: Final = frozenset(("(", "{", "."))
-"""What makes more of a name than a whole datum."""
+"""Tokens that make a name part of a longer reference."""
 _BEHIND_DECLARED: Final = frozenset((";", ":=", "{", "(", ")", ",", "\\", "|", "FROM"))
-"""What shows that a reserved word was meant as a name."""
+"""Tokens after a reserved word that was meant as a name."""
 _PLAIN_OPERANDS: Final = frozenset((NAME, NUMBER, STRING, "(", "[", "TRUE", "FALSE"))
 _BEHIND_ARGUMENTS: Final = frozenset((",", ";", "\\", ")"))
 _NOT_LEVEL: Final = 1
@@ -69,9 +69,9 @@ class _Numbers(dict[str, float]):
 
 
 class ExpressionParser:
-    """Parses expressions out of two parallel lists, texts and kinds; collects what is wrong.
+    """Parser of expressions from two parallel lists, texts and kinds.
 
-    The other parts of the parser are built on it: blocks, data, statements, routines, module.
+    It collects the errors. Blocks, data, statements, routines and module are built on it.
     """
 
     def __init__(self, tokens: Tokens) -> None:
@@ -85,18 +85,18 @@ class ExpressionParser:
         self.loose = -2
         """The last prefix operator that K does not derive."""
         self.end_reported = False
-        """Whether an error at the end of the text is reported: one is enough."""
+        """True after a report of an error at the end of the text."""
         self.after = 0
-        """Index behind the last list of arguments."""
+        """Index after the last list of arguments."""
 
     def report(self, diagnostic: Diagnostic) -> None:
-        """Keep a finding; a text with too many is given up."""
+        """Record a finding; too many end the parse."""
         self.diagnostics.append(diagnostic)
         if len(self.diagnostics) >= MAX_ERRORS:
             raise ParseAborted(errors.too_many(diagnostic, MAX_ERRORS))
 
     def fault(self, result: SyntaxFault) -> None:
-        """Report what a statement or declaration raised, once. No expression goes on behind it."""
+        """Report the fault of a statement or declaration once."""
         self.depth = 0
         if result.reported or (self.kinds[result.at] is lexer.EOF and self.end_reported):
             return
@@ -111,7 +111,10 @@ class ExpressionParser:
         )
 
     def unclosed(self, i: int, missing: int) -> None:
-        """Report that token i ends an outer block while `missing` inner ones are open."""
+        """Report that token i ends an outer block.
+
+        `missing` inner blocks are open.
+        """
         if self.kinds[i] is lexer.EOF:
             if self.end_reported:
                 return
@@ -119,7 +122,7 @@ class ExpressionParser:
         self.report(errors.unclosed(self.source, self.kinds, i, self.open, missing))
 
     def too_deep(self, at: int) -> ParseAborted:
-        """The one diagnostic of an expression beyond the limit."""
+        """Return the diagnostic of an expression beyond the depth limit."""
         return ParseAborted(
             error(
                 "RG211",
@@ -130,24 +133,24 @@ class ExpressionParser:
         )
 
     def identifier(self, i: int, expected: str) -> str:
-        """The name at token i, or the placeholder <ID>."""
+        """Return the name at token i, or the placeholder <ID>."""
         if self.kinds[i] is NAME:
             return self.texts[i]
         if self.kinds[i] is HOLDER and self.texts[i].upper() == "<ID>":
             return "<ID>"
         if self.kinds[i] in lexer.KEYWORDS and self.kinds[i + 1] in _BEHIND_DECLARED:
-            # Taken as the name that it was meant for, so that nothing follows from it.
+            # Accept it as the intended name, to avoid follow-up errors.
             self.fault(SyntaxFault(i, expected, f"{self.kinds[i]} is a reserved word"))
             return self.texts[i]
         raise SyntaxFault(i, expected)
 
     def starts_line(self, at: int) -> bool:
-        """Whether token `at` is the first of its line."""
+        """Return True if token `at` is the first of its line."""
         gap = self.source.gaps[at - 1] if at else self.source.lead
         return "\n" in gap or "\r" in gap
 
     def expression(self, i: int) -> Expression:
-        """The expression that starts at token i."""
+        """Parse the expression that starts at token i."""
         kinds = self.kinds
         kind = kinds[i]
         node: Expression
@@ -171,7 +174,7 @@ class ExpressionParser:
         return node
 
     def _operand(self, i: int) -> Expression:
-        """A primary [K §3]."""
+        """Parse a primary [K §3]."""
         kind = self.kinds[i]
         if kind is NAME:
             following = self.kinds[i + 1]
@@ -204,7 +207,10 @@ class ExpressionParser:
         raise SyntaxFault(i, "an expression")
 
     def _operators(self, i: int, left: Expression | None) -> Expression:
-        """An expression with operators, by two stacks; `left` is an operand already read."""
+        """Parse operators with two stacks.
+
+        `left` is an operand already parsed.
+        """
         kinds = self.kinds
         operands: list[Expression] = []
         pending: list[tuple[int, str, int]] = []
@@ -283,7 +289,7 @@ class ExpressionParser:
         )
 
     def named(self, i: int) -> Expression:
-        """A datum with indices and components, or a function call."""
+        """Parse a datum with indices and components, or a function call."""
         kinds, texts = self.kinds, self.texts
         following = kinds[i + 1]
         if following == "(":
@@ -296,7 +302,10 @@ class ExpressionParser:
         return self.reference(i)
 
     def reference(self, i: int) -> Name | Index | Member:
-        """`name`, `name{i}`, `name.c`, `name{i}.c.d` [K §3.5]: only a whole datum has indices."""
+        """Parse `name`, `name{i}`, `name.c`, `name{i}.c.d` [K §3.5].
+
+        Only a whole datum has indices.
+        """
         kinds, texts = self.kinds, self.texts
         node: Name | Index | Member = Name(i, i, texts[i])
         at = i + 1
@@ -327,7 +336,7 @@ class ExpressionParser:
         return node
 
     def aggregate(self, i: int) -> Aggregate:
-        """`[a, b, ...]` [K §3.9]; at least one member."""
+        """Parse `[a, b, ...]` [K §3.9] with at least one member."""
         kinds, texts, numbers = self.kinds, self.texts, self.numbers
         self.depth += 1
         if self.depth > MAX_EXPRESSION_DEPTH:
@@ -372,7 +381,10 @@ class ExpressionParser:
             raise SyntaxFault(at, "',', ']' or an operator")
 
     def arguments(self, i: int, close: str) -> list[Argument]:
-        """Arguments up to `close`, whose index is left in `after` [K §3.10, 4.5]."""
+        """Parse arguments up to `close`, whose index goes to `after`.
+
+        Source: [K §3.10, 4.5].
+        """
         kinds, texts = self.kinds, self.texts
         result: list[Argument] = []
         kind = kinds[i]
@@ -418,7 +430,10 @@ class ExpressionParser:
                 raise SyntaxFault(i, f"{given}',', '\\' or '{close}'")
 
     def _optional(self, i: int, close: str) -> Argument:
-        """The optional or conditional argument at a backslash; <ID> and <VAR> for procedures."""
+        """Parse the optional or conditional argument at a backslash.
+
+        Includes <ID> and <VAR> for procedures.
+        """
         kinds, texts = self.kinds, self.texts
         if kinds[i + 1] is not NAME and not (close == ";" and self._holder(i + 1, "<ID>")):
             raise SyntaxFault(i + 1, "the name of an optional argument")

@@ -32,7 +32,7 @@ from rapidgen.rapid.syntax.walk import walk
 
 
 def line_starts(module: Module) -> dict[int, int]:
-    """Token index to indentation level, for each token that starts a line."""
+    """Return the indentation of each token that starts a line."""
     starts = {module.first: 0, module.last: 0}
     for declaration in module.declarations:
         starts[declaration.first] = 1
@@ -83,10 +83,10 @@ def _statements(body: Sequence[Statement], level: int, starts: dict[int, int]) -
 
 # -- Format ----------------------------------------------------------------------------------------
 #
-# RAPID text in ABB's style: keywords in upper case, four spaces a level, a statement a line.
+# RAPID text in ABB's style: keywords in upper case, four spaces per level, one statement per line.
 #
-# Only blanks and the case of reserved words change: tokens and comments stay, and so does the
-# tree. Line breaks inside a statement are kept, encoding and line ends are those of the file.
+# Only blanks and the case of reserved words change; tokens, comments and the tree do not. Line
+# breaks inside a statement, the encoding and the line ends of the file remain.
 
 
 INDENT: Final = "    "
@@ -104,9 +104,9 @@ def format_source(source: bytes, *, path: str | None = None) -> bytes: ...
 
 
 def format_source(source: str | bytes, *, path: str | None = None) -> str | bytes:
-    """The module in ABB's style; bytes give bytes in the same encoding.
+    """Return the module in ABB's style; bytes keep their encoding.
 
-    Raises DiagnosticError with the findings of the parser when the text is wrong.
+    Raises DiagnosticError with the parser's findings for a wrong text.
     """
     module = parse(source, path=path)
     unfit = [d for d in module.diagnostics if d.severity is Severity.ERROR or not module.name]
@@ -117,7 +117,7 @@ def format_source(source: str | bytes, *, path: str | None = None) -> str | byte
 
 
 def format_module(module: Module) -> str:
-    """The text of a module without errors, in ABB's style."""
+    """Return the text of a module without errors, in ABB's style."""
     text = module.source.text
     ends = Counter(_LINE_END.findall(text))
     line_end = max(ends, key=lambda end: ends[end]) if ends else "\n"
@@ -141,7 +141,7 @@ class _Writer:
         self.line = ""
 
     def _marks(self) -> None:
-        """Places where the tree decides about a blank."""
+        """Find places where the tree decides on a blank."""
         for node in walk(self.module):
             if isinstance(node, Unary):
                 if node.operator != "NOT":
@@ -167,9 +167,9 @@ class _Writer:
             self.tight_after.add(assign)
 
     def lines(self) -> list[str]:
-        """All lines of the formatted text, without their ends."""
+        """Return all lines of the formatted text, without line ends."""
         self._lead()
-        # What stands behind ENDMODULE is no part of the module: it stays as it is.
+        # Text after ENDMODULE is not part of the module and stays unchanged.
         tokens, gaps = self.source.tokens[: self.end], self.source.gaps
         level, continued = 0, False
         for i, token in enumerate(tokens):
@@ -198,7 +198,7 @@ class _Writer:
         return self.out
 
     def _lead(self) -> None:
-        """Header and comments before the first token."""
+        """Write header and comments before the first token."""
         lines = _LINE_END.split(self.source.lead)[:-1] if self.source.lead else []
         in_header = False
         for line in lines:
@@ -218,7 +218,7 @@ class _Writer:
             self.line = ""
 
     def _gap(self, i: int, gap: str, level: int) -> None:
-        """Comments and line breaks between token i and the next."""
+        """Write comments and line breaks between token i and the next."""
         parts = _LINE_END.split(gap)
         following = self.starts.get(i + 1)
         trailing = parts[0].strip()
@@ -249,7 +249,10 @@ class _Writer:
         return self.starts[i]
 
     def _comment_level(self, i: int, following: int) -> int:
-        """Comments before an END belong to the block that it ends."""
+        """Return the level of a comment before token i.
+
+        Comments before an END belong to the block that it ends.
+        """
         kind = self.kinds[self.source.tokens[i + 1]]
         ends = kind.startswith("END") or kind in ("ELSE", "ELSEIF", "CASE", "DEFAULT")
         if not ends:
@@ -258,7 +261,7 @@ class _Writer:
         return max(following, before) if kind in ("CASE", "DEFAULT") else following + 1
 
     def _spaced(self, i: int) -> bool:
-        """Whether a blank stands between token i - 1 and token i on one line."""
+        """Return True for a blank between token i - 1 and i on one line."""
         if i in self.tight_before or i - 1 in self.tight_after:
             return False
         before, current = self.source.tokens[i - 1], self.source.tokens[i]

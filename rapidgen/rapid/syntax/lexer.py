@@ -1,7 +1,7 @@
-"""Text to tokens: decoding, the %%% header, and what kind each token is.
+"""Text to tokens: decoding, the %%% header, and the kind of each token.
 
-Sources: [K §2.1-2.10] for the lexical elements; hexadecimal, octal and binary numbers are
-younger than K and known from public code. Each distinct spelling is classified once.
+Sources: [K §2.1-2.10] for the lexical elements; hexadecimal, octal and binary numbers are newer
+than K and known from public code. Each distinct spelling is classified once.
 """
 
 import re
@@ -25,7 +25,7 @@ UNTERMINATED: Final = "a string without its closing quote"
 MAX_NAME: Final = 32
 """Characters of an identifier [K §2.3]."""
 _MAX_DIGITS: Final = 300
-"""Of whole numbers that are kept as such: a float holds them in any case."""
+"""Digits of whole numbers stored as int: a float covers all of them."""
 
 KEYWORDS: Final = frozenset(
     """ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF
@@ -46,7 +46,7 @@ _BAD_ESCAPE: Final = re.compile(r"(?:[^\\]|\\\\|\\[0-9A-Fa-f]{2})*\\(?!\\|[0-9A-
 
 
 class Kinds(dict[str, str]):
-    """Spelling to kind; a keyword's kind is its upper-case text, a sign's the sign itself."""
+    """Spelling to kind: the upper-case keyword, or the sign itself."""
 
     def __missing__(self, text: str) -> str:
         kind = self[text] = _classify(text)
@@ -86,19 +86,22 @@ def _is_number(text: str) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Tokens:
-    """A tokenised source and the kind of each token, with end marks to look ahead at."""
+    """A tokenised source with kinds and end marks for look-ahead."""
 
     source: Source
     kinds: list[str]
     spellings: Kinds
     blanks: list[int] = field(default_factory=list)
-    """Offsets of characters that nobody sees and RAPID does not have; they were read as blanks."""
+    """Offsets of invisible characters that RAPID does not have; they are read as blanks."""
     unread: str = ""
     """The text with them."""
 
 
 def decode(data: bytes) -> tuple[str, Encoding]:
-    """Text of a file: UTF-8 with or without BOM where it is that, else Latin-1."""
+    """Return the text of a file: UTF-8 if valid, else Latin-1.
+
+    UTF-8 may have a BOM.
+    """
     if data.startswith(b"\xef\xbb\xbf"):
         try:
             return data.decode("utf-8-sig"), "utf-8-sig"
@@ -111,7 +114,7 @@ def decode(data: bytes) -> tuple[str, Encoding]:
 
 
 def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens:
-    """All tokens of `text`. `radix` tells whether 0x, 0o and 0b numbers exist."""
+    """Return all tokens of `text`; `radix` permits 0x, 0o and 0b."""
     header = HEADER.match(text)
     lead = LEAD.match(text, header.end() if header else 0)
     start = lead.end() if lead else 0
@@ -136,9 +139,9 @@ def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens
 
 
 def number_value(text: str) -> float:
-    """Value of a number: an int where the text has neither point nor exponent.
+    """Return the value of a number, an int without point and exponent.
 
-    Infinite where double precision does not hold it.
+    It is infinite beyond double precision.
     """
     if text.isdigit():
         return int(text) if len(text) <= _MAX_DIGITS else float(text)
@@ -149,7 +152,10 @@ def number_value(text: str) -> float:
 
 
 def string_value(text: str) -> str:
-    """Value of a string token: without quotes, escapes resolved, one code point a byte."""
+    """Return the value of a string token, one code point per byte.
+
+    Quotes are removed and escapes resolved.
+    """
     inner = text[1:-1]
     if "\\" in inner or '"' in inner:
         inner = _ESCAPE.sub(_unescape, inner)

@@ -1,9 +1,9 @@
 """The tree of one RAPID module.
 
-Every node knows its first and last token (indexes into `Module.source`, both inclusive);
-places are worked out from them only when somebody asks. Comments and blanks are not in the
-tree: they lie in the gaps between tokens. Nodes are plain slotted classes because building
-frozen ones costs a third more of the parser's time; nobody changes one after parsing.
+Every node has its first and last token (indexes into `Module.source`, both inclusive), from which
+places are computed on demand. Comments and blanks are not in the tree: they are in the gaps between
+tokens. Nodes are plain slotted classes, because frozen ones cost a third more of the parser's time;
+they do not change after parsing.
 
 Names keep the spelling of the source; RAPID compares them without case.
 """
@@ -24,7 +24,7 @@ RoutineKind = Literal["PROC", "FUNC", "TRAP"]
 
 @dataclass(slots=True, eq=False)
 class Node:
-    """Anything with a place."""
+    """A node with a place."""
 
     first: int
     last: int
@@ -35,7 +35,7 @@ class Node:
 
 @dataclass(slots=True, eq=False)
 class NumberLiteral(Node):
-    """`3`, `.5`, `2.5E-3`, `0x1F`. `value` is an int when the text has no point or exponent."""
+    """`3`, `.5`, `2.5E-3`, `0x1F`; an int without point and exponent."""
 
     value: float
     text: str
@@ -88,7 +88,7 @@ class FunctionCall(Node):
 
 @dataclass(slots=True, eq=False)
 class Aggregate(Node):
-    """`[a, b, [c, d]]`; its type comes from where it stands."""
+    """`[a, b, [c, d]]`, with the type of its place."""
 
     members: "list[Expression]"
 
@@ -111,7 +111,10 @@ class Binary(Node):
 
     @property
     def has_type_of_place(self) -> bool:
-        """Whether both operands of + or - are aggregates, which only the place gives a type."""
+        """True if both operands of + or - are aggregates.
+
+        Only their place gives them a type.
+        """
         if self.operator not in ("+", "-"):
             return False
         return isinstance(self.left, Aggregate) and isinstance(self.right, Aggregate)
@@ -119,14 +122,14 @@ class Binary(Node):
 
 @dataclass(slots=True, eq=False)
 class Parenthesis(Node):
-    """`( inner )`: kept, since NOT and signs bind by where they stand."""
+    """`( inner )`, preserved for the binding of NOT and signs."""
 
     inner: "Expression"
 
 
 @dataclass(slots=True, eq=False)
 class Placeholder(Node):
-    """`<SMT>`, `<EXP>`, ...: loads, and fails when it is reached."""
+    """`<SMT>`, `<EXP>`, ...: it loads, and fails when executed."""
 
     text: str
 
@@ -155,9 +158,9 @@ Expression = (
 
 @dataclass(slots=True, eq=False)
 class Argument(Node):
-    """One argument of a call.
+    """An argument of a call.
 
-    `kind` is `required` (with `name` when written `Par:=value`), `optional` (`\\Opt:=value`),
+    `kind` is `required` (with `name` if written `Par:=value`), `optional` (`\\Opt:=value`),
     `switch` (`\\Sw`) or `conditional` (`\\Opt?par`, `value` is then the Name of `par`).
     """
 
@@ -171,7 +174,7 @@ class Argument(Node):
 
 @dataclass(slots=True, eq=False)
 class Component(Node):
-    """One component of a record."""
+    """A component of a record."""
 
     type: str
     name: str
@@ -210,10 +213,11 @@ class DataDeclaration(Node):
 
 @dataclass(slots=True, eq=False)
 class Parameter(Node):
-    """A formal parameter. Alternatives (`\\num a | string b`) share a `group` number >= 0.
+    """A formal parameter.
 
-    `dimensions` is the number of `*` in `name{*,*}`, 0 for a scalar. A switch has type
-    `switch`.
+    Alternatives (`
+    um a | string b`) share a `group` number >= 0. `dimensions` is the number of `*` in `name{*,*}`,
+    0 for a scalar. A switch has type `switch`.
     """
 
     mode: Mode
@@ -444,10 +448,10 @@ Statement = (
 
 @dataclass(slots=True, eq=False)
 class Module(Node):
-    """One module and what was found wrong with its text.
+    """A module and the errors of its text.
 
-    A text that is no module at all gives a Module with an empty name and diagnostics.
-    `declarations` are in the order of the source.
+    A text without a module gives a Module with an empty name and diagnostics. `declarations` are in
+    the order of the source.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Modules, declarations and routines [K §2.11-2.24, 5, 9]; `parse` is the way in."""
+"""Modules and declarations [K §2.11-2.24, 5, 9]; `parse` is the entry."""
 
 import gc
 from collections.abc import Iterator
@@ -37,7 +37,7 @@ _DECLARATION_HOLDERS: Final = {"<TDN>": "type", "<DDN>": "datum", "<RDN>": "rout
 
 
 class ModuleParser:
-    """Parses one module. `builtin`: the headers of predefined routines."""
+    """Parser of one module; `builtin`: headers of predefined routines."""
 
     def __init__(self, tokens: Tokens, *, builtin: bool = False) -> None:
         expressions = self.expressions = ExpressionParser(tokens)
@@ -54,7 +54,7 @@ class ModuleParser:
     # -- module --------------------------------------------------------------------------
 
     def module(self) -> tuple[str, tuple[str, ...], list[Declaration], int]:
-        """Name, attributes and declarations of the text, and the index of its last token."""
+        """Return name, attributes, declarations and last token of a module."""
         kinds = self.kinds
         declarations: list[Declaration] = []
         i = 0
@@ -86,7 +86,10 @@ class ModuleParser:
         return max(0, len(self.texts) - 1)
 
     def _behind_module(self, i: int) -> None:
-        """Text behind the module: K derives modules, and leaves open what a file holds [K §9]."""
+        """Report text after the module [K §9].
+
+        K derives modules and leaves open what a file may contain.
+        """
         if self.kinds[i] is EOF:
             return
         again = self.kinds[i] == "MODULE"
@@ -105,7 +108,7 @@ class ModuleParser:
         )
 
     def _attributes(self, i: int) -> tuple[tuple[str, ...], int]:
-        """Attributes in parentheses, and the index behind them [K §9.1]."""
+        """Parse attributes; return the index after them [K §9.1]."""
         kinds = self.kinds
         if kinds[i] != "(":
             return (), i
@@ -144,7 +147,7 @@ class ModuleParser:
         )
 
     def _declarations(self, i: int, result: list[Declaration]) -> int:
-        """All declarations of the module; the index of what ends it."""
+        """Parse all declarations; return the index of the end."""
         kinds = self.kinds
         rank = 0
         while True:
@@ -211,7 +214,7 @@ class ModuleParser:
         )
 
     def _scoped(self, i: int, scope: str) -> tuple[Declaration, int]:
-        """A declaration behind LOCAL or TASK, and its rank."""
+        """Parse a declaration after LOCAL or TASK; return its rank."""
         kind = self.kinds[i + 1]
         if kind in ("VAR", "PERS") or (kind == "CONST" and scope == "LOCAL"):
             return self.data.data_declaration(i), 1
@@ -261,7 +264,7 @@ class ModuleParser:
         return RecordDeclaration(first, at, scope, name, components)
 
     def _behind_braces(self, i: int) -> int:
-        """Index behind the braces at i, if they are closed before anything else ends."""
+        """Return the index after the braces at i, if they are closed."""
         at = i
         while self.kinds[at] not in MODULE_STOPS and self.kinds[at] not in ("ENDRECORD", ";"):
             if self.kinds[at] == "}":
@@ -277,17 +280,17 @@ class ModuleParser:
 
 
 class _Collector:
-    """No garbage collection while a tree grows: it would cost more than the parse.
+    """Suspends garbage collection while a tree grows.
 
-    The tree then goes to the oldest generation as it is: going through all its nodes at the
-    next young collection would cost a third of the parse, and find nothing. That takes Python its
-    own reason to look through the oldest generation, so this does it: when as many tokens have
-    gone there as it has objects.
+    Collections would cost more than the parse. Afterwards the tree moves to the oldest generation
+    at once: traversing its nodes at the next young collection would cost a third of the parse,
+    without result. This bypasses Python's own trigger for the oldest generation, so this class
+    triggers it after as many new tokens as the generation has objects.
     """
 
     LEAST = 1_000_000
     FEW = 2_000
-    """Tokens of a text whose tree is left where it is: asking what is frozen goes through that."""
+    """Tokens of a small text, whose tree is not moved: counting frozen objects traverses them."""
 
     def __init__(self) -> None:
         self.promoted = 0
@@ -317,9 +320,9 @@ _COLLECTOR = _Collector()
 def parse(
     source: str | bytes, *, path: str | None = None, dialect: Dialect | None = None
 ) -> Module:
-    """The tree of one module; never raises for bad text, see `Module.diagnostics`.
+    """Return the tree of one module; never raises for wrong text.
 
-    `path` is for messages only. `dialect` defaults to RobotWare 6.
+    See `Module.diagnostics`. `path` is for messages only. `dialect` defaults to RobotWare 6.
     """
     name = path or "<text>"
     refused = text.refuse(source, name)

@@ -27,7 +27,7 @@ ROUTINES: Final = ("PROC", "FUNC", "TRAP")
 
 
 class RoutineParser:
-    """Parses routines."""
+    """Parser of routines."""
 
     def __init__(self, expressions: ExpressionParser, blocks: Blocks, data: DataParser) -> None:
         self.expressions = expressions
@@ -39,7 +39,7 @@ class RoutineParser:
         self.open = expressions.open
 
     def routine(self, first: int, i: int, scope: Scope) -> RoutineDeclaration:
-        """PROC, FUNC or TRAP whose keyword is token i [K §5.3-5.5]."""
+        """Parse PROC, FUNC or TRAP with its keyword at i [K §5.3-5.5]."""
         kinds = self.kinds
         kind = kinds[i]
         self.blocks.start(kind, i)
@@ -66,7 +66,7 @@ class RoutineParser:
         return self._routine_body(first, i, at, scope, type_name, name, parameters, name_token)
 
     def behind_header(self, at: int) -> int:
-        """Index behind the parentheses of a header with an error at token `at`."""
+        """Return the index after a header with an error at token `at`."""
         kinds, starts_line = self.kinds, self.expressions.starts_line
         depth = 0
         while True:
@@ -171,14 +171,14 @@ class RoutineParser:
         )
 
     def _whole(self, i: int) -> Expression:
-        """The number or whole datum that token i is."""
+        """Parse the number or whole datum at token i."""
         text = self.texts[i]
         if self.kinds[i] is NUMBER:
             return NumberLiteral(i, i, self.expressions.numbers[text], text)
         return Name(i, i, text)
 
     def _error_numbers(self, i: int) -> tuple[list[Expression] | None, int]:
-        """The list behind ERROR, if any, and the index behind it [K §7.2]."""
+        """Parse the list after ERROR; return the index after it [K §7.2]."""
         kinds = self.kinds
         if kinds[i] != "(":
             return None, i

@@ -11,24 +11,24 @@ from rapidgen.diagnostics import Span
 
 # -- Regular expressions ---------------------------------------------------------------------------
 #
-# The regular expressions that cut RAPID text into tokens [K §2.1-2.10].
+# Regular expressions for tokens of RAPID text [K §2.1-2.10].
 #
-# `TOKENS.findall` gives all tokens and nothing else, which is all that a parse needs; `TILES`
-# gives each token with what stands behind it, so that the pieces tile the text. Both use the
+# `TOKENS.findall` returns all tokens and nothing else, which suffices for a parse. `TILES` returns
+# each token with the blanks and comments after it, so that the pieces tile the text. Both use the
 # same token and the same blanks.
 
 
 _PLACEHOLDERS: Final = "TDN|DDN|RDN|PAR|ALT|DIM|SMT|VAR|EIT|CSE|EXP|ARG|ID"
-# A blank has to stand between a number and a word [K §2.2], but programs of cells do without one
-# before these words: `IF status = 1THEN`, in three of three authors, one saved a dozen times.
+# K requires a blank between a number and a word [K §2.2], but programs of cells omit it before
+# these words: `IF status = 1THEN`, in programs of three authors.
 _GOING_ON: Final = r"(?i:THEN|DO|TO|STEP|AND|OR|XOR|MOD|DIV)\b"
-# Behind blanks and comments stands a token or the end, whatever the text, so a repeat never has
-# to give anything back; possessive (Python 3.11) it need not remember how to, and is faster.
+# A token or the end always follows blanks and comments, so a repetition never backtracks. A
+# possessive one (Python 3.11) need not record how, and is faster.
 _ANY: Final = "*+" if sys.version_info >= (3, 11) else "*"
 # Loops over single classes, unrolled: nested repeats cost twice the time.
 _TRIVIA: Final = rf"[ \t\r\n\f]{_ANY}(?:![^\r\n]{_ANY}[ \t\r\n\f]{_ANY}){_ANY}"
-# The commonest first. What no alternative wants is a token of one character, so that any text
-# is cut up; the parser says what is wrong with it.
+# The most frequent alternative comes first. An unmatched character is a token of its own, so that
+# any text can be split; the parser reports the error.
 _TOKEN: Final = (
     r"([,;()\[\]{}\\]"
     r"|[^\W\d]\w*"
@@ -42,10 +42,10 @@ _TOKEN: Final = (
     r"|[^ \t\r\n\f])"
 )
 TOKENS: Final = re.compile(rf"{_TRIVIA}(?:{_TOKEN}|\Z)")
-"""An empty token stands for what is behind the last one."""
+"""An empty token represents the text after the last one."""
 TILES: Final = re.compile(_TOKEN + "(" + _TRIVIA + ")")
 TOUCHING: Final = re.compile(rf"[0-9.](?=[ADMOSTXadmostx]){_GOING_ON}")
-"""A number and the word behind it, if that is what they are; the letters make it quick."""
+"""A number and the word touching it; the look-ahead for letters makes the search fast."""
 HEADER: Final = re.compile(r"\s*%%%(?:.*?)%%%[^\r\n]*", re.DOTALL)
 LEAD: Final = re.compile(_TRIVIA)
 
@@ -62,10 +62,10 @@ Encoding = Literal["utf-8", "utf-8-sig", "latin-1"]
 class Source:
     """Decoded text with its tokens.
 
-    `tokens[i]` is the text of token i and `starts[i]` its offset in `text` (code points);
-    `gaps[i]` is what stands between token i and the next (blanks and comments); what stands
-    before the first token is `lead`. So lead + tokens and gaps in turn tile the text. Offsets
-    and gaps are worked out when they are first asked for: most parses need none.
+    `tokens[i]` is the text of token i and `starts[i]` its offset in `text` (code points); `gaps[i]`
+    is the text between token i and the next (blanks and comments); `lead` is the text before the
+    first token. Lead, tokens and gaps in turn tile the text. Offsets and gaps are computed on
+    demand, because most parses need none.
     """
 
     text: str
@@ -86,7 +86,7 @@ class Source:
 
     @property
     def gaps(self) -> list[str]:
-        """Blanks and comments behind each token."""
+        """Blanks and comments after each token."""
         if not self._starts:
             self._tile()
         return self._gaps
@@ -100,7 +100,7 @@ class Source:
 
     @property
     def lines(self) -> list[int]:
-        """Offset of each line. Ends of line: LF, CRLF or CR."""
+        """Offset of each line; LF, CRLF and CR end a line."""
         if not self._lines:
             result, text, at = [0], self.text, 0
             while at < len(text):
@@ -116,22 +116,25 @@ class Source:
         return self._lines
 
     def position(self, offset: int) -> tuple[int, int]:
-        """Line and column (from 1, code points) of an offset."""
+        """Return line and column (from 1, code points) of an offset."""
         lines = self.lines
         line = bisect_right(lines, offset)
         return line, offset - lines[line - 1] + 1
 
     def offset(self, line: int, column: int) -> int:
-        """Offset of a line and column; that of the end of the text behind the last line."""
+        """Return the offset of a line and column.
+
+        A position after the last line means the end of the text.
+        """
         lines = self.lines
         return lines[line - 1] + column - 1 if 0 < line <= len(lines) else len(self.text)
 
     def line(self, token: int) -> int:
-        """Line (from 1) on which a token starts."""
+        """Return the line (from 1) of a token's start."""
         return bisect_right(self.lines, self.starts[token])
 
     def span(self, first: int, last: int) -> Span:
-        """Place from the start of token `first` to the end of token `last`."""
+        """Return the place of the tokens `first` to `last`."""
         line, column = self.position(self.starts[first])
         end_line, end_column = self.position(self.starts[last] + len(self.tokens[last]))
         return Span(self.path, line, column, end_line, end_column)

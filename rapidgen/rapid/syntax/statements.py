@@ -38,7 +38,7 @@ from rapidgen.rapid.syntax.nodes import (
 
 
 class StatementParser:
-    """Parses statement lists."""
+    """Parser of statement lists."""
 
     def __init__(self, expressions: ExpressionParser, blocks: Blocks, data: DataParser) -> None:
         self.expressions = expressions
@@ -53,9 +53,9 @@ class StatementParser:
         self.after = 0
         """Index of what ended the last list."""
         self.late_data: list[DataDeclaration] = []
-        """Data declared among statements of the present routine; kept, and reported."""
+        """Data declared among statements of the present routine: accepted and reported."""
         self.nested = -1
-        """An IF, FOR, WHILE or TEST that stands where a compact IF has its statement."""
+        """A block statement in the place of the statement of a compact IF."""
         self.handlers: dict[str, Callable[[int], Statement]] = {
             NAME: self._named_statement,
             HOLDER: self._placeholder,
@@ -72,12 +72,15 @@ class StatementParser:
             "CONNECT": self._connect,
             "%": self._late_call,
         }
-        """What parses a statement, by the kind of its first token."""
+        """Parsers of statements, by the kind of the first token."""
 
     # -- lists ---------------------------------------------------------------------------
 
     def statements(self, i: int) -> list[Statement]:
-        """Statements up to what ends the innermost open block; its index is left in `after`."""
+        """Parse statements up to the end of the innermost open block.
+
+        The index of the end goes to `after`.
+        """
         kinds, texts, handlers = self.kinds, self.texts, self.handlers
         ends = ENDS[self.open[-1][0]]
         body: list[Statement] = []
@@ -122,7 +125,10 @@ class StatementParser:
                 i = self.blocks.resume(i, result.at, result.expected)
 
     def _late_datum(self, i: int) -> int:
-        """Data among statements: kept, so that nothing follows from it. The index behind it."""
+        """Accept data among statements to avoid follow-up errors.
+
+        Returns the index after them.
+        """
         declaration = self.data.data_declaration(i)
         self.late_data.append(declaration)
         source = self.expressions.source
@@ -274,13 +280,13 @@ class StatementParser:
         return If(i, self.blocks.leave(self.after), branches, otherwise)
 
     def _behind_branch(self, i: int) -> int:
-        """Index behind a wrong ELSE or ELSEIF ... THEN."""
+        """Return the index after a wrong ELSE or ELSEIF ... THEN."""
         if self.kinds[i] == "ELSE" or not self.blocks.reaches(i + 1, "THEN"):
             return i + 1
         return self.kinds.index("THEN", i) + 1
 
     def _condition(self, i: int, expected: str) -> tuple[Expression, int]:
-        """Condition behind IF or WHILE, and the index of the token behind it."""
+        """Parse a condition after IF or WHILE; return the index after it."""
         try:
             condition = self.expression(i + 1)
             return condition, condition.last + 1
@@ -313,7 +319,7 @@ class StatementParser:
         return While(i, self.blocks.leave(self.after), condition, body)
 
     def _keyword(self, i: int, at: int, expected: str) -> int:
-        """Index behind DO; a missing one is reported and taken as if it were there."""
+        """Return the index after DO; report and assume a missing one."""
         if self.kinds[at] == expected:
             return at + 1
         after = self.blocks.header(i, SyntaxFault(at, f"{expected} or an operator"), expected)

@@ -1,4 +1,4 @@
-"""What is wrong with a text as a whole: too large, binary, encoded, empty, no module."""
+"""Errors of a text as a whole: size, binary, encoding, no module."""
 
 import re
 from bisect import bisect_right
@@ -36,7 +36,7 @@ _UTF16: Final = (b"\xff\xfe", b"\xfe\xff")
 
 
 def refuse(source: str | bytes, path: str) -> Diagnostic | None:
-    """The one diagnostic of a text that is not worth reading, or None."""
+    """Return the diagnostic of a text that cannot be parsed, or None."""
     span = Span(path, 1, 1)
     if len(source) > MAX_BYTES:
         return error(
@@ -49,8 +49,8 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
         return error("RG208", span, "the file is empty", "a module is MODULE name ... ENDMODULE")
     if isinstance(source, bytes) and source.startswith(_UTF16):
         return error("RG218", span, "the file is UTF-16 text", "save it as UTF-8 or Latin-1")
-    # Binary files show it early, or have many zero bytes; a few control characters in a text are
-    # errors of their own places.
+    # Binary files contain early or many zero bytes. A few control characters in a text are errors
+    # at their own places.
     head = source[:_HEAD].decode("latin-1") if isinstance(source, bytes) else source[:_HEAD]
     zeros = source.count(b"\0") if isinstance(source, bytes) else source.count("\0")
     controls = len(_BINARY.findall(head))
@@ -70,7 +70,7 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
 
 
 def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
-    """The text does not start with MODULE."""
+    """Report a text that does not start with MODULE."""
     if not source.tokens:
         return error(
             "RG208",
@@ -88,12 +88,15 @@ def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
 
 
 def is_rapid(module: Module) -> bool:
-    """Whether a text looks like RAPID at all: other languages have files named .mod, too."""
+    """Return True if a text looks like RAPID.
+
+    Other languages also use the suffix .mod.
+    """
     return any(t.upper() in _TELLING for t in module.source.tokens)
 
 
 def _unseen(tokens: Tokens) -> Diagnostic:
-    """Characters that look like nothing, or like a blank: told once."""
+    """Report invisible characters once."""
     source, places = tokens.source, tokens.blanks
     named = sorted({f"U+{ord(tokens.unread[at]):04X}" for at in places})
     line, column = source.position(places[0])
@@ -108,7 +111,7 @@ def _unseen(tokens: Tokens) -> Diagnostic:
 
 
 def _touching(source: Source) -> list[Diagnostic]:
-    """The first number with a word right behind it."""
+    """Report the first number with a word touching it."""
     for match in TOUCHING.finditer(source.text):
         at = bisect_right(source.starts, match.start()) - 1
         number = source.tokens[at] if at >= 0 else ""
@@ -127,7 +130,7 @@ def _touching(source: Source) -> list[Diagnostic]:
 
 
 def spellings(tokens: Tokens) -> list[Diagnostic]:
-    """Names too long, strings with a tab, numbers beyond any type: each at its first place."""
+    """Report long names, tabs in strings and huge numbers once each."""
     findings = [_unseen(tokens)] if tokens.blanks else []
     findings += _touching(tokens.source)
     folded = set()

@@ -1,4 +1,4 @@
-"""Going through a tree without knowing each kind of node."""
+"""Generic traversal of a tree."""
 
 from collections.abc import Iterator
 from typing import Final, get_args
@@ -56,7 +56,7 @@ _STATEMENTS: Final = get_args(nodes.Statement)
 
 
 def children(node: Node) -> list[Node]:
-    """Nodes directly below a node, in the order of the source."""
+    """Return the nodes directly below a node, in source order."""
     result: list[Node] = []
     for name in _CHILDREN[type(node)]:
         value = getattr(node, name)
@@ -68,7 +68,7 @@ def children(node: Node) -> list[Node]:
 
 
 def walk(node: Node) -> Iterator[Node]:
-    """A node and all nodes below it; parents come before their children."""
+    """Iterate over a node and all nodes below it, parents first."""
     stack = [node]
     pop = stack.pop
     while stack:
@@ -79,7 +79,7 @@ def walk(node: Node) -> Iterator[Node]:
 
 
 def walk_own(node: Node) -> Iterator[Node]:
-    """A node and all nodes below it, but no statement inside another one."""
+    """Iterate over a node and all nodes below it within one statement."""
     yield node
     for child in children(node):
         if not isinstance(child, _STATEMENTS):

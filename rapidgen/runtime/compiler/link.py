@@ -1,4 +1,14 @@
-"""Linking: names of a task as types, data and routines."""
+"""Linking: names of a task as types, data and routines.
+
+Linking is lazy. `add` makes the names of all modules known first, so that declarations may refer to
+each other in any order. Types, data and routines are then made on first need, through the one
+resolver in rapid/binding. A datum under evaluation is None in the table: a cycle of initial values
+ends with an error instead of a recursion.
+
+A name without a declaration is an error only where a program uses it. Types, sizes and values that
+other modules would declare become opaque types, so that a module of an incomplete program can be
+loaded and run up to that use.
+"""
 
 from collections import Counter
 from functools import cache
@@ -44,12 +54,15 @@ from rapidgen.system.model import ModuleFile
 #
 # Initial values of declarations: constant expressions as RAPID values [K §3.1-3.2].
 #
-# They are not compiled: backups hold a hundred thousand numbers. Aggregates and literals are made
-# here directly, whatever else is worked out by rapid/binding.
+# They are not compiled, because backups contain a hundred thousand numbers. This code makes
+# aggregates and literals directly; rapid/binding evaluates all other expressions.
 
 
 def evaluate(node: n.Expression, kind: Type, dims: tuple[int, ...], scope: Scope) -> Value:
-    """The value of a constant expression of a known type. CannotCompile: it has none."""
+    """Return the value of a constant expression of a known type.
+
+    CannotCompile: it has no value.
+    """
     if not dims and kind.kind == "num":
         if isinstance(node, n.NumberLiteral):
             return single(node.value)
@@ -83,7 +96,7 @@ def _aggregate(node: n.Aggregate, kind: Type, dims: tuple[int, ...], scope: Scop
 
 
 def build(kind: Type, value: signatures.Value | None, degree: int = 0) -> Value:
-    """A value of rapid/binding or the signature data (nested tuples) as a RAPID value."""
+    """Return nested tuples of rapid/binding as a RAPID value."""
     if value is None:
         return kind.default()
     if isinstance(value, tuple):
@@ -102,7 +115,7 @@ def build(kind: Type, value: signatures.Value | None, degree: int = 0) -> Value:
 
 
 class Opaque:
-    """A datum of a predefined type about which nothing more is known here."""
+    """A datum of a predefined type without public components."""
 
     __slots__ = ("type", "value")
 
@@ -112,13 +125,16 @@ class Opaque:
 
 
 def unknown_type(name: str) -> Type:
-    """A type that nothing at hand declares: data of it are kept, and only handed on."""
+    """Return an opaque type for an undeclared type.
+
+    Programs can only store its data and pass them on.
+    """
     return Type(name.lower(), "nonvalue", (), lambda: Opaque(name))
 
 
 @cache
 def find_type(name: str) -> Type | None:
-    """A predefined type by lower-case name, aliases resolved."""
+    """Return a predefined type by lower-case name, aliases resolved."""
     base = signatures.alias(name)
     if base is not None:
         return _needed(base)
@@ -149,7 +165,10 @@ def _needed(name: str) -> Type:
 
 @cache
 def predefined_datum(key: str) -> Data | None:
-    """How a predefined datum is kept, by lower-case name: an atomic constant in the code."""
+    """Return the storage of a predefined datum by lower-case name.
+
+    An atomic constant becomes part of the code.
+    """
     result = signatures.constant(key)
     if result is None:
         return None
@@ -172,14 +191,17 @@ def predefined_datum(key: str) -> Data | None:
 
 
 def predefined_value(key: str) -> Value:
-    """The value that a predefined datum has at first."""
+    """Return the initial value of a predefined datum."""
     result = signatures.predefined()[key]
     return build(_needed(result.type), result.value)
 
 
 @cache
 def predefined_routine(name: str) -> Routine | None:
-    """A built-in routine by lower-case name; `missing` when nothing is bound to it."""
+    """Return a built-in routine by lower-case name.
+
+    `missing` marks one without a Python function.
+    """
     signature = signatures.routine(name)
     if signature is None:
         return None
@@ -202,53 +224,54 @@ def predefined_routine(name: str) -> Routine | None:
 
 # -- Names of a task -------------------------------------------------------------------------------
 #
-# How what names stand for is kept: symbols of rapid/binding as types, data and routines of a task.
+# Symbols of rapid/binding as types, data and routines of a task.
 #
-# Modules are linked into one Python namespace. Persistents, data of shared modules and record
-# classes are common to all tasks.
+# Modules are linked into one Python namespace. All tasks share persistents, data of shared modules
+# and record classes.
 
 
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
 
 MOST_ELEMENTS = 4_000_000
-"""Of an array: about 400 MB here. The program memory of a controller ends before that [mem]."""
+"""Elements of an array: about 400 MB. The program memory of a controller is smaller [mem]."""
 
 
 class Shared:
-    """What the programs of all tasks share: persistents, record classes, configured objects."""
+    """State shared by all tasks: persistents, record classes, installed objects."""
 
     def __init__(self, configured: dict[str, tuple[Type, Value]] | None = None) -> None:
         self.cells: dict[str, PersistentCell] = {}
         self.declared: Counter[str] = Counter()
         """So many loaded modules declare the persistent of a cell: with the last one it goes."""
         self.bare: set[str] = set()
-        """Cells whose declarations so far had no initial value."""
+        """Cells whose declarations have had no initial value until now."""
         self.common: dict[tuple[str, str], Value] = {}
         """Data of shared modules by module and name: cells of atoms, else the object itself."""
         self.records: dict[tuple[object, ...], Type] = {}
         self.unknown: dict[str, Type] = {}
-        """Types that nothing declares, and of data whose size or value nothing declares, by what
-        is missing, lower case."""
+        """Undeclared types, and types of data whose size or value is undeclared, by the missing
+        name in lower case."""
         self.configured = configured if configured is not None else {}
         """Signals, mechanical units and taskids by lower-case name."""
         self.names = installed_objects((k, t.name) for k, (t, _) in self.configured.items())
 
 
 class Linker:
-    """Types, data and routines of one task, each made on first need."""
+    """Types, data and routines of one task, made on first need."""
 
     def __init__(self, shared: Shared, space: dict[str, Value]) -> None:
-        """`space` is the namespace that gets values, persistents and built-ins."""
+        """Link into `space`, which receives values, persistents, built-ins."""
         self.shared = shared
         self.space = space
         self.names = TaskScope(shared.names)
         self.modules: dict[str, LoadedModule] = {}
         self.faults: list[Diagnostic] = []
-        """Errors, and warnings of types that nothing declares."""
+        """Errors, and warnings of undeclared types."""
         self.trace_points: list[tuple[Routine, n.Statement]] = []
         self.told: list[bool] = []
-        """By trace point, whether somebody may want to know of it; compiled code looks here."""
+        """By trace point: True while a tracer may need the statement. Compiled code reads this
+        list."""
         self.space["TOLD"] = self.told
         self._kept: dict[int, str] = {}
         self._loaded: dict[ModuleScope, LoadedModule] = {}
@@ -261,7 +284,7 @@ class Linker:
     # -- what generated code names ---------------------------------------------------------------
 
     def keep(self, value: Value) -> str:
-        """A name in the namespace for any object."""
+        """Return a name in the namespace for any object."""
         known = self._kept.get(id(value))
         if known is None:
             self._serial += 1
@@ -270,14 +293,14 @@ class Linker:
         return known
 
     def global_ref(self, data: Data) -> str:
-        """Name of a reference to module data."""
+        """Return the name of a reference to module data."""
         name = f"r_{data.code}"
         if name not in self.space:
             self.space[name] = GlobalRef(self.space, data.code, data.type, data.dims, data.name)
         return name
 
     def trace_point(self, routine: Routine, statement: n.Statement) -> int:
-        """Number of a statement, for tracing."""
+        """Return a new trace point for a statement."""
         self.trace_points.append((routine, statement))
         self.told.append(True)
         return len(self.trace_points) - 1
@@ -285,7 +308,10 @@ class Linker:
     # -- modules ---------------------------------------------------------------------------------
 
     def add(self, tree: n.Module, file: ModuleFile) -> LoadedModule:
-        """Make the names of a module known. DiagnosticError RG305: one of its name is there."""
+        """Register the names of a module.
+
+        DiagnosticError RG305: a module of this name exists.
+        """
         if tree.name.lower() in self.modules:
             at = tree.source.span(tree.first, tree.first)
             raise refusal(
@@ -302,7 +328,7 @@ class Linker:
         return module
 
     def link(self, loaded: list[LoadedModule]) -> None:
-        """Make types, routines and data of modules whose names are known."""
+        """Make types, routines and data of registered modules."""
         for module in self.modules.values():
             module.types.clear()
         own = [(module, symbol) for module in loaded for symbol in module.scope.own.values()]
@@ -317,7 +343,7 @@ class Linker:
                 self.datum(symbol)
 
     def remove(self, name: str) -> None:
-        """Forget a module."""
+        """Remove a module."""
         gone = self.modules.pop(name.lower()).scope
         self.names.remove(gone)
         del self._loaded[gone]
@@ -332,7 +358,10 @@ class Linker:
             module.types.clear()
 
     def _forget(self, data: Data | None) -> None:
-        """A declaration is gone; a system-global persistent goes with its last one [K §14.4]."""
+        """Remove a declaration.
+
+        The last declaration of a system-global persistent removes its cell [K §14.4].
+        """
         if data is None or data.kind != "PERS":
             return
         key = data.name.lower()
@@ -348,10 +377,10 @@ class Linker:
     # -- types -----------------------------------------------------------------------------------
 
     def find_type(self, module: LoadedModule, name: str, node: n.Node) -> Type | None:
-        """What a name of a type means in a module; `node` is where it stands.
+        """Return the type of a name in a module; `node` is its place.
 
-        One that nothing declares may be of an option or add-in: statements stop, which need to
-        know more of it, when they are reached. None: a record that holds itself.
+        An undeclared type may belong to an option or add-in: statements that need its components
+        stop the task when executed. None: a record that contains itself.
         """
         if name in module.types:
             return module.types[name]
@@ -361,7 +390,7 @@ class Linker:
         return result
 
     def _unknown(self, module: LoadedModule, name: str, node: n.Node, what: str = "type") -> Type:
-        """The type of data that need what nothing declares: nothing can look into them."""
+        """Return an opaque type for data with an undeclared type or size."""
         match = self.shared.unknown.get(name.lower())
         if match is None:
             match = self.shared.unknown[name.lower()] = unknown_type(name)
@@ -387,7 +416,7 @@ class Linker:
         if symbol.module is None:
             return find_type(symbol.name.lower())
         if symbol not in self._types:
-            self._types[symbol] = None  # no record holds itself
+            self._types[symbol] = None  # no record contains itself
             self._types[symbol] = self._record(self._loaded[symbol.module], symbol)
         return self._types[symbol]
 
@@ -410,7 +439,7 @@ class Linker:
     # -- routines --------------------------------------------------------------------------------
 
     def routine(self, symbol: Symbol | None) -> Routine | None:
-        """The routine that a symbol stands for; None for anything else."""
+        """Return the routine of a symbol, None for other symbols."""
         if not isinstance(symbol, RoutineSymbol):
             symbol = called(_meant(symbol))
             if not isinstance(symbol, RoutineSymbol):
@@ -446,7 +475,7 @@ class Linker:
     # -- data ------------------------------------------------------------------------------------
 
     def datum(self, symbol: Symbol | None) -> Data | None:
-        """How the datum is kept that a symbol stands for; None for anything else.
+        """Return the storage of a symbol's datum, None for other symbols.
 
         Module data are evaluated on first need.
         """
@@ -513,9 +542,10 @@ class Linker:
         dims: tuple[int, ...],
         value: Value,
     ) -> PersistentCell:
-        """The cell of a PERS: one for the whole system by name, unless LOCAL or TASK.
+        """Return the cell of a PERS.
 
-        The first declaration with an initial value gives the value [K §14.4].
+        Without LOCAL and TASK there is one cell per name in the whole system. The first declaration
+        with an initial value defines the value [K §14.4].
         """
         if module.file.shared and d.scope != "TASK":
             place = (module.name.lower(), d.name.lower())
@@ -544,7 +574,10 @@ class Linker:
         return cell
 
     def evaluate(self, module: LoadedModule, scope: Scope, d: n.DataDeclaration) -> Typed:
-        """Type, sizes and initial value of a declaration. CannotCompile."""
+        """Return type, sizes and initial value of a declaration.
+
+        Raises CannotCompile.
+        """
         kind = self.find_type(module, d.type, d)
         if kind is None:
             raise CannotCompile(f"type {d.type} is not known", d)
@@ -561,7 +594,7 @@ class Linker:
         return kind, dims, kind.default()
 
     def _counted(self, value: Value, kind: Type) -> Value:
-        """An initial value with its dnums as they are held."""
+        """Round the dnums of an initial value."""
         if kind.kind != "dnum":
             return value
         if value.__class__ is dict:
@@ -588,7 +621,10 @@ class Linker:
 
 
 def _meant(symbol: Symbol | None) -> Symbol | None:
-    """The name of a module means nothing in code: its own or predefined object of that name."""
+    """Return the own or predefined object of a module's name.
+
+    In code the name of a module has no meaning.
+    """
     if isinstance(symbol, ModuleSymbol) and symbol.module is not None:
         key = symbol.name.lower()
         return symbol.module.own.get(key) or builtin(key)

@@ -1,4 +1,11 @@
-"""The program of one task."""
+"""The program of one task: linked modules and their compiled code.
+
+Routines are compiled on their first call: the namespace contains a stub under the routine's name,
+which compiles, replaces itself and calls the result. Loading or unloading a module invalidates only
+routines linked to it. Tracing needs other code (a report before each statement), so it invalidates
+all routines; frames in progress continue in their old code, which stays in `codes` for stack
+look-ups.
+"""
 
 import sys
 from collections.abc import Callable, Iterable, Iterator
@@ -41,9 +48,10 @@ from rapidgen.system.model import ModuleFile
 
 # -- ArgName ---------------------------------------------------------------------------------------
 #
-# ArgName: the name of the datum that a parameter stands for, back through the calls.
+# ArgName: the name of the datum that a parameter represents, along the call stack.
 #
-# Values carry no names: the calls are looked up in the trees, from the place of each routine.
+# Values have no names. The code reads the arguments of each call from the trees, at the current
+# token of each routine.
 
 
 Call: TypeAlias = n.ProcedureCall | n.FunctionCall | n.LateCall
@@ -51,10 +59,11 @@ FindData: TypeAlias = Callable[[LoadedModule | None, str], Data | None]
 
 
 def arg_name(codes: Codes, find_data: FindData, parameter: str, number: Ref | None = None) -> str:
-    """Name of the datum behind `parameter` of the routine that asks [S4 datasys 3-ArgName].
+    """Return the name of the datum of a parameter.
 
-    For an element or a component the whole datum's; ERR_ARGNAME for an expression. With
-    `number` that gets the error instead, and the name is empty.
+    An element or component yields the name of the whole datum, an expression raises ERR_ARGNAME.
+    With `number` that receives the error instead, and the name is empty. Source: [S4 datasys
+    3-ArgName].
     """
     try:
         return _named(codes, find_data, parameter)
@@ -83,7 +92,10 @@ def _named(codes: Codes, find_data: FindData, name: str) -> str:
 
 
 def _places(codes: Codes, frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
-    """Routines of the call stack, innermost first, and the token at which each is."""
+    """Iterate over routines of the call stack and their tokens.
+
+    The innermost routine comes first.
+    """
     inside: Routine | None = None
     while frame is not None:
         compiled = codes.get(frame.f_code.co_filename)
@@ -91,13 +103,13 @@ def _places(codes: Codes, frame: FrameType | None) -> Iterator[tuple[Routine, in
             inner = compiled.role(frame.f_code) is not CodeRole.ROUTINE
             if inside is not compiled.routine:
                 yield compiled.routine, compiled.tokens[frame.f_lineno]
-            # A handler's or a deep part's own frame comes before that of its routine.
+            # The frame of a handler or nested part precedes the frame of its routine.
             inside = compiled.routine if inner else None
         frame = frame.f_back
 
 
 def _argument(caller: Routine, token: int, routine: Routine, at: int) -> n.Expression | None:
-    """What a call in the statement at `token` gives to a parameter."""
+    """Return the argument for a parameter in a statement's call."""
     for call in _calls(caller, token):
         if not isinstance(call, n.LateCall) and call.name.lower() != routine.name.lower():
             continue
@@ -131,12 +143,12 @@ def _is_local(routine: Routine, name: str) -> bool:
 
 
 class Executor(Protocol):
-    """What compiled code runs on: its name and, as `R`, whatever it is asked for."""
+    """Task interface of compiled code, `R` in its namespace."""
 
     name: str
 
     def trace(self, point: int) -> None:
-        """A statement is about to be executed."""
+        """Report the next statement."""
 
 
 class Program:
@@ -148,9 +160,9 @@ class Program:
         self.options = options
         self.codes: dict[str, Compiled] = {}
         self._linked: set[Routine] = set()
-        """What is compiled as the modules are now."""
+        """Routines compiled for the present modules."""
         self._initial: dict[str, Value] = {}
-        """Values that nothing has changed yet, by where they are kept."""
+        """Unchanged initial values, by storage."""
         self.space: dict[str, Value] = {
             **support.NAMESPACE,
             "R": executor,
@@ -181,13 +193,13 @@ class Program:
     # -- loading ---------------------------------------------------------------------------------
 
     def load(self, modules: Iterable[tuple[n.Module, ModuleFile]]) -> None:
-        """Link modules; names of all are known before any value is evaluated."""
+        """Link modules after registering the names of all of them."""
         loaded = [self.linker.add(tree, file) for tree, file in modules]
         self.linker.link(loaded)
         self._reset_code()
 
     def unload(self, name: str) -> None:
-        """Remove a module; code that called it is linked anew."""
+        """Remove a module; its callers are linked again."""
         self.linker.remove(name)
         self._reset_code()
 
@@ -201,7 +213,7 @@ class Program:
     def reset_variables(self) -> None:
         """Give every module VAR its initial value: PP to main [S4 overview 4-24].
 
-        Data of built-in modules keep theirs, but for what a shared one has for each task [K §13.2].
+        Data of built-in modules keep their values, except TASK data of a shared module [K §13.2].
         """
         self.find_initial_values()
         self.space |= self._initial
@@ -209,9 +221,10 @@ class Program:
         self._initial = {}
 
     def find_initial_values(self) -> None:
-        """Work out now what `reset_variables` will give, so that copies of this need not.
+        """Evaluate the values for `reset_variables` in advance.
 
-        CannotCompile: some value is none."""
+        Copies of this program then share them. CannotCompile: an initial value has no value.
+        """
         if not self._initial:
             self._initial = dict(self._initial_values())
 
@@ -229,30 +242,33 @@ class Program:
     # -- names -----------------------------------------------------------------------------------
 
     def find(self, module: LoadedModule | None, key: str) -> Symbol | None:
-        """What a lower-case name means in a module; None: seen from outside."""
+        """Return the symbol of a lower-case name in a module.
+
+        None as the module means the view from outside.
+        """
         return self.names.find(key) if module is None else module.scope.find(key)
 
     def find_data(self, module: LoadedModule | None, key: str) -> Data | None:
-        """A datum by lower-case name, as seen from a module."""
+        """Return a datum by lower-case name in a module."""
         return self.datum(self.find(module, key))
 
     def find_routine(self, module: LoadedModule | None, key: str) -> Routine | None:
-        """A routine by lower-case name, as seen from a module; built-ins come last."""
+        """Return a routine by lower-case name; built-ins come last."""
         return self.routine(self.find(module, key))
 
     def code_name(self, routine: Routine) -> str:
-        """Python file name of a routine's code."""
+        """Return the Python file name of a routine's code."""
         assert routine.module is not None
-        # What is being executed when tracing begins goes on in its own code, which is known, too.
+        # Frames in progress continue in code without tracing, which remains registered.
         traced = " traced" if self.options.tracing else ""
         return f"<rapid {self.name} {routine.module.name} {routine.name}{traced}>"
 
     def tell_all(self) -> None:
-        """Code that reports its statements reports every one of them again."""
+        """Make all trace points active again."""
         self.told[:] = [True] * len(self.told)
 
     def trace_from_now(self) -> None:
-        """Compile with a report of every statement from now on."""
+        """Compile with tracing from now on."""
         self.tell_all()
         if not self.options.tracing:
             self.options = replace(self.options, tracing=True, accounting="statement")
@@ -267,7 +283,10 @@ class Program:
         return stub
 
     def function(self, routine: Routine) -> Callable[..., Value]:
-        """The compiled function of a routine; FatalError when it breaks the language's rules."""
+        """Return the compiled function of a routine.
+
+        FatalError: the routine violates the language.
+        """
         assert routine.module is not None
         file = self.code_name(routine)
         if routine in self._linked and file in self.codes:
@@ -292,9 +311,10 @@ class Program:
     def rest(
         self, standing: StoppedFrame, *, calls: bool = False, alone: bool = False
     ) -> Callable[[dict[str, Value]], Value]:
-        """A function that goes on with a routine where it stands. CannotCompile: it cannot.
+        """Return a function that continues a routine at a statement.
 
-        `calls`: the statement is a call that is under way. `alone`: only it is executed.
+        `calls`: the statement is a call in progress. `alone`: the function executes only this
+        statement. CannotCompile: not possible there.
         """
         options = replace(self.options, tracing=False) if alone else self.options
         file = self.code_name(standing.routine)
@@ -302,12 +322,15 @@ class Program:
         return self._known(*linked)
 
     def backward(self, routine: Routine) -> Callable[..., Value]:
-        """The BACKWARD handler of a procedure as a function. CannotCompile."""
+        """Return the BACKWARD handler of a procedure as a function.
+
+        Raises CannotCompile.
+        """
         file = self.code_name(routine)
         return self._known(*compile_backward(self.linker, routine, self.options, file))
 
     def value(self, module: LoadedModule | None, key: str) -> Value:
-        """Current value of a datum, as seen from a module. KeyError: there is none."""
+        """Return the current value of a datum in a module, or raise KeyError."""
         data = self.find_data(module, key)
         if data is None:
             raise KeyError(key)
@@ -319,10 +342,10 @@ class Program:
 
 # -- Undefined calls -------------------------------------------------------------------------------
 #
-# Calls of routines that do not exist here, found when modules are loaded.
+# Undefined calls are reported when modules are loaded.
 #
-# Trees of large systems are not walked for it: only names that are no known routine and stand, in
-# the tokens, where a call stands are looked for in the tree.
+# Large trees are not searched completely. The tokens yield names without a known routine in
+# positions of a call; only for these the tree is searched.
 
 
 _BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
@@ -330,7 +353,7 @@ _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})
 
 
 def missing_routines(program: Program) -> list[Diagnostic]:
-    """One warning for each built-in that is not available and each name that is not declared."""
+    """Return one warning per unavailable or undeclared routine."""
     findings: dict[str, Diagnostic] = {}
     for module in program.modules.values():
         suspects = _suspects(program, module) - findings.keys()

@@ -1,4 +1,9 @@
-"""Code compiled for a place inside a routine: resumption and watches."""
+"""Code compiled for a place inside a routine: resumption and watches.
+
+Both compile a routine again with other surroundings. They depend on stable names: the Python local
+of a datum or loop variable is the same in every compilation of a routine, so that the values of an
+old frame fit the new function.
+"""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
@@ -27,20 +32,20 @@ from rapidgen.runtime.values import Type, Value
 
 # -- Resumption ------------------------------------------------------------------------------------
 #
-# Going on in the middle of a routine: code that takes over the variables of a frame that is gone.
+# Resumption: code that takes over the variables of a frame that no longer exists.
 #
-# A program that an error stopped stands at the faulty statement and tries it again when it is
-# started [S4 overview 3-23]. The routine is compiled once more, beginning there: the rest of every
-# statement list around, and loops from their next pass on.
+# A program stopped by an error is at the failed statement and executes it again after a start [S4
+# overview 3-23]. The routine is compiled again from there: the rest of every enclosing statement
+# list, and loops from their next pass on.
 
 
 Path = list[tuple[list[n.Statement], int]]
-"""Statement lists from the routine's own inwards, and the place in each."""
+"""Statement lists from the routine's body inwards, and the index in each."""
 
 
 @dataclass(frozen=True, slots=True)
 class StoppedFrame:
-    """Where a routine of a call stack is, and what its variables are."""
+    """A routine of a stopped call stack: its place and variables."""
 
     routine: Routine
     path: Path
@@ -49,7 +54,7 @@ class StoppedFrame:
 
 
 def find(body: list[n.Statement], token: int) -> Path | None:
-    """The statement that begins at a token."""
+    """Return the path to the statement that starts at a token."""
     for i, statement in enumerate(body):
         if isinstance(statement, n.Label):
             continue
@@ -77,7 +82,7 @@ def _lists(statement: n.Statement) -> Iterator[list[n.Statement]]:
 
 
 def after(values: Iterable[float], current: float) -> Iterator[float]:
-    """Values of a FOR variable behind the current one."""
+    """Iterate over values of a FOR variable after the current one."""
     remaining: Iterator[float] = iter(values)
     for value in remaining:
         if value == current:
@@ -86,10 +91,10 @@ def after(values: Iterable[float], current: float) -> Iterator[float]:
 
 
 class _Rest:
-    """Writes the rest of a routine. CannotCompile: not from there.
+    """Compiles the rest of a routine. CannotCompile: not possible there.
 
-    `calls`: the statement is a call that is under way, and its routine goes on, too.
-    `alone`: nothing follows it.
+    `calls`: the statement is a call in progress, and its routine also continues. `alone`: execution
+    ends after the statement.
     """
 
     def __init__(
@@ -109,7 +114,7 @@ class _Rest:
         compiler.body = lambda: self._rest(standing.path)
 
     def _take_over(self, declare: Callable[[], None]) -> None:
-        """Take the values of the variables over."""
+        """Take over the values of the variables."""
         emitter, values = self._emitter, self._standing.values
         marker = len(emitter.w.lines)
         declare()
@@ -126,7 +131,9 @@ class _Rest:
             w.token = body[i].first
             w.close()
             w.emit("R.go_on_below()")
-            compile_statement(emitter, body[i])  # which is under way: no trace tells of it again
+            compile_statement(
+                emitter, body[i]
+            )  # the statement in progress has been reported already
             w.close()
             w.emit("R.not_below()")
         else:
@@ -159,9 +166,10 @@ class _Rest:
 def compile_backward(
     linker: Linker, routine: Routine, options: Options, file: str
 ) -> tuple[Callable[..., Value], Compiled]:
-    """The BACKWARD handler of a procedure, with its parameters and variables [K §6.1].
+    """Compile the BACKWARD handler of a procedure [K §6.1].
 
-    Errors in it are not for the procedure's own ERROR [K §7.1]. `file` is that of the procedure.
+    It has the procedure's parameters, variables and `file`. The procedure's ERROR does not handle
+    its errors [K §7.1].
     """
     node = routine.node
     assert node is not None
@@ -175,7 +183,10 @@ def compile_backward(
 def compile_rest(
     linker: Linker, standing: StoppedFrame, options: Options, file: str, *, calls: bool, alone: bool
 ) -> tuple[Callable[[dict[str, Value]], Value], Compiled]:
-    """A function that goes on with a routine, given the values. `file` is the routine's."""
+    """Compile a function that continues a routine with given values.
+
+    `file` is that of the routine.
+    """
     routine = standing.routine
     at = "".join(f" {i}" for _, i in standing.path)
     file = f"{file} from{at}{' alone' if alone else ''}"
@@ -186,10 +197,10 @@ def compile_rest(
 
 # -- Watch expressions -----------------------------------------------------------------------------
 #
-# Expressions and assignments that somebody asks for where a routine stands.
+# Watch expressions: expressions and assignments evaluated at the current statement of a routine.
 #
-# They are compiled as a statement of the routine would be there, but apart from it: its handlers
-# are not for what fails here, it costs nothing, and it may neither wait nor call.
+# They are compiled as a statement of the routine, but separately: the routine's handlers do not
+# receive their errors, they cost no time, and they may neither wait nor call.
 
 
 _ENTRY = "_watched"
@@ -198,7 +209,7 @@ _FILE = "<watched>"
 
 @dataclass(frozen=True, slots=True)
 class WatchedExpression:
-    """An expression of a routine. `read` takes the Python locals of its frame."""
+    """An expression of a routine; `read` takes a frame's Python locals."""
 
     type: Type
     dims: tuple[int, ...]
@@ -206,7 +217,7 @@ class WatchedExpression:
 
 
 def parse_assignment(text: str) -> n.Assignment:
-    """The tree of `target := value`. SyntaxError says what is wrong with it."""
+    """Parse `target := value`. SyntaxError explains a fault."""
     module = parse(f"MODULE w\nPROC w()\n{text};\nENDPROC\nENDMODULE")
     if module.diagnostics:
         raise SyntaxError(module.diagnostics[0].message)
@@ -217,12 +228,12 @@ def parse_assignment(text: str) -> n.Assignment:
 
 
 def parse_expression(text: str) -> n.Expression:
-    """The tree of one expression. SyntaxError says what is wrong with it."""
+    """Parse one expression. SyntaxError explains a fault."""
     return parse_assignment(f"w:={text}").value
 
 
 class _Probe:
-    """Puts a function together that has the variables of a routine."""
+    """A builder of functions with access to a routine's variables."""
 
     def __init__(
         self,
@@ -281,9 +292,10 @@ def watch(
     known: Sequence[str],
     node: n.Expression,
 ) -> WatchedExpression:
-    """An expression where a routine stands inside `loops`, with the Python locals `known`.
+    """Compile an expression at a place inside `loops`.
 
-    CannotCompile: it has no value there, or it would have to call something.
+    `known` are the Python locals of the frame. CannotCompile: it has no value there, or contains a
+    call.
     """
     probe = _Probe(linker, routine, loops, options, known)
     result: list[CompiledExpression] = []
@@ -306,10 +318,11 @@ def store(
     known: Sequence[str],
     node: n.Assignment,
 ) -> tuple[str, Callable[[dict[str, Value]], Value]]:
-    """An assignment where a routine stands, and the Python local that it changes ("": none).
+    """Compile an assignment at a place inside a routine.
 
-    The function takes the locals of the frame and returns the new value of that local.
-    CannotCompile: it is not allowed there. OverflowError and RECOVERABLE may come from it.
+    Returns the changed Python local ("" for none) and a function that takes the locals of the frame
+    and returns the local's new value. CannotCompile: not allowed there. The function may raise
+    OverflowError and RECOVERABLE.
     """
     probe = _Probe(linker, routine, loops, options, known)
     changed: list[str] = []

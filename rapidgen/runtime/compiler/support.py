@@ -1,4 +1,9 @@
-"""Functions that compiled code calls."""
+"""Functions that compiled code calls: arithmetic, references, loops.
+
+NAMESPACE lists their names in generated code. Fast paths come first in every function: whole
+numbers are Python ints, and the common case avoids attribute look-ups. Dialect variants
+(`div_floor`, `mod_strict`, `count_tested`) replace the entry in the namespace of a program.
+"""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -23,12 +28,18 @@ from rapidgen.runtime.values import (
 
 
 def fail(error: str, name: str = "") -> NoReturn:
-    """Raise a RAPID error where only an expression may stand; `name` is what is not there."""
+    """Raise a RAPID error in the place of an expression.
+
+    `name` is the missing object.
+    """
     raise RapidError(error, name)
 
 
 def whole_number(value: float) -> int:
-    """An operand of DIV, MOD or an index as int. ERR_NOTINTVAL when it is not whole [K §12]."""
+    """Return an operand of DIV, MOD or an index as int.
+
+    ERR_NOTINTVAL: it is not whole [K §12].
+    """
     if value.__class__ is int:
         return value
     if value != value or value in (float("inf"), float("-inf")) or value != int(value):
@@ -37,19 +48,22 @@ def whole_number(value: float) -> int:
 
 
 def div(left: float, right: float) -> int:
-    """DIV, towards zero."""
+    """Compute DIV, truncated towards zero."""
     a, b = whole_number(left), whole_number(right)
     quotient = abs(a) // abs(b)
     return quotient if (a < 0) == (b < 0) else -quotient
 
 
 def div_floor(left: float, right: float) -> int:
-    """DIV, towards minus infinity (dialect)."""
+    """Compute DIV, rounded towards minus infinity (dialect)."""
     return whole_number(left) // whole_number(right)
 
 
 def mod(left: float, right: float) -> int:
-    """MOD with the sign of the left operand; the right one must not be negative [K §3.11]."""
+    """Compute MOD with the sign of the left operand.
+
+    The right operand must not be negative [K §3.11].
+    """
     a, b = whole_number(left), whole_number(right)
     if b < 0:
         raise RapidError("ERR_NEGARG")
@@ -58,7 +72,7 @@ def mod(left: float, right: float) -> int:
 
 
 def mod_floor(left: float, right: float) -> int:
-    """MOD with the sign of the right operand (dialect)."""
+    """Compute MOD with the sign of the right operand (dialect)."""
     a, b = whole_number(left), whole_number(right)
     if b < 0:
         raise RapidError("ERR_NEGARG")
@@ -66,14 +80,14 @@ def mod_floor(left: float, right: float) -> int:
 
 
 def mod_strict(left: float, right: float) -> int:
-    """MOD that takes no negative operand (dialect)."""
+    """Compute MOD of operands that must not be negative (dialect)."""
     if left < 0:
         raise RapidError("ERR_NEGARG")
     return mod(left, right)
 
 
 def concat(left: str, right: str) -> str:
-    """`+` on strings: at most 80 characters [S4 overview 4-28]."""
+    """Join strings, at most 80 characters [S4 overview 4-28]."""
     joined = left + right
     if len(joined) > MAX_STRING:
         raise RapidError("ERR_STRTOOLNG")
@@ -81,39 +95,39 @@ def concat(left: str, right: str) -> str:
 
 
 def pos_add(a: Value, b: Value) -> Value:
-    """pos + pos."""
+    """Compute pos + pos."""
     return Pos(single(a.x + b.x), single(a.y + b.y), single(a.z + b.z))
 
 
 def pos_subtract(a: Value, b: Value) -> Value:
-    """pos - pos."""
+    """Compute pos - pos."""
     return Pos(single(a.x - b.x), single(a.y - b.y), single(a.z - b.z))
 
 
 def pos_negate(a: Value) -> Value:
-    """-pos."""
+    """Compute -pos."""
     return Pos(-a.x, -a.y, -a.z)
 
 
 def pos_scale(a: Value, k: float) -> Value:
-    """pos * num."""
+    """Compute pos * num."""
     return Pos(single(a.x * k), single(a.y * k), single(a.z * k))
 
 
 def pos_divide(a: Value, k: float) -> Value:
-    """pos / num. ERR_DIVZERO."""
+    """Compute pos / num. ERR_DIVZERO."""
     return Pos(single(a.x / k), single(a.y / k), single(a.z / k))
 
 
 def pos_cross(a: Value, b: Value) -> Value:
-    """pos * pos, the cross product [S4 overview 4-26]."""
+    """Compute pos * pos, the cross product [S4 overview 4-26]."""
     return Pos(
         single(a.y * b.z - a.z * b.y), single(a.z * b.x - a.x * b.z), single(a.x * b.y - a.y * b.x)
     )
 
 
 def orient_multiply(a: Value, b: Value) -> Value:
-    """orient * orient, first b then a in a's frame."""
+    """Compute orient * orient: first b, then a in a's frame."""
     return Orient(
         single(a.q1 * b.q1 - a.q2 * b.q2 - a.q3 * b.q3 - a.q4 * b.q4),
         single(a.q1 * b.q2 + a.q2 * b.q1 + a.q3 * b.q4 - a.q4 * b.q3),
@@ -123,7 +137,10 @@ def orient_multiply(a: Value, b: Value) -> Value:
 
 
 def _at(text: str, position: float) -> int:
-    """A position in a text from 0; ERR_OUTOFBND outside [S4 StrFind]."""
+    """Return a position as an index from 0.
+
+    ERR_OUTOFBND: outside the text [S4 StrFind].
+    """
     place = int(position)
     if place != position or not 1 <= place <= len(text):
         raise RapidError("ERR_OUTOFBND")
@@ -131,7 +148,7 @@ def _at(text: str, position: float) -> int:
 
 
 def part_of(text: str, position: float, length: float) -> str:
-    """StrPart: ERR_OUTOFBND when the part sticks out [S4 StrPart]."""
+    """StrPart: return a part, or raise ERR_OUTOFBND [S4 StrPart]."""
     start = position - 1
     end = start + length
     if start.__class__ is end.__class__ is int and 0 <= start <= end <= len(text) > start:
@@ -143,12 +160,18 @@ def part_of(text: str, position: float, length: float) -> str:
 
 
 def _search_at(text: str, position: float) -> int:
-    """The same for a search, which may begin right behind the text (`Switches.find_behind`)."""
+    """Return the start of a search as an index from 0.
+
+    It may be just after the text (`Switches.find_behind`).
+    """
     return len(text) if position == len(text) + 1 else _at(text, position)
 
 
 def find_text(text: str, position: float, pattern: str) -> int:
-    """StrMatch, and StrFind for one character: length + 1 when there is none."""
+    """StrMatch, and StrFind for one character.
+
+    Returns length + 1 without a match.
+    """
     start = position - 1
     if start.__class__ is not int or not 0 <= start < len(text):
         start = _search_at(text, position)
@@ -157,7 +180,7 @@ def find_text(text: str, position: float, pattern: str) -> int:
 
 
 def find_set(text: str, position: float, characters: str) -> int:
-    """StrFind: the first position from there with one of the characters."""
+    """StrFind: return the first position with one of the characters."""
     for place in range(_search_at(text, position), len(text)):
         if text[place] in characters:
             return place + 1
@@ -174,7 +197,10 @@ def _as_int(value: float) -> float:
 
 
 def count_steps(start: float, end: float, step: float | None) -> Iterable[float]:
-    """Values of a FOR variable after K §4.15: at least one pass; no STEP may count down."""
+    """Return the values of a FOR variable [K §4.15].
+
+    There is at least one pass. Without STEP the loop may count down.
+    """
     start = _as_int(start)
     if step is None:
         step = 1 if start <= end else -1
@@ -188,7 +214,7 @@ def count_steps(start: float, end: float, step: float | None) -> Iterable[float]
 
 
 def count_tested(start: float, end: float, step: float | None) -> Iterable[float]:
-    """Values of a FOR variable when the first pass is tested too (dialect)."""
+    """Return the values of a FOR that tests the first pass (dialect)."""
     step = 1 if step is None else step
     return _float_steps(_as_int(start), end, _as_int(step), first=False)
 
@@ -212,7 +238,7 @@ def _float_steps(start: float, end: float, step: float, *, first: bool) -> Itera
 
 
 class GlobalRef(Ref):
-    """Module data by name."""
+    """A reference to module data by name."""
 
     __slots__ = ("key", "space")
 
@@ -234,7 +260,10 @@ class GlobalRef(Ref):
 
 
 class ItemRef(Ref):
-    """An array element. ERR_OUTOFBND is raised when it is made, not when it is used."""
+    """A reference to an array element.
+
+    The constructor raises ERR_OUTOFBND, not the later access.
+    """
 
     __slots__ = ("array", "index")
 
@@ -262,7 +291,7 @@ class ItemRef(Ref):
 
 
 class MemberRef(Ref):
-    """A record's component."""
+    """A reference to a record component."""
 
     __slots__ = ("attribute", "record")
 
@@ -289,28 +318,37 @@ class MemberRef(Ref):
 
 
 def as_variable(ref: Value) -> Value:
-    """An INOUT parameter passed on as VAR: ERR_ARGNOTVAR when it is a PERS [K §5.1]."""
+    """Return an INOUT parameter as VAR.
+
+    ERR_ARGNOTVAR: it is a PERS [K §5.1].
+    """
     if ref is not None and ref.cell is not None:
         raise RapidError("ERR_ARGNOTVAR")
     return ref
 
 
 def as_persistent(ref: Value) -> Value:
-    """An INOUT parameter passed on as PERS: ERR_ARGNOTPER when it is a variable [K §5.1]."""
+    """Return an INOUT parameter as PERS.
+
+    ERR_ARGNOTPER: it is a variable [K §5.1].
+    """
     if ref is not None and ref.cell is None:
         raise RapidError("ERR_ARGNOTPER")
     return ref
 
 
 def present(value: Value) -> Value:
-    """The value of an optional parameter; ERR_NOTPRES when it is absent [K §5.1]."""
+    """Return the value of an optional parameter.
+
+    ERR_NOTPRES: it is absent [K §5.1].
+    """
     if value is None:
         raise RapidError("ERR_NOTPRES")
     return value
 
 
 def array_size(array: Value, number: float) -> int:
-    """Dim(array, number) [K §11]."""
+    """Return Dim(array, number) [K §11]."""
     if array.__class__ is not dict:
         raise RapidError("ERR_NOTARR")
     if number not in (1, 2, 3):
@@ -323,7 +361,10 @@ def array_size(array: Value, number: float) -> int:
 
 
 def only_one(value: Value, *others: Value) -> Value:
-    """Alternatives passed on conditionally: ERR_ARGDUPCND when two are present [K §3.10]."""
+    """Return a conditional argument if its alternatives are absent.
+
+    ERR_ARGDUPCND: two are present [K §3.10].
+    """
     if value is not None and any(other is not None for other in others):
         raise RapidError("ERR_ARGDUPCND")
     return value
@@ -336,7 +377,7 @@ def part(
     cell: PersistentCell | None = None,
     dims: tuple[int, ...] = (),
 ) -> ValueRef:
-    """A reference to a record or array inside a datum."""
+    """Return a reference to a record or array inside a datum."""
     box = ValueRef(value, type, dims, name)
     box.whole = False
     box.cell = cell
@@ -345,7 +386,7 @@ def part(
 
 @dataclass(slots=True)
 class LateArgument:
-    """An argument whose parameter is known only when the call is made."""
+    """An argument whose parameter is known only at the call."""
 
     name: str | None
     read: Callable[[], Value] | None
@@ -359,7 +400,7 @@ class LateArgument:
 
     @property
     def kind(self) -> str:
-        """As of an argument of a call that is known."""
+        """Kind of the argument, as in a call of a known routine."""
         if self.name is None or self.required:
             return "required"
         return "switch" if self.read is None else "optional"
@@ -367,7 +408,7 @@ class LateArgument:
 
 @dataclass(slots=True)
 class Condition:
-    """The condition of WaitUntil, looked at again and again."""
+    """The condition of WaitUntil, evaluated repeatedly."""
 
     look: Callable[[], bool]
     watched: tuple[WaitSet, ...]

@@ -1,4 +1,9 @@
-"""Data, parameters, routines and modules as the compiler knows them."""
+"""Data, parameters, routines and modules as the compiler knows them.
+
+A `Data` says how compiled code reaches a datum (`Storage`). A `Compiled` says which Python
+functions a routine became, and how lines map to RAPID tokens: tasks, the debugger and the error
+handling read stacks through it.
+"""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -15,7 +20,7 @@ from rapidgen.system.model import ModuleFile
 
 
 class CannotCompile(Exception):
-    """The routine breaks a rule that the checker would have told; `node` is the place."""
+    """A violation of a language rule; `node` is its place."""
 
     def __init__(self, message: str, node: n.Node) -> None:
         super().__init__(message)
@@ -23,19 +28,22 @@ class CannotCompile(Exception):
 
 
 class LabelUnreachable(CannotCompile):
-    """A jump has no way to its label: not a matter of one statement."""
+    """A jump that cannot reach its label.
+
+    The fault concerns the statement list, not one statement.
+    """
 
 
 Storage: TypeAlias = Literal["inline", "global", "cell", "local", "box", "ref", "object"]
-"""How a datum is kept:
+"""Storage of a datum:
 
-inline  the value itself stands in the code (atomic CONST, ERR_ numbers)
+inline  the value itself is part of the code (atomic CONST, ERR_ numbers)
 global  a global of the task's namespace
 cell    a global `PersistentCell` (PERS)
 local   a Python local
-box     a Python local that holds a `ValueRef` (a variable that is passed by reference)
-ref     a Python local that holds a `Ref` or `PersistentCell` (VAR, INOUT and PERS parameters)
-object  a Python local that is the record, array or non-value object of a VAR parameter
+box     a Python local with a `ValueRef` (a variable passed by reference)
+ref     a Python local with a `Ref` or `PersistentCell` (VAR, INOUT and PERS parameters)
+object  a Python local with the record, array or non-value object of a VAR parameter
 """
 
 
@@ -50,11 +58,11 @@ class Data:
     """Sizes; of an array parameter zeros."""
     storage: Storage
     code: str
-    """Python expression of what is kept."""
+    """Python expression of the storage."""
     mode: n.Mode = ""
     optional: bool = False
     whole: bool = False
-    """Always a whole number, kept as int."""
+    """True for a datum that is always a whole number, an int."""
     range: tuple[int, int] | None = None
     value: Value = None
     """Of `inline` data."""
@@ -63,7 +71,7 @@ class Data:
 
 @dataclass(slots=True, eq=False)
 class FormalParameter:
-    """One formal parameter."""
+    """A formal parameter."""
 
     name: str
     mode: n.Mode
@@ -77,7 +85,7 @@ class FormalParameter:
 
 
 def formal(p: n.Parameter, kind: Type | None) -> FormalParameter:
-    """A declared parameter with its type."""
+    """Return a declared parameter with its type."""
     switch = p.type.lower() == "switch"
     return FormalParameter(p.name, p.mode, kind, p.type, p.dimensions, p.optional, p.group, switch)
 
@@ -96,7 +104,7 @@ class Routine:
     module: "LoadedModule | None" = None
     builtin: Builtin | None = None
     missing: bool = False
-    """A built-in that exists on controllers but not here."""
+    """True for a built-in without an implementation here."""
     lazy: tuple[str, ...] = ()
     """Parameters of a built-in that looks at their arguments again and again, lower case."""
     by_name: dict[str, int] = field(default_factory=dict)
@@ -111,7 +119,10 @@ class Routine:
 
 @dataclass(frozen=True, slots=True)
 class Origin:
-    """How a module came that the program loaded itself; the words of the Load are its path."""
+    """Origin of a module that the program loaded.
+
+    The path text of its Load identifies it.
+    """
 
     dynamic: bool
     seconds: int
@@ -127,20 +138,20 @@ class LoadedModule:
     file: ModuleFile
     scope: ModuleScope
     routines: dict[str, Routine] = field(default_factory=dict)
-    """Its own, by lower-case name."""
+    """Routines of the module, by lower-case name."""
     types: dict[str, Type | None] = field(default_factory=dict)
-    """What names of types mean here, as far as it was asked."""
+    """Resolved type names of the module."""
     origin: Origin | None = None
     """None: it belongs to the configuration."""
 
     @property
     def name(self) -> str:
-        """As it is declared."""
+        """Name as declared."""
         return self.tree.name
 
     @property
     def declarations(self) -> dict[str, n.DataDeclaration]:
-        """Its data, by lower-case name."""
+        """Data of the module, by lower-case name."""
         return {
             key: symbol.node
             for key, symbol in self.scope.own.items()
@@ -149,45 +160,48 @@ class LoadedModule:
 
     @property
     def installed(self) -> bool:
-        """Whether it is built in: it does not see the program, which may hide its names."""
+        """True for a built-in module.
+
+        It does not see the program, which may hide its names.
+        """
         return self.scope.installed
 
     def span(self, node: n.Node) -> Span:
-        """Place of a node."""
+        """Return the source span of a node."""
         return self.tree.source.span(node.first, node.last)
 
 
 # -- Compiled code ---------------------------------------------------------------------------------
 #
-# What is known about compiled code when something looks at its frames: errors, steps, stops.
+# Information on compiled code for look-ups in frames: errors, steps, stops.
 #
-# A routine becomes one Python function and, inside it, one for each handler and for statements that
-# are nested more deeply than CPython takes. The compiler registers the role of each with the code;
-# what they and their variables are called is said here alone.
+# A routine becomes one Python function with nested functions for each handler and for statements
+# nested more deeply than CPython permits. The compiler registers the role of each with the code.
+# Only this section defines the names of these functions and variables.
 
 
 HANDLER: Final = "_h"
-"""Function of an ERROR handler, and the variable of its routine that holds it."""
+"""Function of an ERROR handler, and the variable of its routine that refers to it."""
 UNDO: Final = "_u"
 """Function of an UNDO handler."""
 LISTED: Final = "_l"
 """Function with the numbers of ERROR (list); None: the handler is for all."""
 BUDGET: Final = "b"
-"""What the task has left, while its routine counts down."""
+"""Python local with the remaining budget."""
 
 
 class CodeRole(Enum):
-    """What a Python function of a compiled routine is."""
+    """Role of a Python function in a compiled routine."""
 
     ROUTINE = ""
     HANDLER = "ERROR"
     UNDO = "UNDO"
     PART = "part"
-    """Deeply nested statements of a routine or handler, whose frame is the next one out."""
+    """Nested statements of a routine or handler, whose frame is the caller."""
 
     @property
     def is_handler(self) -> bool:
-        """Whether it is an ERROR or UNDO handler."""
+        """True for an ERROR or UNDO handler."""
         return self is CodeRole.HANDLER or self is CodeRole.UNDO
 
 
@@ -210,30 +224,33 @@ class Compiled:
     """Of the functions inside the routine's, by name."""
 
     traced: bool
-    """Whether it reports its statements; it takes no local for a whole number for good then."""
+    """True for code that reports statements. Its locals may become fractional at any time."""
 
     @property
     def handled(self) -> bool:
-        """Whether the routine has an ERROR clause."""
+        """True if the routine has an ERROR clause."""
         node = self.routine.node
         return node is not None and node.error is not None
 
     def role(self, code: CodeType) -> CodeRole:
-        """What one of the routine's functions is."""
+        """Return the role of one of the routine's functions."""
         return self.roles.get(code.co_name, CodeRole.ROUTINE)
 
     def handler(self, frame: FrameType) -> Callable[[], int] | None:
-        """The ERROR handler of a routine that is being executed, once it is made."""
+        """Return the ERROR handler in a frame, None before its creation."""
         match: Callable[[], int] | None = frame.f_locals.get(HANDLER)
         return match
 
     def listed(self, frame: FrameType) -> tuple[float, ...] | None:
-        """Numbers of ERROR (list) of a routine that is being executed; None: there is no list."""
+        """Return the numbers of ERROR (list) in a frame, None without a list."""
         numbers: Callable[[], tuple[float, ...]] | None = frame.f_locals.get(LISTED)
         return None if numbers is None else numbers()
 
     def budget(self, frame: FrameType, line: int) -> int | None:
-        """What an error at a line leaves of the task's budget, ns; None: that is written back."""
+        """Return the budget (ns) left by an error at a line.
+
+        None: it is already written back.
+        """
         if line in self.synced:
             return None
         left: int | None = frame.f_locals.get(BUDGET)

@@ -1,1 +1,1 @@
-"""One RAPID task: errors, pointer, steps, interrupts."""
+"""A RAPID task: errors, pointer, steps, interrupts."""

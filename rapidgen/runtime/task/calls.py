@@ -22,21 +22,21 @@ from rapidgen.runtime.values import ATOMIC, Value
 
 
 def outwards(frame: FrameType | None) -> Iterator[FrameType]:
-    """A frame and its callers."""
+    """Iterate over a frame and its callers."""
     while frame is not None:
         yield frame
         frame = frame.f_back
 
 
 def frames_of(traceback: TracebackType | None) -> Iterator[tuple[FrameType, int]]:
-    """Frames and lines of a traceback, outermost first."""
+    """Iterate over frames and lines of a traceback, outermost first."""
     while traceback is not None:
         yield traceback.tb_frame, traceback.tb_lineno
         traceback = traceback.tb_next
 
 
 def location(codes: Codes, file: str, line: int) -> Location | None:
-    """RAPID place of a Python line."""
+    """Return the RAPID location of a Python line."""
     compiled = codes.get(file)
     if compiled is None or not 0 <= line < len(compiled.tokens):
         return None
@@ -52,7 +52,10 @@ def location(codes: Codes, file: str, line: int) -> Location | None:
 
 
 def between(codes: Codes, frame: FrameType | None, outside: Sequence[CodeType]) -> bool:
-    """Whether the innermost routine is between two statements: it calls one of `outside`."""
+    """Return True if the innermost routine is between two statements.
+
+    There it calls one of `outside`.
+    """
     called: CodeType | None = None
     for at in outwards(frame):
         if at.f_code.co_filename in codes:
@@ -62,7 +65,7 @@ def between(codes: Codes, frame: FrameType | None, outside: Sequence[CodeType]) 
 
 
 def stack_of_error(codes: Codes, error: BaseException) -> tuple[Location, ...]:
-    """Where an error was raised, outermost routine first."""
+    """Return the call stack of an error, outermost routine first."""
     result: list[Location] = []
     for frame, line in frames_of(error.__traceback__):
         place = location(codes, frame.f_code.co_filename, line)
@@ -74,7 +77,7 @@ def stack_of_error(codes: Codes, error: BaseException) -> tuple[Location, ...]:
 
 
 def stack_at(codes: Codes, frame: FrameType | None) -> tuple[Location, ...]:
-    """Call stack of a frame, outermost routine first."""
+    """Return the call stack of a frame, outermost routine first."""
     result: list[Location] = []
     inside = False
     for at in outwards(frame):
@@ -100,7 +103,10 @@ _WRONG = frozenset({ArgumentFault.SURPLUS, ArgumentFault.UNKNOWN, ArgumentFault.
 
 
 def late_routine(program: Program, name: str, module: LoadedModule | None) -> Routine:
-    """The procedure that a text names, as seen from a module. ERR_REFUNKPRC, ERR_CALLPROC."""
+    """Return the procedure of a name, as seen from a module.
+
+    Raises ERR_REFUNKPRC or ERR_CALLPROC.
+    """
     where, colon, proper = name.rpartition(":")
     if not proper or not proper.replace("_", "").isalnum() or proper[0].isdigit():
         raise RapidError("ERR_CALLPROC", name)
@@ -123,7 +129,10 @@ def late_routine(program: Program, name: str, module: LoadedModule | None) -> Ro
 def late_arguments(
     routine: Routine, given: Sequence[LateArgument]
 ) -> tuple[list[Value], dict[str, Value]]:
-    """Arguments by position and by Python name. ERR_CALLPROC, ERR_ARGNOTVAR: they do not fit."""
+    """Return arguments by position and by Python name.
+
+    ERR_CALLPROC, ERR_ARGNOTVAR: they do not match the parameters.
+    """
     parameters = routine.parameters
 
     def fitting(argument: LateArgument, among: Sequence[int]) -> int:

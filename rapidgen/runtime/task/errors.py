@@ -1,4 +1,19 @@
-"""Errors of a task: handlers, RETRY, long jumps, UNDO [K §7]."""
+"""Errors of a task: handlers, RETRY, long jumps, UNDO [K §7].
+
+Errors are Python exceptions in compiled code. Rules:
+
+1. A routine with ERROR guards its statements. The guard calls `handle` with the exception; the
+   result says how the routine continues.
+2. An error in a handler leaves the routine. A handler never handles its own errors.
+3. RETRY is limited (`Errors.RETRIES`); afterwards the handler receives ERR_EXCRTYMAX once, and a
+   further RETRY stops the task.
+4. A long jump (ERROR with a list of numbers) searches the callers for the nearest list with the
+   number. `RapidError.target` names that frame, and the handlers in between pass the error on.
+5. UNDO runs when a routine is aborted, not when an error passes to its caller. If the error stops
+   the program and a start may continue there, UNDO waits until the program pointer moves.
+6. An error keeps the budget right: a statement that fails refunds the costs of the statements after
+   it in its block.
+"""
 
 import sys
 from collections.abc import Callable
@@ -32,7 +47,10 @@ Listed = Callable[[], tuple[float, ...]]
 
 
 class Errors:
-    """Deals with the errors of one task. Compiled code calls `handle`, `undo` and what RAISE is."""
+    """Error handling of one task.
+
+    Compiled code calls `handle`, `undo` and the methods of RAISE.
+    """
 
     def __init__(self, task: RapidTask) -> None:
         self._task = task
@@ -61,10 +79,11 @@ class Errors:
         retries: int,
         listed: Listed | None,
     ) -> int:
-        """An error reached a statement of a routine with ERROR: 0 RETRY, 1 TRYNEXT, 2 RETURN.
+        """Handle an error at a statement of a routine with ERROR.
 
-        `budget` is what the task has left when the statement itself failed; None when calls
-        wrote it back. Raises the error again when this handler is not for it.
+        Returns 0 RETRY, 1 TRYNEXT, 2 RETURN. `budget` is the task's remaining budget if the
+        statement itself failed, None if calls wrote it back. Raises the error again if this handler
+        is not for it.
         """
         traceback = error.__traceback__
         frame = sys._getframe(1)
@@ -104,7 +123,7 @@ class Errors:
     def run_handler(
         self, handler: Handler, error: RapidError, retries: int, frame: FrameType
     ) -> int:
-        """Execute a handler; how it ended."""
+        """Execute a handler and return its result."""
         task = self._task
         task.errno = error.number
         self.retry_number = retries
@@ -129,10 +148,10 @@ class Errors:
         return way
 
     def _retry(self, handler: Handler, error: RapidError, retries: int, frame: FrameType) -> int:
-        """RETRY, as often as it is allowed [K §7.5].
+        """Count a RETRY and stop after the limit [K §7.5].
 
-        After that the handler sees ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]; when it asks
-        for RETRY again the task stops.
+        After the limit the handler receives ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]. A
+        further RETRY stops the task.
         """
         if error.raised and not self._switches.retry_raised:
             raise FatalError(40199, "RETRY is not allowed for an error made by RAISE")
@@ -149,7 +168,7 @@ class Errors:
         raise self.unhandled(last) from None
 
     def _handed_on(self, error: RapidError) -> RapidError:
-        """What RAISE in the handler of an error gives the caller: the same one, or its own."""
+        """Return the error that RAISE in a handler passes to the caller."""
         other, self._instead = self._instead, None
         if other is None:
             return error
@@ -158,12 +177,12 @@ class Errors:
         return other
 
     def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
-        """Switch: an error that came out of a routine without ERROR is nobody's."""
+        """Make an error of a routine without ERROR fatal (switch)."""
         if self._came_out_of_bare(traceback):
             raise self.unhandled(error) from None
 
     def _came_out_of_bare(self, traceback: TracebackType | None) -> bool:
-        """Whether an error was raised by a call of a routine without ERROR."""
+        """Return True if a called routine without ERROR raised the error."""
         at = traceback.tb_next if traceback is not None else None
         while at is not None:
             compiled = self._task.program.codes.get(at.tb_frame.f_code.co_filename)
@@ -179,7 +198,7 @@ class Errors:
         frame: FrameType,
         budget: int | None,
     ) -> RapidError:
-        """The RAPID error, with the task's budget put right for where it was raised."""
+        """Return the RAPID error, and correct the task's budget for it."""
         task = self._task
         if isinstance(error, RapidError):
             known = error
@@ -212,23 +231,32 @@ class Errors:
         return known
 
     def throw(self, number: float) -> NoReturn:
-        """RAISE n."""
+        """Raise the error of RAISE n."""
         raise self._own_error(number)
 
     def instead(self, number: float) -> None:
-        """RAISE n in an ERROR handler: the caller gets this error [code]; K §4.8 forbids it."""
+        """Set the error of RAISE n in an ERROR handler, for the caller.
+
+        Source: [code]; K §4.8 forbids it.
+        """
         if self._switches.raise_in_handler == "error":
             raise FatalError(40001, "RAISE with a number may not stand in a handler", "[K §4.8]")
         self._instead = self._own_error(number)
 
     def retry_here(self) -> NoReturn:
-        """RETRY, asked for by an instruction. FatalError: outside an ERROR handler."""
+        """Execute RETRY for an instruction.
+
+        FatalError: outside an ERROR handler.
+        """
         if not self.handler_level:
             raise FatalError(40001, "RETRY stands only in an error handler", "[K §4.10]")
         raise ResumeInside(RETRY)
 
     def _own_error(self, number: float) -> RapidError:
-        """1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
+        """Return the error of a RAISE number, else ERR_ILLRAISE [K §4.8].
+
+        Permitted numbers are 1 to 90, booked numbers and ERR_ constants.
+        """
         complete = int(number) if number == number and abs(number) < 1e9 else 0
         allowed = complete == number and (
             1 <= complete <= LARGEST_USER_ERROR
@@ -240,7 +268,7 @@ class Errors:
         return error
 
     def _recovery_point(self, frame: FrameType, number: int) -> FrameType | None:
-        """The nearest caller whose ERROR (list) has the number [K §7.2]."""
+        """Return the nearest caller with the number in its list [K §7.2]."""
         codes = self._task.program.codes
         in_handler = False
         for at in outwards(frame.f_back):
@@ -271,11 +299,11 @@ class Errors:
     # -- RaiseToUser -----------------------------------------------------------------------------
 
     def raise_in_user_code(self, error: RapidError, *, resume: bool) -> None:
-        """Give an error to the handler of the nearest caller outside NOSTEPIN modules [K §7.3].
+        """Raise an error in the nearest caller outside NOSTEPIN [K §7.3].
 
-        `resume` (\\Continue): the handler runs while the routines between are still there, and
-        its RETRY and TRYNEXT are for what failed inside. Without it they are dropped. Returns
-        when RaiseToUser stood in no handler and TRYNEXT passes over it.
+        `resume` (\\Continue): the handler runs while the routines in between still exist; its RETRY
+        and TRYNEXT apply to the inner statement. Otherwise these routines are left. Returns if
+        RaiseToUser is in no handler and TRYNEXT skips it.
         """
         user, handler, inside_handler = self._user(error.number)
         if user is None or handler is None:
@@ -294,8 +322,10 @@ class Errors:
         raise self.unhandled(RapidError("ERR_EXCRTYMAX"))
 
     def _user(self, number: int) -> tuple[FrameType | None, Handler | None, bool]:
-        """The frame whose handler gets the error, that handler, and whether a handler of NOSTEPIN
-        raised it."""
+        """Return frame and handler for the error, and its origin.
+
+        The last value is True if a handler of NOSTEPIN raised the error.
+        """
         codes = self._task.program.codes
         first = True
         inside = False
@@ -320,7 +350,10 @@ class Errors:
     # -- UNDO ------------------------------------------------------------------------------------
 
     def undo(self, handler: Handler, leaving: BaseException) -> None:
-        """Run UNDO when the routine is aborted, not when an error only passes to its caller."""
+        """Run UNDO if the routine is aborted.
+
+        An error that only passes to the caller does not abort it.
+        """
         if isinstance(leaving, GreenletExit | PointerMoved) or self.undo_failed:
             return
         if isinstance(leaving, RECOVERABLE):
@@ -353,17 +386,17 @@ class Errors:
 
     @property
     def tried_again(self) -> bool:
-        """Whether a start after an error tries the faulty statement again."""
+        """True if a start executes the failed statement again."""
         return self._switches.after_error == "statement" and self._task.spec.type == "NORMAL"
 
     def _keep_undo(self, handler: Handler) -> bool:
-        """Leave an UNDO handler for later: the error that leaves its routine stops the program."""
+        """Postpone UNDO if the error stops the program at this routine."""
         if self.tried_again:
             self.kept_undo.append(handler)
         return self.tried_again
 
     def undo_late(self) -> None:
-        """UNDO handlers that were kept while the program could go on where it was."""
+        """Run postponed UNDO handlers."""
         handlers, self.kept_undo = self.kept_undo, []
         for handler in handlers:
             self.undo_level += 1
@@ -381,16 +414,19 @@ class Errors:
         self.kept_undo = []
 
     def undo_ended(self, error: FatalError) -> None:
-        """Tell of an error in an UNDO handler that stops nothing."""
+        """Log an error in an UNDO handler; it stops nothing."""
         place = str(error.stack[-1]) if error.stack else ""
         texts = [text for text in error.arguments if text]
         task = self._task
         task.controller.log.error(error.event, error.title, place, *texts, task=task.name)
 
-    # -- nobody's --------------------------------------------------------------------------------
+    # -- unhandled --------------------------------------------------------------------------------
 
     def at_level(self, routine: Callable[[], object]) -> None:
-        """Execute a routine at trap or user level: only a long jump leaves it [K §7.2]."""
+        """Execute a routine at trap or user level.
+
+        Only a long jump leaves it [K §7.2].
+        """
         try:
             routine()
         except RECOVERABLE as error:
@@ -399,7 +435,7 @@ class Errors:
             raise self.unhandled(error) from error
 
     def unhandled(self, raised: Exception, *, restartable: bool = True) -> FatalError:
-        """What the system error handler makes of an error."""
+        """Return the fatal error of an unhandled error."""
         error = as_rapid_error(raised)
         name = error_name(error.number)
         title = f"Unhandled error {name}"
@@ -409,5 +445,5 @@ class Errors:
 
 
 def lists(numbers: tuple[float, ...], number: int) -> bool:
-    """Whether ERROR (numbers) is for an error."""
+    """Return True if ERROR (numbers) applies to an error."""
     return number in numbers or errnum("LONG_JMP_ALL_ERR") in numbers

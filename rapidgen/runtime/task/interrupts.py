@@ -19,24 +19,27 @@ from rapidgen.runtime.task.errors import Errors
 #
 # Errors that a trap raises in the routine that moves the robot: ProcerrRecovery [K §7.4].
 #
-# The error waits until the trap is over. `\SyncLastMoveInst`: it is raised at the move instruction
-# that is being executed, or else at the next one. `\SyncOrgMoveInst`: it is raised at once, in the
-# routine whose move made the path that the robot is on; routines that this one has called are left,
-# so that a RETRY calls them again (a controller goes on inside them).
+# The error waits for the end of the trap. `\SyncLastMoveInst`: the current move instruction raises
+# it, or else the next one. `\SyncOrgMoveInst`: the routine whose move made the current path raises
+# it at once. Routines called from there are left, so that a RETRY calls them again (a controller
+# continues inside them).
 
 
 @dataclass(frozen=True, slots=True)
 class ProcessError:
-    """An error that waits. `owner`: module and routine of the path's move, or "" for the last."""
+    """A pending error of ProcerrRecovery.
+
+    `owner`: module and routine of the path's move, or "" for the last move instruction.
+    """
 
     number: int
     owner: tuple[str, str] | None = None
 
     def due(self, task: RapidTask, outside: Sequence[CodeType]) -> RapidError | None:
-        """The error where it is to be raised now; None: not yet.
+        """Return the error if it is due, None otherwise.
 
-        Between two statements, in functions that compiled code calls `outside` of any, nobody
-        would handle it: it waits for the inside of one.
+        Between two statements, in functions that compiled code calls outside of them (`outside`),
+        no handler would receive the error: it waits for the next statement.
         """
         frames, between = _frames(task, outside)
         error = RapidError(self.number)
@@ -47,7 +50,10 @@ class ProcessError:
 
 
 def _frames(task: RapidTask, outside: Sequence[CodeType]) -> tuple[list[FrameType], bool]:
-    """Frames of RAPID routines, innermost first; whether the innermost is between statements."""
+    """Return frames of RAPID routines, and True between statements.
+
+    The innermost frame comes first; the flag concerns this frame.
+    """
     result: list[FrameType] = []
     between = False
     called: CodeType | None = None
@@ -60,7 +66,7 @@ def _frames(task: RapidTask, outside: Sequence[CodeType]) -> tuple[list[FrameTyp
 
 
 def _at_move(task: RapidTask, frames: list[FrameType]) -> bool:
-    """Whether the statement that is being executed is a move instruction."""
+    """Return True if the current statement is a move instruction."""
     for frame in frames[:1]:
         compiled = task.program.codes[frame.f_code.co_filename]
         if 0 <= frame.f_lineno < len(compiled.tokens):
@@ -71,7 +77,10 @@ def _at_move(task: RapidTask, frames: list[FrameType]) -> bool:
 
 
 def _frame_of(task: RapidTask, frames: list[FrameType], owner: tuple[str, str]) -> FrameType | None:
-    """The innermost frame with a handler, from the owner's one on; None: the owner is gone."""
+    """Return the innermost frame with a handler outside the owner.
+
+    The search starts at the owner's frame. None: the owner has ended.
+    """
     inside = False
     for frame in frames:
         compiled = task.program.codes[frame.f_code.co_filename]
@@ -83,36 +92,36 @@ def _frame_of(task: RapidTask, frames: list[FrameType], owner: tuple[str, str]) 
 
 # -- Event routines --------------------------------------------------------------------------------
 #
-# Event routines and service routines: what a task executes because of a start, a stop, a reset.
+# Event routines and service routines: started by a start, a stop or a reset.
 #
-# They run at user level: interrupts wait, and errors are nobody's but their own.
+# They run at user level: interrupts wait, and only their own handlers receive errors.
 
 
 EventName: TypeAlias = Literal["POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP"]
 StopEvent: TypeAlias = Literal["STOP", "QSTOP", ""]
 """Which routines a stop brings."""
 WHILE_STOPPED: frozenset[EventName] = frozenset({"STOP", "QSTOP", "POWER_ON"})
-"""Their routines run at once, in a task that stands."""
+"""Events whose routines run at once in a stopped task."""
 AT_RESTART: frozenset[EventName] = frozenset({"RESTART", "STEP"})
 
 
 class EventRoutines:
-    """Which routines of one task are due, and their execution."""
+    """Pending event routines of one task, and their execution."""
 
     def __init__(self, task: RapidTask, errors: Errors) -> None:
         self._task = task
         self._errors = errors
         self.due: list[EventName] = []
-        """Events whose routines are to be executed, in order."""
+        """Events whose routines are pending, in order."""
         self.service: list[Routine] = []
-        """Service routines that are to be executed while the program stands."""
+        """Pending service routines, which run while the program is stopped."""
         self.running: EventName | Literal["SERVICE", ""] = ""
-        """Event whose routine is being executed."""
+        """Event whose routine runs."""
         self.while_stopped = False
-        """Executing what a stop or the power-up brought, while the program stands."""
+        """True while a routine of a stop or power-up runs in a stopped program."""
 
     def names(self, event: EventName) -> Iterator[str]:
-        """Names of the routines of an event (CAB_EXEC_HOOKS), lower -SeqNo first."""
+        """Iterate over routine names of an event by -SeqNo (CAB_EXEC_HOOKS)."""
         task = self._task
         for entry in sorted(task.controller.system.events, key=lambda entry: entry.order):
             mine = (
@@ -124,7 +133,7 @@ class EventRoutines:
                 yield entry.routine
 
     def run(self, which: frozenset[EventName] | None = None) -> None:
-        """Run the routines of the events that are due, of `which` only."""
+        """Run pending routines, only of events in `which`."""
         program = self._task.program
         while due := [e for e in self.due if which is None or e in which]:
             self.due.remove(due[0])
@@ -147,12 +156,12 @@ class EventRoutines:
 
     @property
     def due_while_stopped(self) -> bool:
-        """Whether something is to be executed now, although the program stands."""
+        """True if a routine is pending while the program is stopped."""
         due = bool(self.service) or any(e in WHILE_STOPPED for e in self.due)
         return due and not self.while_stopped
 
     def run_while_stopped(self) -> None:
-        """Execute what a stop brought, and service routines."""
+        """Execute routines of a stop, and service routines."""
         task = self._task
         self.while_stopped = True
         task.held = False
@@ -181,7 +190,7 @@ LARGEST_NUMBER = 100
 
 @dataclass(slots=True, eq=False)
 class Interrupt:
-    """One connected intnum."""
+    """A connected intnum."""
 
     number: int
     trap: Routine
@@ -201,12 +210,12 @@ class Interrupts:
         self._errors = errors
         self.connected: dict[int, Interrupt] = {}
         self.queue: deque[tuple[Interrupt, Event | None]] = deque()
-        """Events whose delay has passed."""
+        """Events after their delay."""
         self.disabled = False
         self.process_error: ProcessError | None = None
-        """What ProcerrRecovery ordered, until it is raised."""
+        """Pending error of ProcerrRecovery."""
         self.trap_data: Event | None = None
-        """What the trap that is being executed is about (GetTrapData)."""
+        """Event of the current trap (GetTrapData)."""
         self._underway = 0
         self._next = 1
         self._last_due = 0
@@ -214,7 +223,10 @@ class Interrupts:
     # -- connecting and ordering -----------------------------------------------------------------
 
     def connect(self, current: float, trap: Routine) -> int:
-        """CONNECT: a fresh number; ERR_ALRDYCNT while `current` is connected [K §4.12]."""
+        """CONNECT: return a new number.
+
+        ERR_ALRDYCNT: `current` is connected [K §4.12].
+        """
         if current in self.connected:
             raise RapidError("ERR_ALRDYCNT")
         limited = self._task.controller.dialect.interrupts_limited
@@ -226,14 +238,17 @@ class Interrupts:
         return number
 
     def find(self, number: float) -> Interrupt:
-        """A connected interrupt; ERR_UNKINO."""
+        """Return a connected interrupt, or raise ERR_UNKINO."""
         match = self.connected.get(int(number))
         if match is None:
             raise RapidError("ERR_UNKINO")
         return match
 
     def order(self, number: float, *, single: bool, safe: bool) -> Interrupt:
-        """Begin an order. A second one without IDelete is not allowed [S4 datasys 2-ISignalDI]."""
+        """Begin an order.
+
+        A second one requires IDelete before [S4 datasys 2-ISignalDI].
+        """
         interrupt = self.connected.get(int(number))
         if interrupt is None:
             raise RapidError("ERR_UNKINO")
@@ -248,7 +263,7 @@ class Interrupts:
         return interrupt
 
     def delete(self, number: float) -> None:
-        """IDelete: orders, queued events and the connection go."""
+        """IDelete: remove orders, queued events and the connection."""
         interrupt = self.connected.pop(int(number), None)
         if interrupt is None:
             return
@@ -259,7 +274,7 @@ class Interrupts:
         self.queue = deque(e for e in self.queue if e[0] is not interrupt)
 
     def clear(self) -> None:
-        """Delete everything: PP to main, new program [K §8.2]."""
+        """Delete all interrupts: PP to main, new program [K §8.2]."""
         for number in list(self.connected):
             self.delete(number)
         self.queue.clear()
@@ -269,7 +284,7 @@ class Interrupts:
     # -- events ----------------------------------------------------------------------------------
 
     def happen(self, interrupt: Interrupt, data: Event | None = None) -> None:
-        """The event of an interrupt has come."""
+        """Record the event of an interrupt."""
         task = self._task
         if interrupt.asleep or self.connected.get(interrupt.number) is not interrupt:
             return
@@ -301,7 +316,7 @@ class Interrupts:
             task.order(FatalError(40223, "Too many interrupts wait", f"{LARGEST_QUEUE} are queued"))
 
     def serve(self) -> None:
-        """Execute the traps of what has come."""
+        """Execute the traps of queued events."""
         task = self._task
         while self.queue and not self.disabled:
             interrupt, self.trap_data = self.queue.popleft()

@@ -1,9 +1,9 @@
-"""Where a stopped program stands when nothing of it is being executed any more.
+"""Program pointer of a stopped program without frames.
 
-After an error without a handler the program pointer is at the faulty statement, which Start tries
-again [S4 overview 3-23]. The frames are gone then: what they held is kept, and the rest of each
-routine is compiled anew (compiler/resume.py). Routines that the error left are not aborted: their
-UNDO handlers run when the program pointer is moved.
+After an unhandled error the program pointer is at the failed statement, which Start executes again
+[S4 overview 3-23]. The frames no longer exist: the task keeps their variables, and compiles the
+rest of each routine (compiler/resume.py). The error does not abort these routines: their UNDO
+handlers run when the program pointer moves.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -22,7 +22,7 @@ from rapidgen.runtime.task.errors import Errors
 from rapidgen.runtime.task.interrupts import EventRoutines, Interrupts
 
 LARGEST_STACK = 100
-"""Routines inside each other that are kept."""
+"""Maximum number of nested routines that are kept."""
 _OTHER_LEVELS = (Interrupts.serve.__code__, EventRoutines.execute.__code__)
 """Below these, a trap or an event routine is being executed."""
 _P = ParamSpec("_P")
@@ -30,16 +30,16 @@ _T = TypeVar("_T")
 
 
 class CannotStep(Exception):
-    """A step is not possible from where the program stands; the text says why."""
+    """A step is not possible at this place; the text explains why."""
 
 
 def standing(
     program: Program, frames: Iterable[tuple[FrameType, int]]
 ) -> list[StoppedFrame] | None:
-    """Where the routines of frames are, outermost first.
+    """Return the places of the routines of frames, outermost first.
 
-    None when the program cannot go on there: in a handler, a trap or an event routine, or too
-    deep inside.
+    None: the program cannot continue there, that is in a handler, a trap or an event routine, or
+    too deep.
     """
     result: dict[int, StoppedFrame] = {}
     for frame, line in frames:
@@ -78,7 +78,7 @@ class Pointer:
     # -- keeping the place -----------------------------------------------------------------------
 
     def keep(self, fatal: FatalError, raised: BaseException) -> None:
-        """Remember where an error stopped the program, or leave all its routines for good."""
+        """Keep the place of an error, or leave all its routines."""
         self.not_below()
         self._below = []
         self.place = None
@@ -88,20 +88,26 @@ class Pointer:
             self.leave()
 
     def leave(self) -> None:
-        """The program pointer is moved: UNDO handlers of the routines, the innermost first."""
+        """Run UNDO handlers of kept routines, the innermost first.
+
+        The program pointer moves away.
+        """
         self.place = None
         self._errors.undo_late()
 
-    # -- where it stands -------------------------------------------------------------------------
+    # -- place ------------------------------------------------------------------------------------
 
     @property
     def begun(self) -> bool:
-        """Whether a statement of the program is being executed, or was when it was stopped."""
+        """True if a statement is in execution, or was when stopped."""
         codes = self._task.program.codes
         return any(f.f_code.co_filename in codes for f in outwards(self._task.frame))
 
     def stack(self) -> list[StoppedFrame]:
-        """Every routine of a stopped program. CannotStep: inside what cannot be left."""
+        """Return every routine of a stopped program.
+
+        CannotStep: inside a construct that cannot be left.
+        """
         if self.place is not None:
             return self.place
         frames = [(frame, frame.f_lineno) for frame in outwards(self._task.frame)]
@@ -111,7 +117,7 @@ class Pointer:
         return result
 
     def next_statement(self) -> Location | None:
-        """The statement that a start would execute next."""
+        """Return the statement that a start would execute next."""
         if self.place is None and self._task.frame is None:
             return None
         try:
@@ -124,7 +130,10 @@ class Pointer:
         return Location(module.name, last.routine.name, module.span(body[i]))
 
     def move_to(self, line: int) -> None:
-        """Stand before another statement of the innermost routine (PP to cursor). CannotStep."""
+        """Move to a statement of the innermost routine (PP to cursor).
+
+        Raises CannotStep.
+        """
         places = self.stack()
         last = places[-1]
         module, node = last.routine.module, last.routine.node
@@ -146,7 +155,7 @@ class Pointer:
     # -- going on --------------------------------------------------------------------------------
 
     def go_on(self, places: Sequence[StoppedFrame]) -> None:
-        """Try the statement again where the program stands. CannotCompile: not from there."""
+        """Execute the failed statement again. CannotCompile: not possible."""
         self._errors.kept_undo = []
         last = len(places) - 1
         remaining = self._task.program.rest
@@ -155,12 +164,12 @@ class Pointer:
         rests[0][1](places[0].values)
 
     def go_on_below(self) -> None:
-        """The next call of the routine below goes on with it instead."""
+        """Continue the routine below at its next call."""
         place, remaining = self._below.pop(0)
         self.intercept(place.routine, lambda *_, **__: remaining(place.values))
 
     def intercept(self, routine: Routine, instead: Callable[_P, _T]) -> None:
-        """Let the next call of a routine do something else."""
+        """Replace the next call of a routine by another function."""
         space, code = self._task.program.space, routine.code
         self._intercepted = (code, space[code])
 
@@ -171,7 +180,7 @@ class Pointer:
         space[code] = once
 
     def not_below(self) -> None:
-        """Calls are ordinary again."""
+        """Remove the replacements."""
         if self._intercepted is not None:
             code, function = self._intercepted
             self._intercepted = None

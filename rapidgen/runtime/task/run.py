@@ -1,4 +1,10 @@
-"""What the greenlet of a task executes: cycles of the program, event routines, ways out."""
+"""The run of a task's greenlet: cycles, event routines, exits.
+
+A run begins with a launch and ends when no statement is left to execute. Order within a run:
+pending UNDO handlers, event routines, then the statement where an error stopped the program or a
+new cycle. Every exit (error, Stop, EXIT, PP to main) passes `_guarded`, which decides on the state
+and on the next step of the run.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,7 +23,7 @@ from rapidgen.runtime.task.stepping import Stepper
 
 @dataclass(slots=True, eq=False)
 class Run:
-    """Runs one task from a launch until nothing of it is to be executed any more."""
+    """One run of a task, from a launch to its end."""
 
     task: RapidTask
     errors: Errors
@@ -30,25 +36,25 @@ class Run:
     routine: Routine | None = None
     """Where PP was set instead of main."""
     start_asked: Callable[[], None] | None = None
-    """What to do about a start or a step that came while routines were left for PP to main."""
+    """A start or step that arrived while routines were left for PP to main."""
 
     def body(self) -> None:
-        """The greenlet of one run."""
+        """Execute the run, as the greenlet's body."""
         task = self.task
         step = self._begin if self.pointer.place is None else self._again
         if self.events.service and task.state != "running":
             step = self._serve
-        # Whoever hears of a state may start the task again at once.
+        # An observer of the state may start the task again at once.
         while self._guarded(step) or task.state == "running":
             step = self._cycle if self.pointer.place is None else self._again
 
     def _serve(self) -> bool:
-        """What is due in a program that stands, and of which nothing is being executed."""
+        """Execute pending routines of a stopped program without frames."""
         self.events.run_while_stopped()
         return False
 
     def _begin(self) -> bool:
-        """What is due without a start: UNDO after PP to main, routines of POWER_ON."""
+        """Execute what needs no start: UNDO after PP to main, POWER_ON."""
         task = self.task
         # PP to main may have come before the first statement.
         task.obey()
@@ -58,10 +64,10 @@ class Run:
         return task.state in ("running", "stopped")
 
     def _prepare(self) -> None:
-        """After PP to main: variables, interrupts, ERRNO, sockets and files [S4 overview 4-24].
+        """Prepare a program after PP to main [S4 overview 4-24].
 
-        Modules that the program loaded as dynamic go; after PP to a routine settings of motion
-        stay.
+        Variables, interrupts, ERRNO, sockets and files are reset, and dynamically loaded modules
+        are removed. After PP to a routine the motion settings stay.
         """
         if not self.fresh:
             return
@@ -81,7 +87,7 @@ class Run:
             group.reset()
 
     def _cycle(self) -> bool:
-        """One pass of the entry routine; whether another one follows at once."""
+        """Execute the entry routine once; return True for another cycle."""
         task = self.task
         self.errors.undo_failed = False
         self._prepare()
@@ -94,7 +100,7 @@ class Run:
         return self._next_cycle()
 
     def _again(self) -> bool:
-        """Go on where an error stopped the program."""
+        """Continue where an error stopped the program."""
         task = self.task
         self.errors.undo_failed = False
         task.process_pending()
@@ -113,7 +119,10 @@ class Run:
         return self._next_cycle()
 
     def _back(self, places: list[StoppedFrame]) -> bool:
-        """Execute the statement before backward; the program then stands before it."""
+        """Execute the previous statement backward.
+
+        The program pointer is then before it.
+        """
         task, stepper = self.task, self.stepper
         stepper.back_asked = False
         stepper.forward = None
@@ -136,7 +145,10 @@ class Run:
         return False
 
     def _guarded(self, step: Callable[[], bool]) -> bool:
-        """Do a step of the run and deal with every way out of it; whether the run goes on."""
+        """Execute a step of the run and handle every exit from it.
+
+        Returns True if the run continues.
+        """
         try:
             return step()
         except ExitCycle:
@@ -165,7 +177,7 @@ class Run:
         return False
 
     def _over(self) -> bool:
-        """EXIT, or everything was left for PP to main: then a start may have come meanwhile."""
+        """Handle EXIT and PP to main; a start may have arrived meanwhile."""
         task = self.task
         if not self.fresh:
             task.enter("finished")

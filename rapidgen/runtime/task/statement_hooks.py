@@ -1,4 +1,4 @@
-"""Who wants to know of statements before they are executed: tracers and faults."""
+"""Hooks before statements: tracers, breakpoints and injected faults."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.errors import FatalError, RapidError
 
 Tracer: TypeAlias = Callable[[str, Routine, n.Statement], bool | None]
-"""Is told a task's name, its routine, and the statement. True: of this one it wants no more."""
+"""Receives task name, routine and statement. True: do not report this statement again."""
 
 
 @dataclass(slots=True)
@@ -23,16 +23,19 @@ class WaitingAction:
 
 
 class Statements:
-    """Tracers and breakpoints of one controller. Its programs have to be compiled with tracing."""
+    """Tracers and breakpoints of one controller.
+
+    They require programs compiled with tracing.
+    """
 
     def __init__(self) -> None:
         self.programs: list[Program] = []
-        """Those of all tasks."""
+        """Programs of all tasks."""
         self.tracers: list[Tracer] = []
         self.errors: list[Callable[[str, RapidError], None]] = []
-        """Are told a task's name and the error before its handler is executed."""
+        """Receive a task name and the error before its handler runs."""
         self.failures: list[Callable[[str, FatalError], None]] = []
-        """Are told a task's name and the error that has stopped it."""
+        """Receive a task name and the error that stopped the task."""
         self.breakpoints: dict[tuple[str, str], dict[int, list[WaitingAction]]] = {}
         """By task and module, then line."""
         self.waiting = 0
@@ -41,7 +44,7 @@ class Statements:
         """The same lines by the names as they are written."""
 
     def listen(self, tracer: Tracer) -> None:
-        """Let a tracer hear of every statement from now on."""
+        """Report every statement to a tracer from now on."""
         self.tracers.append(tracer)
         for program in self.programs:
             program.tell_all()
@@ -49,7 +52,7 @@ class Statements:
     def before(
         self, task: str, module: str, line: int, count: int, action: Callable[[], None]
     ) -> None:
-        """Let `action` be due when a statement of `task` is reached for the `count`-th time."""
+        """Call `action` when `task` reaches a line for the `count`-th time."""
         key = (task.lower(), module.lower())
         lines = self.breakpoints.setdefault(key, {})
         lines.setdefault(line, []).append(WaitingAction(count, action))
@@ -61,10 +64,11 @@ class Statements:
     def due(
         self, task: str, module: LoadedModule, node: n.Statement
     ) -> Iterator[Callable[[], None]] | None:
-        """Actions that a statement brings which is about to be executed, one after the other.
+        """Return pending actions of a statement, to be executed in order.
 
-        None: nothing waits for any statement of its module."""
-        # Every statement comes by here.
+        None: no action waits in the module.
+        """
+        # This is called for every statement.
         written = (task, module.name)
         lines = self._watched.get(written)
         if lines is None:

@@ -1,4 +1,4 @@
-"""Statement by statement, forward and backward."""
+"""Statement steps, forward and backward."""
 
 import sys
 from collections.abc import Callable
@@ -30,7 +30,7 @@ from rapidgen.runtime.task.pointer import CannotStep, Pointer
 MOST = 1000
 """Moves that are remembered."""
 _AT = 1e-5
-"""rad or m: as near as the robot has to stand to where a move ended."""
+"""Maximum distance (rad or m) of the robot from the end of a move."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,14 +50,14 @@ class StepHistory:
         self._listens = False
 
     def begin(self) -> None:
-        """A step forward begins."""
+        """Begin a step forward."""
         self._begun.clear()
         if not self._listens:
             self._group.listeners.append(self._note)
             self._listens = True
 
     def end(self) -> None:
-        """The step has ended, the robot stands."""
+        """Record the end of a step at standstill."""
         if self._listens:
             self._group.listeners.remove(self._note)
             self._listens = False
@@ -67,7 +67,7 @@ class StepHistory:
             del self._driven[:-MOST]
 
     def forget(self) -> None:
-        """Something else than steps was executed, or the program pointer was moved."""
+        """Clear the history: other execution, or a moved program pointer."""
         self._begun.clear()
         self.end()
         self._driven.clear()
@@ -77,9 +77,9 @@ class StepHistory:
 
     @planned
     def drive(self, task: MotionWaiter, statement: Location, start: Callable[[], None]) -> bool:
-        """Drive back over the move of a statement; False: not known, the robot stays.
+        """Drive back over the move of a statement; False if unknown.
 
-        The way is that of the move, at its speed, to a stop point. `start` lets robots move.
+        The robot follows the path of the move at its speed to a stop point. `start` enables motion.
         """
         current = self._group.positions()
         for k in range(len(self._driven) - 1, -1, -1):
@@ -126,18 +126,17 @@ def _near(one: Posture, other: Posture) -> bool:
 
 # -- Steps -----------------------------------------------------------------------------------------
 #
-# Statement by statement, forward and backward [K §6, S4 overview 4-39 to 4-42].
+# Statement steps, forward and backward [K §6, S4 overview 4-39 to 4-42].
 #
-# A stopped program is taken down and goes on in code that reports every statement
-# (pointer.py); it stops again before the next one. Backward, only simple statements are executed:
-# assignments and CONNECT do nothing, a call of the program's own procedure executes its BACKWARD
-# handler, a move that was stepped takes the robot back, everything else refuses. There are no
-# interrupts meanwhile.
+# A stopped program is converted to code that reports every statement (pointer.py) and stops before
+# the next one. Backward, only simple statements are possible. Assignments and CONNECT have no
+# effect; a call of a procedure of the program executes its BACKWARD handler; a stepped move drives
+# the robot back; other statements raise CannotStep. Interrupts are off meanwhile.
 
 
 @dataclass(slots=True)
 class ForwardStep:
-    """A step that is under way."""
+    """A step forward in progress."""
 
     over: bool
     """Calls are executed as a whole."""
@@ -149,14 +148,14 @@ class ForwardStep:
 
 @dataclass(slots=True, eq=False)
 class Stepper:
-    """Steps one task."""
+    """Executes the steps of one task."""
 
     task: RapidTask
     errors: Errors
     pointer: Pointer
     events: EventRoutines
     forward: ForwardStep | None = None
-    """What is under way."""
+    """Step in progress."""
     back_asked: bool = False
     """The step that begins goes back."""
     going_back: bool = False
@@ -167,18 +166,18 @@ class Stepper:
 
     @property
     def active(self) -> bool:
-        """Whether a step is being executed: there are no interrupts [S4 overview 4-39]."""
+        """True during a step: interrupts are off [S4 overview 4-39]."""
         return self.forward is not None or self.going_back
 
     def forget(self) -> None:
-        """Moves that were stepped are not driven back any more."""
+        """Forget the moves of earlier steps."""
         if self.history is not None:
             self.history.forget()
 
     # -- forward ---------------------------------------------------------------------------------
 
     def begin(self, over: bool, depth: int = -1) -> None:
-        """A step begins, at a depth where that is known."""
+        """Begin a step, at a depth if known."""
         task = self.task
         group = task.controller.motion.moved_by(task.name)
         if self.history is None and group is not None:
@@ -192,7 +191,7 @@ class Stepper:
         self.forward = ForwardStep(over, depth)
 
     def reached(self, module: LoadedModule | None) -> bool:
-        """A statement is about to be executed: whether the step ends before it.
+        """Return True if the step ends before the next statement.
 
         Statements of NOSTEPIN modules are executed as a whole [S4 overview 4-8].
         """
@@ -212,7 +211,7 @@ class Stepper:
         return sum(frame.f_code.co_filename in codes for frame in outwards(sys._getframe(2)))
 
     def end(self) -> None:
-        """Stand before the statement that was reached; the robot stands, too."""
+        """Stop the program before the reached statement, and the robot."""
         task = self.task
         assert self.forward is not None
         group = task.controller.motion.moved_by(task.name)
@@ -231,10 +230,10 @@ class Stepper:
     # -- backward --------------------------------------------------------------------------------
 
     def step_back(self, places: list[StoppedFrame]) -> list[StoppedFrame]:
-        """Execute the statement before the place backward; where the program stands then.
+        """Execute the previous statement backward; return the new place.
 
-        CannotStep: there is none, or it has no backward behaviour. Arguments of a call are
-        evaluated even so [K §6].
+        CannotStep: there is none, or it has no backward behaviour. The arguments of a call are
+        evaluated nevertheless [K §6].
         """
         last = places[-1]
         body, i = last.path[-1]
@@ -275,7 +274,7 @@ class Stepper:
             raise CannotStep(f"{call.name} has no BACKWARD handler")
 
     def _drive_back(self, call: n.ProcedureCall, before: StoppedFrame) -> None:
-        """A move that was stepped is driven back (switch `moves_back`)."""
+        """Drive a stepped move back (switch `moves_back`)."""
         task = self.task
         module = before.routine.module
         assert module is not None
@@ -289,4 +288,4 @@ class Stepper:
 
 
 def _nothing(*_arguments: object, **_named: object) -> None:
-    """What a procedure without BACKWARD does."""
+    """Do nothing, as a procedure without BACKWARD."""

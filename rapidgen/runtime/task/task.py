@@ -1,8 +1,21 @@
-"""One RAPID task: the process that runs its program, and what is asked of it.
+"""One RAPID task: the process that runs its program.
 
-People and the controller start, stop and step it; compiled code and built-ins wait, are charged
-and call it by its methods. It owns parts: errors, interrupts, the program pointer, the stepper,
-event routines, and the run, which is what its greenlet executes.
+The controller and users start, stop and step it. Compiled code and built-ins call its methods to
+wait, to charge time and to reach the controller. The task owns its parts: errors, interrupts, the
+program pointer, the stepper, event routines, and the run, which is its greenlet's body.
+
+Rules of scheduling:
+
+1. Exactly one greenlet executes at a time. A task gives up control only in `poll` (budget spent),
+   in a wait, or at a stop; the code between two polls is atomic for other tasks.
+2. Compiled code counts its budget in a local and calls `poll` only when it is negative. To make the
+   task attend to a stop, a trap or an order, `wake_at_next_statement` sets the budget so that the
+   next payment polls.
+3. `process_pending` handles what is due in a fixed order: orders (EXIT, PP to main), stops, then
+   traps. A stop before a trap matters: interrupts are lost or wait while the program is stopped [S4
+   overview 4-39].
+4. `_BETWEEN` and `_BEFORE` list the functions that compiled code calls outside of statements. A
+   stack look-up treats a task inside them as between two statements.
 """
 
 import sys
@@ -53,9 +66,9 @@ _NS = 1_000_000_000
 class Task(Process):
     """A task of a controller.
 
-    `state`: `ready` PP stands at main · `running` · `stopped` goes on when it is started ·
-    `finished` main returned, EXIT, or the cycle ended · `error` a fault stopped it; a start tries
-    the faulty statement again, where the pointer has a place · `empty` there is no entry routine.
+    `state`: `ready` PP is at main · `running` · `stopped` a start continues · `finished` main
+    returned, EXIT, or the cycle ended · `error` a fault stopped it; a start executes the failed
+    statement again if the pointer has a place · `empty` there is no entry routine.
     """
 
     __slots__ = ("__dict__",)
@@ -64,8 +77,8 @@ class Task(Process):
         self, scheduler: Scheduler, spec: TaskSpec, controller: Host, shared: Shared
     ) -> None:
         super().__init__(scheduler, spec.name)
-        # Polls find RAPID's stack overflow (DEEPEST); Python's own limit would strike anywhere,
-        # also in the middle of the scheduler's work.
+        # Polls detect RAPID's stack overflow (DEEPEST). Python's own limit could strike anywhere,
+        # even inside the scheduler.
         sys.setrecursionlimit(max(sys.getrecursionlimit(), 4 * DEEPEST))
         self.spec = spec
         self.controller = controller
@@ -76,23 +89,23 @@ class Task(Process):
         self.cycles = 0
         """How often the program came to the end of its entry routine."""
         self.held = False
-        """Stopped by Stop, an emergency stop, the operator: goes on when it is released."""
+        """True after Stop, an emergency stop or the operator's stop, until the release."""
         self.in_trap = False
         self.errno = 0
         self.intno = 0
         self.ret: Value = None
         """Value of RETURN in a handler."""
         self.waits_for: Callable[[], str] | None = None
-        """What it waits for, in words; None: it does not wait, or for time alone."""
+        """Text of the awaited condition; None without one, or for time only."""
         self.found: Iterator[tuple[LoadedModule | None, Data]] = iter(())
-        """What SetDataSearch has found and GetNextSym has not given yet."""
+        """Results of SetDataSearch that GetNextSym has not returned yet."""
         self.searched_module = False
         """It began in a module, not above all of them."""
         self.cyclic = CyclicBools()
         self._order: BaseException | None = None
         self._holds = 0
         self._renews = False
-        """What is being executed is to go on in code that reports its statements."""
+        """True if the current routines are to continue in reporting code."""
 
         self.errors = errors = Errors(self)
         self.interrupts = Interrupts(self, errors)
@@ -113,7 +126,7 @@ class Task(Process):
     # -- from outside ----------------------------------------------------------------------------
 
     def power_up(self) -> None:
-        """The routines of POWER_ON run, whether or not the program is started afterwards."""
+        """Run the POWER_ON routines, regardless of a later start."""
         self.events.due.insert(0, "POWER_ON")
         if self.state == "stopped":
             self.wake()
@@ -121,7 +134,7 @@ class Task(Process):
             self.launch(self.run.body)
 
     def start(self) -> None:
-        """Start from where the task stopped, or from main."""
+        """Start from the place of the stop, or from main."""
         self.stepper.forget()
         if self.leaving:
             self.run.start_asked = self._asked_to_start
@@ -129,7 +142,7 @@ class Task(Process):
             self.events.due.append("RESTART")
             self.enter("running")
             if self.pointer.place is not None:
-                # A program that is still being left goes on by itself.
+                # A program whose routines are still being left continues by itself.
                 self._run()
             elif not self.events.due_while_stopped:
                 self.release()
@@ -149,9 +162,9 @@ class Task(Process):
         self.enter("running")
 
     def stop(self, event: StopEvent = "STOP") -> None:
-        """Stop before the next statement or in the wait; `start()` goes on there.
+        """Stop before the next statement or in the wait.
 
-        The routines of `event` run when the task stands.
+        `start()` continues there. The routines of `event` run at standstill.
         """
         self.run.start_asked = None
         if self.state == "running":
@@ -161,7 +174,10 @@ class Task(Process):
             self.hold()
 
     def step(self, *, back: bool = False, over: bool = False) -> None:
-        """Execute one statement. CannotStep: not from here; nothing has changed then."""
+        """Execute one statement.
+
+        CannotStep: not possible; the state is unchanged.
+        """
         stepper = self.stepper
         if self.state in ("ready", "finished") and not back:
             stepper.begin(over)
@@ -196,17 +212,20 @@ class Task(Process):
             self.launch(self.run.body)
 
     def pp_to_main(self) -> None:
-        """Leave everything (UNDO handlers run) and set PP to main."""
+        """Leave all routines (UNDO handlers run) and set PP to main."""
         self._set_pointer(None)
 
     def pp_to_routine(self, name: str) -> None:
-        """Set PP to a procedure without parameters: as main, but RESET routines do not run."""
+        """Set PP to a procedure without parameters.
+
+        The effect is that of PP to main, without RESET routines.
+        """
         self._set_pointer(self._procedure(name))
 
     def pp_to_statement(self, line: int) -> None:
-        """Set PP to a statement of the routine in which the program stands (PP to cursor).
+        """Set PP to a statement of the current routine (PP to cursor).
 
-        CannotStep: there is none, or the program cannot go on there.
+        CannotStep: no such statement, or the program cannot continue there.
         """
         if self.state not in ("stopped", "error"):
             raise CannotStep(f"the task is {self.state}")
@@ -217,7 +236,10 @@ class Task(Process):
         self.enter("stopped")
 
     def call_service(self, name: str) -> None:
-        """Execute a procedure without parameters at user level, while the program stands."""
+        """Execute a procedure without parameters in a stopped program.
+
+        It runs at user level.
+        """
         if self.state == "running" or self.leaving:
             raise CannotStep(f"the task is {self.state}")
         self.events.service.append(self._procedure(name))
@@ -259,7 +281,7 @@ class Task(Process):
         self.held = False
 
     def enter(self, state: TaskState) -> None:
-        """Change the state, and tell the controller."""
+        """Change the state and report it to the controller."""
         self.state = state
         if state != "running":
             self.stepper.forward = None
@@ -267,32 +289,32 @@ class Task(Process):
 
     @property
     def is_stopped(self) -> bool:
-        """Whether the program is stopped, even if something runs because of that."""
+        """True if the program is stopped, even while event routines run."""
         return self.held or self.events.while_stopped or self.state == "error" or self.stepping
 
     @property
     def stepping(self) -> bool:
-        """Whether a step is being executed."""
+        """True during a step."""
         return self.stepper.active
 
     @property
     def leaving(self) -> bool:
-        """Whether PP was set to main and the routines are still being left."""
+        """True while routines are left after PP to main."""
         return self.run.fresh and self.state in ("running", "stopped")
 
     def stack(self) -> tuple[Location, ...]:
-        """Call stack of the suspended or running task, outermost first."""
+        """Return the call stack, outermost routine first."""
         suspended = self.scheduler.running is not self
         return stack_at(self.program.codes, self.frame if suspended else sys._getframe(1))
 
     def place_of(self, file: str, line: int) -> Location | None:
-        """RAPID place of a Python line."""
+        """Return the RAPID location of a Python line."""
         return location(self.program.codes, file, line)
 
     # -- waiting ---------------------------------------------------------------------------------
 
     def sleep(self, seconds: float) -> None:
-        """Let simulated time pass; traps are served meanwhile."""
+        """Let virtual time pass; traps run meanwhile."""
         self.wait_for(_never, timeout=seconds)
 
     def wait_for(
@@ -303,17 +325,17 @@ class Task(Process):
         timeout: float | None = None,
         why: Callable[[], str] | None = None,
     ) -> bool:
-        """Wait until `predicate()`, looked at now and whenever a member of `on` changes.
+        """Wait until `predicate()` is true.
 
-        False when `timeout` seconds passed first. Traps are served meanwhile. After a program
-        stop the time counts from its beginning again [S4 overview 5-23]. `why` says in words
-        what for, when somebody asks.
+        It is evaluated now and after each change of a member of `on`. Returns False after `timeout`
+        seconds. Traps run meanwhile. After a program stop the timeout starts again [S4 overview
+        5-23]. `why` describes the condition on demand.
         """
         scheduler = self.scheduler
         changed = expired = False
 
         def notice() -> None:
-            # The look itself may give way to whoever changes what was just read.
+            # The evaluation itself may give control to a task that changes the value just read.
             nonlocal changed
             changed = True
             self.wake()
@@ -361,13 +383,13 @@ class Task(Process):
     # -- attention: stops, orders, traps ---------------------------------------------------------
 
     def process_pending(self) -> None:
-        """What may come between two statements and inside a wait."""
+        """Handle pending events between two statements or inside a wait."""
         if self._order is not None:
             self.obey()
         while self.held:
             self._park()
         if self.events.due and not (self.events.running or self.events.while_stopped):
-            # A stop without routines that was over before the task stood.
+            # A stop without routines that ended before the task stopped.
             self.events.run(AT_RESTART)
         if self._renews:
             self._renew()
@@ -378,7 +400,7 @@ class Task(Process):
             self.raise_process_error(interrupts.process_error)
 
     def raise_process_error(self, error: ProcessError) -> None:
-        """Raise an error of ProcerrRecovery here, or look again at the next statement."""
+        """Raise a ProcerrRecovery error, or retry at the next statement."""
         if self.in_trap or self.events.running:
             return
         due = error.due(self, _BETWEEN)
@@ -389,27 +411,31 @@ class Task(Process):
         raise due
 
     def order(self, order: BaseException) -> None:
-        """Leave what is being executed by raising `order` in it."""
+        """Raise `order` in the current code."""
         self._order = order
         self.wake_at_next_statement()
 
     def obey(self) -> None:
-        """Raise what was ordered."""
+        """Raise a pending order."""
         order, self._order = self._order, None
         if order is not None:
             raise order
 
     def hold(self) -> None:
-        """Stop before the next statement, or in the wait; not in what runs because of a stop."""
+        """Stop before the next statement or in the wait.
+
+        Routines that run because of a stop continue.
+        """
         self.held = not self.events.while_stopped
         self._holds += 1
         self.wake_at_next_statement()
 
     def report_statements(self) -> str:
-        """Tell tracers of every statement from now on, also in routines that are being executed.
+        """Report every statement from now on, also of current routines.
 
-        They go on in other code between two statements, which costs them that of one statement.
-        Why the innermost one cannot, until it is called again; "" when it does.
+        The routines continue in other code between two statements, which costs the time of one
+        statement. Returns why the innermost one cannot continue until it is called again, ""
+        otherwise.
         """
         program = self.program
         program.trace_from_now()
@@ -431,7 +457,7 @@ class Task(Process):
         yield from (f for f in outwards(self.frame) if f.f_code.co_filename in codes)
 
     def _renew(self) -> None:
-        """Leave what is being executed, between two of its statements, for code that reports."""
+        """Leave the current code between two statements, for reporting code."""
         codes, current = self.program.codes, sys._getframe(1)
         if self.in_trap or self.events.running or not between(codes, current, _BEFORE):
             self.wake_at_next_statement()
@@ -443,7 +469,7 @@ class Task(Process):
             raise PointerMoved
 
     def release(self) -> None:
-        """Go on."""
+        """Continue."""
         self.held = False
         self.wake()
 
@@ -459,16 +485,16 @@ class Task(Process):
             self.events.run(AT_RESTART)
 
     def stand(self) -> None:
-        """Stand here until the program is started again."""
+        """Wait until the program is started again."""
         self.held = True
         self._holds += 1
         self.process_pending()
 
     def stop_here(self) -> None:
-        """Stop, Break: the program stops; a start goes on behind the instruction.
+        """Stop, Break: stop the program; a start continues after it.
 
-        In an event routine it ends the routine, which runs from its beginning at the next event
-        [S4 2-Stop-1]. Whether the STOP routines run then is a switch.
+        In an event routine it ends the routine, which starts anew at the next event [S4 2-Stop-1].
+        A switch decides whether the STOP routines run then.
         """
         self.enter("stopped")
         self.controller.operation.program_stopped(self)
@@ -484,9 +510,9 @@ class Task(Process):
     # -- called by compiled code -----------------------------------------------------------------
 
     def poll(self, b: int) -> int:
-        """See Process.poll; also looks at the depth of the call stack.
+        """Check the call depth and poll, see Process.poll.
 
-        Events come in here: what the planner refuses in one is an error of this program.
+        Events run here: a fault of the planner in one becomes an error of this program.
         """
         try:
             sys._getframe(DEEPEST)
@@ -499,11 +525,11 @@ class Task(Process):
         raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
 
     def polls(self, b: int, costs: tuple[int, ...]) -> int:
-        """A block was paid and the budget did not last: pay statement by statement."""
+        """Pay a block statement by statement if the budget is too small."""
         return self.charge_again(b + sum(costs), costs)
 
     def charge_again(self, b: int, costs: tuple[int, ...]) -> int:
-        """Pay again what was given back when a statement of the block failed."""
+        """Pay again the refunded costs after a failed statement."""
         for cost in costs:
             b -= cost
             if b < 0:
@@ -511,13 +537,13 @@ class Task(Process):
         return b
 
     def touch(self, value: Value) -> Value:
-        """A PERS was read or written: other tasks may come next (schedule `pers`)."""
+        """Record access to a PERS: other tasks may run (schedule `pers`)."""
         if self.scheduler.switches_here():
             self.switch()
         return value
 
     def trace(self, point: int) -> None:
-        """A statement is about to be executed."""
+        """Report the next statement."""
         routine, node = self.program.trace_points[point]
         module, statements = routine.module, self.controller.statements
         report = self.stepper.forward is not None
@@ -537,23 +563,23 @@ class Task(Process):
             self.program.told[point] = False
 
     def exit(self) -> None:
-        """EXIT [K §4.9]."""
+        """Execute EXIT [K §4.9]."""
         raise EndOfRun
 
     def missing(self, name: str) -> None:
-        """A routine that controllers have and this one has not."""
+        """Stop at a routine that exists on controllers only."""
         raise FatalError(
             40001, f"{name} is not available on the virtual controller", unsupported.reason(name)
         )
 
     def refuse(self, reason: str, span: Span) -> None:
-        """A statement that breaks a rule of the language, which nothing found before."""
+        """Stop at a statement that violates the language."""
         raise FatalError(40001, "Statement cannot be executed", reason, span=span)
 
     def late(
         self, name: str, module: LoadedModule | None, arguments: tuple[LateArgument | None, ...]
     ) -> None:
-        """`%name% arguments;` [K §4.5]."""
+        """Execute `%name% arguments;` [K §4.5]."""
         routine = late_routine(self.program, name, module)
         binding = routine.builtin
         if routine.node is None and binding is None:
@@ -570,7 +596,10 @@ class Task(Process):
         binding.function(self, *values)
 
     def call(self, name: str, *arguments: Value) -> Value:
-        """Call a routine of the task's program, from the task's own greenlet. KeyError."""
+        """Call a routine of the program from the task's greenlet.
+
+        Raises KeyError for an unknown routine.
+        """
         routine = self.program.find_routine(None, name.lower())
         if routine is None or routine.node is None:
             raise KeyError(name)
@@ -582,6 +611,6 @@ def _never() -> bool:
 
 
 _BETWEEN = (Task.poll.__code__, Task.polls.__code__, Task.charge_again.__code__)
-"""What compiled code calls outside its statements."""
+"""Functions that compiled code calls outside its statements."""
 _BEFORE = _BETWEEN[:2]
-"""What it calls before a statement."""
+"""Functions that it calls before a statement."""
