@@ -10,7 +10,7 @@ __all__ = ["Deadlock", "VirtualController"]
 
 
 def __getattr__(name: str) -> object:
-    """Import the controller when it is wanted: the pytest plugin is loaded by every test run."""
+    """Import the controller on demand: every test run loads the plugin."""
     if name in __all__:
         return getattr(import_module("rapidgen.controller.controller"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

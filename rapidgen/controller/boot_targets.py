@@ -1,5 +1,8 @@
-"""What can be booted, whatever it is: a configuration, a shipped name, a generated folder, a
-backup, or RAPID files with a cell around them. `run`, `sim`, tests and Python load it here."""
+"""Targets that can be booted, for `run`, `sim`, tests and Python.
+
+A target is a configuration, a shipped name, a generated folder, a backup, or RAPID files with a
+cell description.
+"""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -24,8 +27,8 @@ if TYPE_CHECKING:
     from rapidgen.controller.inference.robot import RobotCandidate
     from rapidgen.system.controller_cfg import ControllerCfg
 
-# Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
-# small program takes hardly longer than its imports.
+# Descriptions, inference, generated drivers and backups are imported on demand: the run of a small
+# program takes little longer than its imports.
 INFER = "infer"
 """Instead of a cell's file: whatever the programs name is there."""
 Source = Path | str
@@ -33,18 +36,18 @@ Source = Path | str
 
 @dataclass(frozen=True, slots=True)
 class BootOptions:
-    """What a user says beside the files."""
+    """Options of the user in addition to the files."""
 
     tasks: Mapping[str, Sequence[Source]] = field(default_factory=dict)
-    """Files of tasks of their own; what is given beside them goes to T_ROB1."""
+    """Files of separate tasks; other files go to T_ROB1."""
     robot: str = ""
     robotware: tuple[int, int] | None = None
-    """The release of loose files; None: nobody says."""
+    """Release of loose files; None: unknown."""
     entry: str = ""
-    """Procedure that tasks start in; empty: as SYS.cfg says, or main."""
+    """Entry procedure of the tasks; empty: as SYS.cfg says, or main."""
     cell: Source = ""
     start: Sequence[float] = ()
-    """Where the first robot stands, deg and mm."""
+    """Start position of the first robot, deg and mm."""
     backup: Source | None = None
     """Of the controller that a generated folder is loaded onto."""
     overrides: Sequence[str] = ()
@@ -52,7 +55,10 @@ class BootOptions:
 
 @dataclass(frozen=True, slots=True)
 class Bootable:
-    """A controller that can be booted. `driver` tells whether it runs a generated driver."""
+    """A controller that can be booted.
+
+    `driver` is True if it runs a generated driver.
+    """
 
     name: str
     system: System
@@ -62,19 +68,19 @@ class Bootable:
     surroundings: CellSetup = field(default_factory=CellSetup)
     guessed: "InferredCell | None" = None
     likely: "RobotCandidate | None" = None
-    """The robot that was guessed."""
+    """The inferred robot."""
     cfg: "ControllerCfg | None" = None
     """All domains of a backup."""
     described: Mapping[str, Path] = field(default_factory=dict)
-    """Configurations that say what groups look like."""
+    """Configurations with the visual models of groups."""
     overrides: Sequence[str] = ()
     """Of those configurations."""
     cell: "CellDescription | None" = None
-    """What stands around it."""
+    """Description of the cell."""
 
 
 def load_target(targets: Sequence[Source], options: BootOptions | None = None) -> Bootable:
-    """Read what is to be booted. Raises DiagnosticError with what is wrong."""
+    """Read a target. Raises DiagnosticError with its faults."""
     options = options or BootOptions()
     first = Path(targets[0]) if len(targets) == 1 and not options.tasks else None
     if first is not None and is_configuration(first):
@@ -103,13 +109,13 @@ def load_target(targets: Sequence[Source], options: BootOptions | None = None) -
         system = _entered(files.read_backup(folder, notes=notes), options.entry)
         result = _foreign(system, notes, options)
         return replace(result, cfg=backup_cfg(folder, system.robotware, []))
-    # Loose files have no mechanics that could be told.
+    # Loose files do not describe their mechanics.
     result = _foreign(_loose(targets, options), None, options)
     return replace(result, cfg=_delivered(result))
 
 
 def is_configuration(target: Path) -> bool:
-    """Whether `target` is a configuration's file or the name of a shipped one."""
+    """Return True for a configuration file or a shipped name."""
     if target.suffix.lower() in (".yaml", ".yml"):
         return True
     return not target.exists() and not target.suffix and len(target.parts) == 1
@@ -140,7 +146,7 @@ def _read(tasks: Mapping[str, Sequence[Source]], name: str, options: BootOptions
 
 
 def _delivered(result: Bootable) -> "ControllerCfg":
-    """The cfg of a delivered controller with these robots, tasks and signals."""
+    """Return the cfg of a controller with these robots, tasks, signals."""
     from rapidgen.system.base import Robot, base_system
     from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
 
@@ -152,7 +158,7 @@ def _delivered(result: Bootable) -> "ControllerCfg":
 
 
 def _entered(system: System, entry: str) -> System:
-    """A system whose tasks start in `entry`, where a module of theirs has it."""
+    """Return a system whose tasks start in `entry`, where declared."""
     if not entry:
         return system
     proc = f"proc {entry}(".casefold().encode("latin-1", "replace")
@@ -168,7 +174,10 @@ def _entered(system: System, entry: str) -> System:
 def _driver(
     config: RobotConfig, system: System, notes: tuple[Diagnostic, ...], options: BootOptions
 ) -> Bootable:
-    """A generated driver's robots are those of its configuration; they start at 0."""
+    """Return a target that runs a generated driver.
+
+    Its robots are those of the configuration and start at 0.
+    """
     from rapidgen.controller.cell_setup import in_its_cell
 
     if options.robot:
@@ -266,7 +275,7 @@ def _surrounded(result: Bootable, cell: "CellDescription | None", options: BootO
 
 
 def _moving(system: System, robots: "Mapping[str, CellRobotKeys]") -> System:
-    """The tasks that a cell has a robot for are motion tasks."""
+    """Make tasks with a robot of the cell motion tasks."""
     names = {task.name.casefold(): task.name for task in system.tasks}
     for task in robots:
         if task.casefold() not in names:
@@ -303,7 +312,7 @@ def _starts(
 
 
 def _only_of_files(target: str, options: BootOptions, help: str) -> None:
-    """What tells its release is not given another one."""
+    """Reject `robotware` for a target that defines its release."""
     if options.robotware is not None:
         raise refusal(
             "RG901", None, f"'{target}' tells its RobotWare, and --robotware says another one", help
@@ -311,7 +320,7 @@ def _only_of_files(target: str, options: BootOptions, help: str) -> None:
 
 
 def _only_of_folders(target: str, options: BootOptions) -> None:
-    """What is no generated folder is loaded onto no backup."""
+    """Reject `backup` for a target that is not a generated folder."""
     if options.backup is not None:
         raise refusal(
             "RG433",

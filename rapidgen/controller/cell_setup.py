@@ -1,4 +1,4 @@
-"""The cell of a controller."""
+"""The cell of a controller: objects of the customer, signals, devices."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -31,19 +31,19 @@ if TYPE_CHECKING:
 
 # -- Objects of the customer -----------------------------------------------------------------------
 #
-# What stands around a controller and is in none of its generated files.
+# Objects outside the generated files that belong to the customer.
 #
-# A configuration exposes signals of the cell to clients. They are the customer's: his own EIO.cfg
-# defines them, with units and bits, so that a generated one must not. Whoever boots a driver here
-# gets them as virtual signals of the types that the configuration names. So with a tool, a work
-# object or a load that a module of his declares.
+# A configuration exposes signals of the cell to clients. The customer's EIO.cfg defines them with
+# units and bits, so a generated file must not. Booting a driver on the virtual controller creates
+# virtual signals of the configured types instead. The same applies to tools, work objects and loads
+# declared in a module of the customer.
 #
-# With `main: own` the customer has a `main` that calls the driver. Where his is not there, one that
-# does nothing else stands in for it.
+# With `main: own` the customer has a `main` that calls the driver. If it is missing, a `main` with
+# only this call replaces it.
 
 
 GROUP_BITS = 32
-"""Bits of an exposed group signal; the configuration does not tell how many there are."""
+"""Bits of an exposed group signal; the configuration does not contain the number."""
 _MAIN = ModuleFile(
     "own_main",
     "own_main.mod",
@@ -52,9 +52,9 @@ _MAIN = ModuleFile(
 
 
 def in_its_cell(system: System, config: RobotConfig) -> System:
-    """`system` with what `config` leaves to the customer: signals and, where it is own, `main`.
+    """Return `system` with the objects that `config` leaves to the customer.
 
-    What the system has already stays as it is.
+    These are signals and, where configured, `main`. Existing objects stay unchanged.
     """
     known = {signal.name.lower() for signal in system.signals}
     exposed = tuple(
@@ -74,7 +74,10 @@ def _with_main(task: TaskSpec) -> TaskSpec:
 
 
 def _with_data(task: TaskSpec, config: RobotConfig) -> TaskSpec:
-    """A task with the data that its modules take from another module, unless one declares them."""
+    """Return a task with the data that its modules expect elsewhere.
+
+    Declared data stay unchanged.
+    """
     group = next((g for g in config.groups if g.task == task.name), None)
     data = data_of_another(group) if group is not None and task.motion else []
     if not data:
@@ -97,50 +100,51 @@ def _has_main(module: ModuleFile) -> bool:
 
 # -- Set-up ----------------------------------------------------------------------------------------
 #
-# What the description of a cell does to a controller: signals and data that its programs find,
-# where its robots stand at first, and devices that answer signals.
+# Effects of a cell description on a controller: signals and data of programs, start positions of
+# robots, and devices that answer signals.
 
 
 GUESSED = 49_910
-"""Event: an input that nobody drives became what a program waits for. The number is ours."""
+"""Event: an input without a source received the awaited value. The number is ours."""
 _PATIENCE = 0.5
-"""Seconds that a program waits for a guessed input."""
+"""Seconds that a program waits for an inferred input."""
 Posture = tuple[float, ...]
 """Controller axes, rad and m, wire order."""
 
 
 @dataclass(frozen=True, slots=True)
 class CellSetup:
-    """What a controller is booted into, beside its system and robots."""
+    """Surroundings of a controller, in addition to system and robots."""
 
     starts: Mapping[str, Posture] = field(default_factory=dict)
-    """Where the robots stand, by motion group; others stand at 0."""
+    """Start postures of robots by motion group; others start at 0."""
     reactions: "Sequence[ReactionKeys]" = ()
     guessed: frozenset[str] = frozenset()
-    """Signals that nobody drives, lower case: they become what somebody waits for."""
+    """Signals without a source, lower case: they receive the values that programs wait for."""
     polled: "tuple[PolledSignals, ...]" = ()
     """Where programs look for them in loops."""
     flags: "tuple[PolledData, ...]" = ()
     """Data that programs look at and do not set."""
     heard: "ExpectedMessages | None" = None
-    """What programs listen for at sockets that nobody else is at."""
+    """Expected messages of programs at sockets without a peer."""
     cameras: Mapping[str, Camera] = field(default_factory=dict)
-    """What cameras see, by lower-case name."""
+    """Results of cameras, by lower-case name."""
     force: Measured = field(default_factory=Measured)
-    """What force sensors measure."""
+    """Readings of force sensors."""
     divisors: frozenset[str] = frozenset()
-    """What programs divide by, lower case."""
+    """Divisors in programs, lower case."""
     blank: "tuple[DefaultedPersistent, ...]" = ()
-    """Data that a predefined one stands in for."""
+    """Data replaced by a predefined datum."""
     is_guess: bool = False
-    """Whether dialogs are answered that nobody else is there for, and I/O units are as named."""
+    """True if the cell is inferred: dialogs without an operator are answered, and all named I/O
+    units exist."""
     is_any_robot: bool = False
-    """Whether the robots are a guess: places that they do not reach do not stop the program."""
+    """True if the robots are inferred: unreachable targets do not stop the program."""
 
 
 @dataclass(frozen=True, slots=True)
 class InferenceLog:
-    """What happened because a cell is a guess; all grow while programs run."""
+    """Events caused by an inferred cell; all lists grow during a run."""
 
     is_guess: bool = False
     answered: "list[Answer]" = field(default_factory=list)
@@ -148,15 +152,15 @@ class InferenceLog:
     missed: "list[Answer]" = field(default_factory=list)
     """Places of moves to where the robot does not come as programmed, and how it went there."""
     stopped: "list[Answer]" = field(default_factory=list)
-    """Where a program stopped behind an answer and was started from main again, and why."""
+    """Places where a program stopped after an answer and was restarted from main, with reasons."""
 
 
 class Booted(Protocol):
-    """A controller that is put into its surroundings."""
+    """A controller that receives its surroundings."""
 
     @property
     def log(self) -> EventLog:
-        """Its event log."""
+        """Event log of the controller."""
 
     io: IOSystem
     operator: Operator
@@ -168,7 +172,7 @@ class Booted(Protocol):
     rapid_tasks: dict[str, Task]
 
     def task(self, name: str) -> "TaskView":
-        """One task."""
+        """Return a task."""
 
 
 def apply_cell(
@@ -177,11 +181,11 @@ def apply_cell(
     data: Iterable[tuple[str, str, str]] = (),
     routines: str = "",
 ) -> System:
-    """`system` with the signals and the data of `cell` that it does not have itself, with further
-    `data` (kind and type, name, initial value or nothing) and the declarations of `routines`.
+    """Return `system` with missing signals and data of `cell`.
 
-    They are those of an installed module: a program's own hide them. Raises DiagnosticError
-    RG434 for a device that names a signal which nobody has.
+    It also adds `data` (kind and type, name, initial value or nothing) and the declarations of
+    `routines`. They are in an installed module, so declarations of a program hide them.
+    DiagnosticError RG434: a device names an unknown signal.
     """
     known = {signal.name.casefold() for signal in system.signals}
     signals = tuple(
@@ -220,7 +224,7 @@ def apply_cell(
 
 
 def cameras_of(cell: "CellDescription", *, is_guess: bool) -> dict[str, Camera]:
-    """The cameras of a cell, by lower-case name; a new set for each controller."""
+    """Return new cameras of a cell, by lower-case name."""
     return {
         name.casefold(): Camera(
             name,
@@ -246,7 +250,7 @@ def cameras_of(cell: "CellDescription", *, is_guess: bool) -> dict[str, Camera]:
 
 
 def force_of(cell: "CellDescription") -> Measured:
-    """What the force sensors of a cell measure."""
+    """Return the readings of the cell's force sensors."""
     keys = cell.force
     if keys is None:
         return Measured()
@@ -279,8 +283,10 @@ def _nameless(system: System, cell: "CellDescription") -> Iterator[Diagnostic]:
 
 
 def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
-    """Put the robots where they start, let devices watch their signals, and guessed inputs become
-    what a program waits for."""
+    """Set start positions and connect devices and inferred inputs.
+
+    Devices observe their signals; inferred inputs receive the values that a program waits for.
+    """
     guessed = InferenceLog(around.is_guess)
     answered = guessed.answered
     for name, posture in around.starts.items():
@@ -316,7 +322,7 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
     controller.io.any_unit = controller.meetings.any_task = around.is_guess
     if around.is_any_robot:
         controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))
-    # Beside a real clock a person sits, who answers by the control port.
+    # With the real clock, a user answers through the control port.
     if (
         around.is_guess
         and not controller.operator.present

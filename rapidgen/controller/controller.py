@@ -1,4 +1,4 @@
-"""The virtual controller: one scheduler, tasks, I/O, motion, files, network and event log."""
+"""Virtual controller: scheduler, tasks, I/O, motion, files, network, log."""
 
 import logging
 import threading
@@ -54,11 +54,11 @@ Accounting = Literal["block", "statement", "none"]
 
 
 class Deadlock(Exception):
-    """Every task waits and nothing is ahead that could wake one."""
+    """Every task waits, and no future event can wake one."""
 
 
 class ControllerOptions(TypedDict, total=False):
-    """Keywords of `VirtualController`."""
+    """Keyword arguments of `VirtualController`."""
 
     robots: Sequence[GroupConfig]
     clock: ClockKind
@@ -83,10 +83,10 @@ class ControllerOptions(TypedDict, total=False):
 
 
 class VirtualController:
-    """Executes the RAPID of a `System`.
+    """A controller that executes the RAPID of a `System`.
 
-    Bound to the thread that steps it, or, after `start()`, to a thread of its own. Positions
-    are rad and m by motion group; `tasks[name]["Module:name"]` gives raw RAPID values.
+    It belongs to the thread that steps it, or, after `start()`, to a thread of its own. Positions
+    are rad and m by motion group; `tasks[name]["Module:name"]` is a raw RAPID value.
     """
 
     def __init__(
@@ -114,11 +114,11 @@ class VirtualController:
         autostart: bool = True,
         entry_needed: bool = True,
     ) -> None:
-        """Load every module and, with `autostart`, start all tasks in automatic mode.
+        """Load every module; with `autostart` start all tasks in automatic mode.
 
-        `host` selects the operating system's network (an address to bind); empty = in memory
-        on the virtual clock, 127.0.0.1 on the real one. DiagnosticError when a module cannot
-        be loaded or, with `entry_needed`, a task with modules has no entry routine.
+        `host` selects the operating system's network (an address to bind); empty means in memory on
+        the virtual clock and 127.0.0.1 on the real one. DiagnosticError: a module cannot be loaded
+        or, with `entry_needed`, a task with modules has no entry routine.
         """
         self.system = system
         self.costs = costs if costs is not None else Costs()
@@ -147,7 +147,7 @@ class VirtualController:
         )
         self.motion = MotionSystem(self.scheduler, robots, self.log, self.io)
         self.robot_data = {g.name: RobotData.of(g) for g in self.motion.groups.values()}
-        """What programs have set, by motion group."""
+        """Settings of programs, by motion group."""
         self._connect_background_tasks()
         if network is None:
             network = (
@@ -170,14 +170,14 @@ class VirtualController:
         """Error numbers that BookErrNo gave."""
         self.meetings = SyncPoints()
         self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
-        """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
+        """Welding equipment by task: `gas` flow, burning `arc`, and its `data`."""
         calibrated = self.dialect.hands_calibrated or surroundings.is_guess
         self.hands = Hands(self.scheduler, self.io, calibrated=calibrated)
-        """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
+        """Hands of a YuMi: `hands["L"].part = 12.0` puts a part between the fingers."""
         self.cameras = cameras(system.cameras, surroundings.cameras)
         """By lower-case name."""
         self.egm = EgmSessions(system.udp_devices)
-        """Of externally guided motion, whose partners are silent."""
+        """Externally guided motion, without partners."""
         self.force = ForceSensors(surroundings.force)
         """Of the robots."""
         self.configuration = SystemParameters(system, tuple(robots))
@@ -224,7 +224,7 @@ class VirtualController:
             self.start_program()
 
     def _connect_background_tasks(self) -> None:
-        """Let background tasks act on the robot that their UseMechanicalUnitGroup names."""
+        """Connect background tasks to the robot of UseMechanicalUnitGroup."""
         robots = {
             spec.mechanical_unit_group.lower(): group.name
             for spec in self.system.tasks
@@ -241,8 +241,10 @@ class VirtualController:
 
     @classmethod
     def boot(cls, result: Bootable, **options: Unpack[ControllerOptions]) -> Self:
-        """What `booting.load_target` has read; its robots and surroundings unless others are
-        given."""
+        """Boot a target of `load_target`.
+
+        Its robots and surroundings apply unless options replace them.
+        """
         if "robots" not in options:
             options["robots"] = result.groups
             options.setdefault("surroundings", result.surroundings)
@@ -258,11 +260,10 @@ class VirtualController:
         cell: Path | str = "",
         **options: Unpack[ControllerOptions],
     ) -> Self:
-        """A generated folder (its manifest tells the robots) or an ABB backup.
+        """Boot a generated folder (robots from its manifest) or a backup.
 
-        `backup` is of the controller that a generated folder is loaded onto; `robot` and `cell`
-        as `from_files`. DiagnosticError when something cannot be read, or a controller would not
-        load it.
+        `backup` is that of the controller below a generated folder; `robot` and `cell` as in
+        `from_files`. DiagnosticError: a file cannot be read, or a controller would not load it.
         """
         wishes = BootOptions(backup=backup, robot=robot, cell=cell)
         return cls.boot(load_target([path], wishes), **options)
@@ -278,10 +279,10 @@ class VirtualController:
         start: Sequence[float] = (),
         **options: Unpack[ControllerOptions],
     ) -> Self:
-        """Loose module files: one task T_ROB1, or one for each key.
+        """Boot loose module files: one task T_ROB1, or one for each key.
 
-        `robot` is a shipped name or a configuration (default irb120), `cell` the file that
-        describes what stands around it, or "infer", `start` where the robot stands (deg, mm).
+        `robot` is a shipped name or a configuration (default irb120), `cell` a cell description or
+        "infer", `start` the robot's start position (deg, mm).
         """
         if isinstance(files, str | Path):
             raise TypeError(f"files are a list, or a mapping of tasks to lists: [{str(files)!r}]")
@@ -300,9 +301,10 @@ class VirtualController:
         overrides: Sequence[str] = (),
         **options: Unpack[ControllerOptions],
     ) -> Self:
-        """The driver that a configuration (a file, a shipped name) generates, without files.
+        """Boot the driver generated from a configuration, without files.
 
-        `overrides` are `key.path=value` texts. DiagnosticError when it has faults.
+        The configuration is a file or a shipped name; `overrides` are `key.path=value` texts.
+        DiagnosticError: the configuration has faults.
         """
         if not isinstance(config, RobotConfig):
             return cls.boot(load_target([str(config)], BootOptions(overrides=overrides)), **options)
@@ -316,11 +318,11 @@ class VirtualController:
 
     @property
     def now(self) -> float:
-        """Simulated seconds since the controller was made."""
+        """Virtual seconds since the creation of the controller."""
         return self.scheduler.now / _NS
 
     def task(self, name: str) -> TaskView:
-        """A task by name. KeyError: there is none."""
+        """Return a task by name, or raise KeyError."""
         if name not in self.tasks:
             raise unknown("task", name, list(self.tasks))
         return self.tasks[name]
@@ -331,9 +333,9 @@ class VirtualController:
         return Signals(self.io)
 
     def positions(self, group: str = "") -> dict[str, float]:
-        """Where a robot stands, by joint of its configuration: controller axes, rad and m.
+        """Return a robot's joint positions as controller axes, rad and m.
 
-        Of the first group, or of a named one (KeyError: there is none).
+        The default is the first group. KeyError: unknown group.
         """
         result = self._group(group)
         return dict(zip(result.map.names, result.positions(), strict=True))
@@ -345,18 +347,24 @@ class VirtualController:
         return groups[name or next(iter(groups))]
 
     def record(self) -> dict[str, Recorder]:
-        """Record the motion of every group from now on: `["rob1"].recording()` gives arrays."""
+        """Record the motion of every group from now on.
+
+        `["rob1"].recording()` returns arrays.
+        """
         return self.motion.record()
 
     def run_for(self, seconds: float) -> None:
-        """Let simulated time pass. RuntimeError: it is not this thread that does so."""
+        """Let virtual time pass.
+
+        RuntimeError: another thread lets time pass.
+        """
         self._step(until=self.scheduler.now + round(seconds * _NS))
 
     def run_until(self, condition: Callable[[], bool], *, timeout: float | None = None) -> bool:
-        """Let time pass until `condition()`, looked at after every event and slice.
+        """Let time pass until `condition()` is true.
 
-        False when `timeout` s passed first, or a debugger has paused. Deadlock when nothing is
-        ahead that could change anything.
+        It is evaluated after every event and slice. Returns False after `timeout` s, or if a
+        debugger paused. Deadlock: no future event could change the state.
         """
         until = None if timeout is None else self.scheduler.now + round(timeout * _NS)
         outcome = self._step(until, condition)
@@ -367,10 +375,11 @@ class VirtualController:
     def run(
         self, *, max_time: float | None = None, max_statements: int | None = None
     ) -> Literal["finished", "time", "statements", "deadlock", "paused"]:
-        """Let time pass until no task runs any more and the robots stand: whoever ends behind a
-        fly-by point is not stopped short of it. `paused`: a debugger holds everything.
+        """Let time pass until no task runs and the robots stand still.
 
-        `max_statements` bounds the work of all tasks, at the cost model's price of a statement.
+        A program that ends after a fly-by point finishes its movement. The result is `paused` if a
+        debugger stops the clock. `max_statements` limits the work of all tasks, at the statement
+        cost of the cost model.
         """
         scheduler = self.scheduler
         until = None if max_time is None else scheduler.now + round(max_time * _NS)
@@ -389,7 +398,7 @@ class VirtualController:
             return "paused"
         if outcome == "stop":
             return "statements"
-        # Nothing ahead before the limit of time is a deadlock, however long one would wait.
+        # No event before the time limit is a deadlock, even with a long limit.
         busy = scheduler.ready or scheduler.preempted is not None
         idle = scheduler.next_event() is None and not busy
         return "deadlock" if outcome == "idle" or idle else "time"
@@ -407,7 +416,7 @@ class VirtualController:
         return finished and all(group.is_standing for group in self.motion.groups.values())
 
     def where(self) -> list[str]:
-        """For each running task where it is, as `task: file:line (routine)`."""
+        """Return `task: file:line (routine)` of each running task."""
         lines = []
         for task in self.rapid_tasks.values():
             if task.state not in ("running", "stopped"):
@@ -422,10 +431,10 @@ class VirtualController:
         return lines
 
     def address(self, group: str = "", *, timeout: float = 10.0) -> str:
-        """Where a client finds a group's servers, once they listen: `HOST:MOTION,STATE[,CONTROL]`.
+        """Return the address of a group's servers once they listen.
 
-        For a controller that runs in a thread of its own (`start()`). TimeoutError when they do
-        not listen within `timeout` s; KeyError for an unknown group.
+        The format is `HOST:MOTION,STATE[,CONTROL]`. The controller must run in its own thread
+        (`start()`). TimeoutError: not within `timeout` s; KeyError: unknown group.
         """
         ports = self._group(group).config.ports
         expected = [port for port in (ports.motion, ports.state, ports.control) if port]
@@ -457,34 +466,37 @@ class VirtualController:
 
     @property
     def motors_on(self) -> bool:
-        """Whether the motors are on."""
+        """True if the motors are on."""
         return self.operation.motors_on
 
     @property
     def e_stop(self) -> bool:
-        """Whether the emergency stop is pressed."""
+        """True if the emergency stop is pressed."""
         return self.operation.e_stop
 
     @property
     def execution_error(self) -> bool:
-        """Whether an error stopped a task, and nothing was started since."""
+        """True if an error stopped a task, and no start followed."""
         return self.operation.execution_error
 
     @property
     def failed(self) -> bool:
-        """SYS FAIL: nothing starts until a restart."""
+        """SYS FAIL: no start is possible until a restart."""
         return self.operation.failed
 
     def perform(self, action: str) -> None:
-        """Do what a person would: `e-stop`, `motors-on`, `manual`, ... (operation.ACTIONS)."""
+        """Execute an action of a user (operation.ACTIONS).
+
+        Examples: `e-stop`, `motors-on`, `manual`.
+        """
         self.operation.perform(action)
 
     def start_program(self) -> bool:
-        """Start all tasks; False when the state does not allow it."""
+        """Start all tasks; return False if the state forbids it."""
         return self.operation.start_program()
 
     def stop_program(self) -> None:
-        """Stop all NORMAL tasks and the robots; (semi)static tasks go on."""
+        """Stop all NORMAL tasks and the robots, not (semi)static tasks."""
         self.operation.stop_program()
 
     def pp_to_main(self) -> None:
@@ -492,7 +504,7 @@ class VirtualController:
         self.operation.pp_to_main()
 
     def set_motors(self, on: bool) -> None:
-        """Motors on or off; off stops the program."""
+        """Switch the motors on or off; off stops the program."""
         self.operation.set_motors(on)
 
     def set_e_stop(self, pressed: bool) -> None:
@@ -500,25 +512,29 @@ class VirtualController:
         self.operation.set_e_stop(pressed)
 
     def set_mode(self, mode: str) -> None:
-        """Change the operating mode; motors go off. ValueError: there is no such mode."""
+        """Change the operating mode; the motors go off.
+
+        ValueError: unknown mode.
+        """
         self.operation.set_mode(mode)
 
     def power_loss(self) -> None:
-        """Power goes and comes back: a warm start."""
+        """Simulate a power failure and restart: a warm start."""
         self.operation.power_loss()
 
     def before_statement(
         self, task: str, module: str, line: int, count: int, action: Callable[[], None]
     ) -> None:
-        """Call `action` when a statement is reached for the `count`-th time."""
+        """Call `action` before the `count`-th execution of a statement."""
         self.statements.before(task, module, line, count, action)
 
     # -- real time -------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Run in a thread of its own from now on. ValueError: the clock is not the real one.
+        """Run in a separate thread from now on.
 
-        RuntimeError: the controller is closed, or its tasks run in the thread that let time pass.
+        ValueError: the clock is not the real one. RuntimeError: the controller is closed, or its
+        tasks run in the calling thread.
         """
         if not self._thread.begun and any(task.body for task in self.rapid_tasks.values()):
             raise RuntimeError(
@@ -528,16 +544,19 @@ class VirtualController:
         self._thread.start()
 
     def stop(self) -> None:
-        """Let the thread stand, and time with it; the controller can be started again."""
+        """Stop the thread, and time with it; `start()` continues."""
         self._thread.stop()
 
     def call(self, function: Callable[[], _T]) -> _T:
-        """Run `function` on the controller's thread, and return or raise what it does."""
+        """Run `function` on the controller's thread and return its result.
+
+        Exceptions of the function are raised here.
+        """
         return self._thread.call(function)
 
     def close(self) -> None:
-        """Stop and give everything back: thread, sockets, files."""
-        # In one go: nothing may run between the tasks' end and the thread's.
+        """Stop and release thread, sockets and files."""
+        # One call on the thread: nothing may run between the end of the tasks and of the thread.
         self._thread.close()
         for name in self.rapid_tasks:
             self.sockets.close_task(name)

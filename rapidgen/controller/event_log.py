@@ -1,7 +1,7 @@
-"""The event log with warnings of recovered errors, which are written only when somebody looks.
+"""Event log with warnings of recovered errors, formatted on demand.
 
-Every error that a handler deals with leaves a warning [K §7.5]; programs that live on RETRY and
-TRYNEXT make thousands a second, of which the log keeps the last.
+Every error recovered by a handler leaves a warning [K §7.5]. Programs that rely on RETRY and
+TRYNEXT cause thousands per second; the log keeps the last ones.
 """
 
 from collections import deque
@@ -14,7 +14,7 @@ RECOVERED = 40_199
 
 
 class ControllerLog(EventLog):
-    """An EventLog that makes up the events of recovered errors when they are needed."""
+    """An EventLog that creates events of recovered errors on demand."""
 
     def __init__(self, clock: TimeSource, *, capacity: int = 1000) -> None:
         super().__init__(clock, capacity=capacity)
@@ -22,7 +22,7 @@ class ControllerLog(EventLog):
         self._dropped = 0
 
     def recovered(self, task: str, number: int, text: str) -> None:
-        """Note that a handler dealt with an error."""
+        """Record an error recovered by a handler."""
         if self._listeners:
             self.warning(RECOVERED, "Handled error", error_name(number), text, task=task)
             return
@@ -54,17 +54,17 @@ class ControllerLog(EventLog):
         return super().write(code, type, title, *texts, task=task)
 
     def subscribe(self, listener: Callable[[Event], None]) -> Callable[[], None]:
-        """Call `listener` for each new event; the returned function ends that."""
+        """Call `listener` for each new event; the result ends that."""
         self._catch_up()
         return super().subscribe(listener)
 
     def since(self, sequence: int = 0) -> list[Event]:
-        """Events that are newer than the given sequence number and still kept, oldest first."""
+        """Return stored events after a sequence number, oldest first."""
         self._catch_up()
         return super().since(sequence)
 
     def clear(self) -> None:
-        """Forget all events; sequence numbers go on."""
+        """Remove all events; sequence numbers continue."""
         self._catch_up()
         super().clear()
 

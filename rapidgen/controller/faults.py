@@ -1,7 +1,7 @@
-"""A plan of what goes wrong: with connections, and with the controller.
+"""Plans of faults in connections and the controller.
 
-A plan is data read from YAML (`sim --faults FILE`). `network/faulty.py` carries out the part about
-connections; the part about the controller is put on its clock by `schedule`.
+A plan is data read from YAML (`sim --faults FILE`). `network/fault_injection.py` executes the part
+on connections; `schedule` puts the part on the controller on its clock.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -23,9 +23,9 @@ ControllerAction = Literal[
 
 @dataclass(frozen=True, slots=True)
 class ControllerRule:
-    """What happens to the controller at a time (s), or before a statement is executed.
+    """A fault at a time (s), or before a statement.
 
-    A statement is `task`, `module` and `line`; `pass_` counts how often it is reached.
+    A statement is `task`, `module` and `line`; `pass_` counts its executions.
     """
 
     do: ControllerAction
@@ -48,23 +48,23 @@ class FaultPlan:
 
 
 class FaultTarget(Protocol):
-    """What a plan does to a controller."""
+    """Operations of a controller that a plan needs."""
 
     @property
     def scheduler(self) -> Scheduler:
-        """Its clock."""
+        """Clock of the controller."""
 
     def perform(self, action: str) -> None:
-        """Carry out one of `ControllerAction`."""
+        """Execute a `ControllerAction`."""
 
     def before_statement(
         self, task: str, module: str, line: int, count: int, action: Callable[[], None]
     ) -> None:
-        """Call `action` when a statement is reached for the `count`-th time."""
+        """Call `action` before the `count`-th execution of a statement."""
 
 
 def schedule(plan: FaultPlan, controller: FaultTarget) -> None:
-    """Put the controller's part of a plan on its clock."""
+    """Schedule the controller's part of a plan."""
     for rule in plan.controller:
         action = _action(controller, rule.do)
         if rule.line:
@@ -78,7 +78,7 @@ def _action(controller: FaultTarget, name: str) -> Callable[[], None]:
 
 
 def read_plan(path: Path) -> FaultPlan:
-    """A plan from YAML. Raises DiagnosticError RG421."""
+    """Read a plan from YAML. Raises DiagnosticError RG421."""
     try:
         content = data_of(read_foreign(path, MAX_BYTES), str(path))
     except OSError as fault:

@@ -1,4 +1,4 @@
-"""Modules into tasks: parsed once, linked, and what is wrong with them."""
+"""Loading of modules into tasks: parse once, link, report faults."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
@@ -17,18 +17,21 @@ from rapidgen.runtime.values import Type, Value
 from rapidgen.system.model import ModuleFile, System
 
 _SMALL = 64_000
-"""Bytes of a module whose tree is kept for the next controller that boots."""
+"""Bytes of a module whose tree is cached for the next controller."""
 
 
 class ParseCache:
-    """Trees of module files; the same bytes are parsed once, small ones for all controllers."""
+    """Cache of module trees: equal bytes are parsed once.
+
+    All controllers of the process share the trees of small modules.
+    """
 
     def __init__(self, robotware: tuple[int, int]) -> None:
         self._dialect = Dialect(robotware=robotware)
         self._parsed: dict[tuple[bytes, str], n.Module] = {}
 
     def parse(self, file: ModuleFile) -> n.Module:
-        """The tree of a module file, which nobody changes."""
+        """Return the tree of a module file; callers must not change it."""
         if len(file.data) <= _SMALL:
             return _tree(file.data, file.path, self._dialect)
         key = file.data, file.path
@@ -45,10 +48,10 @@ def _tree(data: bytes, path: str, dialect: Dialect) -> n.Module:
 def load(
     tasks: Iterable[Task], tree_of: Callable[[ModuleFile], n.Module], *, entries_wanted: bool = True
 ) -> list[Diagnostic]:
-    """Link the modules of tasks, which are ready then; warnings.
+    """Link the modules of tasks and return warnings.
 
-    A task without its entry routine, or with two of them, is not ready: only its start is
-    refused. DiagnosticError: a module cannot be loaded, or no task at all can be started.
+    A task without its entry routine, or with two of them, cannot be started; the others can.
+    DiagnosticError: a module cannot be loaded, or no task at all can be started.
     """
     tasks = list(tasks)
     findings: list[Diagnostic] = []
@@ -81,14 +84,14 @@ def load(
 
 
 def _tell_its_robot(task: Task) -> None:
-    """ROB_ID is the robot that the task moves or is connected to."""
+    """Set ROB_ID to the robot that the task moves or uses."""
     group = task.controller.motion.of_task(task.name)
     unit = task.program.value(None, "rob_id")
     unit.value = group.config.mechanical_unit if group is not None else ""
 
 
 def _unguided(tasks: Iterable[Task]) -> list[Diagnostic]:
-    """One note for all programs that set up externally guided motion."""
+    """Return a note on all programs that use externally guided motion."""
     for module in (module for task in tasks for module in task.program.modules.values()):
         source = module.tree.source
         for at, token in enumerate(source.tokens):
@@ -119,8 +122,10 @@ def _no_entry(task: Task) -> Diagnostic:
 def configured(
     system: System, robots: Sequence[GroupConfig], io: IOSystem
 ) -> dict[str, tuple[Type, Value]]:
-    """Objects that a configuration predefines, by lower-case name: signals, mechanical units,
-    taskids, cameras."""
+    """Return objects of the configuration by lower-case name.
+
+    These are signals, mechanical units, taskids and cameras.
+    """
     result: dict[str, tuple[Type, Value]] = {}
     for task in system.tasks:
         result[f"{task.name.lower()}id"] = _named("taskid", task.name)

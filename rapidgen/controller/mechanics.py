@@ -1,4 +1,4 @@
-"""Which robot model moves which task, for a system that does not say it by itself."""
+"""Assignment of robot models to tasks, for systems without them."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -25,16 +25,16 @@ _SPEEDS = (
 
 
 def motion_tasks(system: System) -> list[str]:
-    """Names of the tasks that move robots; the first one when none says so."""
+    """Return the motion tasks; the first task if none is declared."""
     moving = [task.name for task in system.tasks if task.motion]
     return moving or [task.name for task in system.tasks[:1]]
 
 
 def groups_for(system: System, robots: Sequence[GroupConfig]) -> tuple[GroupConfig, ...]:
-    """`robots`, each given to the motion task that moves its mechanical unit.
+    """Assign each of `robots` to the task that moves its mechanical unit.
 
-    Where the system does not tell the units, to the task of its name; what is left goes by
-    order, and more motion tasks than groups get copies of the last one.
+    If the system does not name the units, the task's name decides, then the order. Further motion
+    tasks receive copies of the last robot.
     """
     tasks = motion_tasks(system)
     units = _units(system)
@@ -62,11 +62,10 @@ def groups_for(system: System, robots: Sequence[GroupConfig]) -> tuple[GroupConf
 def mechanics(
     system: System, robot: str = "", own: "Mapping[str, CellRobotKeys] | None" = None
 ) -> tuple[tuple[GroupConfig, ...], tuple[Diagnostic, ...]]:
-    """A robot for each motion task: the one that is named for it (`own`, by task) or for all
-    (`robot`), else of the type that a backup tells.
+    """Return a robot for each motion task.
 
-    Notes say where another robot stands in. Raises DiagnosticError RG432 for a type that no
-    shipped model is of.
+    The robot is named for it (`own`, by task) or for all (`robot`), else it has the type in the
+    backup. Notes report replacements. DiagnosticError RG432: no shipped model has the type.
     """
     given = {task.casefold(): keys for task, keys in (own or {}).items()}
     types = {unit.casefold(): name for unit, name in system.robot_types}
@@ -101,7 +100,7 @@ def mechanics(
 
 
 def robots_named(name: str) -> Sequence[GroupConfig]:
-    """The robots that a user names: a shipped model, a configuration, a variant of the library."""
+    """Return the robots of a shipped model, configuration or variant."""
     if name in shipped_names():
         return shipped_groups(name)
     from rapidgen.config.variant_group import group_of, variant_named
@@ -112,7 +111,10 @@ def robots_named(name: str) -> Sequence[GroupConfig]:
 
 
 def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnostic]]:
-    """The robots of a type in MOC.cfg: of the very variant, else of the model of its number."""
+    """Return the robots of a type in MOC.cfg.
+
+    The exact variant precedes the model of its number.
+    """
     from rapidgen.config.catalogue import model_description
     from rapidgen.config.variant_group import ASSUMED_SPEED, group_of, variants_of
 
@@ -135,12 +137,12 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
 
 
 def of_unknown_payload(groups: Sequence[GroupConfig]) -> tuple[GroupConfig, ...]:
-    """Robots that stand in for others: what those carry is not known."""
+    """Return replacement robots, whose payload is unknown."""
     return tuple(replace(group, max_payload=0.0) for group in groups)
 
 
 def model_of(robot_type: str) -> str:
-    """The shipped model of a type in MOC.cfg, whatever its variant; empty: there is none."""
+    """Return the shipped model of a type in MOC.cfg, or ""."""
     found = _TYPE.match(robot_type)
     names = [f"{kind}{found[1].lower()}" for kind in ("irb", "crb")] if found else []
     return next((name for name in names if name in shipped_names()), "")
@@ -151,7 +153,7 @@ def _stands_in(message: str, help: str = _MEND) -> Diagnostic:
 
 
 def _units(system: System) -> dict[str, str]:
-    """The robot of each motion task whose mechanical unit group the system has."""
+    """Return the robot of each motion task by mechanical unit group."""
     robots = {group.name.casefold(): group.robot for group in system.groups}
     named = {
         task.name: robots.get(task.mechanical_unit_group.casefold(), "") for task in system.tasks

@@ -1,4 +1,4 @@
-"""Operation and system signals."""
+"""Operating modes, stops and system signals of a controller."""
 
 from collections.abc import Callable, Iterator, Mapping
 from typing import Literal, Protocol, TypeAlias, get_args
@@ -21,7 +21,7 @@ _REFUSED = 10_126
 
 
 class Tasks(Host, Protocol):
-    """A controller whose tasks are started and stopped."""
+    """A controller whose tasks can be started and stopped."""
 
     @property
     def rapid_tasks(self) -> Mapping[str, Task]:
@@ -29,7 +29,7 @@ class Tasks(Host, Protocol):
 
 
 class Operation:
-    """State of one controller as a whole, and what its changes do to tasks and robots."""
+    """State of one controller, and its effects on tasks and robots."""
 
     def __init__(self, host: Tasks) -> None:
         self._host = host
@@ -37,7 +37,7 @@ class Operation:
         self.motors_on = True
         self.e_stop = False
         self.failed = False
-        """SYS FAIL: a task of trust level SysFail stopped; nothing starts until a restart."""
+        """SYS FAIL: a task of trust level SysFail stopped; no start is possible until a restart."""
         self.halted = False
         self.in_error: set[str] = set()
         """Tasks that an error has stopped since the last start."""
@@ -48,7 +48,7 @@ class Operation:
 
     @property
     def execution_error(self) -> bool:
-        """Whether an error has stopped a task."""
+        """True if an error has stopped a task."""
         return bool(self.in_error)
 
     @property
@@ -56,13 +56,16 @@ class Operation:
         return tuple(self._host.motion.groups.values())
 
     def _normal(self) -> Iterator[Task]:
-        """The tasks that a program stop stops; (semi)static ones go on."""
+        """Iterate over tasks that a program stop concerns.
+
+        (Semi)static tasks continue.
+        """
         return (task for task in self._host.rapid_tasks.values() if task.spec.type == "NORMAL")
 
     # -- power, motors, modes --------------------------------------------------------------------
 
     def power_up(self) -> None:
-        """After switching on: outputs at their defaults, POWER_ON routines are due."""
+        """Set outputs to defaults and queue POWER_ON routines."""
         self._host.io.power_up()
         self._host.motion.zones.drop_all()
         for task in self._host.rapid_tasks.values():
@@ -71,7 +74,10 @@ class Operation:
         self.changed.notify()
 
     def set_motors(self, on: bool, *, event: StopEvent = "STOP") -> None:
-        """Motors on or off; off stops the program, and the routines of `event` run."""
+        """Switch the motors on or off.
+
+        Off stops the program and runs the routines of `event`.
+        """
         if on and (self.e_stop or self.failed):
             self._host.log.warning(_REFUSED, "Motors on refused", self._why_not())
             return
@@ -103,9 +109,9 @@ class Operation:
         self.changed.notify()
 
     def set_mode(self, mode: str) -> None:
-        """Change the operating mode; a running program stops, the motors go off.
+        """Change the operating mode.
 
-        ValueError: there is no such mode.
+        A running program stops and the motors go off. ValueError: unknown mode.
         """
         expected = next((m for m in get_args(OperatingMode) if m == mode), None)
         if expected is None:
@@ -124,14 +130,17 @@ class Operation:
         self.changed.notify()
 
     def fail(self) -> None:
-        """SYS FAIL: motors off, nothing starts until a restart."""
+        """Enter SYS FAIL: motors off, no start until a restart."""
         self.failed = True
         self.motors_on = False
         self._host.log.error(20_095, "System failure state", "a warm start is needed")
         self.changed.notify()
 
     def power_loss(self) -> None:
-        """Power goes and comes back: a warm start. Sockets and files are closed."""
+        """Simulate a power failure and restart: a warm start.
+
+        Sockets and files are closed.
+        """
         host = self._host
         host.log.error(10_140, "Power failure")
         for task in host.rapid_tasks.values():
@@ -157,7 +166,7 @@ class Operation:
     # -- the program -----------------------------------------------------------------------------
 
     def start_program(self) -> bool:
-        """Start all tasks; False when the state does not allow it."""
+        """Start all tasks; return False if the state forbids it."""
         log = self._host.log
         obstacle = self._why_not()
         for group in () if obstacle else self._groups:
@@ -185,7 +194,7 @@ class Operation:
         return True
 
     def _why_not(self) -> str:
-        """What forbids a start; empty: nothing does."""
+        """Return why a start is forbidden, "" otherwise."""
         if self.e_stop:
             return "emergency stop"
         if self.failed:
@@ -195,9 +204,9 @@ class Operation:
         return "" if self.motors_on else "motors are off"
 
     def stop_program(self, *, quick: bool = False, event: StopEvent = "STOP") -> None:
-        """Stop all NORMAL tasks and the robots; (semi)static tasks go on.
+        """Stop all NORMAL tasks and the robots, not (semi)static tasks.
 
-        The routines of `event` run in every task that is stopped.
+        The routines of `event` run in every stopped task.
         """
         for task in self._normal():
             task.stop(event)
@@ -216,12 +225,18 @@ class Operation:
         self._host.log.info(10_002, "Program pointer has been reset")
 
     def drop_paths(self) -> None:
-        """PP was moved, not to main: the path is gone, settings stay [S4 overview 4-24]."""
+        """Discard paths after a moved program pointer [S4 overview 4-24].
+
+        It concerns moves other than to main; settings stay.
+        """
         for group in self._groups:
             group.clear_path()
 
     def step_program(self, task: Task, *, back: bool = False, over: bool = False) -> None:
-        """Execute one statement of a task. CannotStep: not in this state, or not from there."""
+        """Execute one statement of a task.
+
+        CannotStep: not in this state, or not at this place.
+        """
         obstacle = self._why_not()
         if obstacle:
             raise CannotStep(obstacle)
@@ -231,14 +246,14 @@ class Operation:
         self.changed.notify()
 
     def step_moves(self) -> None:
-        """The robots may move."""
+        """Permit robot motion during a step."""
         for arc in self._host.arcs.values():
             arc.go_on()
         for group in self._groups:
             group.start("program")
 
     def step_ended(self) -> None:
-        """A task has done its step."""
+        """Record the end of a task's step."""
         self._stop_motion()
 
     def reset_error(self) -> None:
@@ -247,7 +262,7 @@ class Operation:
         self.changed.notify()
 
     def perform(self, action: str) -> None:
-        """One of ACTIONS. ValueError: there is no such one."""
+        """Execute one of ACTIONS. ValueError: unknown action."""
         if action not in ACTIONS:
             raise ValueError(f"unknown action {action}")
         ACTIONS[action](self)
@@ -255,11 +270,14 @@ class Operation:
     # -- tasks tell ------------------------------------------------------------------------------
 
     def task_changed(self) -> None:
-        """The state of a task changed."""
+        """Handle a changed task state."""
         self.changed.notify()
 
     def task_failed(self, task: RapidTask, fatal: FatalError) -> None:
-        """A task stopped with an error: log, and what its trust level says [S4 overview 4-45]."""
+        """Handle a task that stopped with an error.
+
+        The trust level decides on the reaction [S4 overview 4-45].
+        """
         log = self._host.log
         place = str(fatal.stack[-1]) if fatal.stack else ""
         calls = " < ".join(str(p) for p in reversed(fatal.stack[-8:]))
@@ -284,7 +302,7 @@ class Operation:
                 log.error(10_010, "Motors OFF state")
 
     def program_stopped(self, task: RapidTask) -> None:
-        """Stop or Break in a task: the other NORMAL tasks stop, too."""
+        """Stop the other NORMAL tasks after Stop or Break in a task."""
         self._host.log.info(10_122, "Program stopped", task=task.name)
         if task.spec.type == "NORMAL":
             self._stop_others(task)
@@ -313,7 +331,7 @@ ACTIONS: Mapping[str, Callable[[Operation], object]] = {
     "pp-to-main": Operation.pp_to_main,
     "power-loss": Operation.power_loss,
 }
-"""What a fault plan, the control socket and people can do with a controller, by name."""
+"""Actions of fault plans, the control socket and users, by name."""
 
 
 # -- System signals --------------------------------------------------------------------------------
@@ -322,7 +340,7 @@ ACTIONS: Mapping[str, Callable[[Operation], object]] = {
 
 
 class SystemSignals:
-    """Ties the system inputs and outputs of one controller to its operation."""
+    """Connection of system inputs and outputs with the operation."""
 
     def __init__(self, host: Host, operation: Operation) -> None:
         self._host = host
@@ -330,12 +348,12 @@ class SystemSignals:
         operation.changed.add(self._report)
 
     def connect(self) -> None:
-        """Obey system inputs from now on."""
+        """React to system inputs from now on."""
         self._host.io.on_action = self._rose
         self._host.io.on_end = self._fell
 
     def _rose(self, action: str, argument: str) -> None:
-        """A signal of a system input rose (SYSSIG_IN)."""
+        """React to a rising signal of a system input (SYSSIG_IN)."""
         operation = self._operation
         match action:
             case "Start":

@@ -1,4 +1,4 @@
-"""Programs and backups of a controller."""
+"""Modules of a controller's tasks from outside, and backups."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -20,22 +20,25 @@ from rapidgen.system.model import ModuleFile
 
 # -- Programs --------------------------------------------------------------------------------------
 #
-# Modules of a controller's tasks from outside: loaded, unloaded, saved; what is wrong with them.
+# Modules are loaded, unloaded and saved; faults are reported on request.
 #
-# A module that cannot be linked is in its task all the same, and its errors are told there: a
-# controller answers a load with success and says what is wrong when it is asked [VC 7.21].
+# A module that cannot be linked is in its task nevertheless, and its errors are reported there. A
+# controller answers a load with success and reports the faults on request [VC 7.21].
 
 
 SYSTEM_ENDINGS = (".sys", ".sysx")
 
 
 class CannotLoad(Exception):
-    """A module cannot be loaded or unloaded; the text is a name of `wire.rws.codes`."""
+    """A module cannot be loaded or unloaded.
+
+    The text is a name of `wire.rws.codes`.
+    """
 
 
 @dataclass(slots=True)
 class UnlinkedModule:
-    """A module that lies in a task and is not linked."""
+    """A module in a task that is not linked."""
 
     file: ModuleFile
     faults: tuple[Diagnostic, ...]
@@ -43,7 +46,10 @@ class UnlinkedModule:
 
 @dataclass(frozen=True, slots=True)
 class ModuleState:
-    """A module of a task. `is_system`: it stays when a program is taken out."""
+    """A module of a task.
+
+    `is_system`: it stays when a program is removed.
+    """
 
     name: str
     file: ModuleFile
@@ -67,11 +73,11 @@ class Programs:
 
     @property
     def is_stopped(self) -> bool:
-        """Whether no task executes anything: background tasks, too [real 7.21]."""
+        """True if no task executes, background tasks included [real 7.21]."""
         return all(t.state != "running" for t in self._controller.rapid_tasks.values())
 
     def modules(self, task: Task) -> list[ModuleState]:
-        """What lies in a task, in loading order."""
+        """Return the modules of a task in loading order."""
         linked = [
             ModuleState(module.name, module.file, _is_system(module))
             for module in task.program.modules.values()
@@ -82,8 +88,10 @@ class Programs:
         ]
 
     def text(self, task: Task, name: str) -> str | None:
-        """The source of a module, with initial values as they were written [VC 7.21]; None: there
-        is none."""
+        """Return the source of a module, None for an unknown one.
+
+        Initial values are as written [VC 7.21].
+        """
         module = task.program.modules.get(name.lower())
         if module is not None:
             return module.tree.source.text
@@ -91,7 +99,7 @@ class Programs:
         return None if broken is None else decode(broken.file.data)[0]
 
     def load(self, task: Task, path: Path, words: str, *, replaced: bool) -> str:
-        """Load a module file into a task; its name. CannotLoad."""
+        """Load a module file into a task; return its name. CannotLoad."""
         if not self.is_stopped:
             raise CannotLoad("E_EXEC_STATE")
         try:
@@ -103,7 +111,7 @@ class Programs:
         return self.put(task, ModuleFile(path.stem, words, data), replaced=replaced)
 
     def put(self, task: Task, module: ModuleFile, *, replaced: bool) -> str:
-        """Put a module into a task, as its own text names it; its name. CannotLoad."""
+        """Put a module into a task; return its declared name. CannotLoad."""
         if not self.is_stopped:
             raise CannotLoad("E_EXEC_STATE")
         words, data = module.path, module.data
@@ -134,7 +142,7 @@ class Programs:
         return name
 
     def unload(self, task: Task, name: str) -> None:
-        """Take a module out of a task. CannotLoad."""
+        """Remove a module from a task. CannotLoad."""
         if not self.is_stopped:
             raise CannotLoad("E_EXEC_STATE")
         self._count(task)
@@ -155,7 +163,10 @@ class Programs:
         self.changed.notify()
 
     def _take_out(self, task: Task, name: str) -> None:
-        """Unlink a module. A persistent that nobody declares any more loses its value."""
+        """Unlink a module.
+
+        A persistent without another declaration loses its value.
+        """
         gone = {
             key
             for key, node in task.program.modules[name.lower()].declarations.items()
@@ -168,7 +179,7 @@ class Programs:
             self._controller.shared.cells.pop(key, None)
 
     def put_clashes_aside(self, task: Task) -> None:
-        """Unlink modules that declare what another one has declared: a second `main`."""
+        """Unlink modules with duplicate declarations, such as a second `main`."""
         clashes = task.program.names.clashes
         for _, second in clashes:
             if second.module is None or second.module.tree.name.lower() not in task.program.modules:
@@ -181,13 +192,13 @@ class Programs:
         clashes.clear()
 
     def faults(self, task: Task) -> list[Diagnostic]:
-        """What is wrong with the program of a task: broken modules, and names that are nowhere."""
+        """Return faults of a task: broken modules and undeclared names."""
         broken = [d for b in self.broken[task.name].values() for d in b.faults]
         missing = missing_routines(task.program)
         return broken + [d for d in missing if d.severity is Severity.ERROR]
 
     def _find_entry(self, task: Task) -> None:
-        """A task without its entry routine is empty; with it, it can be started."""
+        """Set the entry routine of a task; without it the task is empty."""
         entry = task.program.find_routine(None, task.spec.entry.lower())
         result = isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters
         if not result:
@@ -196,8 +207,10 @@ class Programs:
             task.state = "ready"
 
     def kept(self) -> Mapping[str, tuple[ModuleFile, ...]]:
-        """Modules of each task with the present values of their persistents: what a restart
-        finds."""
+        """Return the modules of each task for a restart.
+
+        They contain the present values of persistents.
+        """
         return {
             task.name: (
                 *(_as_it_is(task, module) for module in task.program.modules.values()),
@@ -236,9 +249,9 @@ _INFO = ">>VERSION OF ROBOTWARE\nRobotWare {0}.{1:02}\n"
 def back_up(
     controller: VirtualController, programs: Programs, cfg: ControllerCfg, folder: Path
 ) -> None:
-    """Write BACKINFO, HOME, RAPID and SYSPAR into a new folder: what the controller is now.
+    """Write BACKINFO, HOME, RAPID and SYSPAR into a new folder.
 
-    Persistents have their present values. OSError: the folder is there, or cannot be written.
+    Persistents have their present values. OSError: the folder exists, or cannot be written.
     """
     folder.mkdir()
     for part in ("BACKINFO", "RAPID", "SYSPAR"):

@@ -1,4 +1,4 @@
-"""Runs of programs."""
+"""A controller over its restarts, and runs in inferred cells."""
 
 import shutil
 import tempfile
@@ -35,7 +35,7 @@ _NS = 1_000_000_000
 
 
 class RestoredBackup(NamedTuple):
-    """What the next restart takes from a backup."""
+    """Parts of a backup for the next restart."""
 
     kept: PersistedState
     cfg: ControllerCfg
@@ -43,11 +43,11 @@ class RestoredBackup(NamedTuple):
 
 
 class ControllerRunner:
-    """One controller and its restarts.
+    """A controller and its restarts.
 
-    `controller` is the one that runs now. Everything but `post`, `ask_restart` and `close` belongs
-    to the thread that runs it. `cfg` is the database of all domains: what is changed there takes
-    effect at the next restart. DiagnosticError: the system cannot be booted.
+    `controller` is the current one. All methods except `post`, `ask_restart` and `close` belong to
+    the thread that runs it. `cfg` is the database of all domains: changes take effect at the next
+    restart. DiagnosticError: the system cannot be booted.
     """
 
     def __init__(
@@ -64,12 +64,12 @@ class ControllerRunner:
         composed = ControllerCfg(system.robotware, (sys_cfg(system), eio_cfg(system)))
         self.cfg = composed if cfg is None else cfg
         self.id = str(uuid.uuid5(uuid.NAMESPACE_DNS, system.name)).upper()
-        """What tells this controller from others, in every run the same."""
+        """Identifier of this controller, equal in every run."""
         self.restarts = 0
         self.breakpoints: list[Breakpoint] = []
-        """Those that whoever debugs has set: they are for the controller after a restart, too."""
+        """Breakpoints of debuggers, which survive a restart."""
         self.on_restart: list[Callable[[], None]] = []
-        """Called on the controller's thread before a restart: everything about it ends."""
+        """Called on the controller's thread before a restart, to end all connections."""
         self.on_boot: list[Callable[[], None]] = []
         """Called when the new controller is there."""
         self._before = 0
@@ -84,31 +84,34 @@ class ControllerRunner:
 
     @classmethod
     def boot(cls, result: Bootable, **options: Unpack[ControllerOptions]) -> Self:
-        """What `booting.load_target` has read, as `VirtualController.boot`."""
+        """Boot a target of `load_target`, as `VirtualController.boot`."""
         options.setdefault("robots", result.groups)
         options.setdefault("surroundings", result.surroundings)
         return cls(result.system, cfg=result.cfg, **options)
 
     @property
     def now(self) -> float:
-        """The controller's time in s; it goes on over restarts."""
+        """The controller's time in s; it continues over restarts."""
         return (self._before + self.controller.scheduler.now) / _NS
 
     def post(self, function: Callable[[], None]) -> bool:
-        """Run `function` on the controller's thread, from any thread; False while it restarts."""
+        """Run `function` on the controller's thread, from any thread.
+
+        Returns False during a restart.
+        """
         with self._lock:
             if self._up:
                 self.controller.scheduler.post(function)
             return self._up
 
     def ask_restart(self) -> None:
-        """Restart as soon as what is being done is done."""
+        """Restart after the current work."""
         self._restart_asked = True
 
     def ask_restore(self, backup: Path) -> None:
-        """Restart with the modules, the cfg and the HOME of a backup. DiagnosticError: it is none.
+        """Restart with modules, cfg and HOME of a backup.
 
-        The robots stay what they are, and where they are.
+        The robots and their positions stay. DiagnosticError: invalid backup.
         """
         notes: list[Diagnostic] = []
         system = read_backup(backup, notes=notes)
@@ -119,7 +122,7 @@ class ControllerRunner:
         self.ask_restart()
 
     def run(self, finished: Callable[[], bool]) -> None:
-        """Let time pass, over restarts, until `finished()`."""
+        """Let time pass, over restarts, until `finished()` is true."""
         while not finished():
             self.controller.scheduler.advance(stop=lambda: finished() or self._restart_asked)
             if self._restart_asked:
@@ -128,7 +131,7 @@ class ControllerRunner:
     def _restart(self) -> None:
         with self._lock:
             self._up = False
-        # What was taken is carried out: whoever posted it waits for it.
+        # Accepted functions run in any case, because their callers wait.
         self.controller.scheduler.run_posted()
         for tell in tuple(self.on_restart):
             tell()
@@ -154,7 +157,7 @@ class ControllerRunner:
     # -- in a thread of its own ------------------------------------------------------------------
 
     def start(self) -> None:
-        """Run in a thread of its own from now on."""
+        """Run in a separate thread from now on."""
         self._ended = False
         self._set_going()
         self._thread = threading.Thread(target=self._run_alone, name="cabinet", daemon=True)
@@ -165,19 +168,19 @@ class ControllerRunner:
             self.run(lambda: self._ended)
         finally:
             if not self._ended:
-                # A fault has ended the thread: nobody shall wait for what it will not do.
+                # A fault has ended the thread. No caller may wait for it.
                 with self._lock:
                     self._up = False
 
     def _set_going(self) -> None:
-        """Time begins to pass, and what is posted wakes the scheduler from now on."""
+        """Let time pass; posted functions wake the scheduler from now on."""
         scheduler = self.controller.scheduler
         if scheduler.clock == "real":
             scheduler.rebase()
             assert scheduler.selector is not None
 
     def stop(self) -> None:
-        """End that thread."""
+        """End the thread."""
         if self._thread is None:
             return
         self._ended = True
@@ -186,7 +189,7 @@ class ControllerRunner:
         self._thread = None
 
     def close(self) -> None:
-        """Stop, and give everything back."""
+        """Stop and release all resources."""
         self.stop()
         self.controller.close()
         self._remove()
@@ -200,25 +203,27 @@ class ControllerRunner:
 
 # -- Inferred cells --------------------------------------------------------------------------------
 #
-# Running a program in a guessed cell through, as an operator would: where it stops behind an
-# answer that was made up, it is started from main again, and hears the next one; behind a Stop it
-# goes on.
+# A complete run of a program in an inferred cell, as an operator would do it. A program that stops
+# after an inferred answer is started from main again and receives the next answer; after a Stop
+# instruction it continues.
 
 
 _MOST: Final = 50
-"""Starts behind the first one."""
+"""Maximum number of restarts."""
 Ended = Literal["finished", "time", "statements", "deadlock", "paused"]
 
 
 def run_past_stops(
     controller: VirtualController, *, max_time: float, max_statements: int | None = None
 ) -> Ended:
-    """`controller.run`, again and again while a task stops with an error and something was answered
-    since it was started; where that was is kept in `controller.guessed.stopped`. In a guessed cell
-    what stands at a Stop is started again, too.
+    """Run a program, and restart it while inferred answers stop it.
 
-    `max_time` (s) is for all of it, `max_statements` for each start. The faults of the last start
-    are the tasks' own, as ever.
+    A restart follows if a task stopped with an error after an answer since the last start;
+    `controller.guessed.stopped` lists these places. In an inferred cell, a task at a Stop
+    instruction is started again, too.
+
+    `max_time` (s) limits the total, `max_statements` each start. The faults of the last start
+    remain in the tasks.
     """
     until = controller.now + max_time
     guessed = controller.guessed

@@ -1,4 +1,4 @@
-"""A thread in which a controller runs by itself, on the real clock."""
+"""A thread that runs a controller on the real clock."""
 
 import atexit
 import threading
@@ -16,14 +16,14 @@ _LEAVING = 2.0
 
 
 class ControllerThread:
-    """Lets a scheduler advance, and carries out what other threads ask.
+    """A thread that advances a scheduler and runs functions of others.
 
-    It is one thread until it is closed: RAPID tasks cannot be moved to another one. While it is
-    stopped it stands, and what is asked is carried out by whoever asks.
+    It is one thread until `close`: greenlets of RAPID tasks cannot move to another one. While it is
+    stopped, a calling thread runs its function itself.
     """
 
     def __init__(self, scheduler: Scheduler, name: str, last: Callable[[], None]) -> None:
-        """`last` is what the thread does as its last."""
+        """`last` is the last function of the thread."""
         self._scheduler = scheduler
         self._name = name
         self._last = last
@@ -31,15 +31,18 @@ class ControllerThread:
         self._stopping = False
         self._stands = threading.Event()
         self._going_on: SimpleQueue[bool] = SimpleQueue()
-        """Whether it goes on, or ends."""
+        """True to continue, False to end."""
 
     @property
     def begun(self) -> bool:
-        """Whether the controller's tasks run in this thread, be it that it stands."""
+        """True if the controller's tasks run in this thread, even if stopped."""
         return self._thread is not None
 
     def start(self) -> None:
-        """Run from now on. ValueError: the clock is not the real one. RuntimeError: closed."""
+        """Run from now on.
+
+        ValueError: the clock is not the real one. RuntimeError: closed.
+        """
         if self._scheduler.clock != "real":
             raise ValueError('only clock="real" runs by itself; else use run_for and run_until')
         if self._scheduler.is_closed:
@@ -66,7 +69,7 @@ class ControllerThread:
         self._last()
 
     def _leave(self) -> None:
-        """End with the program, which has closed nothing."""
+        """End with the program, without a regular close."""
         thread = self._thread
         if thread is not None and thread.is_alive():
             self._scheduler.post(self._stand)
@@ -75,7 +78,7 @@ class ControllerThread:
                 thread.join(_LEAVING)
 
     def stop(self) -> None:
-        """Let the thread stand; it can be started again."""
+        """Stop the thread; `start` continues."""
         thread = self._thread
         if thread is None or self._stands.is_set():
             return
@@ -88,7 +91,7 @@ class ControllerThread:
         self._stopping = True
 
     def close(self) -> None:
-        """End the thread, or do here what it does as its last."""
+        """End the thread, or run its last function here."""
         self.stop()
         atexit.unregister(self._leave)
         thread = self._thread
@@ -100,9 +103,9 @@ class ControllerThread:
         self._thread = None
 
     def call(self, function: Callable[[], _T]) -> _T:
-        """Run `function` on the thread, or here where none runs, and return its result.
+        """Run `function` on the thread and return its result.
 
-        What it raises is raised here: the controller goes on.
+        Without a running thread it runs here. Exceptions are raised here; the controller continues.
         """
         thread = self._thread
         if thread is None or thread is threading.current_thread() or self._rests(thread):
@@ -117,14 +120,14 @@ class ControllerThread:
                 return
             try:
                 result.append(function())
-            except BaseException as fault:  # noqa: BLE001 - handed to whoever asked
+            except BaseException as fault:  # noqa: BLE001 - passed to the caller
                 raised.append(fault)
             finally:
                 done.set()
 
         self._scheduler.post(run)
         while not done.wait(_LOOK):
-            # Stopped, or ended by a fault, before it came to that: nobody else runs it.
+            # The thread stopped or ended by a fault before this function: run it here.
             if self._rests(thread) and in_use.acquire(blocking=False):
                 return function()
         if raised:

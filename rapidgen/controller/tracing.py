@@ -1,4 +1,4 @@
-"""What was executed: a trace, a profile by line, coverage of lines and branches as lcov."""
+"""Trace, profile by line, and coverage as lcov."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -30,7 +30,10 @@ STATEMENTS = (
 
 
 class Trace:
-    """Writes one line for each statement: time in s, task, module/routine:line, text."""
+    """Writes one line per statement: time (s), task, place, text.
+
+    The place is module/routine:line.
+    """
 
     def __init__(self, controller: VirtualController, stream: TextIO) -> None:
         self._stream = stream
@@ -49,7 +52,10 @@ class Trace:
 
 
 class Profile:
-    """Simulated time and passes by line; a statement lasts until its task's next one."""
+    """Virtual time and passes by line.
+
+    A statement lasts until the next one of its task.
+    """
 
     def __init__(self, controller: VirtualController) -> None:
         self._scheduler = controller.scheduler
@@ -73,7 +79,10 @@ class Profile:
             self.time[before[0]] += now - before[1]
 
     def as_data(self) -> list[dict[str, object]]:
-        """Rows, most time first: task, module, routine, line, passes, seconds."""
+        """Return rows, most time first.
+
+        Columns are task, module, routine, line, passes, seconds.
+        """
         for task in list(self._open):
             self._finish(task, self._scheduler.now)
         rows = sorted(self.passes, key=lambda k: (-self.time[k], k))
@@ -91,7 +100,7 @@ class Profile:
 
 
 class Coverage:
-    """Lines and branches of RAPID that were executed."""
+    """Executed lines and branches of RAPID."""
 
     def __init__(self, controller: VirtualController) -> None:
         self._controller = controller
@@ -99,14 +108,14 @@ class Coverage:
         controller.statements.listen(self._statement)
 
     def stop(self) -> None:
-        """Count no more."""
+        """Stop counting."""
         self._controller.statements.tracers.remove(self._statement)
 
     def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
         self._hits[id(node)] += 1
 
     def lines(self) -> dict[str, dict[int, int]]:
-        """By module file: every line that begins a statement, and how often it was reached."""
+        """Return line counts by module file, for lines with a statement."""
         result: dict[str, dict[int, int]] = {}
         for module in self._modules():
             if module.file.path not in result:
@@ -124,7 +133,10 @@ class Coverage:
         return lines
 
     def lcov(self) -> str:
-        """The tracefile. A module that several tasks load counts once, all tasks together."""
+        """Return the tracefile.
+
+        A module of several tasks appears once, with the counts of all tasks.
+        """
         records: dict[str, list[str]] = {}
         for module in self._modules():
             if module.file.path not in records:
@@ -161,7 +173,7 @@ class Coverage:
         yield "end_of_record"
 
     def _branches(self, node: n.Node, line: int) -> Iterator[str]:
-        """BRDA rows: how often each way out of a decision was taken."""
+        """Iterate over BRDA rows: counts of each branch of a decision."""
         ways = _ways(node)
         if ways is None:
             return
@@ -176,7 +188,7 @@ class Coverage:
 
 
 def _ways(node: n.Node) -> tuple[list[list[n.Statement]], bool] | None:
-    """Bodies of a decision, and whether there is a way past all of them."""
+    """Return bodies of a decision, and True if it can skip all of them."""
     match node:
         case n.If():
             bodies = [b.body for b in node.branches]

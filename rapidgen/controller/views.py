@@ -1,4 +1,4 @@
-"""How tests and people see a controller: tasks with their data, signals by name."""
+"""A controller for tests and users: tasks with data, signals by name."""
 
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -16,14 +16,14 @@ _SHOWN = 6
 
 
 def unknown(kind: str, name: str, known: Sequence[str]) -> KeyError:
-    """What is raised where somebody asks for a name that is none of those `known`."""
+    """Return a KeyError for a name that is not among `known`."""
     few = ", ".join(known[:_SHOWN]) + (", ..." if len(known) > _SHOWN else "")
     help = suggest(name, known) or (f"there are {few}" if known else "there is none")
     return KeyError(f"there is no {kind} '{name}': {help}")
 
 
 class Signals(Mapping[str, float]):
-    """Values of the signals by name; assigning sets one."""
+    """Values of the signals by name; an assignment sets one."""
 
     def __init__(self, io: IOSystem) -> None:
         self._io = io
@@ -48,7 +48,7 @@ class Signals(Mapping[str, float]):
 
 
 class TaskView:
-    """A task for tests: `task["Module:name"]` is a raw RAPID value (deg, mm)."""
+    """A task for tests: `task["Module:name"]` is a raw value (deg, mm)."""
 
     def __init__(self, task: Task, operation: Operation) -> None:
         self.rapid = task
@@ -66,12 +66,12 @@ class TaskView:
 
     @property
     def fault(self) -> FatalError | None:
-        """Why the task stopped with an error."""
+        """The error that stopped the task."""
         return self.rapid.fault
 
     @property
     def stack(self) -> tuple[Location, ...]:
-        """Where it is, outermost routine first."""
+        """Call stack, outermost routine first."""
         return self.rapid.stack()
 
     def _data(self, name: str) -> tuple[Data, Value]:
@@ -112,17 +112,20 @@ class TaskView:
             program.space[program.global_ref(data)].set(value)
 
     def type_of(self, name: str) -> tuple[Type, tuple[int, ...]]:
-        """Type and dimensions of a datum. KeyError: there is none."""
+        """Return type and dimensions of a datum, or raise KeyError."""
         data, _ = self._data(name)
         return data.type, data.dims
 
     def cell(self, name: str) -> PersistentCell | None:
-        """What keeps a persistent, and tells when it changes; None: it is none. KeyError."""
+        """Return the cell of a persistent, None for other data.
+
+        Raises KeyError. The cell notifies of changes.
+        """
         data, persisted = self._data(name)
         return persisted if data.storage == "cell" else None
 
     def start(self) -> None:
-        """Start or go on."""
+        """Start or continue."""
         self.rapid.start()
 
     def stop(self) -> None:
@@ -130,32 +133,39 @@ class TaskView:
         self.rapid.stop()
 
     def step(self, *, back: bool = False, over: bool = False) -> None:
-        """Execute one statement; `over`: calls as a whole. CannotStep says why not.
+        """Execute one statement; `over`: calls as a whole.
 
-        Time has to pass for it; the task is `stopped` again then.
+        Time has to pass for it; afterwards the task is `stopped`. CannotStep explains why not.
         """
         self._operation.step_program(self.rapid, back=back, over=over)
 
     @property
     def place(self) -> Location | None:
-        """The statement before which a stopped task stands; None when that is unknown."""
+        """Return the next statement of a stopped task, None if unknown."""
         return self.rapid.pointer.next_statement()
 
     def pp_to_routine(self, name: str) -> None:
-        """Set the program pointer to a procedure without parameters. CannotStep: no such one."""
+        """Set the program pointer to a procedure without parameters.
+
+        CannotStep: no such procedure.
+        """
         self.rapid.pp_to_routine(name)
         self._operation.drop_paths()
 
     def pp_to_statement(self, line: int) -> None:
-        """Set the program pointer to another statement of the routine (PP to cursor).
+        """Set PP to another statement of the routine (PP to cursor).
 
-        Data and interrupts are kept, the path is gone. CannotStep: it cannot go on there.
+        Data and interrupts stay, the path is discarded. CannotStep: execution cannot continue
+        there.
         """
         self.rapid.pp_to_statement(line)
         self._operation.drop_paths()
 
     def call_service(self, name: str) -> None:
-        """Execute a service routine of a stopped task. CannotStep: it runs, or no such one."""
+        """Execute a service routine of a stopped task.
+
+        CannotStep: the task runs, or the routine does not exist.
+        """
         self.rapid.call_service(name)
 
     def pp_to_main(self) -> None:

@@ -1,9 +1,9 @@
-"""A warm start: a new controller from the cfg database, the disks and what lay in the tasks.
+"""Warm start: a new controller from cfg database, disks and modules.
 
-Program memory outlives a warm start; modules that CAB_TASK_MODULES names and that are not there
-yet are loaded from their files, those of SEMISTATIC tasks always. Persistents keep their values;
-VARs, sockets, paths and program pointers do not. (A real NORMAL task keeps its program pointer;
-here it stands at main.) What cannot be loaded is a system failure, and an event says which.
+Program memory survives a warm start. Modules in CAB_TASK_MODULES that are not loaded are loaded
+from their files, those of SEMISTATIC tasks always. Persistents keep their values; VARs, sockets,
+paths and program pointers do not. (A real NORMAL task keeps its program pointer; here it is at
+main.) A module that cannot be loaded causes a system failure, which an event reports.
 """
 
 from collections.abc import Mapping, Sequence
@@ -40,9 +40,10 @@ def boot(
     cfg: ControllerCfg,
     options: ControllerOptions,
 ) -> tuple[VirtualController, Programs]:
-    """The controller after a warm start. Motors are off, background tasks run.
+    """Return the controller after a warm start.
 
-    Cfg that nobody could interpret leaves the old tasks and signals, and is a system failure.
+    Motors are off, background tasks run. Invalid cfg leaves the old tasks and signals, and is a
+    system failure.
     """
     events: list[tuple[int, str, str, str]] = []
     before = replace(old.system, home=None, home_below=None)
@@ -60,7 +61,7 @@ def boot(
     options["faults"] = None  # a plan's times are those of the first run
     controller = _booted(system, tasks, options)
     for name, group in controller.motion.groups.items():
-        # Nobody has moved the robot meanwhile.
+        # The robot has not moved meanwhile.
         group.jump(old.motion.group(name).positions())
     programs = Programs(controller)
     for task in tasks:
@@ -91,7 +92,7 @@ def _task(
     home: Path,
     before: System,
 ) -> _Task:
-    """A task with its modules: what lay in it, and what its files add."""
+    """Return a task with its modules and those of its files."""
     match = {m.name.casefold(): m for m in persisted.get(spec.name, ())}
     if spec.name not in persisted:
         # A new task has what is loaded into all of them.
@@ -131,7 +132,10 @@ def _faults(file: ModuleFile, robotware: tuple[int, int]) -> tuple[Diagnostic, .
 
 
 def _booted(system: System, tasks: list[_Task], options: ControllerOptions) -> VirtualController:
-    """A controller of these tasks; modules that cannot be linked are put aside."""
+    """Return a controller of these tasks.
+
+    It leaves out modules that cannot be linked.
+    """
     while True:
         complete = replace(system, tasks=tuple(task.spec for task in tasks))
         try:
@@ -142,7 +146,10 @@ def _booted(system: System, tasks: list[_Task], options: ControllerOptions) -> V
 
 
 def _put_aside(tasks: list[_Task], findings: Sequence[Diagnostic]) -> bool:
-    """Take modules with errors out of their tasks; False: there is nothing to take out."""
+    """Remove modules with errors from their tasks.
+
+    Returns False if there is none to remove.
+    """
     errors = [d for d in findings if d.severity is Severity.ERROR]
     paths = {d.span.path for d in errors if d.span is not None}
     some = False

@@ -1,1 +1,1 @@
-"""Time and devices of a controller: clock and events, network, signals, disks, log, pendant."""
+"""Time and devices: clock, network, signals, disks, log, pendant."""

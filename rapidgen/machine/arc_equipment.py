@@ -1,7 +1,7 @@
-"""Arc welding equipment: gas, arc and references, with the signals that PROC.cfg names for them.
+"""Arc welding equipment: gas, arc and references.
 
-Its power source is simulated: it answers WeldOn with ArcEst at once. Data of an arc are those of
-arcdata, by component.
+PROC.cfg names the signals. The power source is simulated: it answers WeldOn with ArcEst at once.
+Data of an arc are those of arcdata, by component.
 """
 
 from collections.abc import Mapping
@@ -22,7 +22,7 @@ REFERENCES: Final = {
 
 
 class ArcEquipment:
-    """What one task welds with."""
+    """Welding equipment of a task."""
 
     def __init__(self, io: IOSystem, signals: tuple[ArcSignals, ...], task: str) -> None:
         self._io = io
@@ -34,12 +34,12 @@ class ArcEquipment:
 
     @property
     def inhibited(self) -> bool:
-        """Whether the cell's input WeldInhib forbids to weld."""
+        """True if the cell's input WeldInhib forbids welding."""
         signal = self.signal("WeldInhib")
         return signal is not None and bool(signal.value)
 
     def signal(self, use: str) -> Signal | None:
-        """The signal for a use, where there is one."""
+        """Return the signal for a use, None without one."""
         return self._io.get(self._names.get(use.lower(), ""))
 
     def set_gas(self, on: bool) -> None:
@@ -48,42 +48,42 @@ class ArcEquipment:
         self._set("GasOn", on)
 
     def set_arc(self, on: bool) -> None:
-        """Weld, or not; the power source answers."""
+        """Switch the arc on or off; the power source answers."""
         self.arc = self.feed = on
         self._set("WeldOn", on)
         self._set("FeedOn", on)
         self._set("ArcEst", on)
 
     def put_out(self) -> None:
-        """Neither arc nor gas."""
+        """Switch arc and gas off."""
         self.set_arc(False)
         self.set_gas(False)
 
     def hold(self) -> None:
-        """The program stops: an arc that burns goes out until it is started again."""
+        """Extinguish a burning arc while the program is stopped."""
         if self.arc:
             self.put_out()
             self._held = True
 
     def go_on(self) -> None:
-        """The program is started where it was stopped."""
+        """Continue after a stop of the program."""
         if self._held:
             self._held = False
             self.set_gas(True)
             self.set_arc(True)
 
     def reset(self) -> None:
-        """PP to main: the seam is given up."""
+        """End the weld, for PP to main."""
         self._held = False
         self.put_out()
 
     def stop_feeding(self) -> None:
-        """The arc burns back without wire."""
+        """Stop the wire feed; the arc burns back."""
         self.feed = False
         self._set("FeedOn", False)
 
     def refer(self, data: Mapping[str, float]) -> None:
-        """What to weld with. ValueError: it does not fit a signal."""
+        """Set the reference values. ValueError: a signal cannot represent one."""
         self.data = dict(data)
         for use, component in REFERENCES.items():
             self._set(use, data[component])

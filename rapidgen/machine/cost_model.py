@@ -1,11 +1,17 @@
-"""The reference cost model of the virtual clock (docs/rapid/virtual-controller.md)."""
+"""Reference cost model of the virtual clock.
+
+See docs/rapid/virtual-controller.md.
+"""
 
 from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True, slots=True)
 class Costs:
-    """Nanoseconds of the one CPU. No public source has better figures; all can be changed."""
+    """Nanoseconds of the one CPU.
+
+    No public source has better figures; all can be changed.
+    """
 
     statement: int = 5_000
     operator: int = 1_000
@@ -16,7 +22,7 @@ class Costs:
     quantum: int = 2_000_000
     """Round robin."""
     interrupt_delay: tuple[int, int] = (2_000_000, 30_000_000)
-    """From event to trap [K §8.1]."""
+    """Return the costs with `builtin_scale` multiplied by `factor`."""
 
     def scaled(self, factor: float) -> "Costs":
         """The same with the built-in part times `factor`."""

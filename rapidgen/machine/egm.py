@@ -1,6 +1,6 @@
-"""Externally guided motion as far as a controller has it whose partner is silent.
+"""Externally guided motion of a controller without a partner.
 
-Identities, and the sessions behind them. No datagram is sent or read, and no position corrected.
+It covers identities and their sessions. No datagram is sent or read, and no position corrected.
 """
 
 from dataclasses import dataclass, field
@@ -16,16 +16,16 @@ Guidance: TypeAlias = Literal["Joint", "Pose", "PathCorr"]
 
 @dataclass(slots=True, eq=False)
 class EgmSession:
-    """What stands behind an identity, from EGMGetId to EGMReset."""
+    """Session of an identity, from EGMGetId to EGMReset."""
 
     task: str
     guidance: Guidance | None = None
-    """What it was set up for; None: for streaming alone, or not at all."""
+    """Guidance of the set-up; None: streaming alone, or no set-up."""
     device: UdpDevice | None = None
     patience: float | None = None
     """Seconds without a datagram after which there is no communication; None: never."""
     active: Guidance | None = None
-    """What it was activated for."""
+    """Guidance of the activation."""
     streaming: bool = False
     """Positions would go out."""
     guided: bool = False
@@ -36,16 +36,19 @@ class EgmSession:
 
     @property
     def running(self) -> bool:
-        """EGM_STATE_RUNNING; else it is connected."""
+        """True in EGM_STATE_RUNNING; otherwise connected."""
         return self.streaming or self.guided
 
     @property
     def partner(self) -> str:
-        """Who would have to answer."""
+        """Name of the expected partner."""
         return str(self.device)
 
     def end(self) -> None:
-        """Guiding and streaming are over, as after EGMStop and at the end of EGMRunJoint."""
+        """End guidance and streaming.
+
+        EGMStop and the end of EGMRunJoint have this effect.
+        """
         self.streaming = self.guided = False
         if self.limit is not None:
             self.limit.cancel()
@@ -54,33 +57,36 @@ class EgmSession:
 
 
 class EgmSessions:
-    """The identities of a controller. `devices` None: its configuration is not known."""
+    """Identities of a controller; `devices` None: unknown configuration."""
 
     def __init__(self, devices: tuple[UdpDevice, ...] | None) -> None:
         self._devices = devices
         self._sessions: list[EgmSession] = []
 
     def device(self, name: str) -> UdpDevice | None:
-        """A device by its name, behind which programs may write a colon; None: there is none."""
+        """Return a device by name, None if unknown.
+
+        Programs may append a colon.
+        """
         expected = name.removesuffix(":")
         if self._devices is None:
             return UdpDevice(expected)
         return next((d for d in self._devices if d.name.lower() == expected.lower()), None)
 
     def take(self, task: str) -> EgmSession | None:
-        """A new session; None: all identities are in use."""
+        """Return a new session, None if all identities are in use."""
         if len(self._sessions) >= MAX_IDENTITIES:
             return None
         self._sessions.append(EgmSession(task))
         return self._sessions[-1]
 
     def free(self, session: EgmSession) -> None:
-        """Its identity can be taken again."""
+        """Release the identity of a session."""
         session.end()
         if session in self._sessions:
             self._sessions.remove(session)
 
     def close_task(self, task: str) -> None:
-        """Those of a task are free: its variables begin anew."""
+        """Release all identities of a task."""
         for session in [s for s in self._sessions if s.task == task]:
             self.free(session)

@@ -1,7 +1,7 @@
-"""The controller's event log: ABB's domains, numbers and types, one ring for the whole controller.
+"""Event log: ABB's domains, numbers and types in one ring buffer.
 
-An event's code is domain * 10000 + number. Domains and types are those of the controller's own
-log (1 information, 2 warning, 3 error); titles and texts here are ours.
+An event's code is domain * 10000 + number. Domains and types are those of the controller's log (1
+information, 2 warning, 3 error); titles and texts here are ours.
 """
 
 from collections import deque
@@ -31,7 +31,7 @@ class Domain(IntEnum):
 
 
 class EventType(IntEnum):
-    """How much an event weighs."""
+    """Severity of an event."""
 
     INFO = 1
     WARNING = 2
@@ -40,7 +40,7 @@ class EventType(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """One entry. `time` is the controller's time in s; `texts` are the lines below the title."""
+    """An entry; `time` is the controller's in s, `texts` are its lines."""
 
     sequence: int
     time: float
@@ -52,7 +52,7 @@ class Event:
 
     @property
     def domain(self) -> Domain:
-        """The domain that the code belongs to."""
+        """Domain of the code."""
         return Domain(self.code // 10_000)
 
     def __str__(self) -> str:
@@ -64,7 +64,7 @@ class Event:
 
 
 class TimeSource(Protocol):
-    """What tells the time: the scheduler."""
+    """A source of time: the scheduler."""
 
     @property
     def now(self) -> int:
@@ -72,9 +72,9 @@ class TimeSource(Protocol):
 
 
 class EventLog:
-    """Keeps the last `capacity` events and tells listeners of each new one.
+    """The last `capacity` events, with listeners for new ones.
 
-    A listener runs on the controller's own thread, at the moment of the event.
+    A listener runs on the controller's thread, at the time of the event.
     """
 
     def __init__(self, clock: TimeSource, *, capacity: int = 1000) -> None:
@@ -105,16 +105,16 @@ class EventLog:
         return self.write(code, EventType.ERROR, title, *texts, task=task)
 
     def subscribe(self, listener: Callable[[Event], None]) -> Callable[[], None]:
-        """Call `listener` for each new event; the returned function ends that."""
+        """Call `listener` for each new event; the result ends that."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
     def since(self, sequence: int = 0) -> list[Event]:
-        """Events that are newer than the given sequence number and still kept, oldest first."""
+        """Return stored events after a sequence number, oldest first."""
         return [event for event in self._events if event.sequence > sequence]
 
     def clear(self) -> None:
-        """Forget all events; sequence numbers go on."""
+        """Remove all events; sequence numbers continue."""
         self._events.clear()
 
     def __iter__(self) -> Iterator[Event]:

@@ -1,8 +1,8 @@
-"""The controller's disks: HOME:, TEMP:, RAMDISK: and their like are folders of one folder.
+"""Disks of a controller: HOME:, TEMP:, RAMDISK: as folders of one folder.
 
-There is no way out: a path is taken apart as text, `..` never leaves its device, and what a
-link points to must lie inside. Names are found without case where the exact name is missing, as
-on the controller's own disks.
+Paths cannot leave it: a path is split as text, `..` never leaves its device, and the target of a
+link must be inside. Names are compared without case if the exact name is missing, as on the
+controller's disks.
 """
 
 import errno
@@ -39,14 +39,14 @@ MAX_OPEN = 64
 
 
 class DiskReason(StrEnum):
-    """Why a disk refuses something."""
+    """Reason for the rejection by a disk."""
 
     NO_ACCESS = "no access"
     TOO_MANY_OPEN = "too many open files"
 
 
 class DiskFault(Exception):
-    """A disk refuses something; the text says what."""
+    """A rejection by a disk; the text explains it."""
 
     def __init__(self, reason: DiskReason, text: str = "") -> None:
         super().__init__(text or reason.value)
@@ -54,7 +54,7 @@ class DiskFault(Exception):
 
 
 class IODevice:
-    """What a program opens files with: an open file, or nothing."""
+    """An iodev of a program: an open file, or none."""
 
     __slots__ = ("binary", "file", "path", "readable", "writable")
 
@@ -67,7 +67,7 @@ class IODevice:
 
 
 class Directory:
-    """What a program reads folders with: the names that are still to be read, or None."""
+    """A dir of a program: the remaining names, or None."""
 
     __slots__ = ("names",)
 
@@ -80,23 +80,26 @@ _SCRATCH: dict[Path, int] = {}
 
 
 def _remove(folder: Path) -> None:
-    """Remove a scratch folder, unless this is a forked copy of the process that made it."""
+    """Remove a scratch folder.
+
+    A forked copy of the creating process keeps it.
+    """
     if _SCRATCH.pop(folder, None) == os.getpid():
         shutil.rmtree(folder, ignore_errors=True)
 
 
 def remove_scratch_folders() -> None:
-    """Remove what controllers of this process left, where it ends by `os._exit`."""
+    """Remove scratch folders before an end by `os._exit`."""
     for folder in tuple(_SCRATCH):
         _remove(folder)
 
 
 class FileSystem:
-    """Disks of one controller in `folder`, or in a scratch folder that `close` removes.
+    """Disks of one controller in `folder`, or in a scratch folder.
 
-    A scratch folder is made when it is needed: few drivers touch a file. A controller that nobody
-    closed takes its own with it, too. HOME: starts as a copy of `home`, over one of `home_below`;
-    links, pipes and devices in them are left out. DiagnosticError RG705: they are too large.
+    The scratch folder is made on demand, because few drivers access a file; `close`, or the end of
+    the process, removes it. HOME: starts as a copy of `home`, over one of `home_below`; links,
+    pipes and devices are left out. DiagnosticError RG705: they are too large.
     """
 
     def __init__(
@@ -119,7 +122,7 @@ class FileSystem:
 
     @property
     def folder(self) -> Path:
-        """The folder that holds the devices."""
+        """The folder of the devices."""
         if self._folder is None:
             self._folder = _with_devices(Path(tempfile.mkdtemp(prefix="rapidgen-")))
             _SCRATCH[self._folder] = os.getpid()
@@ -134,9 +137,9 @@ class FileSystem:
             self._scratch()
 
     def path(self, text: str, file: str = "") -> Path:
-        """Where a path (with a file's name behind it) lies; relative ones are in HOME:.
+        """Return the file of a path; relative paths are in HOME:.
 
-        DiskFault NO_ACCESS: it names no disk, or leads out of it.
+        `file` is appended. DiskFault NO_ACCESS: no disk, or outside of it.
         """
         if file:
             text = text.rstrip("/\\") + "/" + file if not text.endswith(":") else text + file
@@ -159,25 +162,28 @@ class FileSystem:
         return place
 
     def _inside(self, place: Path) -> bool:
-        """Whether a place lies in the folder, behind all links; a loop of links lies nowhere."""
+        """Return True if a path is inside the folder after all links.
+
+        A loop of links is outside.
+        """
         if len(os.fsencode(place.name)) > _LONGEST_NAME:
             return False
         try:
             place.stat()
         except OSError as error:
-            # Of a loop `resolve` says nothing from Python 3.13 on, and raises before.
+            # `resolve` does not report a loop from Python 3.13 on, and raises before.
             if error.errno == errno.ELOOP:
                 return False
         return place.resolve().is_relative_to(self.folder)
 
     def hold(self, device: IODevice | Directory, task: str) -> None:
-        """A file or folder is open for a task; DiskFault TOO_MANY_OPEN."""
+        """Register an open file or folder. DiskFault TOO_MANY_OPEN."""
         if len(self._open) >= MAX_OPEN:
             raise DiskFault(DiskReason.TOO_MANY_OPEN, f"{MAX_OPEN} files are open")
         self._open[device] = task
 
     def release(self, device: IODevice | Directory) -> None:
-        """Close a file or folder; harmless when it is closed."""
+        """Close a file or folder; ignore a closed one."""
         self._open.pop(device, None)
         if isinstance(device, Directory):
             device.names = None
@@ -186,19 +192,19 @@ class FileSystem:
             device.file = None
 
     def close_task(self, task: str) -> None:
-        """Close what a task has open (PP to main, PP to routine, restart)."""
+        """Close the open files of a task (PP to main or routine, restart)."""
         for device in [d for d, owner in self._open.items() if owner == task]:
             self.release(device)
 
     def spend(self, count: int) -> None:
-        """Account for bytes that are written; DiskFault NO_ACCESS when the disk is full."""
+        """Account for written bytes. DiskFault NO_ACCESS: the disk is full."""
         if count > self._room:
             raise DiskFault(DiskReason.NO_ACCESS, "the disk is full")
         self._room -= count
 
     @property
     def room(self) -> int:
-        """Bytes that may still be written."""
+        """Return the number of bytes that can still be written."""
         return self._room
 
 
@@ -229,10 +235,10 @@ def _find(folder: Path, name: str) -> Path:
 
 
 def copy_files(source: Path, target: Path, *, without: Path | None = None) -> None:
-    """Copy the folders and regular files of `source` into `target`; links are left out.
+    """Copy folders and regular files of `source` into `target`.
 
-    So are pipes, devices and the folder `without`. Raises OSError, TooLarge for more bytes than
-    `LARGEST_COPY`.
+    Links, pipes, devices and the folder `without` are left out. Raises OSError, and TooLarge for
+    more bytes than `LARGEST_COPY`.
     """
     room = LARGEST_COPY
     target.mkdir(parents=True, exist_ok=True)

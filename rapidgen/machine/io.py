@@ -1,8 +1,8 @@
-"""Signals: values, delayed and pulsed changes, cross connections, system outputs and inputs.
+"""Signals: values, delays, pulses, cross connections, system signals.
 
-A signal without a device is a virtual one, and here every signal is: inputs keep what a test, a
-control socket or a cross connection gives them. Sources: the S4 user's guide (pulses, delays, cross
-connections); abb_driver's documentation for the seven system outputs that it wants.
+A signal without a device is virtual, and here all signals are: inputs keep the value of a test, a
+control socket or a cross connection. Sources: the S4 user's guide (pulses, delays, cross
+connections); abb_driver's documentation for its seven system outputs.
 """
 
 import math
@@ -14,9 +14,9 @@ from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
 from rapidgen.system.model import CrossConnection, SignalSpec, SignalType, System
 
-# How a status is spelled in SYSSIG_OUT. First of each row: the name used by `report`. "Error",
-# "TaskExecuting" are seen in public cfg files; the other spellings are remembered or taken from
-# the words on the FlexPendant, so that all of them are understood.
+# Spelling of statuses in SYSSIG_OUT. First in each row: the name in `report`. Public cfg files
+# contain "Error" and "TaskExecuting". The other spellings are remembered or from the FlexPendant;
+# all are accepted.
 _STATUS_ROWS: Final = """
     MotorOn MotOn MotorsOn MotOnState MotorsOnState
     MotorOff MotOff MotorsOff MotOffState MotorsOffState
@@ -44,17 +44,17 @@ STATUSES: Final[dict[str, str]] = {
     for spelling in row.split()
 }
 Relation = Literal["=", "<>", "<", ">", "<=", ">="]
-# Without an argument such a status holds when it holds for all; every other one for any.
+# Without an argument, such a status requires all sources; any other status requires one.
 _FOR_ALL: Final = frozenset({"MechUnitNotMoving", "MechUnitActive"})
 
 
 def status_name(spelling: str) -> str | None:
-    """Our name of a SYSSIG_OUT status, or None when it is not one we know."""
+    """Return the internal name of a SYSSIG_OUT status, None if unknown."""
     return STATUSES.get(spelling.replace(" ", "").replace("_", "").lower())
 
 
 class Signal:
-    """One signal. `value` is int for digital and group signals, float for analogue ones."""
+    """A signal: int for digital and group signals, float for analogue ones."""
 
     __slots__ = ("changed", "crossed", "pending", "sharers", "spec", "value")
 
@@ -71,23 +71,23 @@ class Signal:
 
     @property
     def name(self) -> str:
-        """The name in EIO.cfg."""
+        """Name in EIO.cfg."""
         return self.spec.name
 
     @property
     def signal(self) -> "Signal":
-        """Itself: where a program gives a signal it may also give an alias of one."""
+        """The signal itself, so that an alias is usable in its place."""
         return self
 
     @property
     def largest(self) -> float:
-        """The largest value that fits; infinite for an analogue signal without limits."""
+        """Largest value; infinite for an unlimited analogue signal."""
         if self.spec.type in ("AI", "AO"):
             return self.spec.high if self.spec.low or self.spec.high else math.inf
         return 2**self.spec.size - 1 if self.spec.type in ("GI", "GO") else 1
 
     def fit(self, value: float) -> float:
-        """`value` as this signal holds it. ValueError: it does not fit."""
+        """Return `value` as this signal represents it, or raise ValueError."""
         if self.spec.type in ("AI", "AO"):
             low, high = self.spec.low, self.spec.high
             if not math.isfinite(value):
@@ -102,14 +102,14 @@ class Signal:
 
 @dataclass(frozen=True, slots=True)
 class SignalCondition:
-    """What somebody waits for: a signal that is in this relation to a value."""
+    """A condition that a program waits for: a signal relation."""
 
     signal: Signal
     relation: Relation
     value: float
 
     def holds(self) -> bool:
-        """Whether it is now."""
+        """Return True if the condition is true now."""
         now, value = self.signal.value, self.value
         match self.relation:
             case "=":
@@ -126,7 +126,7 @@ class SignalCondition:
                 return now >= value
 
     def fulfilling(self) -> float | None:
-        """A value with which it would hold, and which fits the signal; None: there is none."""
+        """Return a possible value that makes it true, None without one."""
         match self.relation:
             case "=" | "<=" | ">=":
                 tries = [self.value]
@@ -160,12 +160,15 @@ class _Output:
 
 
 class IOSystem:
-    """All signals of one controller. Names are compared without case."""
+    """All signals of one controller; names compare without case."""
 
     def __init__(
         self, scheduler: Scheduler, log: EventLog, system: System, *, lowest_first: bool = True
     ) -> None:
-        """`lowest_first`: the first bit of a group's map is its lowest (switch `bit_order`)."""
+        """`lowest_first` puts the lowest bit of a group first in its map.
+
+        The switch `bit_order` sets it.
+        """
         self._scheduler = scheduler
         self._log = log
         self.signals: dict[str, Signal] = {}
@@ -177,14 +180,14 @@ class IOSystem:
         self.on_end: Callable[[str], None] | None = None
         """Called with the action when it falls."""
         self.on_awaited: Callable[[SignalCondition], None] | None = None
-        """Called with what somebody begins to wait for."""
+        """Called when a program begins to wait for a condition."""
         self._units = {spec.device.casefold() for spec in system.signals} - {""}
         self.disabled: set[str] = set()
         """Units that programs have switched off, folded."""
         self.any_unit = False
-        """Whether every unit that a program names is there: in a guessed cell."""
+        """True in an inferred cell: every named unit exists."""
         self.divisors: frozenset[str] = frozenset()
-        """What programs divide by, lower case: made-up signals that begin so are 1 at first."""
+        """Divisors in programs, lower case: inferred signals with such a name start at 1."""
         self._states: dict[str, dict[str, float]] = {}
         self._outputs = [*self._system_outputs(system)]
         self._actions: dict[int, list[tuple[str, str]]] = {}
@@ -203,15 +206,18 @@ class IOSystem:
     # -- reading and finding ----------------------------------------------------------------
 
     def is_unit(self, name: str) -> bool:
-        """Whether a signal is on the unit of that name."""
+        """Return True if a signal is on the unit of that name."""
         return self.any_unit or name.casefold() in self._units
 
     def get(self, name: str) -> Signal | None:
-        """The signal of that name, or None."""
+        """Return the signal of a name, or None."""
         return self.signals.get(name.lower())
 
     def made_up(self, name: str, kind: SignalType) -> Signal | None:
-        """A signal that a program names by a text, in a guessed cell; None elsewhere."""
+        """Return a signal that a program names by text.
+
+        It exists in an inferred cell only; otherwise None.
+        """
         if not self.any_unit or not name:
             return None
         made = Signal(SignalSpec(name, kind, size=_GROUP_BITS if kind[0] == "G" else 1))
@@ -223,16 +229,16 @@ class IOSystem:
         return self.signals[name.lower()]
 
     def await_value(self, awaited: SignalCondition) -> None:
-        """Let whoever drives inputs know what a program is going to wait for."""
+        """Report a condition that a program is going to wait for."""
         if self.on_awaited is not None and not awaited.holds():
             self.on_awaited(awaited)
 
     # -- changing ---------------------------------------------------------------------------
 
     def set(self, signal: Signal, value: float, *, delay: float = 0.0) -> None:
-        """Order a value, at once or after `delay` s. Later orders drop earlier pending ones.
+        """Set a value, at once or after `delay` s.
 
-        Raises ValueError when the value does not fit the signal.
+        Later orders cancel pending earlier ones. ValueError: the signal cannot represent the value.
         """
         fitting = signal.fit(value)
         self._drop_pending(signal)
@@ -243,7 +249,10 @@ class IOSystem:
             self._store(signal, fitting)
 
     def pulse(self, signal: Signal, length: float, *, high: bool = False) -> None:
-        """Invert a digital signal for `length` s (`high`: to 1 whatever it was, then to 0)."""
+        """Invert a digital signal for `length` s.
+
+        `high`: set it to 1 in any case, then to 0.
+        """
         back = 0.0 if high else signal.value
         self._drop_pending(signal)
         self._store(signal, 1 if high else 1 - signal.value, spread=False)
@@ -253,7 +262,7 @@ class IOSystem:
         signal.pending.append(timer)
 
     def power_up(self) -> None:
-        """Outputs take their default values; pending changes are gone."""
+        """Set outputs to their defaults and cancel pending changes."""
         for signal in self.signals.values():
             self._drop_pending(signal)
             if signal.spec.type[1] == "O":
@@ -297,7 +306,7 @@ class IOSystem:
     # -- shared bits ------------------------------------------------------------------------
 
     def _share(self) -> None:
-        """Find signals of one device and direction that share bits of it."""
+        """Find signals of one device and direction with common bits."""
         users: dict[tuple[str, str, int], list[Signal]] = {}
         for signal in self.signals.values():
             if signal.spec.device and signal.spec.type[0] != "A":
@@ -312,7 +321,10 @@ class IOSystem:
                 ]
 
     def _follow(self, signal: Signal) -> list[Signal]:
-        """Give the bits of a digital or group signal to those that share them; who changed."""
+        """Copy the bits of a signal to those that share them.
+
+        Returns the changed signals.
+        """
         changed = []
         for other in signal.sharers:
             value = int(other.value)
@@ -363,9 +375,9 @@ class IOSystem:
     # -- system outputs ---------------------------------------------------------------------
 
     def report(self, status: str, value: float, argument: str = "") -> None:
-        """A status of the controller is now `value`, for `argument` (a task, a unit) if it has one.
+        """Set a status of the controller to `value`.
 
-        `status` is one of the names that `STATUSES` maps to.
+        `argument` is a task or a unit, if the status has one. `status` is a name from `STATUSES`.
         """
         states = self._states.setdefault(status, {})
         if states.get(argument.lower()) == value:

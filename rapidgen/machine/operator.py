@@ -1,7 +1,7 @@
-"""The operator's side: the FlexPendant's screen and the dialogs that wait for an answer.
+"""Operator: FlexPendant screen and dialogs that wait for an answer.
 
-Dialogs are answered by a script (`DescriptionChoices`), by the control socket or by a test. With
-none of them there is no FlexPendant, and every dialog raises ERR_TP_NO_CLIENT.
+A script (`DescriptionChoices`), the control socket or a test answers dialogs. Without any of them
+there is no FlexPendant, and every dialog raises ERR_TP_NO_CLIENT.
 """
 
 from collections import deque
@@ -22,10 +22,10 @@ ROWS = 20
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """One scripted answer. Empty conditions fit every dialog.
+    """A scripted answer; empty conditions match every dialog.
 
-    `task` and `dialog` are whole names (`TPReadNum`), `text` is contained in the question;
-    `after` is the operator's time to think in s.
+    `task` and `dialog` are complete names (`TPReadNum`), `text` is a part of the question; `after`
+    is the response time of the operator in s.
     """
 
     value: str
@@ -35,7 +35,7 @@ class Answer:
     after: float = 0.0
 
     def fits(self, question: "Question") -> bool:
-        """Whether this answers that question."""
+        """Return True if this answers the question."""
         return (
             self.task.lower() in ("", question.task.lower())
             and self.dialog.lower() in ("", question.dialog.lower())
@@ -45,7 +45,7 @@ class Answer:
 
 @dataclass(slots=True, eq=False)
 class Question:
-    """A dialog on the screen. `check` returns an answer's value, or raises ValueError."""
+    """A dialog; `check` returns an answer's value or raises ValueError."""
 
     number: int
     task: str
@@ -54,7 +54,7 @@ class Question:
     choices: tuple[str, ...]
     check: Callable[[str], object]
     proposed: str = ""
-    """What the program would like to be answered: a default, an initial value."""
+    """Suggested answer of the program: a default, an initial value."""
     answer: object = None
     answered: bool = False
     refused: str = ""
@@ -72,7 +72,7 @@ class Operator:
         self._listeners: list[Callable[[str, str], None]] = []
         self._attached = 0
         self.rows: deque[str] = deque(maxlen=ROWS)
-        """What the screen shows, oldest row first."""
+        """Rows of the screen, oldest first."""
         self.questions: list[Question] = []
         """Dialogs that wait, in the order in which they came."""
         self.asked = WaitSet()
@@ -80,11 +80,11 @@ class Operator:
 
     @property
     def present(self) -> bool:
-        """Whether anybody can answer."""
+        """True if an operator or a script can answer."""
         return self._script is not None or self._attached > 0
 
     def attach(self) -> Callable[[], None]:
-        """Somebody answers from now on; the returned function ends that."""
+        """Register a source of answers; the result ends that."""
         self._attached += 1
 
         def detach() -> None:
@@ -100,7 +100,7 @@ class Operator:
             self.rows.append(text[start : start + ROW])
 
     def write(self, task: str, text: str) -> None:
-        """A program's own text: shown, and listeners get it whole."""
+        """Show a program's text; listeners receive the complete text."""
         self.show(text)
         for listener in tuple(self._listeners):
             listener(task, text)
@@ -110,7 +110,7 @@ class Operator:
         self.rows.clear()
 
     def subscribe(self, listener: Callable[[str, str], None]) -> Callable[[], None]:
-        """Call `listener(task, text)` for each text; the returned function ends that."""
+        """Call `listener(task, text)` for each text; the result ends that."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
@@ -125,7 +125,7 @@ class Operator:
         check: Callable[[str], object],
         proposed: str = "",
     ) -> Question:
-        """Put a dialog on the screen; `withdraw` it in the end."""
+        """Show a dialog; the caller must `withdraw` it."""
         number = next(self._numbers)
         question = Question(number, task, dialog, text, tuple(choices), check, proposed)
         self.questions.append(question)
@@ -142,7 +142,7 @@ class Operator:
         return question
 
     def waits(self, task: str) -> str:
-        """What a task waits for on the screen, or an empty text."""
+        """Return the dialog that a task waits for, or an empty text."""
         for question in self.questions:
             if question.task == task:
                 requested = question.text.replace("\n", " ")
@@ -151,13 +151,16 @@ class Operator:
         return ""
 
     def withdraw(self, question: Question) -> None:
-        """Take a dialog off the screen."""
+        """Remove a dialog from the screen."""
         if question in self.questions:
             self.questions.remove(question)
             self.asked.notify()
 
     def answer(self, number: int, value: str) -> None:
-        """Answer a question. KeyError: no such question; ValueError: not an answer to it."""
+        """Answer a question.
+
+        KeyError: unknown question; ValueError: invalid answer.
+        """
         for question in self.questions:
             if question.number == number:
                 question.answer = question.check(value)
@@ -176,7 +179,7 @@ class Operator:
 
 
 def read_answers(path: Path) -> list[Answer]:
-    """A script of answers: a YAML list of values or of mappings with `answer`.
+    """Read a YAML list of values or of mappings with `answer`.
 
     Raises DiagnosticError RG420.
     """

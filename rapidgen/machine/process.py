@@ -1,4 +1,4 @@
-"""Processes: greenlets that share the CPU of a scheduler and are charged for what they do."""
+"""Processes: greenlets that share the CPU of a scheduler."""
 
 from collections.abc import Callable
 from types import FrameType
@@ -9,10 +9,10 @@ from rapidgen.machine.scheduler import Scheduler
 
 
 class Process:
-    """A greenlet that is charged for what it does. RAPID tasks are processes.
+    """A greenlet that pays for its CPU time, such as a RAPID task.
 
-    What it is launched with runs in the greenlet `body`; `process_pending()` is called at every
-    poll and after every wait and is where a task serves traps and stops.
+    The launched function runs in the greenlet `body`. `process_pending()` is called at every poll
+    and after every wait; there a task handles traps and stops.
     """
 
     __slots__ = ("_blocked", "_kicked", "b", "body", "name", "scheduler", "slice_end")
@@ -29,19 +29,19 @@ class Process:
     # -- for the scheduler and its owner -----------------------------------------------------------
 
     def launch(self, function: Callable[[], None]) -> None:
-        """Start a function in a fresh greenlet at the next turn."""
+        """Start a function in a new greenlet at the next turn."""
         self.body = greenlet.greenlet(function)
         self._blocked = False
         self.scheduler.ready.append(self)
 
     def abandon(self) -> None:
-        """End the greenlet where it is; nothing wakes it any more. It can be launched again."""
+        """End the greenlet at its current place; it can be launched again."""
         self._blocked = False
         self.body = None
 
     @property
     def alive(self) -> bool:
-        """Whether it has been launched and has not returned."""
+        """True between launch and return."""
         return self.body is not None and not self.body.dead
 
     @property
@@ -51,7 +51,7 @@ class Process:
         return result
 
     def wake(self) -> None:
-        """Make a blocked process ready; it looks at the reason itself."""
+        """Make a blocked process ready; it evaluates the reason itself."""
         if self._blocked:
             self._blocked = False
             self.scheduler.ready.append(self)
@@ -62,13 +62,13 @@ class Process:
     # -- inside the process ----------------------------------------------------------------------
 
     def block(self) -> None:
-        """Give the CPU away until somebody calls `wake()`; then `process_pending()`."""
+        """Release the CPU until `wake()`, then call `process_pending()`."""
         self._blocked = True
         self.scheduler.suspend(self)
         self.process_pending()
 
     def poll(self, b: int) -> int:
-        """Account for a spent budget, let the world go on, return the next budget."""
+        """Account for a spent budget, let time pass, return the next budget."""
         self.b = b
         scheduler = self.scheduler
         if scheduler.catch_up(self):
@@ -79,12 +79,12 @@ class Process:
         return self.b
 
     def yield_cpu(self) -> None:
-        """Go to the end of the queue when others are ready; then `process_pending()`."""
+        """Let other ready processes run, then call `process_pending()`."""
         self.switch()
         self.process_pending()
 
     def switch(self) -> None:
-        """Go to the end of the queue when others are ready, in the middle of a statement."""
+        """Let other ready processes run, in the middle of a statement."""
         scheduler = self.scheduler
         self._kicked = False
         if scheduler.catch_up(self):
@@ -94,7 +94,7 @@ class Process:
             scheduler.suspend(self)
         else:
             scheduler.grant(self)
-        if self._kicked:  # nothing has attended to what came meanwhile
+        if self._kicked:  # Events that arrived meanwhile have not been handled.
             self.wake_at_next_statement()
 
     def charge(self, cost: int) -> None:
@@ -104,7 +104,7 @@ class Process:
             self.poll(self.b)
 
     def wake_at_next_statement(self) -> None:
-        """Let `process_pending()` be called before the next statement, or in the wait."""
+        """Call `process_pending()` before the next statement or in the wait."""
         scheduler = self.scheduler
         self._kicked = True
         if scheduler.running is self:
@@ -114,6 +114,9 @@ class Process:
             self.wake()
 
     def process_pending_if_woken(self) -> None:
-        """Before a wait that begins in the middle of a statement: nobody would kick again."""
+        """Handle pending events before a wait inside a statement.
+
+        After the wait begins, no further wake-up would follow.
+        """
         if self.b < 0:
             self.poll(self.b)

@@ -1,4 +1,24 @@
-"""Scheduler."""
+"""Scheduler: time, events and the one CPU of a controller.
+
+All of one controller runs on one thread: events are plain callbacks that never wait, processes
+(`process.py`) are greenlets. `now` is integer nanoseconds. On the virtual clock time passes only by
+the costs of processes and by jumps to the next event. On the real clock the same accounting is
+limited to the wall clock, and the operating system's sockets are served between slices.
+
+Rules:
+
+1. A running process counts down `b`, the nanoseconds until the next event, the end of its slice or
+   of the run. `now` is therefore `deadline - b` while it runs, and compiled code needs one
+   subtraction and one test for clock, preemption, traps and stops.
+2. Events at the same time run in the order of their creation. Events before the end of a process's
+   slice run first; an event at exactly that time runs after the process, however the time was
+   divided (`_fire_before`). Runs are reproducible only with this order.
+3. A change (`WaitSet.notify`) makes waiting processes ready in the order in which they began to
+   wait; a process evaluates its condition again when it runs.
+4. Random numbers come from seeded sources, one for each purpose, so that an additional draw for one
+   purpose does not change the others.
+5. Other threads may only call `post`.
+"""
 
 import heapq
 import os
@@ -17,18 +37,6 @@ from typing import Literal, Protocol, TypeAlias, get_args
 import greenlet
 
 # -- Scheduler -------------------------------------------------------------------------------------
-#
-# Time, events and the one CPU that all processes (`process.py`) share.
-#
-# Everything of one controller runs on one thread: events are plain callbacks that never wait,
-# processes are greenlets. `now` is integer nanoseconds. On the virtual clock time passes only by
-# what processes are charged and by jumping to the next event; on the real clock the same
-# accounting is held back to the wall clock, and the operating system's sockets are served
-# between slices.
-#
-# A running process counts down `b`, the nanoseconds until anything can concern it: the next
-# event, the end of its slice or of the run. `now` is therefore `deadline - b` while it runs, and
-# compiled code needs one subtraction and one test for clock, preemption, traps and stops.
 
 
 ClockKind: TypeAlias = Literal["virtual", "real"]
@@ -40,19 +48,19 @@ AdvanceEnd: TypeAlias = Literal["time", "stop", "idle", "paused"]
 MS = 1_000_000
 S = 1_000_000_000
 QUANTUM = 2 * MS
-# Single-digit integers of CPython, which it subtracts fastest, and short enough that endless
-# recursion is found before it costs much memory.
+# Single-digit integers of CPython have the fastest subtraction. The limit is low enough to detect
+# endless recursion before it costs much memory.
 PATIENCE = 20 * MS
 """A process that waits for the CPU longer than that comes first, whatever its priority."""
 _LARGEST_BUDGET = 50 * MS
 _SERVE_EVERY = 2 * MS
 CLOSED = "the controller is closed: make another one"
 _LAG = 200 * MS
-"""Real ns by which a busy machine may be behind, and catches up."""
+"""Real ns by which a busy machine may lag and then catch up."""
 
 
 class Timer:
-    """One event on the heap; `cancel()` makes it nothing."""
+    """An event on the heap; `cancel()` removes its effect."""
 
     __slots__ = ("function", "time")
 
@@ -62,16 +70,19 @@ class Timer:
 
     @property
     def active(self) -> bool:
-        """Whether the event is still to come."""
+        """True if the event is still to come."""
         return self.function is not None
 
     def cancel(self) -> None:
-        """Take the event back; harmless when it has already happened."""
+        """Cancel the event, if it has not happened yet."""
         self.function = None
 
 
 class WaitSet:
-    """Something that changes. Whoever waits for it is woken by `notify()` and looks again."""
+    """A changing object; `notify()` wakes all that wait for it.
+
+    They then evaluate their conditions again.
+    """
 
     __slots__ = ("w",)
 
@@ -88,7 +99,7 @@ class WaitSet:
         self.w.remove(wake)
 
     def notify(self) -> None:
-        """Tell everybody, in the order in which they came."""
+        """Wake all, in the order in which they were added."""
         for wake in tuple(self.w):
             wake()
 
@@ -97,19 +108,22 @@ class WaitSet:
 
 
 class Runnable(Protocol):
-    """What the scheduler dispatches; `process.py` has it."""
+    """A process as the scheduler dispatches it, see `process.py`."""
 
     b: int
-    """Nanoseconds that are left until anything can concern it."""
+    """Nanoseconds until the next event that may concern it."""
     slice_end: int
     body: greenlet.greenlet | None
 
     def abandon(self) -> None:
-        """End the greenlet where it is."""
+        """End the greenlet at its current place."""
 
 
 class Scheduler:
-    """Clock, event heap, CPU, random sources. Bound to the thread that steps it."""
+    """Clock, event heap, CPU, random sources of one controller.
+
+    It belongs to the thread that steps it.
+    """
 
     def __init__(
         self,
@@ -152,7 +166,7 @@ class Scheduler:
         self._origin = (0, time.monotonic_ns())
 
     def draw_from(self, seed: int) -> None:
-        """Take all chances from another seed: copies of one machine differ from here on."""
+        """Use another seed from now on, for copies of one machine."""
         self.seed = seed
         self.rng = random.Random(f"{seed}")
         self._order = random.Random(f"{seed} schedule")
@@ -165,12 +179,12 @@ class Scheduler:
 
     @property
     def now(self) -> int:
-        """Nanoseconds since the controller was made."""
+        """Nanoseconds since the creation of the controller."""
         process = self.running
         return self._now if process is None else self.deadline - process.b
 
     def at(self, time_ns: int, function: Callable[[], None]) -> Timer:
-        """Call `function` at a time (at once on the next turn when that has passed)."""
+        """Call `function` at a time, or at the next turn if it has passed."""
         timer = Timer(time_ns, function)
         heapq.heappush(self._heap, (time_ns, next(self._serial), timer))
         process = self.running
@@ -184,10 +198,10 @@ class Scheduler:
         return self.at(self.now + max(0, delay_ns), function)
 
     def call_later_readonly(self, delay_ns: int, function: Callable[[], None]) -> None:
-        """Call `function`, which only looks, after a delay: nothing else happens otherwise for it.
+        """Call `function`, which only reads, after a delay, without effects.
 
-        On the virtual clock it is called when time next stands still there or later: it cuts
-        nobody's turn short, keeps no controller busy and lets no `stop()` be asked once more.
+        On the virtual clock it is called when time next stops at that time or later: it shortens no
+        slice, keeps no controller busy and triggers no additional check of `stop()`.
         """
         time = self.now + max(0, delay_ns)
         if self.clock == "real":
@@ -196,7 +210,7 @@ class Scheduler:
             heapq.heappush(self._looks, (time, next(self._serial), function))
 
     def _look(self, end: int) -> None:
-        """Let those look whose time comes up to `end`."""
+        """Call reading functions that are due up to `end`."""
         while self._looks and self._looks[0][0] <= end:
             when, _, function = heapq.heappop(self._looks)
             if when > self._now:
@@ -205,13 +219,13 @@ class Scheduler:
 
     @property
     def paused(self) -> bool:
-        """Whether no time passes until `resume()`, whoever asks for it."""
+        """True if no time passes until `resume()`."""
         return self._paused
 
     def pause(self, process: Runnable | None = None) -> None:
-        """Let no time pass from now on, for anybody; what is posted is still carried out.
+        """Let no time pass; posted functions still run.
 
-        `process` is the one that asks, between two of its statements: it goes on at `resume()`.
+        `process` is the caller, between two of its statements: it continues at `resume()`.
         """
         self._paused = True
         if process is not None:
@@ -219,14 +233,17 @@ class Scheduler:
             self.suspend(process)
 
     def resume(self) -> None:
-        """Time may pass again, from where it was paused."""
+        """Let time pass again from the pause."""
         if self._paused:
             self._paused = False
             self.rebase()
             self._wake_up()
 
     def post(self, function: Callable[[], None]) -> None:
-        """Run `function` on the scheduler's thread. The only method for other threads."""
+        """Run `function` on the scheduler's thread.
+
+        It is the only method for other threads.
+        """
         self._posted.append(function)
         self._wake_up()
 
@@ -238,7 +255,10 @@ class Scheduler:
 
     @property
     def selector(self) -> selectors.BaseSelector:
-        """Sockets of the operating system; `data` of a key is called with the event mask."""
+        """Selector for sockets of the operating system.
+
+        The `data` of a key is called with the event mask.
+        """
         if self._selector is None:
             self._selector = selectors.DefaultSelector()
             if self.clock == "real":
@@ -249,7 +269,7 @@ class Scheduler:
         return self._selector
 
     def close(self) -> None:
-        """Give back the operating system's handles; no time passes any more."""
+        """Release the operating system's handles; time no longer passes."""
         self.is_closed = True
         if self._selector is not None:
             self._selector.close()
@@ -260,10 +280,10 @@ class Scheduler:
             self._pipe = None
 
     def close_processes(self, processes: Iterable[Runnable]) -> None:
-        """Forget what is ready and end the processes' greenlets, on the thread they ran on.
+        """Remove ready processes and end their greenlets.
 
-        The collector does not see through a suspended greenlet: one that is left so keeps
-        everything that its frames refer to.
+        It runs on their thread. The garbage collector cannot see into a suspended greenlet: one
+        that stays suspended keeps all objects of its frames.
         """
         self.ready.clear()
         self._front = None
@@ -274,11 +294,11 @@ class Scheduler:
 
     @property
     def preempted(self) -> Runnable | None:
-        """The process that goes on first when time passes again."""
+        """The process that continues first when time passes again."""
         return self._front
 
     def next_event(self) -> int | None:
-        """Time of the next event that has not been cancelled."""
+        """Return the time of the next active event."""
         heap = self._heap
         while heap and heap[0][2].function is None:
             heapq.heappop(heap)
@@ -291,9 +311,9 @@ class Scheduler:
     ) -> AdvanceEnd:
         """Let time pass.
 
-        Returns "time" when `until` is reached, "stop" when `stop()` said so after something
-        happened, "idle" when nothing is ready and nothing is ahead, "paused" while it is paused
-        (both on the virtual clock only). RuntimeError: it passes already, or ended with `close`.
+        Returns "time" at `until`, "stop" if `stop()` returned True after an event, "idle" if no
+        process is ready and no event follows, "paused" while it is paused (both on the virtual
+        clock only). RuntimeError: time passes already, or ended with `close`.
         """
         if self.is_closed:
             raise RuntimeError(CLOSED)
@@ -307,9 +327,9 @@ class Scheduler:
         try:
             return self._advance_real() if self.clock == "real" else self._advance_virtual()
         finally:
-            # A thread's own greenlet that is kept longer than the thread is looked for among all
-            # objects when the thread ends; if it is not found because they are just being
-            # collected, greenlet 3.5 gives it away while it is here, and the process crashes.
+            # When a thread ends, a thread's greenlet that is still referenced is searched among all
+            # objects. If it is not found because they are being collected at this time, greenlet
+            # 3.5 frees it while it is in use, and the process crashes.
             self._hub = None
 
     def _advance_virtual(self) -> AdvanceEnd:
@@ -339,7 +359,7 @@ class Scheduler:
 
     def _advance_real(self) -> AdvanceEnd:
         until, stop = self._until, self._stop
-        # Made before anybody looks at what was posted: what is posted later writes into its pipe.
+        # Created before posted functions run: later posts write to its pipe.
         _ = self.selector
         while True:
             if self._posted:
@@ -373,7 +393,7 @@ class Scheduler:
                 self._fire(max(target, self._now))
 
     def _wait_paused(self) -> None:
-        """Until something is posted: the sockets of the operating system wait meanwhile."""
+        """Wait for posted functions; the sockets wait meanwhile."""
         assert self._pipe is not None
         if not self._posted:
             select.select([self._pipe[0]], [], [])
@@ -384,8 +404,11 @@ class Scheduler:
         return start + int((time.monotonic_ns() - wall) * self.speed)
 
     def _wall_behind(self, due: int | None) -> int:
-        """The real clock. What this machine could not do in time makes it later, not faster: a
-        burst would be time that the outside never had."""
+        """Return the real clock minus lost time.
+
+        A delay of this machine makes virtual time later, not faster: a burst would be time that the
+        outside never had.
+        """
         wall = self._wall()
         latest = wall if due is None else due + int(_LAG * self.speed)
         if wall <= latest:
@@ -395,13 +418,13 @@ class Scheduler:
         return latest
 
     def pace(self, speed: float) -> None:
-        """Simulated seconds in a second from now on; 0 lets time stand. Real clock only."""
+        """Set virtual seconds per second; 0 stops time. Real clock only."""
         wall = self._wall()
         self._origin = (wall, time.monotonic_ns())
         self.speed = speed
 
     def rebase(self) -> None:
-        """Tie the real clock to `now`: after a pause nothing is caught up."""
+        """Tie the real clock to `now`, so that a pause is not caught up."""
         self._origin = (self._now, time.monotonic_ns())
 
     def _serve(self, timeout: float | None) -> None:
@@ -413,7 +436,7 @@ class Scheduler:
                 key.data(mask)
 
     def _come_up(self, wall: int) -> None:
-        """What comes from outside comes now, not when the last event was."""
+        """Set `now` to the time of external input, not of the last event."""
         if self._front is None and not self.ready:
             ahead = self.next_event()
             self._now = max(self._now, wall if ahead is None else min(wall, ahead))
@@ -428,7 +451,7 @@ class Scheduler:
                 return
 
     def run_posted(self) -> None:
-        """Run what other threads posted; where nobody else does so any more."""
+        """Run functions posted by other threads, without time passing."""
         for _ in range(len(self._posted)):
             self._posted.popleft()()
 
@@ -455,8 +478,10 @@ class Scheduler:
             self._now = end
 
     def _fire_before(self, end: int) -> None:
-        """Events that come before a process reaches `end`; those at `end` itself come after
-        what it does there, however the time was cut into pieces."""
+        """Run events before a process reaches `end`.
+
+        Events at `end` itself follow after the process, however the time was divided.
+        """
         if self._heap and self._heap[0][0] < end:
             self._fire(end - 1)
         if self._looks:
@@ -479,7 +504,7 @@ class Scheduler:
         self.grant(process)
         body = process.body
         assert body is not None
-        if not body:  # not started: when it ends, the loop goes on here
+        if not body:  # not started: when it ends, the loop continues here
             body.parent = greenlet.getcurrent()
         try:
             body.switch()
@@ -493,7 +518,7 @@ class Scheduler:
             self.running = None
 
     def _choose(self) -> None:
-        """Put first whoever comes next."""
+        """Put the next process first."""
         if self.schedule == "random":
             self.ready.rotate(-self._order.randrange(len(self.ready)))
         elif self.schedule == "priorities":
@@ -508,11 +533,14 @@ class Scheduler:
             ready.rotate(-ready.index(first))
 
     def preempt(self, accesses: Iterable[int]) -> None:
-        """Under priorities: at the n-th access to a PERS from now on whoever runs becomes last."""
+        """Make the running process last at the n-th access to a PERS.
+
+        It applies to schedules with priorities.
+        """
         self._preemptions = sorted((self._accesses + n for n in accesses), reverse=True)
 
     def switches_here(self) -> bool:
-        """Whether a schedule switches at this access to a PERS."""
+        """Return True if a schedule switches at this access to a PERS."""
         if self.schedule == "priorities":
             self._accesses += 1
             due = self._preemptions
@@ -531,7 +559,10 @@ class Scheduler:
     # -- called by processes ---------------------------------------------------------------------
 
     def grant(self, process: Runnable) -> None:
-        """Give the CPU to `process`: its budget lasts until something may concern it."""
+        """Give the CPU to `process`.
+
+        Its budget lasts until the next event that may concern it.
+        """
         now = self._now
         limit = now + _LARGEST_BUDGET
         ahead = self.next_event()
@@ -546,7 +577,7 @@ class Scheduler:
         self.running = process
 
     def catch_up(self, process: Runnable) -> bool:
-        """Account for what `process` spent; True when it must give way now."""
+        """Account for time spent by `process`; return True if it must yield."""
         end = self.deadline - process.b
         self.running = None
         self._fire_before(end)
@@ -570,7 +601,7 @@ class Scheduler:
         return False
 
     def suspend(self, process: Runnable) -> None:
-        """Switch to the loop; returns when `process` is dispatched again."""
+        """Switch to the loop; return when `process` is dispatched again."""
         if self.running is process:
             end = self.deadline - process.b
             self.running = None
@@ -581,17 +612,15 @@ class Scheduler:
 
 # -- Date and time ---------------------------------------------------------------------------------
 #
-# The controller's date and time of day.
-#
-# On the real clock it is the machine's. On the virtual clock it is a fixed day plus the simulated
-# time, so that a run is the same every time.
+# On the real clock date and time are the machine's. On the virtual clock they are a fixed day plus
+# the virtual time, so that all runs are equal.
 
 
 FIRST_DAY = datetime(2026, 1, 1, 8)
 
 
 def date_time(scheduler: Scheduler) -> datetime:
-    """Now, as the controller shows it."""
+    """Return the controller's date and time."""
     if scheduler.clock == "real":
         return datetime.now()
     return FIRST_DAY + timedelta(microseconds=scheduler.now // 1000)
@@ -604,7 +633,7 @@ def date_time(scheduler: Scheduler) -> datetime:
 
 @dataclass(slots=True)
 class SyncPoint:
-    """Tasks that have come to one synchronisation point."""
+    """Tasks at a synchronisation point."""
 
     members: frozenset[str]
     arrived: set[str] = field(default_factory=set)
@@ -614,7 +643,7 @@ class SyncPoint:
 
 @dataclass(slots=True)
 class SyncMoveGroup:
-    """Tasks that have come to a move of one \\ID, and how long each of them would take (s)."""
+    """Tasks at a move of one \\ID, and their move times (s)."""
 
     times: dict[str, float] = field(default_factory=dict)
     changed: WaitSet = field(default_factory=WaitSet)
@@ -623,7 +652,7 @@ class SyncMoveGroup:
 
 
 class SyncPoints:
-    """The synchronisation points of one controller at which somebody waits."""
+    """Synchronisation points of one controller with waiting tasks."""
 
     def __init__(self) -> None:
         self.points: dict[tuple[object, frozenset[str]], SyncPoint] = {}
@@ -631,4 +660,4 @@ class SyncPoints:
         self.moves: dict[tuple[frozenset[str], float], SyncMoveGroup] = {}
         """Moves of one \\ID: by partners and \\ID."""
         self.any_task = False
-        """Whether tasks that are named and not there are left out (a guessed cell)."""
+        """True in an inferred cell: unknown tasks are ignored."""

@@ -8,15 +8,18 @@ from rapidgen.machine.scheduler import WaitSet
 
 # -- Cameras ---------------------------------------------------------------------------------------
 #
-# Cameras of integrated vision, as far as a file tells what they see: no picture is looked at.
+# Cameras of integrated vision, as far as a file describes their results; no picture is processed.
 #
-# Each image that a program asks for is the next one of the description, and behind the last the
-# first again. A result is what the camera's job would have found.
+# Each requested image is the next one of the description; after the last follows the first. A
+# result is that of the camera's job.
 
 
 @dataclass(frozen=True, slots=True)
 class Seen:
-    """One result: place in the camera's frame (mm), turn about its z (deg), and what a job adds."""
+    """A result: position (mm) and rotation about z (deg) in the camera's frame.
+
+    The other values are those of the job.
+    """
 
     name: str = ""
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -30,14 +33,14 @@ class Seen:
 
 @dataclass(slots=True)
 class Camera:
-    """A camera; `images` None: nothing tells what it sees."""
+    """A camera; `images` None: no description."""
 
     name: str
     images: Sequence[Sequence[Seen]] | None = None
     parameters: dict[str, float] = field(default_factory=dict)
     """Numbers by lower-case name; programs write them, too."""
     is_guess: bool = False
-    """Whether parameters that nobody described are 0."""
+    """True if undescribed parameters are 0."""
     running: bool = True
     """Run mode; in program mode jobs and parameters are changed."""
     job: str = ""
@@ -47,11 +50,13 @@ class Camera:
     taken: int = 0
     """Images so far."""
     under_way: int = 0
-    """Images that were asked for and are not there yet."""
+    """Requested images that have not arrived."""
 
     def look(self, scene: int, *, keep: bool) -> None:
-        """The next image is there: its results are those of `scene`, before which others go
-        unless they are kept."""
+        """Add the results of the next image for `scene`.
+
+        Earlier results are discarded unless `keep`.
+        """
         if not keep:
             self.results.clear()
         result = self.images[self.taken % len(self.images)] if self.images else ()
@@ -64,16 +69,17 @@ class Camera:
 def cameras(
     names: Sequence[str], described: Mapping[str, Camera] | None = None
 ) -> dict[str, Camera]:
-    """By lower-case name: those of a configuration, and those that are described."""
+    """Return configured and described cameras by lower-case name."""
     return {name.lower(): (described or {}).get(name.lower(), Camera(name)) for name in names}
 
 
 # -- Force sensors ---------------------------------------------------------------------------------
 #
-# Force sensors at robots' hands, as far as a file tells what they measure: nothing is touched.
+# Force sensors at robots' hands, as far as a file describes their readings; no contact is
+# simulated.
 #
-# Readings come in turn, and the last one stays. They are what is left when the load of the tool is
-# taken off, which has to be told first (FCCalib).
+# Readings come in turn, and the last one stays. They exclude the load of the tool, which FCCalib
+# requires.
 
 
 Reading = tuple[float, ...]
@@ -82,11 +88,11 @@ Reading = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """What is told of a sensor; `readings` None: nothing is."""
+    """The description of a sensor; `readings` None: no description."""
 
     readings: Sequence[Reading] | None = None
     mass: float = 0.0
-    """Of the load that is found at the hand, kg."""
+    """Mass of the load at the hand, kg."""
     center: tuple[float, ...] = (0.0, 0.0, 0.0)
     """Where its centre is, mm."""
 
@@ -98,13 +104,13 @@ class ForceSensor:
     measured: Measured
     calibrated: bool = False
     controls: bool = False
-    """Whether force control is active."""
+    """True if force control is active."""
     pressing: bool = False
-    """Whether it is on a path with a process force."""
+    """True on a path with a process force."""
     taken: int = 0
 
     def read(self) -> Reading:
-        """The next reading."""
+        """Return the next reading."""
         rows = self.measured.readings or ()
         result = rows[min(self.taken, len(rows) - 1)]
         self.taken += 1
@@ -113,11 +119,11 @@ class ForceSensor:
 
 @dataclass(slots=True)
 class ForceSensors:
-    """One for each robot, all with the same description."""
+    """A sensor for each robot, all with the same description."""
 
     measured: Measured = field(default_factory=Measured)
     by_group: dict[str, ForceSensor] = field(default_factory=dict)
 
     def of(self, group: str) -> ForceSensor:
-        """That of a motion group."""
+        """Return the sensor of a motion group."""
         return self.by_group.setdefault(group, ForceSensor(self.measured))

@@ -1,9 +1,9 @@
-"""The SmartGripper of a YuMi: fingers with a place, a speed and a force, valves for vacuum and air.
+"""SmartGripper of a YuMi: fingers, vacuum and blow-off valves.
 
 Commands, states, registers and signals (`hand_CmdGripper_L`, ...) are those of its driver,
 HandDriver.sys [code kth-ros-pkg/yumi], and of EIO.cfg of a cell [backup RW 6.15]. It works without
-those signals, too; where a system has them, a driver in RAPID can talk to it. Fingers
-move evenly at the set speed. Nothing is between them unless `part` or `ring` says so.
+these signals; with them, a RAPID driver can control it. Fingers move at the set speed. They are
+empty unless `part` or `ring` is set.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ from rapidgen.machine.scheduler import MS, S, Scheduler, Timer, WaitSet
 
 
 class Command(IntEnum):
-    """What hand_CmdGripper orders."""
+    """Commands of hand_CmdGripper."""
 
     JOG_OPEN = 1
     JOG_CLOSE = 2
@@ -34,7 +34,7 @@ class Command(IntEnum):
 
 
 class HandState(IntEnum):
-    """What hand_SysState tells."""
+    """States of hand_SysState."""
 
     READY = 0
     ERROR = 1
@@ -67,7 +67,7 @@ _MOVING: Final = {
     Command.AGILE_INWARD: (HandState.AGILE_INWARD, HandState.KEEP_OBJECT),
     Command.AGILE_OUTWARD: (HandState.AGILE_OUTWARD, HandState.KEEP_OBJECT),
 }
-"""What a command makes of the state while the fingers move, and when they stand."""
+"""States of a command while the fingers move, and at standstill."""
 _EXACT: Final = (Command.TO_MAX, Command.TO_MIN)
 """Moves that have to come where they are sent."""
 _REPORT: Final = 20 * MS
@@ -83,7 +83,7 @@ _REGISTERS: Final = {
 
 
 class SmartGripper:
-    """One hand, `L` or `R`. Lengths are mm, speeds mm/s, forces N."""
+    """A hand, `L` or `R`. Lengths are mm, speeds mm/s, forces N."""
 
     def __init__(
         self, scheduler: Scheduler, io: IOSystem, side: str, *, calibrated: bool = False
@@ -96,14 +96,14 @@ class SmartGripper:
         self.state = HandState.READY
         self.calibrated = calibrated
         self.part: float | None = None
-        """Width of what lies between the fingers: inward they come no further."""
+        """Width of a part between the fingers, which limits their inward travel."""
         self.ring: float | None = None
         """Width inside of what they are in: outward they come no further."""
         self.cups = [False, False]
-        """Whether a part closes the suction cup."""
+        """True if a part closes the suction cup."""
         self.vacuum, self.blow = [False, False], [False, False]
         self.changed = WaitSet()
-        """Its state, or anything else of it, has changed."""
+        """Notified of each change of the hand."""
         self._from = self._to = self._zero = 0.0
         self._began = 0
         self._speed = 0.0
@@ -115,21 +115,21 @@ class SmartGripper:
 
     @property
     def position(self) -> float:
-        """Opening of the fingers as they know it: from where they were calibrated."""
+        """Opening of the fingers, from the place of calibration."""
         return self._place() - self._zero
 
     @property
     def speed(self) -> float:
-        """Without a sign."""
+        """Speed without a sign."""
         return 0.0 if self._place() == self._to else self._speed
 
     @property
     def force(self) -> float:
-        """What the fingers hold with."""
+        """Grip force."""
         return self.hold_force if self.state is HandState.KEEP_OBJECT else 0.0
 
     def pressure(self, cup: int) -> float:
-        """kPa at a cup, 0 or 1."""
+        """Return the pressure at a cup (0 or 1), kPa."""
         return SUCKED if self.vacuum[cup] and self.cups[cup] else AMBIENT
 
     def _place(self) -> float:
@@ -141,7 +141,7 @@ class SmartGripper:
     # -- what it does ----------------------------------------------------------------------------
 
     def order(self, code: int) -> None:
-        """Command it by its signal, where there is one."""
+        """Send a command by its signal, where there is one."""
         signal = self._signal("hand_CmdGripper")
         if signal is None or signal.value == code:
             self.command(code)
@@ -149,7 +149,7 @@ class SmartGripper:
             self._io.set(signal, code)  # which it listens to
 
     def command(self, code: int) -> None:
-        """One of `Command`; others do nothing."""
+        """Execute a `Command`; ignore others."""
         if code not in list(Command):
             return
         order = Command(code)
@@ -216,7 +216,10 @@ class SmartGripper:
         self._report()
 
     def set_register(self, register: str, value: float) -> None:
-        """Write one of max_position, min_position, max_speed, hold_force, and its signal."""
+        """Write a register and its signal.
+
+        Registers are max_position, min_position, max_speed and hold_force.
+        """
         setattr(self, register, value)
         for name, known in _REGISTERS.items():
             signal = self._signal(name) if known == register else None
@@ -229,7 +232,7 @@ class SmartGripper:
         return self._io.get(f"{name}_{self.side}")
 
     def _listen(self) -> None:
-        """Obey the outputs of a driver in RAPID, where the system has them."""
+        """React to outputs of a RAPID driver, where the system has them."""
         self._on("hand_CmdGripper", lambda value: self.command(int(value)))
         for name, register in _REGISTERS.items():
             self._on(name, partial(self._take, register))
@@ -266,7 +269,7 @@ class SmartGripper:
 
 
 class Hands:
-    """Both hands of a YuMi, and what programs have said of them."""
+    """Both hands of a YuMi, and their settings by programs."""
 
     def __init__(self, scheduler: Scheduler, io: IOSystem, *, calibrated: bool = False) -> None:
         self.hands = {

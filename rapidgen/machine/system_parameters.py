@@ -8,10 +8,10 @@ from rapidgen.system.cfg import Attribute, Instance, Scalar, Section, write_cfg
 
 # -- System parameters -----------------------------------------------------------------------------
 #
-# System parameters as ReadCfgData sees them: what the virtual controller is made of.
+# System parameters for ReadCfgData.
 #
-# SYS and EIO are those of the system; of MOC there is ARM with the axes' limits (rad, m), since
-# programs ask for them. A written value stays here: nothing is reconfigured by it.
+# SYS and EIO are those of the system. MOC contains ARM with the axis limits (rad, m), because
+# programs read them. A written value is stored here without a reconfiguration.
 
 
 _Values = dict[str, Scalar | bool]
@@ -44,9 +44,10 @@ class SystemParameters:
         return tuple(self._texts)
 
     def find(self, path: str) -> list[_Values]:
-        """Attributes of `/DOMAIN/TYPE/INSTANCE`, or of every instance of `/DOMAIN/TYPE`.
+        """Return attributes of `/DOMAIN/TYPE/INSTANCE`.
 
-        They may be changed. Empty: there is none.
+        Without an instance, return those of every instance of `/DOMAIN/TYPE`. The caller may change
+        them. Empty: unknown path.
         """
         parts = [part.lower() for part in path.strip("/").split("/")]
         if len(parts) == 2:
@@ -55,7 +56,7 @@ class SystemParameters:
         return [] if match is None else [match]
 
     def text(self, domain: str) -> str:
-        """A domain as cfg text, as the system was read. KeyError: there is none."""
+        """Return a domain as cfg text, or raise KeyError."""
         return write_cfg(self._texts[domain])
 
 
@@ -70,10 +71,10 @@ def _arm(group: GroupConfig, joint: Joint) -> Instance:
 
 
 def arm_name(group: GroupConfig, joint: Joint) -> str:
-    """Name of the ARM of a joint, as in backups of controllers and in public RAPID.
+    """Return the ARM name of a joint, as in backups and public RAPID.
 
-    rob1_1 to rob1_6 of ROB_1, rob_R_7 the seventh axis of a YuMi; an external axis is called as
-    its mechanical unit, with a number where that has several.
+    rob1_1 to rob1_6 of ROB_1, rob_R_7 the seventh axis of a YuMi. An external axis has the name of
+    its mechanical unit, with a number if the unit has several.
     """
     kind, _, axis = joint.axis.partition("_")
     robot = group.mechanical_unit
@@ -105,19 +106,19 @@ class TextTables:
         self._texts: list[dict[int, str]] = []
 
     def number(self, name: str) -> int | None:
-        """A table's number."""
+        """Return the number of a table."""
         return self._numbers.get(name)
 
     def text(self, number: int, index: int) -> str | None:
-        """A text."""
+        """Return a text."""
         if not 1 <= number <= len(self._texts):
             return None
         return self._texts[number - 1].get(index)
 
     def install(self, text: str) -> None:
-        """Read a file of tables [K §15]; a table that exists is extended.
+        """Install the tables of a file [K §15], or extend existing ones.
 
-        ValueError: a line that is none of those.
+        ValueError: a line of another format.
         """
         table: dict[int, str] | None = None
         index: int | None = None

@@ -1,4 +1,4 @@
-"""Debugging the RAPID of a controller: breakpoints, steps, stacks and values, the clock at rest."""
+"""Debugger for RAPID: breakpoints, steps, stacks and values."""
 
 from rapidgen.controller.debugger.breakpoints import Breakpoint, PlacedBreakpoint
 from rapidgen.controller.debugger.debugger import Debugger, PauseReason

@@ -1,4 +1,4 @@
-"""Breakpoints: where, on which condition, at which pass; and where a line really is."""
+"""Breakpoints: place, condition, hit counts, and the actual line."""
 
 import re
 from collections.abc import Iterable
@@ -14,10 +14,11 @@ _INSERT = re.compile(r"\{([^{}]*)\}")
 
 @dataclass(frozen=True, slots=True)
 class Breakpoint:
-    """What somebody asks for.
+    """A breakpoint as requested.
 
-    `hits` counts passes for which `condition` holds: "3" or "=3" the third, ">=3" from there on,
-    "%3" every third. With `log` nothing pauses: the text is told, `{expression}` worked out.
+    `hits` counts passes with a true `condition`: "3" or "=3" the third, ">=3" from the third on,
+    "%3" every third. With `log` nothing pauses: the text is output, with each `{expression}`
+    evaluated.
     """
 
     module: str
@@ -36,17 +37,17 @@ class PlacedBreakpoint:
     number: int
     asked: Breakpoint
     line: int = 0
-    """Of the statement before which it lies; 0: it lies nowhere."""
+    """Line of its statement; 0: it has no place."""
     points: set[tuple[int, int]] = field(default_factory=set)
     """Trees by identity, and the token of the statement in each."""
     doubt: str = ""
-    """Why it lies nowhere, or when it will not be noticed."""
+    """Reason for a missing place, or when the breakpoint has no effect yet."""
     count: int = 0
-    """Passes for which the condition held."""
+    """Passes with a true condition."""
 
 
 def due(hits: str, count: int) -> bool:
-    """Whether a pass counts. ValueError: `hits` is no such text."""
+    """Return True if a pass counts. ValueError: invalid `hits`."""
     if not hits:
         return True
     match = _HITS.fullmatch(hits)
@@ -59,13 +60,13 @@ def due(hits: str, count: int) -> bool:
 
 
 def pieces(log: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Texts and expressions of a log point, taking turns."""
+    """Return alternating texts and expressions of a log point."""
     parts = _INSERT.split(log)
     return tuple(parts[::2]), tuple(parts[1::2])
 
 
 def place(placed: PlacedBreakpoint, modules: Iterable[LoadedModule]) -> None:
-    """Find the first statement of a routine that begins in the line asked for, or below."""
+    """Find the first statement at or below the requested line."""
     placed.line, placed.points = 0, set()
     for module in modules:
         if module.name.lower() == placed.asked.module.lower():
@@ -86,7 +87,7 @@ def _statement_at(module: LoadedModule, line: int) -> int | None:
 
 
 def statements(routine: n.RoutineDeclaration) -> Iterable[n.Statement]:
-    """Everything in a routine that is executed and told to tracers."""
+    """Iterate over statements of a routine that tracers receive."""
     for node in walk(routine):
         if isinstance(node, n.Statement) and not isinstance(node, n.Label):
             yield node

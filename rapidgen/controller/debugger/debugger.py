@@ -1,8 +1,8 @@
-"""The debugger of one controller: it pauses everything, time and robots included.
+"""Debugger of one controller: it pauses time, tasks and robots.
 
-A pause is none of the controller's own states: nothing stops, no event routine runs, no socket
-closes, the robot stands still in the middle of its move because time does not pass. Programs
-whose statements nobody asks for are compiled as if there were no debugger.
+A pause is not a state of the controller. No task stops, no event routine runs, no socket closes,
+and a robot stands still in the middle of its move, because time does not pass. Programs without a
+traced statement are compiled as without a debugger.
 """
 
 import sys
@@ -34,18 +34,18 @@ from rapidgen.runtime.task.task import Task
 Reason: TypeAlias = Literal["breakpoint", "step", "cursor", "error", "pause", "time"]
 StepKind: TypeAlias = Literal["in", "over", "out"]
 ErrorStop: TypeAlias = Literal["never", "unhandled", "all"]
-"""At which errors everything pauses: at those that stop a task, or before each handler, too."""
+"""Errors that pause: those that stop a task, or all before their handler."""
 LARGEST_OUTPUT = 1000
-"""Lines of log points that are kept."""
+"""Maximum number of stored log point lines."""
 
 
 @dataclass(frozen=True, slots=True)
 class PauseReason:
-    """Why everything is paused."""
+    """Reason of a pause."""
 
     reason: Reason
     task: str = ""
-    """Empty: somebody paused, wherever the tasks were."""
+    """Empty: paused by a user."""
     place: Location | None = None
     text: str = ""
     breakpoint: int = 0
@@ -53,7 +53,7 @@ class PauseReason:
 
 @dataclass(frozen=True, slots=True)
 class LogPointOutput:
-    """A line of a log point. `time` is the controller's, s."""
+    """A line of a log point; `time` is the controller's, s."""
 
     time: float
     task: str
@@ -74,8 +74,8 @@ class _Step:
 class Debugger:
     """Breakpoints, steps, stacks and values of one controller.
 
-    Everything is called on the thread that lets the controller's time pass. On the virtual clock
-    `run_for` and the like return at once while it is paused.
+    All methods run on the thread that lets the controller's time pass. On the virtual clock,
+    `run_for` and similar methods return at once while it is paused.
     """
 
     def __init__(
@@ -91,9 +91,9 @@ class Debugger:
         self.halt: PauseReason | None = None
         """Why it is paused; None: it is not."""
         self.output: list[LogPointOutput] = []
-        """What log points told, the latest last."""
+        """Output of log points, the latest last."""
         self.changed = WaitSet()
-        """Paused, going on, told something, or breakpoints changed."""
+        """Changes of pause, output or breakpoints."""
         self._armed: dict[tuple[int, int], list[PlacedBreakpoint]] = {}
         self._trees: dict[int, n.Module] = {}
         self._watched: dict[tuple[str, Routine, str], WatchedExpression] = {}
@@ -108,7 +108,10 @@ class Debugger:
     # -- breakpoints -----------------------------------------------------------------------------
 
     def add(self, expression: Breakpoint) -> PlacedBreakpoint:
-        """Set a breakpoint; where it lies, and what is in doubt. ValueError: `hits` is no text."""
+        """Set a breakpoint and return its place and doubts.
+
+        ValueError: invalid `hits`.
+        """
         places.due(expression.hits, 0)
         self._numbers += 1
         placed = self.placed[self._numbers] = PlacedBreakpoint(self._numbers, expression)
@@ -118,9 +121,9 @@ class Debugger:
         return placed
 
     def change(self, number: int, expression: Breakpoint) -> PlacedBreakpoint:
-        """Ask for something else of a breakpoint; its passes are counted anew.
+        """Change a breakpoint and reset its count.
 
-        KeyError: there is none of that number. ValueError: `hits` is no text; it stays as it was.
+        KeyError: unknown number. ValueError: invalid `hits`; the breakpoint is unchanged.
         """
         places.due(expression.hits, 0)
         placed = self.placed[number]
@@ -130,14 +133,14 @@ class Debugger:
         return placed
 
     def remove(self, number: int) -> None:
-        """Take a breakpoint away; harmless when it is gone."""
+        """Remove a breakpoint, if it exists."""
         self.placed.pop(number, None)
         self._place()
         self._listen()
         self.changed.notify()
 
     def _place(self) -> None:
-        """Find the statements of all breakpoints in the modules that are loaded now."""
+        """Find the statements of all breakpoints in the loaded modules."""
         modules = [m for task in self._tasks.values() for m in task.program.modules.values()]
         self._trees = {id(module.tree): module.tree for module in modules}
         self._watched.clear()
@@ -149,7 +152,7 @@ class Debugger:
                 self._armed.setdefault(point, []).append(placed)
 
     def _listen(self) -> None:
-        """Let tasks report their statements while that is needed."""
+        """Enable or disable statement reports, as needed."""
         tracers = self._controller.statements.tracers
         needed = bool(self._armed) or self._step is not None
         if not needed:
@@ -171,12 +174,14 @@ class Debugger:
     # -- pausing and going on --------------------------------------------------------------------
 
     def pause(self) -> None:
-        """Pause wherever the tasks are, also in the middle of a statement."""
+        """Pause at the current place, even inside a statement."""
         self._pause("pause")
 
     def run_for(self, seconds: float) -> None:
-        """Go on, and pause when so much of the controller's time has passed, if nothing else has
-        paused it before. NotPaused: it is not paused."""
+        """Continue, and pause after an amount of controller time.
+
+        Another reason may pause earlier. NotPaused: it is not paused.
+        """
         self._go_on(None)
         self._timer = self._scheduler.after(round(seconds * S), lambda: self._pause("time"))
 
@@ -193,15 +198,15 @@ class Debugger:
             timer.cancel()
 
     def resume(self) -> None:
-        """Go on to the next breakpoint."""
+        """Continue to the next breakpoint."""
         self._go_on(None)
 
     def step(self, task: str, kind: StepKind = "over") -> None:
-        """Go on until a task is before its next statement. NotPaused: it is not paused.
+        """Continue to the next statement of a task.
 
-        `in` enters what is called, `over` does not, `out` ends where the routine was called.
-        Traps, event routines and modules with NOSTEPIN are not stepped into: they are executed
-        whole, unless there is a breakpoint in them. All other tasks go on meanwhile.
+        `in` enters calls, `over` does not, `out` ends after the routine's call. Traps, event
+        routines and NOSTEPIN modules run as a whole, unless they contain a breakpoint. All other
+        tasks run meanwhile. NotPaused: it is not paused.
         """
         frames = self._frames(task)
         if not frames:
@@ -212,7 +217,10 @@ class Debugger:
         self._go_on(_Step(task, kind, depth, frames[-1].level, _hidden(frames[-1].module)))
 
     def run_to(self, task: str, module: str, line: int) -> None:
-        """Go on to a line, as if there were a breakpoint for once. NotPaused: there is none."""
+        """Continue to a line, as with a temporary breakpoint.
+
+        NotPaused: the line has no statement.
+        """
         cursor = PlacedBreakpoint(0, Breakpoint(module, line, task))
         places.place(cursor, self._tasks[task].program.modules.values())
         if not cursor.line:
@@ -236,7 +244,7 @@ class Debugger:
             raise NotPaused("nothing is paused")
 
     def close(self) -> None:
-        """Take everything away and let the controller go on."""
+        """Remove all hooks and let the controller continue."""
         statements = self._controller.statements
         statements.errors.remove(self._error)
         statements.failures.remove(self._failure)
@@ -271,7 +279,7 @@ class Debugger:
     def _reached(
         self, name: str, placed: PlacedBreakpoint, frame: StackFrame
     ) -> PauseReason | None:
-        """What a breakpoint brings whose statement is about to be executed."""
+        """Handle the breakpoints of the next statement."""
         expression, task = placed.asked, self._tasks[name]
         try:
             if expression.condition and self._value(task, frame, expression.condition) is not True:
@@ -331,7 +339,7 @@ class Debugger:
             self._hold(PauseReason("error", name, place, text))
 
     def _hold(self, halt: PauseReason) -> None:
-        """Pause in the task that tells: it goes on from here."""
+        """Pause in the reporting task, which continues here."""
         self._end_timer()
         self._step = self._cursor = None
         self.halt = halt
@@ -343,7 +351,7 @@ class Debugger:
     # -- stacks and values -----------------------------------------------------------------------
 
     def frames(self, task: str) -> tuple[StackFrame, ...]:
-        """Call stack of a task, outermost first. KeyError: there is no such task."""
+        """Return the call stack of a task, outermost first, or raise KeyError."""
         return frames_of(self._tasks[task])
 
     def _frames(self, task: str) -> tuple[StackFrame, ...]:
@@ -351,7 +359,10 @@ class Debugger:
         return self.frames(task)
 
     def frame(self, task: str, level: int = -1) -> StackFrame:
-        """One routine of a call stack, the innermost by default. NotPaused: there is none."""
+        """Return one routine of a call stack, by default the innermost.
+
+        NotPaused: there is none.
+        """
         frames = self.frames(task)
         try:
             return frames[level]
@@ -359,32 +370,38 @@ class Debugger:
             raise NotPaused(f"{task} is not executing anything there") from None
 
     def evaluate(self, task: str, text: str, level: int = -1) -> DisplayedValue:
-        """The value of an expression, where a routine stands. NotPaused says why there is none."""
+        """Evaluate an expression in a routine. NotPaused explains a fault."""
         return values.evaluate(self._tasks[task].program, self.frame(task, level), text)
 
     def assign(self, task: str, target: str, value: str, level: int = -1) -> DisplayedValue:
-        """Set a datum, an element or a component; the value it has then. NotPaused says why not."""
+        """Set a datum, an element or a component; return its new value.
+
+        NotPaused explains a fault.
+        """
         done = values.assign(self._tasks[task].program, self.frame(task, level), target, value)
         self.changed.notify()
         return done
 
     def variables(self, task: str, level: int = -1) -> tuple[DisplayedValue, ...]:
-        """Parameters, data and loop variables of a routine."""
+        """Return parameters, data and loop variables of a routine."""
         return values.variables(self._tasks[task].program, self.frame(task, level))
 
     def module_data(self, task: str, level: int = -1) -> tuple[DisplayedValue, ...]:
-        """Data of the module of a routine."""
+        """Return data of the module of a routine."""
         return values.module_data(self._tasks[task].program, self.frame(task, level))
 
     def program_pointer(self, task: str) -> Location | None:
-        """Where a task is in its program, not in a trap or an event routine; None: nowhere."""
+        """Return a task's place in its program, None without one.
+
+        Traps and event routines do not count.
+        """
         return program_pointer(self._tasks[task])
 
     def motion_pointer(self, task: str) -> Location | None:
-        """The move instruction of a task that its robot is executing; None: there is none."""
+        """Return the move instruction that a task's robot executes, or None."""
         return motion_pointer(self._controller, task)
 
 
 def _hidden(module: LoadedModule) -> bool:
-    """Whether its routines are executed as a whole [S4 overview 4-8]."""
+    """Return True if its routines run as a whole [S4 overview 4-8]."""
     return module.installed or "NOSTEPIN" in module.tree.attributes

@@ -21,7 +21,7 @@ from rapidgen.runtime.values import Value
 
 
 Level: TypeAlias = Literal["program", "trap", "event"]
-"""What a routine runs for: the program, an interrupt, or an event such as START."""
+"""Cause of a routine's execution: program, interrupt, or an event such as START."""
 _LEVELS: dict[object, Level] = {
     Interrupts.serve.__code__: "trap",
     EventRoutines.execute.__code__: "event",
@@ -30,7 +30,7 @@ _LEVELS: dict[object, Level] = {
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StackFrame:
-    """One routine of a call stack."""
+    """A routine of a call stack."""
 
     place: Location
     level: Level
@@ -47,14 +47,17 @@ class StackFrame:
 
 
 def frames_of(task: Task) -> tuple[StackFrame, ...]:
-    """Routines of a task that is being executed or stands, outermost first."""
+    """Return the routines of a task, outermost first."""
     if not task.pointer.begun and task.pointer.place is not None:
         return tuple(_kept(task))
     return tuple(reversed(list(_live(task, task.frame))))
 
 
 def where_it_looks(task: Task) -> StackFrame | None:
-    """The innermost routine, or of a task that executes nothing its entry, without values."""
+    """Return the innermost routine for display.
+
+    For a task without frames it is the entry, without values.
+    """
     frames = frames_of(task)
     if frames:
         return frames[-1]
@@ -66,12 +69,18 @@ def where_it_looks(task: Task) -> StackFrame | None:
 
 
 def innermost(task: Task, frame: FrameType | None) -> StackFrame:
-    """The routine that a running task is in, seen from a Python frame above."""
+    """Return the current routine of a running task.
+
+    `frame` is a Python frame above it.
+    """
     return next(iter(_live(task, frame)))
 
 
 def depth_here(task: Task, frame: FrameType | None) -> int:
-    """Routines inside each other above a Python frame; a handler counts as its routine."""
+    """Return the number of nested routines above a Python frame.
+
+    A handler counts as its routine.
+    """
     codes = task.program.codes
     result = 0
     for at in outwards(frame):
@@ -84,12 +93,12 @@ def depth_here(task: Task, frame: FrameType | None) -> int:
 def _live(task: Task, frame: FrameType | None) -> Iterable[StackFrame]:
     codes = task.program.codes
     inner: list[FrameType] = []
-    """Handlers and parts of the routine whose own frame comes next."""
+    """Handlers and parts of the routine whose frame comes next."""
     waiting: list[StackFrame] = []
     for at in outwards(frame):
         level = _LEVELS.get(at.f_code)
         if level is not None:
-            # Everything inside of this call runs for it.
+            # All frames inside this call belong to it.
             yield from (replace(known, level=level) for known in waiting)
             waiting.clear()
             continue
@@ -137,7 +146,7 @@ def _kept(task: Task) -> Iterable[StackFrame]:
 
 
 def loops_around(routine: Routine, token: int) -> tuple[n.For, ...]:
-    """FOR loops of a routine that are around the statement at a token."""
+    """Return the FOR loops around the statement at a token."""
     node = routine.node
     assert node is not None
     for part in (node, node.error, node.undo, node.backward):
@@ -153,13 +162,16 @@ def loops_around(routine: Routine, token: int) -> tuple[n.For, ...]:
 
 
 def program_pointer(task: Task) -> Location | None:
-    """Where a task is in its program, not in a trap or an event routine; None: nowhere."""
+    """Return a task's place in its program, None without one.
+
+    Traps and event routines do not count.
+    """
     frames = [frame for frame in frames_of(task) if frame.level == "program"]
     return frames[-1].place if frames else None
 
 
 def motion_pointer(controller: VirtualController, task: str) -> Location | None:
-    """The move instruction of a task that its robot is executing; None: there is none."""
+    """Return the move instruction that a task's robot executes, or None."""
     group = controller.motion.moved_by(task)
     move = None if group is None else group.motion.move(controller.scheduler.now)
     where = None if move is None or move.place is None else move.place()

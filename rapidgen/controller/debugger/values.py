@@ -1,4 +1,4 @@
-"""Values where a program stands: read, work out an expression, set."""
+"""Values in a stopped program: read, evaluate, set."""
 
 import ctypes
 import sys
@@ -25,16 +25,16 @@ from rapidgen.runtime.text import value_text
 from rapidgen.runtime.values import ATOMIC, Record, Type, Value
 
 LONGEST = 400
-"""Characters of a value that are shown; parts of it can be asked for."""
+"""Maximum length of a displayed value; its parts can be requested."""
 
 
 class NotPaused(Exception):
-    """What was asked for is not possible where the program stands; the text says why."""
+    """A request that is not possible at this place; the text explains why."""
 
 
 @dataclass(frozen=True, slots=True)
 class DisplayedValue:
-    """A value for people: RAPID's own text, and whether there are parts to be asked for."""
+    """A displayed value: RAPID text, and True if it has parts."""
 
     name: str
     type: str
@@ -45,13 +45,16 @@ class DisplayedValue:
 
 
 def evaluate(program: Program, frame: StackFrame, text: str) -> DisplayedValue:
-    """The value of an expression in a frame. NotPaused: it has none, or would call something."""
+    """Evaluate an expression in a frame.
+
+    NotPaused: it has no value, or contains a call.
+    """
     watched = compiled(program, frame, text)
     return shown(text, watched.type, watched.dims, read(watched, frame))
 
 
 def compiled(program: Program, frame: StackFrame, text: str) -> WatchedExpression:
-    """An expression, ready to be read in any frame of the routine. NotPaused."""
+    """Compile an expression for all frames of the routine. NotPaused."""
     try:
         return watch(*_where(program, frame), parse_expression(text))
     except (CannotCompile, SyntaxError, FatalError) as error:
@@ -59,7 +62,7 @@ def compiled(program: Program, frame: StackFrame, text: str) -> WatchedExpressio
 
 
 def read(watched: WatchedExpression, frame: StackFrame) -> Value:
-    """The present value. NotPaused: an error of execution."""
+    """Return the present value. NotPaused: an error of execution."""
     try:
         return watched.read(frame.values)
     except RECOVERABLE as error:
@@ -72,7 +75,10 @@ def read(watched: WatchedExpression, frame: StackFrame) -> Value:
 
 
 def assign(program: Program, frame: StackFrame, target: str, value: str) -> DisplayedValue:
-    """Set a datum, an element or a component, as an assignment there would. NotPaused."""
+    """Set a datum, an element or a component like an assignment.
+
+    Raises NotPaused.
+    """
     try:
         node = parse_assignment(f"{target}:={value}")
         name, change = store(*_where(program, frame), node)
@@ -110,7 +116,10 @@ def _where(
 
 
 def variables(program: Program, frame: StackFrame) -> tuple[DisplayedValue, ...]:
-    """Parameters, data and loop variables of a frame, in the order of their declarations."""
+    """Return parameters, data and loop variables of a frame.
+
+    The order is that of the declarations.
+    """
     node = frame.routine.node
     assert node is not None
     loops = [loop.variable for loop in frame.loops if loop_variable(loop) in frame.values]
@@ -119,7 +128,7 @@ def variables(program: Program, frame: StackFrame) -> tuple[DisplayedValue, ...]
 
 
 def module_data(program: Program, frame: StackFrame) -> tuple[DisplayedValue, ...]:
-    """Data of the frame's module, as the frame sees them."""
+    """Return data of the frame's module, as visible in the frame."""
     return tuple(_each(program, frame, [d.name for d in _declared(frame.module)]))
 
 
@@ -136,7 +145,7 @@ def _each(program: Program, frame: StackFrame, names: list[str]) -> Iterator[Dis
 
 
 def shown(name: str, kind: Type, dims: tuple[int, ...], value: Value) -> DisplayedValue:
-    """A value as people read it."""
+    """Return a value for display."""
     typed = kind.name + ("{" + ",".join(map(str, dims)) + "}" if any(dims) else "")
     if kind.kind == "semivalue":
         return DisplayedValue(name, kind.name, value_text(value.value), settable=False)

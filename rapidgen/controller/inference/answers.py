@@ -39,13 +39,13 @@ if TYPE_CHECKING:
 
 
 Term = tuple[n.Expression, bool, RoutineScope]
-"""A comparison or a name, whether it has to hold, and where it stands."""
+"""A comparison or name, its expected truth, and its scope."""
 Terms = tuple[Term, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class WaitCondition:
-    """What has to hold together in a loop, by the lines of its module."""
+    """A condition that a loop needs as a whole, by the lines of its module."""
 
     module: str
     first: int
@@ -59,15 +59,17 @@ SWAPPED: Mapping[str, str] = {"<": ">", ">": "<", "<=": ">=", ">=": "<="}
 _ORDERING = frozenset(
     ("isignaldi", "isignaldo", "isignalgi", "isignalgo", "isignalai", "isignalao", "ipers")
 )
-"""What orders interrupts at a signal or a persistent."""
+"""Instructions that order interrupts for a signal or a persistent."""
 _WAYS = 8
 """Of one condition."""
 
 
 def wait_conditions(task: Sequence[ModuleScope], entry: str) -> Iterator[WaitCondition]:
-    """What each loop in the modules of a task looks at; what leaves it comes last. The routine that
-    a task starts in is a loop: it is executed in cycles, and interrupts wait in it. So is a
-    WaitUntil."""
+    """Iterate over the conditions of each loop in a task's modules.
+
+    Conditions of loop exits come last. The entry routine counts as a loop: it is executed in
+    cycles, and interrupts wait in it. WaitUntil also counts.
+    """
     for module in task:
         for first, last, terms in _loops(module, entry, task):
             yield WaitCondition(module.tree.name.lower(), first, last, terms)
@@ -94,7 +96,7 @@ def _loops(
 
 
 def _interrupts(module: ModuleScope) -> Iterator[Terms]:
-    """What the interrupts of a module wait for, and what their traps look at then."""
+    """Iterate over conditions of interrupts, and of their traps."""
     traps: dict[str, str] = {}
     for node, scope in scoped(module):
         if isinstance(node, n.Connect) and isinstance(node.target, n.Name):
@@ -119,7 +121,7 @@ def _is_wait(node: n.Node) -> bool:
 
 
 def _inside(node: n.Node, scope: RoutineScope, around: Terms, known: set[str]) -> Iterator[Terms]:
-    """What a node looks at; `around` are the conditions that it stands in."""
+    """Iterate over conditions in a node; `around` are those it is in."""
     condition, guarded = _condition(node)
     if condition is not None:
         ways = _ways(condition, scope, holds=True)
@@ -148,7 +150,7 @@ def _inside(node: n.Node, scope: RoutineScope, around: Terms, known: set[str]) -
 
 
 def _condition(node: n.Node) -> tuple[n.Expression | None, list[n.Statement]]:
-    """The condition of a node, and what is executed where it holds."""
+    """Return the condition of a node, and the statements it guards."""
     match node:
         case n.Branch() | n.While():
             return node.condition, node.body
@@ -163,7 +165,10 @@ def _condition(node: n.Node) -> tuple[n.Expression | None, list[n.Statement]]:
 
 
 def _called(node: n.Node, scope: RoutineScope, around: Terms, known: set[str]) -> Iterator[Terms]:
-    """What the routines look at that a node calls itself, or an expression with all in it."""
+    """Iterate over conditions in routines that a node calls.
+
+    It covers calls of the node itself, and of expressions completely.
+    """
     for one in walk(node) if isinstance(node, n.Expression) else (node,):
         if isinstance(one, n.ProcedureCall | n.FunctionCall) and one.name.lower() not in known:
             routine = called(scope.find(one.name))
@@ -174,7 +179,7 @@ def _called(node: n.Node, scope: RoutineScope, around: Terms, known: set[str]) -
 
 
 def _ways(node: n.Expression, scope: RoutineScope, *, holds: bool) -> list[Terms]:
-    """In which ways a condition holds, or does not: what has to hold together."""
+    """Return alternatives of terms that make a condition true or false."""
     match node:
         case n.Parenthesis():
             return _ways(node.inner, scope, holds=holds)
@@ -190,22 +195,26 @@ def _ways(node: n.Expression, scope: RoutineScope, *, holds: bool) -> list[Terms
 
 # -- Dialogs ---------------------------------------------------------------------------------------
 #
-# Dialogs in a guessed cell: nobody is there, so each is answered as by one who tries every choice.
+# Dialogs in an inferred cell, without an operator. Each answer is one of the possible choices in
+# turn.
 #
-# The first time a question is asked its default is taken, or the first choice; when the same task
-# asks it again the next one, and so in turn: a menu is walked through. What no default and no
-# choice tells is answered by small numbers.
+# The first answer to a question is its default, or the first choice. Each further question of the
+# same task with the same text receives the next choice, so that a program passes through all items
+# of a menu. Without a default and choices the answers are small numbers.
 
 
 Answer = tuple[str, float | str]
-"""A guessed input, or a dialog with its text, and what it became."""
+"""An inferred input or a dialog with its text, and the value it received."""
 _THOUGHT: Final = 0.5
 """Seconds that a question stays on the screen."""
 _NUMBERS: Final = (*(str(n) for n in range(1, 11)), "0", "100")
 
 
 class DialogResponder:
-    """Answers the dialogs of one controller; `message` grows by (dialog and text, answer)."""
+    """Answers the dialogs of one controller.
+
+    `message` receives (dialog and text, answer).
+    """
 
     def __init__(self, operator: Operator, scheduler: Scheduler, message: list[Answer]) -> None:
         self._operator = operator
@@ -240,7 +249,7 @@ class DialogResponder:
 
 
 def _answers(question: Question) -> Sequence[str]:
-    """What may be answered, in turn."""
+    """Return the possible answers of a question, in turn."""
     given = question.choices or _NUMBERS
     first = (question.proposed,) if question.proposed else ()
     return (*first, *(choice for choice in given if choice != question.proposed))
@@ -248,13 +257,13 @@ def _answers(question: Question) -> Sequence[str]:
 
 # -- Polled signals --------------------------------------------------------------------------------
 #
-# Guessed inputs that a program looks at again and again: each becomes what it looks for, in turn.
+# Inferred inputs that a program polls. Each receives the expected value in turn.
 #
-# `WHILE TRUE DO IF diStart = 1 ...` waits, though no instruction says so. While a task is inside
-# such a loop, one of the inputs in the loop's conditions is pressed like a button for half a
-# second, then the next one; inputs that have to hold together are pressed together. So are outputs
-# that programs only read: the system or another task sets them. What an interrupt waits for is
-# looked for wherever the task is.
+# `WHILE TRUE DO IF diStart = 1 ...` waits without a wait instruction. While a task is inside such a
+# loop, one of the inputs in the loop's conditions is pressed like a button for half a second, then
+# the next one. Inputs of one condition are pressed together. The same applies to outputs that
+# programs only read: the system or another task sets them. Inputs of interrupts are pressed
+# regardless of the task's place.
 
 
 _HELD = 0.5
@@ -266,7 +275,10 @@ Wanted = tuple[str, Relation, float]
 
 @dataclass(frozen=True, slots=True)
 class PolledSignals:
-    """Comparisons of signals in a loop (lines of its module) that hold together."""
+    """Comparisons of signals in a loop that are true together.
+
+    Lines are those of its module.
+    """
 
     module: str
     first: int
@@ -275,7 +287,7 @@ class PolledSignals:
 
 
 def polled(looks: Iterable[WaitCondition], given: Collection[str]) -> Iterator[PolledSignals]:
-    """All that are of `given` signals, by lower-case name."""
+    """Return all conditions on `given` signals, by lower-case name."""
     for look in looks:
         result = (one for term in look.terms for one in _compared(term))
         expected = tuple(dict.fromkeys(one for one in result if one[0] in given))
@@ -304,7 +316,10 @@ def _signal(node: n.Node) -> str:
 
 
 def passed_arguments(module: ModuleScope) -> Iterator[str]:
-    """Lower-case names that a module gives to instructions: of outputs, those that it sets."""
+    """Iterate over names that a module passes to instructions.
+
+    For outputs these are the signals that it sets. Names are lower case.
+    """
     for node, _ in scoped(module):
         if isinstance(node, n.LateCall) or (
             isinstance(node, n.ProcedureCall | n.FunctionCall)
@@ -315,7 +330,7 @@ def passed_arguments(module: ModuleScope) -> Iterator[str]:
 
 
 class Polling(Protocol):
-    """A controller whose tasks poll."""
+    """A controller whose tasks poll signals."""
 
     io: IOSystem
     scheduler: Scheduler
@@ -323,7 +338,7 @@ class Polling(Protocol):
 
 
 class InputSetter:
-    """Presses the inputs that tasks look for, one after the other."""
+    """Presses the inputs that tasks poll, one after the other."""
 
     def __init__(
         self, controller: Polling, rows: tuple[PolledSignals, ...], message: list[Answer]
@@ -356,7 +371,7 @@ class InputSetter:
                     io.set(awaited.signal, value)
             if self._pressed:
                 break
-        # Where every task waits and nothing is ahead, the program waits for ever.
+        # If every task waits and no event follows, the program waits for ever.
         waits = all(task.waits_for is not None for task in self._running())
         if not waits or scheduler.next_event() is not None:
             self._next()
@@ -365,7 +380,7 @@ class InputSetter:
         return (t for t in self._controller.rapid_tasks.values() if t.state == "running")
 
     def _of(self, task: Task) -> list[PolledSignals]:
-        """What a task looks for in the loop that it is in, the innermost first."""
+        """Return the conditions of a task's loops, the innermost first."""
         if task.waits_for is not None:
             return []
         # Time passes in the middle of its statements: then this is called by the task itself.
@@ -381,34 +396,34 @@ class InputSetter:
 
 # -- Polled data -----------------------------------------------------------------------------------
 #
-# Data that a program looks at again and again, and that nothing in it makes what it looks for: a
-# panel, a client of web services or a task in no file would. In a guessed cell each is set in turn,
-# and together what has to hold together.
+# Data that a program polls and never sets to the expected value. On a real controller a panel, a
+# client of web services or a task outside the files sets them. In an inferred cell each is set in
+# turn, data of one condition together.
 #
 # `WaitUntil bStart;` and `WHILE TRUE DO IF nOrder = 3 ...` wait for such data. While a task is at
-# such a place, or in the loop around it, one of them becomes what is looked for, for a second where
-# the program never writes it, and for good where it does: then it takes it back by itself. Of what
-# is only copied from another datum, that one is set.
+# such a place, or in the loop around it, one of them receives the expected value: for a second if
+# the program never writes it, permanently if it does, because the program then resets it itself.
+# For a copy of another datum, the original is set.
 
 
 _HELD_DATA: Final = 0.5
 """Seconds between two data that are set."""
 _TURNS: Final = 2
-"""Of them, for which a datum keeps what it was set to."""
+"""Turns for which a datum keeps its set value."""
 _MOST: Final = 200
 """Times that data are set."""
 GUESSED_DATA: Final = "cell_data"
-"""The module that guessed data are in."""
+"""The module that contains inferred data."""
 _KINDS: Final[Mapping[type, tuple[str, ...]]] = {bool: ("bool",), str: ("string",)}
 _ANY: Final = (False, 0.0, "")
 _WATCHING: Final = frozenset(("ipers",))
-"""What takes a persistent and leaves it as it is."""
+"""Instructions that read a persistent without changing it."""
 Plain = bool | float | str
 
 
 @dataclass(frozen=True, slots=True)
 class Adjusted:
-    """What a datum becomes, and whether the program writes it otherwise."""
+    """The value of a datum, and True if the program also writes it."""
 
     owner: str
     """Module that declares it."""
@@ -419,7 +434,7 @@ class Adjusted:
 
 @dataclass(frozen=True, slots=True)
 class PolledData:
-    """Data that are looked at together in lines of a module, and what for."""
+    """Data that lines of a module poll together, with expected values."""
 
     task: str
     module: str
@@ -434,8 +449,10 @@ def flags(
     looks: Iterable[WaitCondition],
     made: Mapping[str, str],
 ) -> Iterator[PolledData]:
-    """All that the modules of a task look at. `made` are the types of data that are guessed, by
-    lower-case name."""
+    """Return all data polled in the modules of a task.
+
+    `made` are the types of inferred data, by lower-case name.
+    """
     written: dict[str, set[object]] = {}
     for scope in scopes:
         for name, value in _written(scope, made):
@@ -448,7 +465,10 @@ def flags(
 
 
 def _given(one: Adjusted, written: Mapping[str, set[object]]) -> Adjusted | None:
-    """What nothing in the program gives; of what only copies another datum, that one."""
+    """Return a value that no part of the program writes.
+
+    For a copy of another datum, it is a value of the original.
+    """
     values = written.get(one.name.casefold(), set())
     copied = [value for value in values if isinstance(value, Adjusted)]
     if len(copied) == 1:
@@ -462,7 +482,7 @@ def _given(one: Adjusted, written: Mapping[str, set[object]]) -> Adjusted | None
 
 
 def _wanted(term: Term, made: Mapping[str, str]) -> Iterator[Adjusted]:
-    """A plain datum in a comparison, and what makes it hold or not."""
+    """Iterate over plain data in a comparison, with deciding values."""
     node, holds, scope = term
     if isinstance(node, n.Name):
         yield from _set(node, scope, holds, made)
@@ -479,7 +499,7 @@ def _wanted(term: Term, made: Mapping[str, str]) -> Iterator[Adjusted]:
 
 
 def _making(operator: str, value: Plain) -> Plain | None:
-    """What a datum becomes so that its comparison with a value holds."""
+    """Return a value that makes a comparison with `value` true."""
     if operator in ("=", ">=", "<="):
         return value
     if isinstance(value, bool):
@@ -490,7 +510,7 @@ def _making(operator: str, value: Plain) -> Plain | None:
 
 
 def _set(name: n.Name, scope: Scope, value: Plain, made: Mapping[str, str]) -> Iterator[Adjusted]:
-    """Nothing where the name is no variable or persistent of a plain type."""
+    """Iterate over a value for a name of a plain variable or persistent."""
     symbol = scope.find(name.name)
     if symbol is None:
         owner, kind = GUESSED_DATA, made.get(name.name.casefold(), "")
@@ -505,8 +525,10 @@ def _set(name: n.Name, scope: Scope, value: Plain, made: Mapping[str, str]) -> I
 
 
 def _written(module: ModuleScope, made: Mapping[str, str]) -> Iterator[tuple[str, object]]:
-    """Names that a module writes, and what: a constant, a copied datum (Adjusted), or something
-    else (None)."""
+    """Iterate over names that a module writes, and the values.
+
+    A value is a constant, a copied datum (Adjusted), or None for others.
+    """
     for node, scope in scoped(module):
         match node:
             case n.Assignment() if isinstance(node.target, n.Name):
@@ -523,17 +545,17 @@ def _written(module: ModuleScope, made: Mapping[str, str]) -> Iterator[tuple[str
 
 
 class HasPolledData(Protocol):
-    """A controller whose tasks look at data."""
+    """A controller whose tasks poll data."""
 
     scheduler: Scheduler
     rapid_tasks: dict[str, Task]
 
     def task(self, name: str) -> "TaskView":
-        """One task."""
+        """Return a task."""
 
 
 class DataSetter:
-    """Sets the data that tasks look for, one after the other."""
+    """Sets the data that tasks poll, one after the other."""
 
     def __init__(
         self, controller: HasPolledData, rows: tuple[PolledData, ...], message: list[Answer]
@@ -567,7 +589,7 @@ class DataSetter:
             self._next()
 
     def _set(self, row: PolledData) -> bool:
-        """Whether anything was not so yet."""
+        """Set the data of a condition; return False if all were set already."""
         changed, task = False, self._controller.task(row.task)
         for one in row.sets:
             name = f"{one.owner}:{one.name}"
@@ -583,7 +605,7 @@ class DataSetter:
         return changed
 
     def _around(self, task: Task) -> list[PolledData]:
-        """What a task looks for where it is, the innermost first."""
+        """Return the conditions at a task's place, the innermost first."""
         waits = task.waits_for is not None
         stack = (
             task.stack() if waits else stack_at(task.program.codes, task.frame or sys._getframe())

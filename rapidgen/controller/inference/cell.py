@@ -1,13 +1,15 @@
-"""What programs name and nobody declares, as the description of a cell: a guess.
+"""Inferred description of a cell for undeclared names of programs.
 
-A public program seldom has its controller's configuration beside it. The type of a name is that of
-the parameter that it is an argument of; where it is only read, its first letters tell as ABB's
-examples name signals (di, do, gi, go, ai, ao), and what is compared with 0 or 1 is a digital input.
-Tools have the load of tool0 and are the flange; a work object is a table in front of the robot; a
-mechanical unit stands there and has no axes, a camera sees one thing in its middle. Data of other
-types are what RAPID makes of a declaration without a value: 0, FALSE, an empty text; but what a
-program divides by is 1, a target is where the robot stands at first, `v25` is a speed of 25 mm/s
-and `z5` a zone of 5 mm. What has no type that could be told stays unknown.
+A public program usually lacks its controller's configuration. The rules of inference:
+
+1. The type of a name is that of the parameter that it is an argument of.
+2. If a name is only read, its first letters decide, as ABB's examples name signals (di, do, gi, go,
+   ai, ao); a name compared with 0 or 1 is a digital input.
+3. Tools have the load of tool0 and are at the flange; a work object is a table in front of the
+   robot; a mechanical unit is at its place and has no axes; a camera sees one object in its centre.
+4. Data of other types have RAPID's default: 0, FALSE, an empty text. Exceptions: a divisor is 1, a
+   target is the start position of the robot, `v25` is a speed of 25 mm/s and `z5` a zone of 5 mm.
+5. A name without a type stays unknown.
 """
 
 import re
@@ -62,10 +64,10 @@ _DIONUM = frozenset(("high", "low", "edge"))
 _DATA = frozenset({"tooldata", "wobjdata", "loaddata"})
 _MADE = frozenset(("mecunit", "cameradev"))
 _NUM = re.compile(r"n[A-Z_\d]|num[A-Z_\d]|reg\d")
-"""Names that programmers give to numbers: nCount."""
+"""Names that programmers use for numbers: nCount."""
 _NUMBERED = re.compile(r"[vz](\d{1,4})", re.I)
 _ELEMENTS = 20
-"""Of an array whose size nobody says."""
+"""Elements of an array of unknown size."""
 _NOTHING: Mapping[str, str] = {"num": "0", "dnum": "0", "bool": "FALSE", "string": '""'}
 _ORDER = frozenset(("<", ">", "<=", ">="))
 _ALIASIO = 2
@@ -74,39 +76,38 @@ _Use = tuple[n.Name, str, int]
 
 @dataclass(frozen=True, slots=True)
 class UndeclaredName:
-    """A name that nobody declares: its type (empty: not to be told), and where it is used first."""
+    """An undeclared name: its type (empty: unknown) and first use."""
 
     name: str
     type: str
     span: Span
     sure: int = 0
-    """0: nothing tells; 1: it is read as a number; 2: it is the argument of a parameter."""
+    """0: no evidence; 1: read as a number; 2: argument of a parameter."""
 
 
 @dataclass(frozen=True, slots=True)
 class InferredCell:
-    """A made-up cell, what is in it, and what could not be made up."""
+    """An inferred cell, its contents, and the names without a result."""
 
     cell: CellDescription
     named: tuple[UndeclaredName, ...]
     unknown: tuple[UndeclaredName, ...]
     polled: tuple[PolledSignals, ...] = ()
-    """Comparisons of guessed inputs in loops."""
+    """Comparisons of inferred inputs in loops."""
     data: tuple[tuple[str, str, str], ...] = ()
-    """Kind and type (`VAR num`), name and initial value (empty: none is given) of data that no
-    description has."""
+    """Kind and type (`VAR num`), name and initial value (empty: none) of inferred data."""
     units: tuple[str, ...] = ()
     """Mechanical units."""
     routines: str = ""
-    """Declarations of routines that are in no file and do nothing."""
+    """Declarations of missing routines, without effect."""
     flags: tuple[PolledData, ...] = ()
     """Data that programs look at and do not set."""
     heard: ExpectedMessages = field(default_factory=ExpectedMessages)
-    """What programs listen for at their sockets."""
+    """Messages that programs expect at their sockets."""
     blank: tuple[DefaultedPersistent, ...] = ()
-    """Tools and work objects whose values another task would have."""
+    """Tools and work objects whose values another task would set."""
     driven: frozenset[str] = frozenset()
-    """Signals that nobody else sets, lower case: inputs, and outputs that are only read."""
+    """Signals without another source, lower case: inputs, and outputs that are only read."""
     divisors: frozenset[str] = frozenset()
     """Names of what is divided by, lower case."""
 
@@ -117,10 +118,10 @@ def guess(
     table: tuple[float, float, float] = (0.0, 0.0, 0.0),
     frames: Mapping[str, str] = MappingProxyType({}),
 ) -> InferredCell:
-    """The cell that the programs of `system` seem to stand in.
+    """Return the cell that the programs of `system` seem to need.
 
-    `units` are its mechanical units, `table` is where work objects are, m, `frames` the robtarget
-    and the jointtarget of the robot at first, as RAPID has them.
+    `units` are its mechanical units, `table` is the place of work objects in m, `frames` the start
+    robtarget and jointtarget of the robot as RAPID texts.
     """
     found: dict[str, UndeclaredName] = {}
     assigned: set[str] = set()
@@ -179,7 +180,7 @@ def guess(
         for name, keys in cell.signals.items()
         if keys.kind[1] == "I" or name.casefold() not in handed
     }
-    # Nobody stands at the inputs that a backup declares, either; a cross connection makes its own.
+    # Inputs declared in a backup have no source either. A cross connection sets its own.
     made_here = {connection.result.casefold() for connection in system.cross}
     given |= {s.name.casefold() for s in system.signals if s.type[1] == "I"} - made_here
     looks = {
@@ -234,7 +235,7 @@ def _can_be_made(kind: str) -> bool:
 
 
 def _is_plain(kind: str) -> bool:
-    """Of a predefined type that any module may declare."""
+    """Return True for a predefined type that any module may declare."""
     ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid", "cameradev")
     return not ours and type_class(kind) is not None
 
@@ -246,8 +247,11 @@ def _declaration(
     persisted: Collection[str],
     sizes: Mapping[str, int],
 ) -> tuple[str, str, str]:
-    """What an initial value is made of is a constant, where its value is known; what only a
-    persistent may be is one."""
+    """Return the declaration of an inferred datum.
+
+    A name in an initial value becomes a constant if its value is known, a name in a place for
+    persistents a persistent.
+    """
     value = str(sizes.get(one.name.casefold()) or _value(one, frames))
     if one.name.casefold() in initial:
         value = value or _NOTHING.get(one.type, "")
@@ -256,7 +260,7 @@ def _declaration(
 
 
 def _persistent(module: ModuleScope) -> Iterator[str]:
-    """Names that stand where only a persistent may."""
+    """Iterate over names in places that require a persistent."""
     for node, scope in scoped(module):
         if isinstance(node, n.FunctionCall | n.ProcedureCall):
             routine = called(scope.find(node.name))
@@ -267,7 +271,7 @@ def _persistent(module: ModuleScope) -> Iterator[str]:
 
 
 def _in_initial_values(module: ModuleScope) -> Iterator[str]:
-    """Names in the initial values of a module's data."""
+    """Iterate over names in the initial values of a module's data."""
     for declared in module.tree.data:
         if declared.initial is not None:
             for node in walk(declared.initial):
@@ -276,7 +280,7 @@ def _in_initial_values(module: ModuleScope) -> Iterator[str]:
 
 
 def _divisors(module: ModuleScope) -> Iterator[str]:
-    """Names of what is divided by."""
+    """Iterate over names of divisors."""
     for node, _ in scoped(module):
         if isinstance(node, n.Binary) and node.operator in ("/", "DIV", "MOD"):
             by = node.right.inner if isinstance(node.right, n.Parenthesis) else node.right
@@ -284,7 +288,10 @@ def _divisors(module: ModuleScope) -> Iterator[str]:
 
 
 def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:
-    """Names that stand for the size of an array, and as many elements as its initial value has."""
+    """Iterate over names of array sizes.
+
+    The number is that of the elements in the initial value.
+    """
     tree = module.tree
     for declared in (*tree.data, *(d for routine in tree.routines for d in routine.data)):
         for place, size in enumerate(declared.dimensions):
@@ -317,7 +324,7 @@ def _assigned(module: ModuleScope) -> set[str]:
 
 
 def _undeclared(module: ModuleScope) -> Iterator[UndeclaredName]:
-    """Every use of a datum that nobody declares, in a module."""
+    """Iterate over uses of undeclared data in a module."""
     if not module.tree.name:
         return
     for node, scope in scoped(module):
@@ -329,8 +336,10 @@ def _undeclared(module: ModuleScope) -> Iterator[UndeclaredName]:
 
 
 def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
-    """Plain names that stand in a node, with the type that they seem to have (empty: any), and how
-    sure that is."""
+    """Iterate over plain names in a node.
+
+    Each has its apparent type (empty: any) and the certainty of it.
+    """
     if isinstance(node, n.FunctionCall | n.ProcedureCall):
         if node.name.lower() == "aliasio":
             yield from _aliased(node, scope)
@@ -340,7 +349,7 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
             for name, kind, _ in passed(node.arguments, routine, scope):
                 if not isinstance(name, n.Name):
                     continue
-                # A signal stands for its value where a number is wanted.
+                # A signal represents its value where a number is required.
                 if kind in ("", "num", "dnum"):
                     result = _read_as(name.name, node) or kind
                     yield name, result, 1 if result else 0
@@ -349,13 +358,13 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
         elif routine is None:
             for argument in node.arguments:
                 if isinstance(argument.value, n.Name):
-                    # What is only given to routines in no file may as well be a number.
+                    # An argument of a missing routine may be a number.
                     result = _read_as(argument.value.name, node)
                     yield argument.value, result or "num", 1 if result else 0
         return
     for one, kind in read(node, scope):
         if isinstance(one, n.Name):
-            # What compares is a number where nothing else tells.
+            # Without other evidence, a compared name is a number.
             plain = kind or (
                 "num" if isinstance(node, n.Binary) and node.operator in _ORDER else ""
             )
@@ -364,7 +373,7 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
 
 
 def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_Use]:
-    """The signal behind an alias: a text names it, or it stands there itself."""
+    """Return the signal of an alias, given by text or by itself."""
     values = [argument.value for argument in node.arguments if argument.value is not None]
     kind = declared_type(values[-1], scope) if len(values) == _ALIASIO else None
     if kind is not None and kind.startswith("signal"):
@@ -376,7 +385,7 @@ def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_
 
 
 def _read_as(name: str, node: n.Node) -> str:
-    """What a name may be that a node reads as a number."""
+    """Return the type of a name that a node reads as a number."""
     prefix = _PREFIX.match(name)
     if prefix is not None:
         return f"signal{prefix[0].lower()}"

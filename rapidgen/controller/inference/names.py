@@ -17,16 +17,15 @@ from rapidgen.runtime import unsupported
 
 # -- Names and their use ---------------------------------------------------------------------------
 #
-# What programs make of the names in them: every node with the scope that it stands in, and the
-# type that an expression has by where it stands.
+# Use of names: every node with its scope, and the type of an expression from its place.
 
 
 _RULED: Mapping[str, str] = {"AND": "bool", "OR": "bool", "XOR": "bool", "DIV": "num", "MOD": "num"}
-"""What operands are by their operator alone."""
+"""Types of operands, from the operator alone."""
 
 
 def scoped(module: ModuleScope) -> Iterator[tuple[n.Node, Scope]]:
-    """Every node of a module, in the order of the text."""
+    """Iterate over every node of a module, in the order of the text."""
     stack: list[tuple[n.Node, Scope]] = [(d, module) for d in reversed(module.tree.declarations)]
     while stack:
         node, scope = stack.pop()
@@ -40,7 +39,7 @@ def scoped(module: ModuleScope) -> Iterator[tuple[n.Node, Scope]]:
 
 
 def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
-    """Expressions in a node, and what they are by what stands beside them."""
+    """Iterate over expressions in a node, with types from their context."""
     match node:
         case n.Binary():
             ruled = _RULED.get(node.operator, "")
@@ -70,7 +69,10 @@ def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
 def passed(
     arguments: list[n.Argument], routine: RoutineSymbol, scope: Scope
 ) -> Iterator[tuple[n.Expression, str, str]]:
-    """Arguments of a known routine, with types (empty: any) and modes of their parameters."""
+    """Iterate over arguments of a known routine.
+
+    Each has the type (empty: any) and mode of its parameter.
+    """
     parameters = routine.parameters or ()
     for pair in match(parameters, arguments, lambda _, alternatives: alternatives[0]).pairs:
         value = pair.argument.value
@@ -83,9 +85,9 @@ def passed(
 
 # -- Default tools ---------------------------------------------------------------------------------
 #
-# Tools and work objects of a program that nothing in it gives a value: persistents whose other
-# half is in a task that is in no file. In a guessed cell the predefined ones stand in, tool0 and
-# wobj0; with all figures 0 no move and no CRobT would be possible.
+# Tools and work objects without a value in the program: persistents whose other declaration is in a
+# task outside the files. In an inferred cell the predefined tool0 and wobj0 replace them; with all
+# numbers 0 no move and no CRobT would be possible.
 
 
 _STANDS: Final[Mapping[str, str]] = {"tooldata": "tool0", "wobjdata": "wobj0"}
@@ -93,7 +95,7 @@ _STANDS: Final[Mapping[str, str]] = {"tooldata": "tool0", "wobjdata": "wobj0"}
 
 @dataclass(frozen=True, slots=True)
 class DefaultedPersistent:
-    """A persistent of a module, and the predefined datum that stands in for it."""
+    """A persistent of a module, and the predefined datum for it."""
 
     task: str
     module: str
@@ -104,7 +106,7 @@ class DefaultedPersistent:
 def find_defaulted_persistents(
     tasks: Iterable[tuple[str, Iterable[ModuleScope]]],
 ) -> dict[DefaultedPersistent, tuple[str, Span]]:
-    """All in the modules of tasks, each with its type and where it is declared."""
+    """Return such persistents of all tasks, with types and places."""
     result: dict[DefaultedPersistent, tuple[str, Span]] = {}
     filled: set[str] = set()
     for task, modules in tasks:
@@ -119,7 +121,7 @@ def find_defaulted_persistents(
 
 
 def _filled(module: ModuleScope) -> Iterator[str]:
-    """Data of a module that have a value, or get one, whole or in part."""
+    """Iterate over data of a module with a value or an assignment."""
     for node, _ in scoped(module):
         if isinstance(node, n.DataDeclaration) and node.initial is not None:
             yield node.name.casefold()
@@ -133,13 +135,13 @@ def _filled(module: ModuleScope) -> Iterator[str]:
 
 # -- Missing routines ------------------------------------------------------------------------------
 #
-# Routines that programs call and that are in no file, as stubs: a guess.
+# Stubs for called routines that are in no file.
 #
-# Public modules call what stayed on the controller. A stub takes the arguments of its first call,
-# by their types, and the optional ones of all further calls. It does nothing, and gives what RAPID
-# makes of a declaration without a value: 0, FALSE, an empty text; where a robot stands for a
-# target. A call whose arguments have no type that could be told, or a type of the program's own,
-# gets no stub, and the task stops there as before.
+# Public modules call routines that remained on the controller. A stub takes the arguments of its
+# first call, by their types, and the optional ones of all further calls. It does nothing and
+# returns RAPID's default: 0, FALSE, an empty text, or the robot's position for a target. A call
+# whose arguments have an unknown type, or a type of the program, gets no stub: the task stops
+# there.
 
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
@@ -148,7 +150,7 @@ _Call = n.ProcedureCall | n.FunctionCall | n.LateCall
 
 @dataclass(frozen=True, slots=True)
 class _Parameter:
-    """Of a stub; `name` is empty where no call says it."""
+    """A parameter of a stub; `name` is empty if no call contains it."""
 
     name: str
     declaration: str
@@ -165,7 +167,10 @@ class _Parameter:
 
 @dataclass(frozen=True, slots=True)
 class MissingRoutine:
-    """A routine that is called and in no file; `type` is what it gives, empty for the others."""
+    """A called routine that is in no file.
+
+    `type` is that of its result, empty for procedures and traps.
+    """
 
     name: str
     type: str
@@ -175,11 +180,14 @@ class MissingRoutine:
 
     @property
     def kind(self) -> str:
-        """As it is told: proc, func num, trap."""
+        """Display name of its kind: proc, func num, trap."""
         return f"func {self.type}" if self.type else "trap" if self.is_trap else "proc"
 
     def stub(self, value: str) -> str:
-        """Its declaration, which does nothing and gives `value` (empty: that of its type)."""
+        """Return the declaration of a stub that returns `value`.
+
+        Empty means the default of its type.
+        """
         if self.is_trap:
             return f"    TRAP {self.name}\n    ENDTRAP\n"
         given = (p.text(number) for number, p in enumerate(self.parameters, 1))
@@ -196,15 +204,17 @@ class MissingRoutine:
 
 
 def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[MissingRoutine, ...]:
-    """What the modules of a task call and none of them declares, each once, where a stub can be
-    made. `types` are those of names that nobody declares, by lower-case name."""
+    """Return undeclared routines that a task calls, for stubs.
+
+    Each is returned once. `types` are those of undeclared names, by lower-case name.
+    """
     result: dict[str, MissingRoutine] = {}
     for module in modules:
         if not module.tree.name:
             continue
         kinds: dict[int, str] = {}
         for node, scope in scoped(module):
-            # What stands around a call comes before it.
+            # The nodes around a call come before it.
             kinds.update((id(e), kind) for e, kind in _wanted(node, scope))
             name = _unknown(node, scope)
             if not name:
@@ -233,7 +243,7 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Mi
 def _with_options(
     known: Sequence[_Parameter], further: Sequence[_Parameter]
 ) -> tuple[_Parameter, ...]:
-    """The optional ones that another call has, too, where they stand in it."""
+    """Return a stub with the additional optional parameters of a call."""
     merged, place = list(known), 0
     for parameter in further:
         names = [p.name.casefold() if p.optional else "" for p in merged]
@@ -256,7 +266,10 @@ def _wanted(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
 
 
 def _unknown(node: n.Node, scope: Scope) -> str:
-    """The name of a routine that a node calls and nobody has; empty: it calls none, or a known."""
+    """Return the name of an undeclared routine that a node calls.
+
+    Returns "" for other nodes.
+    """
     name: object = ""
     if isinstance(node, n.LateCall):
         name = constant(node.procedure, scope)
@@ -273,7 +286,7 @@ def _unknown(node: n.Node, scope: Scope) -> str:
 def _parameters(
     arguments: Sequence[n.Argument], scope: Scope, types: Mapping[str, str]
 ) -> tuple[_Parameter, ...] | None:
-    """Parameters that take these arguments; None: a type is not known."""
+    """Return parameters for these arguments, None for an unknown type."""
     result = []
     for argument in arguments:
         name = argument.name or ""

@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 # -- Binary messages -------------------------------------------------------------------------------
 #
-# Binary messages of a made-up partner: what a program unpacks from received bytes, and tests.
+# Binary messages of an inferred peer: numbers that a program unpacks from received bytes and tests.
 #
-# `UnpackRawBytes` tells where a number is and how long, a comparison which ones are listened for.
-# What `\ReadNoOfBytes` takes from the message itself is the length of the rest, which comes first.
+# `UnpackRawBytes` gives position and size of a number, a comparison its expected values. A number
+# of a message in `\ReadNoOfBytes` is the length of the rest, which comes first.
 
 
 _FORMATS: Final[Mapping[str, str]] = {
@@ -38,7 +38,10 @@ _LONGEST: Final = 1024
 
 @dataclass(frozen=True, slots=True)
 class BinaryField:
-    """A number in a message: where it begins (from 0), its format, and what it is tested for."""
+    """A number in a message.
+
+    It has a position (from 0), a format and tested values.
+    """
 
     place: int
     format: str
@@ -46,27 +49,33 @@ class BinaryField:
 
     @property
     def end(self) -> int:
-        """Where the next may begin."""
+        """Position after the number."""
         return self.place + struct.calcsize(self.format)
 
     @property
     def other(self) -> float:
-        """What it is not tested for."""
+        """A value that the program does not test."""
         return max(self.values) + 1
 
 
 @dataclass(frozen=True, slots=True)
 class MessageFraming:
-    """How messages are made up; `prefix` is the length before them, None: there is none."""
+    """The structure of messages; `prefix` is the length before them.
+
+    None: messages have no length.
+    """
 
     prefix: BinaryField | None = None
     length: int = 0
     parts: tuple[BinaryField, ...] = ()
-    """Those that the program tests."""
+    """Numbers that the program tests."""
 
     def messages(self) -> list[bytes]:
-        """Each value that is tested, and one that is not, beside the first ones of the others; the
-        first part, which tells what a message is, is unknown at last."""
+        """Return messages for each tested value, and an untested one.
+
+        Other numbers have their first value. The first number, which identifies a message, is
+        unknown in the last message.
+        """
         if not self.length or not (self.parts or self.prefix):
             return []
         first = [part.values[0] for part in self.parts]
@@ -93,7 +102,10 @@ class MessageFraming:
 def framed(
     nodes: Iterable[tuple[n.Node, Scope]], tested: Mapping[str, Iterable[float]]
 ) -> MessageFraming:
-    """What programs unpack; `tested` are numbers that data are compared with, by name."""
+    """Return the structure of messages that programs unpack.
+
+    `tested` are numbers compared with data, by name.
+    """
     unpacked: list[tuple[str, str, int, str]] = []
     copies: list[tuple[str, str, int]] = []
     sizes: list[tuple[str, int]] = []
@@ -136,7 +148,10 @@ def framed(
 
 
 def last(node: n.Node) -> str:
-    """The last part of a name, lower case: `id` of `message.id`; empty: it is none."""
+    """Return the last part of a name, lower case.
+
+    Example: `id` of `message.id`. Returns "" for other nodes.
+    """
     match node:
         case n.Name():
             return node.name.casefold()
@@ -157,7 +172,7 @@ def _format(node: n.ProcedureCall) -> str:
 
 
 def _sizes(node: n.Node, scope: Scope) -> Iterator[tuple[str, int]]:
-    """What a program compares the length of raw bytes with."""
+    """Iterate over lengths of raw bytes that a program compares."""
     if isinstance(node, n.Binary):
         call, size = node.left, constant(node.right, scope)
         if isinstance(call, n.FunctionCall) and call.name.lower() == "rawbyteslen":
@@ -168,11 +183,11 @@ def _sizes(node: n.Node, scope: Scope) -> Iterator[tuple[str, int]]:
 
 # -- Text fields -----------------------------------------------------------------------------------
 #
-# Texts of a made-up partner: fields in the order in which a routine cuts them out of what it has
-# received.
+# Texts of an inferred peer: fields in the order in which a routine extracts them from received
+# text.
 #
-# `StrToVal(StrPart(said, 1, at - 1), x)` is a number; what it is compared with tells which one, and
-# what a piece of text is compared with, its words. A field at a fixed place stands there.
+# `StrToVal(StrPart(message, 1, at - 1), x)` is a number; its comparisons give its values,
+# comparisons of a text field its words. A field at a fixed position keeps it.
 
 
 _BOUNDS: Final = frozenset(("<", ">", "<=", ">="))
@@ -181,8 +196,10 @@ _LONGEST_TEXT: Final = 80
 
 @dataclass(frozen=True, slots=True)
 class TextField:
-    """A piece of a text: what it may be, and where it stands (from 0; -1: behind the last one) with
-    how many characters (0: as many as it has)."""
+    """A part of a text: its values, position and length.
+
+    The position counts from 0; -1 means after the previous field. Length 0 means that of the value.
+    """
 
     values: tuple[str, ...]
     place: int = -1
@@ -190,7 +207,7 @@ class TextField:
 
 
 def texts(layout: Sequence[TextField], marker: str) -> Iterator[str]:
-    """With the first value of each field, then with the others of one field after the other."""
+    """Iterate over texts: first values, then variants of one field."""
     first = [part.values[0] for part in layout]
     rows = [first]
     for k, part in enumerate(layout):
@@ -210,7 +227,7 @@ def texts(layout: Sequence[TextField], marker: str) -> Iterator[str]:
 
 
 def layouts(nodes: Iterable[tuple[n.Node, Scope]]) -> Iterator[tuple[TextField, ...]]:
-    """What each routine cuts out, where that is more than one field."""
+    """Iterate over the fields of each routine that extracts several."""
     result: dict[int, dict[str, tuple[int, int, bool]]] = {}
     compared: dict[str, dict[str, None]] = {}
     bounds: dict[str, list[float]] = {}
@@ -257,7 +274,10 @@ def _values(
 
 
 def _tested(node: n.Node, scope: Scope) -> Iterator[tuple[str, str | float, bool]]:
-    """A name, what it is compared with, and whether that only bounds it."""
+    """Iterate over names and compared values.
+
+    The flag is True for a comparison that only limits the value.
+    """
     if isinstance(node, n.Binary) and (node.operator in _BOUNDS or node.operator in ("=", "<>")):
         rows = [(node.left, node.right), (node.right, node.left)]
     elif isinstance(node, n.Test):
@@ -272,10 +292,10 @@ def _tested(node: n.Node, scope: Scope) -> Iterator[tuple[str, str | float, bool
 
 
 def _kept(node: n.Node) -> tuple[n.Expression | None, n.Expression | None]:
-    """Where a node keeps a piece of a text, and the piece."""
+    """Return the target and source of an extracted part of a text."""
     if isinstance(node, n.Assignment) and last(node.target):
         inside = node.value
-        # StrToVal gives whether it is a value, and keeps it elsewhere.
+        # StrToVal returns the validity, and stores the value in an argument.
         tells = isinstance(inside, n.FunctionCall) and inside.name.lower() == "strtoval"
         return (None, None) if tells else (node.target, inside)
     if isinstance(node, n.FunctionCall) and node.name.lower() == "strtoval":
@@ -300,13 +320,13 @@ def _where(cut: n.FunctionCall, scope: Scope) -> tuple[int, int]:
 
 # -- Peers -----------------------------------------------------------------------------------------
 #
-# The other end of a program's sockets in a guessed cell: nobody is there, so somebody is made up
-# who says what the program listens for.
+# Socket peers in an inferred cell: a peer for each socket, which sends the messages that the
+# program expects.
 #
-# What that is its texts tell: words that it compares with a text, numbers that it tests, the
-# characters that it looks for between them, values that it makes of a text. Each is said when the
-# program has waited for bytes for half a second, one after the other and each twice; then nobody
-# answers any more, and the program waits as before. What it sends is taken and not understood.
+# The texts of a program show its expectations: words compared with a text, tested numbers, searched
+# delimiters, values converted from text. Each message is sent when the program has waited for bytes
+# for half a second, one after the other and each twice. After the last one the program waits
+# without an answer. The peer accepts all messages of the program and ignores their content.
 
 
 _THOUGHT: Final = 0.5
@@ -314,7 +334,7 @@ _THOUGHT: Final = 0.5
 _WAYS: Final = 3
 _MOST: Final = 60
 _NUMBERS: Final = "1", "2", "3", "100", "0", "0", "0", "1", "0", "0"
-"""What follows a word or a number: more values than most take."""
+"""Numbers after a word or a number: more than most programs read."""
 _OTHERS: Final = "0", "0", *"1" * 8
 _VALUES: Mapping[str, str] = {
     "num": "1",
@@ -325,28 +345,28 @@ _VALUES: Mapping[str, str] = {
     "pose": "[[100,0,100],[1,0,0,0]]",
 }
 _LAST: Final = re.compile("exit|quit|close|stop|end|bye", re.I)
-"""Words that may end a conversation are said behind the others."""
+"""Words that may end a conversation are sent last."""
 _SEARCHING: Final = frozenset(("strfind", "strmatch", "strmemb"))
 _COMPARING: Final = frozenset(("=", "<>"))
 _NUMBER: Final = re.compile(r"-?[0-9.]+(?:e[-+]?[0-9]+)?", re.I)
 _LONGEST_ANSWER: Final = 20
-"""Values behind a number."""
+"""Maximum number of values after a number."""
 
 
 @dataclass(frozen=True, slots=True)
 class ExpectedMessages:
-    """What a program listens for."""
+    """Messages that a program expects."""
 
     words: tuple[str, ...] = ()
-    """What a whole message is compared with."""
+    """Texts compared with a whole message."""
     beginnings: tuple[str, ...] = ()
-    """What parts of one are compared with."""
+    """Texts compared with a part of a message."""
     numbers: tuple[int, ...] = ()
     separators: tuple[str, ...] = ()
     values: tuple[str, ...] = ()
     """Whole values in a text."""
     sized: tuple[tuple[int, int], ...] = ()
-    """Numbers, and how many values behind each: what else its own branch compares with a number."""
+    """Numbers, and the numbers of values after each, from the comparisons in its branch."""
     stands: Mapping[str, str] = field(default_factory=dict)
     framed: MessageFraming = field(default_factory=MessageFraming)
     """Binary messages."""
@@ -354,7 +374,7 @@ class ExpectedMessages:
     """Texts that are cut into fields."""
 
     def messages(self) -> list[bytes]:
-        """What is said, in turn: with counted values once, all else twice."""
+        """Return messages in turn: with counted values once, others twice."""
         if self.framed.prefix is not None:
             return self.framed.messages()[:_MOST] * 2
         marks = self.separators or (" ",)
@@ -386,8 +406,11 @@ class ExpectedMessages:
         ) * 2
 
     def _behind(self, count: int) -> Iterator[tuple[str, ...]]:
-        """So many numbers: a position, a turn, axes or a target, of where the robot stands; of
-        others nobody knows what they are."""
+        """Iterate over sequences of numbers of a given length.
+
+        A position, a rotation, axes or a target are those of the robot's start; other lengths have
+        no known meaning.
+        """
         kind = {3: "pos", 4: "orient", 6: "jointtarget", 7: "robtarget"}.get(count, "")
         known = _NUMBER.findall({**_VALUES, **self.stands}.get(kind, ""))
         report = tuple(f"{float(number):g}" for number in known)
@@ -398,7 +421,10 @@ class ExpectedMessages:
 def expected_messages(
     modules: Iterable[ModuleScope], frames: Mapping[str, str]
 ) -> ExpectedMessages:
-    """What the modules of all tasks listen for; `stands` are values of targets."""
+    """Return the messages that the modules of all tasks expect.
+
+    `stands` are values of targets.
+    """
     known = {**_VALUES, **frames}
     nodes = [result for module in modules for result in scoped(module)]
     received = {name for node, _ in nodes for name in _received(node)}
@@ -436,7 +462,7 @@ def expected_messages(
 
 
 def _received(node: n.Node) -> Iterator[str]:
-    """Texts that a node receives into."""
+    """Iterate over texts that a node receives into."""
     if isinstance(node, n.ProcedureCall) and node.name.lower() == "socketreceive":
         for argument in node.arguments:
             if (argument.name or "").lower() == "str" and isinstance(argument.value, n.Name):
@@ -444,7 +470,7 @@ def _received(node: n.Node) -> Iterator[str]:
 
 
 def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object]]:
-    """What text or number is compared, and with which constant."""
+    """Iterate over compared texts and numbers with their constants."""
     if isinstance(node, n.Binary) and node.operator in _COMPARING:
         for one, other in ((node.left, node.right), (node.right, node.left)):
             asks = isinstance(one, n.FunctionCall) and one.name.lower() == "socketgetstatus"
@@ -458,7 +484,7 @@ def _compared(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, object
 
 
 def _sized(node: n.Node, scope: Scope) -> Iterator[tuple[int, int]]:
-    """Numbers that lead to a branch in which another number is compared, and what with."""
+    """Iterate over numbers of a branch with the numbers compared in it."""
     match node:
         case n.Test():
             ways = [(case.values, case.body) for case in node.cases]
@@ -495,7 +521,7 @@ class HasSockets(Protocol):
 
 
 class SocketPeer:
-    """Connects where a program listens, listens where one connects, and speaks where one waits."""
+    """A peer that connects, listens and sends as the program expects."""
 
     def __init__(
         self, controller: HasSockets, what: ExpectedMessages, message: "list[Answer]"

@@ -35,14 +35,16 @@ from rapidgen.system.model import System
 
 # -- Move targets ----------------------------------------------------------------------------------
 #
-# Where the moves of a program go, as far as that can be told without running it: the targets and
-# axes that its modules declare or write out, in the work objects that the moves name.
+# Targets of a program's moves, as far as known before execution: declared or literal targets and
+# axes, in the work objects of the moves.
 
 
 @dataclass(frozen=True, slots=True)
 class MoveTarget:
-    """What one move goes to: the TCP in the world (m), or axes as RAPID's robax and extax (deg,
-    mm)."""
+    """Target of a move: the TCP in the world (m), or axes.
+
+    Axes are RAPID's robax and extax (deg, mm).
+    """
 
     name: str
     """Of the datum; empty for what is written out."""
@@ -56,9 +58,9 @@ class MoveTarget:
 
 
 def move_targets(module: ModuleScope, *, roughly: bool = False) -> Iterator[MoveTarget]:
-    """What the moves of a module go to, in the order of its lines.
+    """Iterate over targets of a module's moves, in the order of lines.
 
-    `roughly`: what Offs and RelTool shift by something that cannot be told is where it was.
+    `roughly`: an unknown shift of Offs or RelTool is ignored.
     """
     for routine in module.tree.routines:
         scope = module.routine(routine)
@@ -74,7 +76,10 @@ def move_targets(module: ModuleScope, *, roughly: bool = False) -> Iterator[Move
 def _meant(
     node: n.ProcedureCall, symbol: RoutineSymbol, scope: Scope, line: int, roughly: bool
 ) -> MoveTarget | None:
-    """What one call goes to; None where it is no move, or its target is not known before."""
+    """Return the target of a call.
+
+    None: not a move, or a target that is unknown before execution.
+    """
     parameters = symbol.parameters or ()
     names = [p.name.lower() for p in parameters]
     if symbol.module is not None or not {"topoint", "tojointpos"} & {*names}:
@@ -97,7 +102,7 @@ def _meant(
     wobj = _declared(given.get("wobj"), scope, "wobjdata")
     held = (tool and not tool[0]) or (wobj and wobj[0])
     if held or not any(_numbers(target[1])):
-        return None  # The place is where another robot holds the part, or there is none.
+        return None  # Another robot holds the part, or the position is unknown.
     pose = _pose(*target[:2])
     if wobj:
         pose = frames.compose(frames.compose(_frame(wobj[3]), _frame(wobj[4])), pose)
@@ -125,8 +130,10 @@ def _pose(place: Value, turn: Value) -> Pose:
 def _declared(
     node: n.Expression | None, scope: Scope, kind: str, roughly: bool = False
 ) -> tuple[Value, ...]:
-    """The initial value of a datum, or what stands there; of `Offs` with constants the place.
-    Empty: it cannot be told."""
+    """Return the initial value of a datum, or a literal.
+
+    `Offs` with constants is evaluated. Empty: unknown.
+    """
     if isinstance(node, n.FunctionCall) and node.name.lower() in ("offs", "reltool"):
         first, *remaining = (argument.value for argument in node.arguments)
         base = _declared(first, scope, kind, roughly)
@@ -167,19 +174,21 @@ _ORIGIN: Final = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True, slots=True)
 class FlangeTarget:
-    """Where a program wants the flange (m), in what configuration; or its axes, as RAPID's
-    robax (deg, mm)."""
+    """A required flange pose (m) with a configuration; or axes.
+
+    Axes are RAPID's robax and extax (deg, mm).
+    """
 
     flange: Pose | None
     configuration: AxisConfiguration = (0, 0, 0, 0)
     arm_angle: float | None = None
-    """What eax_a may be of an arm with seven axes; None: it is not."""
+    """Possible arm angle in eax_a of a seven-axis arm; None: not one."""
     axes: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class RobotCandidate:
-    """A model, and how many of the targets it reaches."""
+    """A model, and the number of targets that it reaches."""
 
     model: str
     reached: int
@@ -187,13 +196,16 @@ class RobotCandidate:
 
 
 def infer_robot_model(system: System, default: str) -> RobotCandidate | None:
-    """The first model that reaches most of what the programs of `system` aim at: `default`, the
-    shipped ones, known variants. None: they aim at nothing that can be told."""
+    """Return the first model that reaches most targets of `system`.
+
+    Candidates are `default`, the shipped models and known variants. None: the programs have no
+    known target.
+    """
     result = list(dict.fromkeys(aims(system)))
     tried = result[:: 1 + len(result) // _MOST]
     if not tried:
         return None
-    # Programs written by other tools give 0 to axes that a robot does not have.
+    # Programs of other tools set axes that a robot does not have to 0.
     if all(aim.arm_angle is not None for aim in tried) and any(aim.arm_angle for aim in tried):
         return RobotCandidate(_SEVEN_AXES, len(tried), len(tried))
     best: RobotCandidate | None = None
@@ -230,7 +242,7 @@ def _reaches(
     if aim.flange is not None:
         result = kinematics.solutions(aim.flange, near, aim.configuration)
         return kinematics.fitting(result, aim.configuration, "turn") is not None
-    # Of the axes beside the arm nothing is asked: they stay.
+    # Additional axes are ignored: they keep their position.
     expected = JointMap.of(group).from_rapid(aim.axes, (ABSENT,) * 6, near)
     return all(
         joint.lower - 1e-6 <= value <= joint.upper + 1e-6
@@ -240,7 +252,7 @@ def _reaches(
 
 
 def aims(system: System) -> Iterator[FlangeTarget]:
-    """What the moves of all tasks aim at, where that can be told without running them."""
+    """Iterate over flange targets of all tasks, known before execution."""
     for spec in system.tasks:
         task = TaskScope()
         dialect = Dialect(system.robotware, some=not system.is_robotware_known)
@@ -260,15 +272,19 @@ def _aim(result: MoveTarget) -> FlangeTarget:
 
 # -- Start poses -----------------------------------------------------------------------------------
 #
-# Where the robot of somebody else's program stands when the controller is switched on.
+# Start position of an inferred robot.
 #
-# With all axes at 0 most arms have their wrist in a singularity, where no real one waits for a
-# program: the first MoveL would fail. A driver's robot starts at 0 as its own tests want it.
+# With all axes at 0, most arms have their wrist in a singularity, where a real robot does not wait
+# for a program: the first MoveL would fail. The robot of a generated driver starts at 0, as its
+# tests expect.
 
 
 def table_pose(group: GroupConfig) -> tuple[float, float, float]:
-    """Where a table may stand that the robot reaches: below its flange at the usual start, at a
-    third of the height. The origin for a model without geometry."""
+    """Return a reachable place for a table.
+
+    It is below the flange of the usual start, at a third of the height. A model without geometry
+    yields the origin.
+    """
     kinematics = Kinematics.of(group)
     if kinematics is None:
         return (0.0, 0.0, 0.0)
@@ -277,8 +293,10 @@ def table_pose(group: GroupConfig) -> tuple[float, float, float]:
 
 
 def stands(group: GroupConfig) -> Mapping[str, str]:
-    """Where the robot stands at first as RAPID's robtarget (in world and flange) and jointtarget;
-    none for a model without geometry."""
+    """Return the robot's start as RAPID robtarget and jointtarget.
+
+    The robtarget is in world and flange. A model without geometry has none.
+    """
     kinematics = Kinematics.of(group)
     if kinematics is None:
         return {}
@@ -295,9 +313,10 @@ def stands(group: GroupConfig) -> Mapping[str, str]:
 
 
 def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[float, ...]:
-    """`values` (deg, mm: robot axes, then external ones, each that the group has) as `usual_start`.
+    """Return `values` (deg, mm) as a start posture.
 
-    `where` says who gave them. DiagnosticError RG435: too few, too many, or outside the range.
+    They are robot axes, then the external axes of the group. `where` names their source.
+    DiagnosticError RG435: too few, too many, or outside the range.
     """
     joints = sorted(group.joints, key=lambda joint: joint.axis.replace("rax", "0"))
     names = ", ".join(joint.axis for joint in joints)
@@ -326,7 +345,10 @@ def start_of(group: GroupConfig, values: Sequence[float], where: str) -> tuple[f
 
 
 def shown(group: GroupConfig, posture: Sequence[float]) -> str:
-    """A posture as RAPID has it: `[0,0,0,0,30,0]`, deg and mm, and external axes behind."""
+    """Return a posture in RAPID's format, deg and mm.
+
+    Example: `[0,0,0,0,30,0]`, followed by external axes.
+    """
     robax, extax = JointMap.of(group).to_rapid(posture)
     there = [f"{value:g}" for value in extax if value < 1e9]
     return f"[{','.join(f'{v:g}' for v in robax)}]" + (f" [{','.join(there)}]" if there else "")

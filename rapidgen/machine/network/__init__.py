@@ -1,1 +1,1 @@
-"""The network under the socket built-ins, in memory or the operating system's."""
+"""Network of the socket built-ins: in memory, or the system's."""

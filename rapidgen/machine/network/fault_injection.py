@@ -1,4 +1,4 @@
-"""Network faults."""
+"""Injection of network faults by rules."""
 
 from collections import deque
 from dataclasses import dataclass, replace
@@ -26,11 +26,11 @@ Direction = Literal["in", "out", "both"]
 
 @dataclass(frozen=True, slots=True)
 class NetworkRule:
-    """What happens to the connections of a port once `after` bytes have passed.
+    """A fault of a port's connections after `after` bytes.
 
-    `port` 0 and `connection` 0 mean all; a direction is seen from the program (`in`: what it
-    receives). `bytes`: the size of the pieces (split) or bytes a second (slow). `seconds`: the
-    gap between pieces (split), how long bytes are gathered (merge) or held back (delay).
+    `port` 0 and `connection` 0 mean all; a direction is seen from the program (`in`: received
+    data). `bytes`: size of the pieces (split) or bytes per second (slow). `seconds`: the gap
+    between pieces (split), the time to collect bytes (merge) or to delay them (delay).
     """
 
     do: NetworkAction
@@ -42,21 +42,21 @@ class NetworkRule:
     seconds: float = 0.001
 
     def concerns(self, port: int, connection: int) -> bool:
-        """Whether the rule is about that connection, counted from 1 for each port."""
+        """Return True if the rule applies to a connection, counted from 1."""
         return self.port in (0, port) and self.connection in (0, connection)
 
 
 # -- Injection -------------------------------------------------------------------------------------
 #
-# A network that misbehaves by plan: wraps either implementation, on the controller's side.
+# A network with planned faults: it wraps either implementation, on the controller's side.
 #
-# TCP loses nothing in the middle, so bytes are never dropped singly: they come in other pieces,
-# later, or from some byte on not at all. Both directions of a connection that a rule concerns pass
-# through queues here; all others go straight through.
+# TCP loses no bytes in the middle of a stream, so a rule never drops single bytes: they arrive in
+# other pieces, later, or not at all from some byte on. Both directions of an affected connection
+# pass through queues here; all others pass directly.
 
 
 class _Lane:
-    """One direction of a connection: pieces with the times at which they pass."""
+    """A direction of a connection: pieces with their times."""
 
     def __init__(self, scheduler: Scheduler, rules: list[NetworkRule]) -> None:
         self._scheduler = scheduler
@@ -69,26 +69,26 @@ class _Lane:
 
     @property
     def active(self) -> bool:
-        """Whether any rule is about this direction."""
+        """True if a rule applies to this direction."""
         return bool(self._rules)
 
     def ended_by(self) -> NetworkRule | None:
-        """The rule that keeps further bytes from passing."""
+        """Return the rule that blocks further bytes."""
         for rule in self._rules:
             if rule.do in ("reset", "silent") and self._taken >= rule.after:
                 return rule
         return None
 
     def obey(self, rules: list[NetworkRule]) -> None:
-        """Other rules from the next byte on."""
+        """Use other rules from the next byte on."""
         self._rules = [replace(rule, after=self._taken + rule.after) for rule in rules]
 
     def half_open(self) -> bool:
-        """Whether the end of the connection is kept from the program."""
+        """True if the program does not see the end of the connection."""
         return any(r.do == "half-open" and self._taken >= r.after for r in self._rules)
 
     def put(self, data: bytes) -> None:
-        """Cut bytes into pieces and give each its time; bytes behind an end are gone."""
+        """Split bytes into pieces with times; discard bytes after an end."""
         while data:
             limits = [r.after - self._taken for r in self._rules if r.after > self._taken]
             if self.ended_by() is not None:
@@ -117,7 +117,7 @@ class _Lane:
         for start in range(0, len(part), size):
             time = max(now + round(hold * S), self._last + round(gap * S))
             if gather:
-                # Everything of one stretch of time passes at its end.
+                # All bytes of an interval pass at its end.
                 stretch = round(gather * S)
                 time = -(-time // stretch) * stretch
             self._last = time
@@ -125,19 +125,19 @@ class _Lane:
         self.waiting += len(part)
 
     def take(self) -> tuple[int, bytes]:
-        """The first piece, with its time."""
+        """Remove and return the first piece and its time."""
         time, piece = self.pieces.popleft()
         self.waiting -= len(piece)
         return time, piece
 
     def give_back(self, time: int, remaining: bytes) -> None:
-        """What could not pass of the first piece."""
+        """Put back the rest of the first piece."""
         self.pieces.appendleft((time, remaining))
         self.waiting += len(remaining)
 
 
 class _Line:
-    """One connection under a plan."""
+    """A connection under a plan."""
 
     def __init__(self, lane_in: _Lane, lane_out: _Lane) -> None:
         self.lane_in = lane_in
@@ -151,7 +151,7 @@ class _Line:
 
 
 class FaultyNetwork(Network):
-    """`inner`, with rules. Endpoints are those of `inner`."""
+    """`inner` with rules; endpoints are those of `inner`."""
 
     def __init__(
         self, inner: Network, scheduler: Scheduler, rules: tuple[NetworkRule, ...]
@@ -198,7 +198,7 @@ class FaultyNetwork(Network):
         if isinstance(line.end, NetworkFault) and not line.lane_out.half_open():
             raise line.end
         if line.end is not None and line.lane_out.half_open():
-            # The peer is gone: the first send is taken, its answer is a reset.
+            # The peer is gone: the first send succeeds, its answer is a reset.
             line.broken_sends += 1
             if line.broken_sends > 1:
                 raise NetworkFault(NetworkReason.RESET, "half-open")
@@ -246,12 +246,14 @@ class FaultyNetwork(Network):
         self._inner.shut_down()
 
     def obey(self, rules: tuple[NetworkRule, ...]) -> None:
-        """Another plan, for connections that are still to come."""
+        """Use another plan for future connections."""
         self._rules = rules
 
     def inject_fault(self, endpoint: Endpoint, rule: NetworkRule) -> None:
-        """From now on one rule is about a connection, instead of those of the plan; what waits
-        passes before."""
+        """Apply one rule to a connection instead of those of the plan.
+
+        Waiting bytes pass before.
+        """
         line = self._lines.get(endpoint)
         if line is None:
             self._put_under(endpoint, [rule])
@@ -278,7 +280,7 @@ class FaultyNetwork(Network):
         self._advance(endpoint, line)
 
     def _advance(self, endpoint: Endpoint, line: _Line) -> None:
-        """Take what has come, pass on what is due, and come back when more is due."""
+        """Read arrived data, pass on due data, and schedule the next call."""
         if self._lines.get(endpoint) is not line:
             return
         if line.lane_in.active:

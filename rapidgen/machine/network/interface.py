@@ -1,9 +1,9 @@
-"""The methods under RAPID's socket built-ins; none of them ever waits.
+"""Interface of RAPID's socket built-ins; no method waits.
 
-Whoever has to wait does so on `Endpoint.changed`, which is notified whenever a method may now
-answer otherwise: data, room to send, a client to accept, a connection made, refused or lost.
-Two implementations: `memory.py` (virtual clock) and `system.py` (the operating system's
-sockets); `faulty.py` puts a fault plan before either.
+A waiting task uses `Endpoint.changed`, which is notified when a method may return another result:
+data, free buffer space, a client to accept, a connection established, rejected or lost.
+Implementations: `memory.py` (virtual clock) and `system.py` (the operating system's sockets);
+`fault_injection.py` adds a fault plan to either.
 """
 
 from abc import ABC, abstractmethod
@@ -14,7 +14,7 @@ from rapidgen.machine.scheduler import WaitSet
 SocketAddress = tuple[str, int]
 
 BUFFER = 65_536
-"""Bytes that one direction of a connection holds before its sender has to wait."""
+"""Bytes in one direction of a connection before its sender waits."""
 
 
 class NetworkReason(StrEnum):
@@ -30,7 +30,7 @@ class NetworkReason(StrEnum):
 
 
 class NetworkFault(Exception):
-    """A network method failed for good; the text is for the log."""
+    """A method failed permanently; the text is for the log."""
 
     def __init__(self, reason: NetworkReason, text: str = "") -> None:
         super().__init__(text or reason.value)
@@ -38,10 +38,9 @@ class NetworkFault(Exception):
 
 
 class Endpoint:
-    """One end: a listener, one side of a connection, or a datagram socket.
+    """An end: a listener, a side of a connection, or a datagram socket.
 
-    `connected` is False while a connect is under way. `sender` is where the last datagram
-    came from.
+    `connected` is False during a connect. `sender` is the source of the last datagram.
     """
 
     __slots__ = ("changed", "closed", "connected", "fault", "local", "peer", "sender")
@@ -57,7 +56,7 @@ class Endpoint:
         self.changed = WaitSet()
 
     def check(self) -> None:
-        """NetworkFault when it cannot be used any more."""
+        """Raise NetworkFault if the endpoint is no longer usable."""
         if self.fault is not None:
             raise self.fault
         if self.closed:
@@ -65,7 +64,7 @@ class Endpoint:
 
 
 def taken(buffer: bytearray, count: int, *, exact: bool, peek: bool) -> bytes | None:
-    """What `Network.receive` gives of the bytes that are there; None: not enough."""
+    """Return the bytes for `Network.receive`, None for too few."""
     if not buffer or (exact and len(buffer) < count):
         return None
     data = bytes(buffer[:count])
@@ -75,19 +74,22 @@ def taken(buffer: bytearray, count: int, *, exact: bool, peek: bool) -> bytes | 
 
 
 class Network(ABC):
-    """What a socket built-in can ask for. Every method returns at once; NetworkFault otherwise."""
+    """Operations of socket built-ins.
+
+    Every method returns at once or raises NetworkFault.
+    """
 
     def __init__(self) -> None:
         self.address = "127.0.0.1"
-        """The controller's LAN address, as GetSysInfo tells it."""
+        """The controller's LAN address, for GetSysInfo."""
         self.listeners: dict[int, SocketAddress] = {}
-        """Port that the program asked for: where its clients find it, for all that listen now."""
+        """Port of the program to actual address, for all listeners."""
         self.listening = WaitSet()
         """Notified when `listeners` changes."""
 
     @abstractmethod
     def bind(self, host: str, port: int, *, datagram: bool = False) -> Endpoint:
-        """Take a port. Port 0 takes any free one; `Endpoint.local` tells which."""
+        """Bind a port; port 0 means any free one (`Endpoint.local`)."""
 
     @abstractmethod
     def listen(self, endpoint: Endpoint) -> None:
@@ -95,30 +97,36 @@ class Network(ABC):
 
     @abstractmethod
     def accept(self, endpoint: Endpoint) -> Endpoint | None:
-        """The next client of a listener, or None when there is none yet."""
+        """Return the next client of a listener, None without one."""
 
     @abstractmethod
     def connect(self, host: str, port: int) -> Endpoint:
-        """Begin to connect; `connected` turns True, or `receive` and `send` raise the fault."""
+        """Begin to connect.
+
+        `connected` becomes True, or `receive` and `send` raise the fault.
+        """
 
     @abstractmethod
     def send(self, endpoint: Endpoint, data: bytes, to: SocketAddress | None = None) -> int:
-        """Take as much of `data` as there is room for; the number of bytes taken, 0 for none."""
+        """Take as much of `data` as the buffer can store.
+
+        Returns the number of bytes, 0 for none.
+        """
 
     @abstractmethod
     def receive(
         self, endpoint: Endpoint, count: int, *, exact: bool = False, peek: bool = False
     ) -> bytes | None:
-        """Up to `count` bytes; None when there is nothing yet, b"" when the peer has ended.
+        """Return up to `count` bytes, None without data, b"" at the end.
 
-        `exact`: `count` bytes (at most `BUFFER`) or nothing; what there is stays for the next
-        call. `peek`: the bytes stay. A datagram endpoint gives one datagram, cut to `count`.
+        `exact`: `count` bytes (at most `BUFFER`) or None, which leaves the bytes. `peek`: the bytes
+        stay. A datagram endpoint returns one datagram, cut to `count`.
         """
 
     @abstractmethod
     def close(self, endpoint: Endpoint, *, abort: bool = False) -> None:
-        """Give an endpoint back; what was sent is still delivered, with `abort` it is not."""
+        """Release an endpoint; sent data are delivered unless `abort`."""
 
     @abstractmethod
     def shut_down(self) -> None:
-        """Close everything: the controller is going away."""
+        """Close all endpoints at the end of the controller."""

@@ -1,9 +1,10 @@
-"""TCP and UDP on the virtual clock: segments, 64 kB buffers, back-pressure, FIN, RST, silence.
+"""TCP and UDP on the virtual clock, in memory.
 
-One machine, one range of ports, as on a loopback interface: the controller and its clients meet
-by port number alone. A connection is two pipes; bytes travel in segments of at most `MSS` that
-arrive in order, `latency` nanoseconds after they were sent. (Bytes are never lost: a cut
-connection falls silent, as with TCP when nobody acknowledges: the sender's buffer fills.)
+Segments, 64 kB buffers, back-pressure, FIN, RST and silence are simulated. One machine with one
+range of ports, as on a loopback interface: controller and clients connect by port number alone. A
+connection is two pipes. Bytes travel in segments of at most `MSS` that arrive in order, `latency`
+nanoseconds after they were sent. (Bytes are never lost: an interrupted connection becomes silent,
+as TCP without acknowledgements: the sender's buffer fills.)
 """
 
 from collections import deque
@@ -23,13 +24,13 @@ from rapidgen.machine.scheduler import Scheduler
 MSS = 1460
 LATENCY = 100_000
 BACKLOG = 16
-"""Connections that wait to be accepted; a listener ignores further ones until there is room."""
+"""Connections that wait for accept; a listener ignores further ones until then."""
 _FIRST_EPHEMERAL = 49_152
 _LAST_PORT = 65_535
 
 
 class _Pipe:
-    """One direction of a connection: from `sender` to `receiver`."""
+    """A direction of a connection, from `sender` to `receiver`."""
 
     __slots__ = (
         "arrived",
@@ -55,11 +56,11 @@ class _Pipe:
         self.finished = False
         """FIN has arrived."""
         self.silent = False
-        """Nothing passes any more and nobody is told; what is written stays in `waiting`."""
+        """No data pass any more, without notification; written data stay in `waiting`."""
 
 
 class MemoryEndpoint(Endpoint):
-    """An endpoint of the network in memory; both sides use it through the network's methods."""
+    """An endpoint in memory, used through the network's methods."""
 
     __slots__ = ("backlog", "datagrams", "incoming", "listening", "outgoing")
 
@@ -156,7 +157,7 @@ class MemoryNetwork(Network):
         return None
 
     def close(self, endpoint: Endpoint, *, abort: bool = False) -> None:
-        """See `Network.close`. Unread bytes make the peer see a reset, as with TCP."""
+        """See `Network.close`; unread bytes cause a reset, as with TCP."""
         own = _mine(endpoint)
         if own.closed:
             return
@@ -189,14 +190,14 @@ class MemoryNetwork(Network):
     # -- for tests and fault plans ----------------------------------------------------------
 
     def silence(self, endpoint: Endpoint) -> None:
-        """Let a connection die without a word: nothing passes any more in either direction."""
+        """Silence a connection: no data pass in either direction."""
         own = _mine(endpoint)
         for pipe in (own.incoming, own.outgoing):
             if pipe is not None:
                 pipe.silent = True
 
     def reset(self, endpoint: Endpoint) -> None:
-        """Break a connection with RST: both sides are told."""
+        """Break a connection with RST; both sides are notified."""
         own = _mine(endpoint)
         for pipe in (own.incoming, own.outgoing):
             if pipe is not None:
@@ -219,7 +220,7 @@ class MemoryNetwork(Network):
             self._fail(client, NetworkFault(NetworkReason.REFUSED, f"port {port}"))
             return
         if len(listener.backlog) >= BACKLOG:
-            # The connection request is repeated, as TCP does, until there is room.
+            # The connection request is repeated until the backlog has space, as in TCP.
             self._scheduler.after(1_000_000_000, lambda: self._answer(client, port))
             return
         server = MemoryEndpoint(listener.local, client.local)
@@ -255,7 +256,7 @@ class MemoryNetwork(Network):
             return
         pipe.flying -= len(segment)
         if pipe.receiver.closed:
-            # Nobody is there any more: the sender gets a reset.
+            # The receiver no longer exists: the sender gets a reset.
             if not pipe.sender.closed:
                 self._fail(pipe.sender, NetworkFault(NetworkReason.RESET))
             return

@@ -1,4 +1,4 @@
-"""Sockets as a program holds them, and the controller's table of those that are in use."""
+"""Sockets of programs, and the controller's table of used sockets."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class SocketStatus(IntEnum):
 
 
 class SocketDevice:
-    """A socketdev: the program's own view of a socket."""
+    """A socketdev: the program's view of a socket."""
 
     __slots__ = ("endpoint", "status", "udp")
 
@@ -40,12 +40,12 @@ class SocketDevice:
 
 
 SocketChange = Literal["open", "in", "out", "close"]
-"""A connection begins or ends, or bytes of one were taken by the program or given by it."""
+"""A connection begins or ends, or the program received or sent bytes of one."""
 
 
 @dataclass(frozen=True, slots=True)
 class SocketNews:
-    """What one socket of a program did."""
+    """An action of a program's socket."""
 
     change: SocketChange
     task: str
@@ -55,40 +55,43 @@ class SocketNews:
 
 
 class SocketTable:
-    """Which sockets of a network are in use, and by which task."""
+    """Used sockets of a network, by task."""
 
     def __init__(self, network: Network, *, limited: bool = True) -> None:
         self._network = network
         self._limited = limited
         self._owners: dict[SocketDevice, str] = {}
         self.listeners: list[Callable[[SocketNews], None]] = []
-        """Are told what connections do, at the moment when the program notices it."""
+        """Receive socket actions when the program notices them."""
         self.on_awaited: Callable[[Endpoint | None, int, int], None] | None = None
-        """Is told that a program is about to wait: for a client of a listener, for so many bytes
-        (0: any) of a connection, or, without an endpoint, for a server at a port."""
+        """Receives that a program is about to wait: for a client of a listener, for a number of
+        bytes (0: any) of a connection, or, without an endpoint, for a server at a port."""
 
     @property
     def full(self) -> bool:
-        """Whether no further socket can be created."""
+        """True if no further socket can be created."""
         return self._limited and len(self._owners) >= MAX_SOCKETS
 
     def add(self, device: SocketDevice, task: str) -> None:
-        """A socket comes into use."""
+        """Register a used socket."""
         self._owners[device] = task
 
     @property
     def in_use(self) -> Mapping[SocketDevice, str]:
-        """Sockets and the tasks that have them."""
+        """Return sockets and the tasks that use them."""
         return MappingProxyType(self._owners)
 
     def cut(self, device: SocketDevice) -> None:
-        """The connection is reset, as a peer that has crashed does; the program finds out."""
+        """Reset the connection, as a crashed peer does.
+
+        The program notices it at its next access.
+        """
         if device.endpoint is not None:
             device.endpoint.fault = NetworkFault(NetworkReason.RESET, "by hand")
             self._network.close(device.endpoint, abort=True)
 
     def release(self, device: SocketDevice, *, abort: bool = False) -> None:
-        """Close a socket; harmless when it is closed."""
+        """Close a socket; ignore a closed one."""
         if device.status is SocketStatus.CONNECTED:
             self.tell("close", device)
         self._owners.pop(device, None)
@@ -104,14 +107,14 @@ class SocketTable:
         data: bytes = b"",
         peer: SocketAddress | None = None,
     ) -> None:
-        """Let listeners know what a socket did; `peer` of a datagram."""
+        """Notify listeners of a socket action; `peer` of a datagram."""
         at, task = device.endpoint, self._owners.get(device, "")
         if at is not None:
             for listener in self.listeners:
                 listener(SocketNews(change, task, at.local, peer or at.peer, data))
 
     def connections(self) -> list[SocketNews]:
-        """Connections that are open, as the news of their beginning."""
+        """Return open connections as actions of their beginning."""
         return [
             SocketNews("open", task, device.endpoint.local, device.endpoint.peer)
             for device, task in self._owners.items()
@@ -119,6 +122,6 @@ class SocketTable:
         ]
 
     def close_task(self, task: str) -> None:
-        """Close every socket that a task has created or accepted (PP to main, restart)."""
+        """Close all sockets of a task (PP to main, restart)."""
         for device in [d for d, owner in self._owners.items() if owner == task]:
             self.release(device)

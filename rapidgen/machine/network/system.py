@@ -1,8 +1,8 @@
-"""The operating system's sockets, never blocking, served through the scheduler's selector.
+"""Sockets of the operating system, non-blocking, with a selector.
 
-Loopback unless told: a controller whose host is a loopback address cannot be reached from, and
-does not reach out to, another machine; whatever address a program binds or connects to, it is
-this host that it gets. Ports may be moved, so that many controllers fit on one machine.
+The default is loopback. A controller with a loopback host cannot be reached from another machine
+and does not connect to one; every address that a program binds or connects to becomes this host.
+Ports may be mapped, so that many controllers run on one machine.
 """
 
 import errno
@@ -45,7 +45,7 @@ _REASONS = {
 
 
 class SystemEndpoint(Endpoint):
-    """An endpoint that is a socket of the operating system."""
+    """An endpoint with a socket of the operating system."""
 
     __slots__ = ("buffer", "datagram", "ended", "interest", "port", "socket")
 
@@ -60,7 +60,7 @@ class SystemEndpoint(Endpoint):
         super().__init__(local, peer)
         self.socket = own
         self.port = port
-        """The port that the program asked for."""
+        """Port of the program, before mapping."""
         self.datagram = own.type == socket.SOCK_DGRAM
         self.interest = 0
         self.buffer = bytearray()
@@ -68,7 +68,7 @@ class SystemEndpoint(Endpoint):
 
 
 class SystemNetwork(Network):
-    """Sockets on `host`; belongs to a scheduler on the real clock."""
+    """Sockets on `host`, for a scheduler on the real clock."""
 
     def __init__(
         self, scheduler: Scheduler, *, host: str = "127.0.0.1", ports: PortMap = 0
@@ -85,7 +85,7 @@ class SystemNetwork(Network):
     # -- the six methods --------------------------------------------------------------------
 
     def bind(self, host: str, port: int, *, datagram: bool = False) -> SystemEndpoint:
-        """See `Network.bind`. Whatever own address the program names, it binds the host's."""
+        """See `Network.bind`; any local address becomes the host's."""
         _check_address(host)
         if any(e.port == port != 0 and e.datagram == datagram for e in self._open):
             raise NetworkFault(NetworkReason.ADDRESS_IN_USE, f"port {port}")
@@ -216,7 +216,7 @@ class SystemNetwork(Network):
         if not 0 < port <= _LAST_PORT:
             raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         if self._map == "auto":
-            # A server that closes and comes back is found where it was.
+            # A server that closes and reopens keeps its port.
             return self._actual.get((datagram, port), 0)
         if port + self._map > _LAST_PORT:
             raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port} + {self._map}")
@@ -259,7 +259,7 @@ class SystemNetwork(Network):
         return data[:count]
 
     def _want(self, own: SystemEndpoint, event: int) -> None:
-        """Be told once when `event` is there: nobody is woken for what nobody waits for."""
+        """Request one notification of `event`; avoids wake-ups without a waiter."""
         if own.interest & event:
             return
         if own.interest:
