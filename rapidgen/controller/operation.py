@@ -267,7 +267,7 @@ class Operation:
             raise ValueError(f"unknown action {action}")
         ACTIONS[action](self)
 
-    # -- tasks tell ------------------------------------------------------------------------------
+    # -- reports of tasks ------------------------------------------------------------------------
 
     def task_changed(self) -> None:
         """Handle a changed task state."""

@@ -154,7 +154,7 @@ class ControllerRunner:
         for tell in tuple(self.on_boot):
             tell()
 
-    # -- in a thread of its own ------------------------------------------------------------------
+    # -- thread ----------------------------------------------------------------------------------
 
     def start(self) -> None:
         """Run in a separate thread from now on."""

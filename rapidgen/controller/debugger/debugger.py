@@ -256,7 +256,7 @@ class Debugger:
         self.halt = None
         self._scheduler.resume()
 
-    # -- what tasks tell -------------------------------------------------------------------------
+    # -- reports of tasks ------------------------------------------------------------------------
 
     def _statement(self, name: str, routine: Routine, node: n.Statement) -> None:
         module = routine.module
