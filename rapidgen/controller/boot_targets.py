@@ -15,7 +15,7 @@ from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
 from rapidgen.config.registry import is_path
 from rapidgen.controller.cell_setup import CellSetup, apply_cell, cameras_of, force_of
-from rapidgen.controller.inference.robot import stands, start_of, table_pose
+from rapidgen.controller.inference.robot import start_of, start_targets, table_pose
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics, of_unknown_payload
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
@@ -234,10 +234,10 @@ def _surrounded(result: Bootable, cell: "CellDescription | None", options: BootO
         units = [u for g in result.groups for u in (g.mechanical_unit, *g.external_units)]
         first, *others = result.groups
         table = table_pose(first)
-        guessed = guess(result.system, units, table, stands(first))
+        guessed = guess(result.system, units, table, start_targets(first))
         cell = guessed.cell
-        stands_still = (ChainLink("", table, (0.0, 0.0, 0.0)),)
-        carriers = [Positioner(unit, stands_still) for unit in guessed.units]
+        fixed_table = (ChainLink("", table, (0.0, 0.0, 0.0)),)
+        carriers = [Positioner(unit, fixed_table) for unit in guessed.units]
         first = replace(
             first,
             external_units=(*first.external_units, *guessed.units),
@@ -260,7 +260,7 @@ def _surrounded(result: Bootable, cell: "CellDescription | None", options: BootO
             guessed.driven if guessed is not None else frozenset(),
             guessed.polled if guessed is not None else (),
             guessed.flags if guessed is not None else (),
-            guessed.heard if guessed is not None else None,
+            guessed.expected_messages if guessed is not None else None,
             cameras_of(cell, is_guess=guessed is not None),
             force_of(cell),
             frozenset(guessed.divisors if guessed is not None else ()),

@@ -106,7 +106,7 @@ def _has_main(module: ModuleFile) -> bool:
 
 GUESSED = 49_910
 """Event: an input without a source received the awaited value. The number is ours."""
-_PATIENCE = 0.5
+_INPUT_DELAY = 0.5
 """Seconds that a program waits for an inferred input."""
 Posture = tuple[float, ...]
 """Controller axes, rad and m, wire order."""
@@ -125,7 +125,7 @@ class CellSetup:
     """Where programs look for them in loops."""
     flags: "tuple[PolledData, ...]" = ()
     """Data that programs look at and do not set."""
-    heard: "ExpectedMessages | None" = None
+    expected_messages: "ExpectedMessages | None" = None
     """Expected messages of programs at sockets without a peer."""
     cameras: Mapping[str, Camera] = field(default_factory=dict)
     """Results of cameras, by lower-case name."""
@@ -304,10 +304,10 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
                 controller.io.set(signal, value)
 
         if signal.name.casefold() in around.guessed:
-            controller.scheduler.after(round(_PATIENCE * S), give)
+            controller.scheduler.after(round(_INPUT_DELAY * S), give)
 
     for row in around.blank:
-        controller.task(row.task)[f"{row.module}:{row.name}"] = predefined_value(row.stands)
+        controller.task(row.task)[f"{row.module}:{row.name}"] = predefined_value(row.replacement)
     if around.guessed:
         controller.io.on_awaited = answer
     if around.polled:
@@ -331,10 +331,10 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
         from rapidgen.controller.inference.answers import DialogResponder
 
         DialogResponder(controller.operator, controller.scheduler, answered)
-    if around.heard is not None and isinstance(controller.network, MemoryNetwork):
+    if around.expected_messages is not None and isinstance(controller.network, MemoryNetwork):
         from rapidgen.controller.inference.peers import SocketPeer
 
-        SocketPeer(controller, around.heard, answered)
+        SocketPeer(controller, around.expected_messages, answered)
     return guessed
 
 

@@ -265,8 +265,8 @@ class VirtualController:
         `backup` is that of the controller below a generated folder; `robot` and `cell` as in
         `from_files`. DiagnosticError: a file cannot be read, or a controller would not load it.
         """
-        wishes = BootOptions(backup=backup, robot=robot, cell=cell)
-        return cls.boot(load_target([path], wishes), **options)
+        boot_options = BootOptions(backup=backup, robot=robot, cell=cell)
+        return cls.boot(load_target([path], boot_options), **options)
 
     @classmethod
     def from_files(
@@ -290,8 +290,8 @@ class VirtualController:
         for task, names in tasks.items():
             if isinstance(names, str | Path):
                 raise TypeError(f"the files of {task} are a list: [{str(names)!r}]")
-        wishes = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
-        return cls.boot(load_target((), wishes), **options)
+        boot_options = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
+        return cls.boot(load_target((), boot_options), **options)
 
     @classmethod
     def from_config(
@@ -404,7 +404,7 @@ class VirtualController:
         return "deadlock" if outcome == "idle" or idle else "time"
 
     def _step(self, until: int | None, stop: Callable[[], bool] | None = None) -> AdvanceEnd:
-        if self._thread.begun:
+        if self._thread.owns_tasks:
             raise RuntimeError(
                 "the controller runs in another thread, its own since start(): time passes there "
                 "by itself, call() runs a function there"
@@ -536,7 +536,7 @@ class VirtualController:
         ValueError: the clock is not the real one. RuntimeError: the controller is closed, or its
         tasks run in the calling thread.
         """
-        if not self._thread.begun and any(task.body for task in self.rapid_tasks.values()):
+        if not self._thread.owns_tasks and any(task.body for task in self.rapid_tasks.values()):
             raise RuntimeError(
                 "its tasks run in the thread that has let time pass: call start() before run_for "
                 "and run_until, or go on with these"

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 DEFAULT_ROBOT = "irb120"
 # MOC.cfg of backups: ROB1_4600_2.55_40, ROB_R_14000_05_05, ROB1_910SC_0.55_3, ROB1_15000_0_95_5.
 _TYPE = re.compile(r"ROB_?[A-Z0-9]+?_(\d{3,5}[A-Z]{0,3})", re.I)
-_MEND = "name the robot with `--robot NAME`; `rapidgen robots` lists the models"
+_HELP = "name the robot with `--robot NAME`; `rapidgen robots` lists the models"
 _SPEEDS = (
     "`rapidgen new robot.yaml --robot '{}'`, write the data sheet's speeds into it, and "
     "`--robot robot.yaml`"
@@ -84,7 +84,9 @@ def mechanics(
             notes += report
         else:
             robots = of_unknown_payload(shipped_groups(DEFAULT_ROBOT))
-            notes.append(_stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}"))
+            notes.append(
+                _replacement_note(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}")
+            )
         group = next(g for g in groups_for(system, robots) if g.task == task)
         in_use = any(other.name == group.name for other in groups)
         if in_use:
@@ -125,15 +127,15 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
         if group is not None:
             guessed = any(axis.speed is None for axis in very.axes)
             note = f"no source tells the speeds of a {name}: {ASSUMED_SPEED:g} deg/s are taken"
-            return (group,), [_stands_in(note, _SPEEDS.format(very.name))] if guessed else []
+            return (group,), [_replacement_note(note, _SPEEDS.format(very.name))] if guessed else []
     if not model:
         others = [f"'{variant.name}'" for variant in kin if group_of(variant) is not None]
-        help = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _MEND
+        help = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _HELP
         raise refusal("RG432", None, f"no known robot is a {name or unit}", help)
     if (very is not None and very.model) or not kin:
         return shipped_groups(model), []
     message = f"the controller has a {name}, moving an {model_description(model)}"
-    return of_unknown_payload(shipped_groups(model)), [_stands_in(message)]
+    return of_unknown_payload(shipped_groups(model)), [_replacement_note(message)]
 
 
 def of_unknown_payload(groups: Sequence[GroupConfig]) -> tuple[GroupConfig, ...]:
@@ -148,7 +150,7 @@ def model_of(robot_type: str) -> str:
     return next((name for name in names if name in shipped_names()), "")
 
 
-def _stands_in(message: str, help: str = _MEND) -> Diagnostic:
+def _replacement_note(message: str, help: str = _HELP) -> Diagnostic:
     return error("RG432", None, message, help, severity=Severity.WARNING)
 
 

@@ -29,12 +29,12 @@ class ControllerThread:
         self._last = last
         self._thread: threading.Thread | None = None
         self._stopping = False
-        self._stands = threading.Event()
+        self._stopped = threading.Event()
         self._going_on: SimpleQueue[bool] = SimpleQueue()
         """True to continue, False to end."""
 
     @property
-    def begun(self) -> bool:
+    def owns_tasks(self) -> bool:
         """True if the controller's tasks run in this thread, even if stopped."""
         return self._thread is not None
 
@@ -47,12 +47,12 @@ class ControllerThread:
             raise ValueError('only clock="real" runs by itself; else use run_for and run_until')
         if self._scheduler.is_closed:
             raise RuntimeError(CLOSED)
-        if self._thread is not None and not self._stands.is_set():
+        if self._thread is not None and not self._stopped.is_set():
             return
         self._stopping = False
         self._scheduler.rebase()
         if self._thread is not None:
-            self._stands.clear()
+            self._stopped.clear()
             self._going_on.put(True)
             return
         self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
@@ -64,7 +64,7 @@ class ControllerThread:
         goes_on = True
         while goes_on:
             self._scheduler.advance(stop=lambda: self._stopping)
-            self._stands.set()
+            self._stopped.set()
             goes_on = self._going_on.get()
         self._last()
 
@@ -73,19 +73,19 @@ class ControllerThread:
         thread = self._thread
         if thread is not None and thread.is_alive():
             self._scheduler.post(self._stand)
-            if self._stands.wait(_LEAVING):
+            if self._stopped.wait(_LEAVING):
                 self._going_on.put(False)
                 thread.join(_LEAVING)
 
     def stop(self) -> None:
         """Stop the thread; `start` continues."""
         thread = self._thread
-        if thread is None or self._stands.is_set():
+        if thread is None or self._stopped.is_set():
             return
 
         self.call(self._stand)
         while not self._rests(thread):
-            self._stands.wait(_LOOK)
+            self._stopped.wait(_LOOK)
 
     def _stand(self) -> None:
         self._stopping = True
@@ -135,4 +135,4 @@ class ControllerThread:
         return result[0]
 
     def _rests(self, thread: threading.Thread) -> bool:
-        return self._stands.is_set() or not thread.is_alive()
+        return self._stopped.is_set() or not thread.is_alive()

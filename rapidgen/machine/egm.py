@@ -22,7 +22,7 @@ class EgmSession:
     guidance: Guidance | None = None
     """Guidance of the set-up; None: streaming alone, or no set-up."""
     device: UdpDevice | None = None
-    patience: float | None = None
+    comm_timeout: float | None = None
     """Seconds without a datagram after which there is no communication; None: never."""
     active: Guidance | None = None
     """Guidance of the activation."""

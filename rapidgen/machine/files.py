@@ -203,7 +203,7 @@ class FileSystem:
         self._room -= count
 
     @property
-    def room(self) -> int:
+    def free_space(self) -> int:
         """Return the number of bytes that can still be written."""
         return self._room
 
@@ -240,7 +240,7 @@ def copy_files(source: Path, target: Path, *, without: Path | None = None) -> No
     Links, pipes, devices and the folder `without` are left out. Raises OSError, and TooLarge for
     more bytes than `LARGEST_COPY`.
     """
-    room = LARGEST_COPY
+    free_space = LARGEST_COPY
     target.mkdir(parents=True, exist_ok=True)
     for place, folders, files in os.walk(source, onerror=_raise):
         folders[:] = [
@@ -256,8 +256,8 @@ def copy_files(source: Path, target: Path, *, without: Path | None = None) -> No
             if path.is_symlink():
                 continue
             with suppress(NotRegular), open_foreign(path, below=source) as file:
-                room -= os.fstat(file.fileno()).st_size
-                if room < 0:
+                free_space -= os.fstat(file.fileno()).st_size
+                if free_space < 0:
                     reason = f"it holds more than {LARGEST_COPY:,} bytes"
                     raise TooLarge(errno.EFBIG, reason, str(source))
                 with (current / name).open("wb") as copy:

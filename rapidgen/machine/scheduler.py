@@ -50,7 +50,7 @@ S = 1_000_000_000
 QUANTUM = 2 * MS
 # Single-digit integers of CPython have the fastest subtraction. The limit is low enough to detect
 # endless recursion before it costs much memory.
-PATIENCE = 20 * MS
+LONGEST_WAIT = 20 * MS
 """A process that waits for the CPU longer than that comes first, whatever its priority."""
 _LARGEST_BUDGET = 50 * MS
 _SERVE_EVERY = 2 * MS
@@ -374,7 +374,7 @@ class Scheduler:
             if until is not None and self._now >= until:
                 return "time"
             busy = self._front is not None or bool(self.ready)
-            wall = self._wall_behind(self._now if busy else self.next_event())
+            wall = self._lagging_wall(self._now if busy else self.next_event())
             if busy and self._now <= wall + MS:
                 if wall - self._served_at > _SERVE_EVERY:
                     self._serve(0.0)
@@ -403,7 +403,7 @@ class Scheduler:
         start, wall = self._origin
         return start + int((time.monotonic_ns() - wall) * self.speed)
 
-    def _wall_behind(self, due: int | None) -> int:
+    def _lagging_wall(self, due: int | None) -> int:
         """Return the real clock minus lost time.
 
         A delay of this machine makes virtual time later, not faster: a burst would be time that the
@@ -528,7 +528,7 @@ class Scheduler:
                     self._priorities[process] = self._order.random()
                 self._waiting.setdefault(process, now)
             first = min(ready, key=self._waiting.__getitem__)
-            if now - self._waiting[first] <= PATIENCE:
+            if now - self._waiting[first] <= LONGEST_WAIT:
                 first = max(ready, key=self._priorities.__getitem__)
             ready.rotate(-ready.index(first))
 

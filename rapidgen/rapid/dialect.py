@@ -14,7 +14,7 @@ class Dialect:
     """Any release of that number, as of a backup without an exact version."""
 
     @property
-    def told(self) -> bool:
+    def is_known(self) -> bool:
         """True if the release is known.
 
         With an unknown release, features of other releases are not errors.

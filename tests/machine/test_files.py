@@ -82,4 +82,4 @@ def test_a_full_disk_takes_nothing(disks, monkeypatch):
     small.spend(100)
     with pytest.raises(DiskFault, match="the disk is full"):
         small.spend(1)
-    assert small.room == 0
+    assert small.free_space == 0

@@ -48,7 +48,7 @@ class StackFrame:
 
 def frames_of(task: Task) -> tuple[StackFrame, ...]:
     """Return the routines of a task, outermost first."""
-    if not task.pointer.begun and task.pointer.place is not None:
+    if not task.pointer.in_statement and task.pointer.place is not None:
         return tuple(_kept(task))
     return tuple(reversed(list(_live(task, task.frame))))
 

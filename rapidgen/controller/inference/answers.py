@@ -219,7 +219,7 @@ class DialogResponder:
     def __init__(self, operator: Operator, scheduler: Scheduler, message: list[Answer]) -> None:
         self._operator = operator
         self._scheduler = scheduler
-        self._said = message
+        self._answers = message
         self._seen: set[int] = set()
         self._turns: Counter[tuple[object, ...]] = Counter()
         operator.attach()
@@ -244,7 +244,7 @@ class DialogResponder:
             except ValueError:
                 continue
             requested = question.text.replace("\n", " ").strip()
-            self._said.append((f"{question.dialog} '{requested}'", answer))
+            self._answers.append((f"{question.dialog} '{requested}'", answer))
             return
 
 
@@ -345,7 +345,7 @@ class InputSetter:
     ) -> None:
         self._controller = controller
         self._rows = rows
-        self._said = message
+        self._answers = message
         self._turn = 0
         self._pressed: list[tuple[str, float]] = []
         self._next()
@@ -367,7 +367,7 @@ class InputSetter:
                 value = awaited.fulfilling()
                 if value is not None and not awaited.holds():
                     self._pressed.append((awaited.signal.name, awaited.signal.value))
-                    self._said.append((awaited.signal.name, value))
+                    self._answers.append((awaited.signal.name, value))
                     io.set(awaited.signal, value)
             if self._pressed:
                 break
@@ -562,7 +562,7 @@ class DataSetter:
     ) -> None:
         self._controller = controller
         self._rows = rows
-        self._said = message
+        self._answers = message
         self._looks = 0
         self._turn = 0
         self._held: dict[tuple[str, str], tuple[Plain, int]] = {}
@@ -601,7 +601,7 @@ class DataSetter:
                     self._held[row.task, name] = first, self._looks
                 task[name] = one.value
                 value = str(one.value).upper() if isinstance(one.value, bool) else f"{one.value}"
-                self._said.append((one.name, value))
+                self._answers.append((one.name, value))
         return changed
 
     def _around(self, task: Task) -> list[PolledData]:

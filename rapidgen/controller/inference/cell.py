@@ -102,7 +102,7 @@ class InferredCell:
     """Declarations of missing routines, without effect."""
     flags: tuple[PolledData, ...] = ()
     """Data that programs look at and do not set."""
-    heard: ExpectedMessages = field(default_factory=ExpectedMessages)
+    expected_messages: ExpectedMessages = field(default_factory=ExpectedMessages)
     """Messages that programs expect at their sockets."""
     blank: tuple[DefaultedPersistent, ...] = ()
     """Tools and work objects whose values another task would set."""

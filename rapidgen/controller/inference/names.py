@@ -90,7 +90,7 @@ def passed(
 # numbers 0 no move and no CRobT would be possible.
 
 
-_STANDS: Final[Mapping[str, str]] = {"tooldata": "tool0", "wobjdata": "wobj0"}
+_DEFAULTS: Final[Mapping[str, str]] = {"tooldata": "tool0", "wobjdata": "wobj0"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ class DefaultedPersistent:
     task: str
     module: str
     name: str
-    stands: str
+    replacement: str
 
 
 def find_defaulted_persistents(
@@ -114,8 +114,8 @@ def find_defaulted_persistents(
             filled |= set(_filled(module))
             for one in module.tree.data:
                 kind = one.type.lower()
-                if one.kind == "PERS" and kind in _STANDS and not (one.initial or one.dimensions):
-                    row = DefaultedPersistent(task, module.tree.name, one.name, _STANDS[kind])
+                if one.kind == "PERS" and kind in _DEFAULTS and not (one.initial or one.dimensions):
+                    row = DefaultedPersistent(task, module.tree.name, one.name, _DEFAULTS[kind])
                     result[row] = kind, module.tree.source.span(one.name_token, one.name_token)
     return {row: at for row, at in result.items() if row.name.casefold() not in filled}
 

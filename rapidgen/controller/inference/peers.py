@@ -349,7 +349,7 @@ _LAST: Final = re.compile("exit|quit|close|stop|end|bye", re.I)
 _SEARCHING: Final = frozenset(("strfind", "strmatch", "strmemb"))
 _COMPARING: Final = frozenset(("=", "<>"))
 _NUMBER: Final = re.compile(r"-?[0-9.]+(?:e[-+]?[0-9]+)?", re.I)
-_LONGEST_ANSWER: Final = 20
+_MOST_VALUES: Final = 20
 """Maximum number of values after a number."""
 
 
@@ -367,7 +367,7 @@ class ExpectedMessages:
     """Whole values in a text."""
     sized: tuple[tuple[int, int], ...] = ()
     """Numbers, and the numbers of values after each, from the comparisons in its branch."""
-    stands: Mapping[str, str] = field(default_factory=dict)
+    start_values: Mapping[str, str] = field(default_factory=dict)
     framed: MessageFraming = field(default_factory=MessageFraming)
     """Binary messages."""
     layouts: tuple[tuple[TextField, ...], ...] = ()
@@ -383,7 +383,7 @@ class ExpectedMessages:
         for code, count in self.sized:
             for marker in marks[:_WAYS]:
                 end = "".join(one for one in self.separators if one != marker)
-                for after in dict.fromkeys(self._behind(count)):
+                for after in dict.fromkeys(self._values_after(count)):
                     counted.append(marker.join((str(code), *after)) + marker + end)
         sized = {code for code, _ in self.sized}
         others = [str(number) for number in self.numbers if number not in sized]
@@ -405,14 +405,14 @@ class ExpectedMessages:
             message[:_MOST] or [b"1"]
         ) * 2
 
-    def _behind(self, count: int) -> Iterator[tuple[str, ...]]:
+    def _values_after(self, count: int) -> Iterator[tuple[str, ...]]:
         """Iterate over sequences of numbers of a given length.
 
         A position, a rotation, axes or a target are those of the robot's start; other lengths have
         no known meaning.
         """
         kind = {3: "pos", 4: "orient", 6: "jointtarget", 7: "robtarget"}.get(count, "")
-        known = _NUMBER.findall({**_VALUES, **self.stands}.get(kind, ""))
+        known = _NUMBER.findall({**_VALUES, **self.start_values}.get(kind, ""))
         report = tuple(f"{float(number):g}" for number in known)
         for numbers in (_NUMBERS, _OTHERS):
             yield (*report, *numbers, *"0" * count)[:count]
@@ -423,7 +423,7 @@ def expected_messages(
 ) -> ExpectedMessages:
     """Return the messages that the modules of all tasks expect.
 
-    `stands` are values of targets.
+    `start_values` are values of targets.
     """
     known = {**_VALUES, **frames}
     nodes = [result for module in modules for result in scoped(module)]
@@ -456,9 +456,9 @@ def expected_messages(
                 kind = declared_type(given[1], scope) or ""
                 if kind in known:
                     values[known[kind]] = None
-    heard_of = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
+    expected = tuple(words), tuple(parts), tuple(numbers), tuple(marks), tuple(values)
     binary = framed(nodes, tested)
-    return ExpectedMessages(*heard_of, tuple(sized), frames, binary, tuple(layouts(nodes)))
+    return ExpectedMessages(*expected, tuple(sized), frames, binary, tuple(layouts(nodes)))
 
 
 def _received(node: n.Node) -> Iterator[str]:
@@ -508,7 +508,7 @@ def _sized(node: n.Node, scope: Scope) -> Iterator[tuple[int, int]]:
                 yield from (
                     (int(code), int(count))
                     for count in counts
-                    if isinstance(count, int | float) and 0 <= count <= _LONGEST_ANSWER
+                    if isinstance(count, int | float) and 0 <= count <= _MOST_VALUES
                 )
 
 
@@ -528,7 +528,7 @@ class SocketPeer:
     ) -> None:
         self._network = controller.network
         self._scheduler = controller.scheduler
-        self._said = message
+        self._answers = message
         self._left = what.messages()
         self._is_cut = what.framed.prefix is None
         self._ends: dict[Endpoint, None] = {}
@@ -579,6 +579,6 @@ class SocketPeer:
         self._network.receive(mine, 1 << 16)
         self._network.send(mine, message)
         displayed = message.decode("latin-1")
-        self._said.append(
+        self._answers.append(
             ("SocketReceive", displayed if displayed.isprintable() else message.hex(" "))
         )

@@ -292,7 +292,7 @@ def table_pose(group: GroupConfig) -> tuple[float, float, float]:
     return (x, y, z / 3)
 
 
-def stands(group: GroupConfig) -> Mapping[str, str]:
+def start_targets(group: GroupConfig) -> Mapping[str, str]:
     """Return the robot's start as RAPID robtarget and jointtarget.
 
     The robtarget is in world and flange. A model without geometry has none.

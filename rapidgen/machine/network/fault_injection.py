@@ -204,10 +204,10 @@ class FaultyNetwork(Network):
                 raise NetworkFault(NetworkReason.RESET, "half-open")
             return len(data)
         self._reset_by_plan(endpoint, line, line.lane_out)
-        room = BUFFER - line.lane_out.waiting
-        line.lane_out.put(data[:room])
+        free = BUFFER - line.lane_out.waiting
+        line.lane_out.put(data[:free])
         self._advance(endpoint, line)
-        return len(data[:room])
+        return len(data[:free])
 
     def receive(
         self, endpoint: Endpoint, count: int, *, exact: bool = False, peek: bool = False
@@ -307,11 +307,11 @@ class FaultyNetwork(Network):
 
     def _pull(self, endpoint: Endpoint, line: _Line) -> None:
         while line.end is None and endpoint.connected:
-            room = BUFFER - line.lane_in.waiting - len(line.ready)
-            if room <= 0:
+            free = BUFFER - line.lane_in.waiting - len(line.ready)
+            if free <= 0:
                 return
             try:
-                data = self._inner.receive(endpoint, room)
+                data = self._inner.receive(endpoint, free)
             except NetworkFault as fault:
                 line.end = fault
                 return

@@ -132,8 +132,8 @@ class MemoryNetwork(Network):
         pipe = own.outgoing
         if pipe is None:
             return 0
-        room = BUFFER - len(pipe.waiting)
-        sent = data[:room]
+        free = BUFFER - len(pipe.waiting)
+        sent = data[:free]
         pipe.waiting += sent
         self._pump(pipe)
         return len(sent)
@@ -236,7 +236,7 @@ class MemoryNetwork(Network):
     def _pump(self, pipe: _Pipe) -> None:
         if pipe.silent:
             return
-        had_room = len(pipe.waiting) < BUFFER
+        had_space = len(pipe.waiting) < BUFFER
         while pipe.waiting:
             window = BUFFER - len(pipe.arrived) - pipe.flying
             size = min(MSS, window, len(pipe.waiting))
@@ -248,7 +248,7 @@ class MemoryNetwork(Network):
             self._scheduler.after(self._latency, partial(self._arrive, pipe, segment))
         if not pipe.waiting and pipe.ended and not pipe.finished:
             self._scheduler.after(self._latency, lambda: self._finish(pipe))
-        if not had_room and len(pipe.waiting) < BUFFER:
+        if not had_space and len(pipe.waiting) < BUFFER:
             pipe.sender.changed.notify()
 
     def _arrive(self, pipe: _Pipe, segment: bytes) -> None:

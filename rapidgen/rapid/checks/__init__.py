@@ -24,7 +24,7 @@ from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse
 from rapidgen.system import System, TaskSpec
 
-_TREE_STANDS = frozenset(("RG213", "RG215", "RG216", "RG220"))
+_CHECKABLE = frozenset(("RG213", "RG215", "RG216", "RG220"))
 """Errors of the text whose tree can be checked nevertheless."""
 _LOADERS = frozenset(("load", "startload"))
 _SIGNAL_TYPES = {
@@ -96,7 +96,7 @@ def _check_module(
     for first, second in scope.clashes:
         _clash(findings, first, second, "in this module")
     diagnostics = scope.tree.diagnostics
-    if all(d.code in _TREE_STANDS or d.severity is not Severity.ERROR for d in diagnostics):
+    if all(d.code in _CHECKABLE or d.severity is not Severity.ERROR for d in diagnostics):
         check_module(findings)
     for first, second in clashes:
         if second.module is scope:

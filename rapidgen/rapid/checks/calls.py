@@ -191,9 +191,9 @@ class CallChecker:
             message,
             node,
             help=f"this is checked for RobotWare {displayed}"
-            if dialect.told
+            if dialect.is_known
             else "say for which RobotWare this is: --robotware",
-            severity=Severity.ERROR if dialect.told else Severity.INFO,
+            severity=Severity.ERROR if dialect.is_known else Severity.INFO,
         )
 
     def _fitting(

@@ -107,7 +107,7 @@ class Blocks:
                 return -1
         if kind in self.forgiven:
             self.forgiven.remove(kind)
-            return self._behind(i)
+            return self._index_after(i)
         inner = blocks[-1][0]
         if kind in BLOCK_ENDS:
             if inner in BLOCK_ENDS.values() and self._ends_this(i, inner):
@@ -116,7 +116,7 @@ class Blocks:
                 )
                 return -1
             self._stray(i, expected)
-            return self._behind(i)
+            return self._index_after(i)
         if kind in _DIVIDERS:
             self._stray(i, expected)
             self.forgiven.append(_DIVIDERS[kind])
@@ -138,7 +138,7 @@ class Blocks:
             errors.unmatched(self.expressions.source, self.kinds, i, expected, self.open, suspect)
         )
 
-    def _behind(self, i: int) -> int:
+    def _index_after(self, i: int) -> int:
         return i + 2 if self.kinds[i + 1] == ";" else i + 1
 
     def _close(self, missing: int) -> None:

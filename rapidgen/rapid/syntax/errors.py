@@ -189,22 +189,22 @@ def unexpected(
     span = place(source, at)
     lexical = _LEXICAL.get(kinds[at])
     if lexical:
-        code, message, mend = lexical
-        mend = mend or foreign_syntax_help(source, at)
-        return error(code, span, f"{message}: {describe_token(source, kinds, at)}", mend)
+        code, message, help_text = lexical
+        help_text = help_text or foreign_syntax_help(source, at)
+        return error(code, span, f"{message}: {describe_token(source, kinds, at)}", help_text)
     related, note = still_open(source, blocks)
     return error(
         "RG201",
         span,
         f"met {describe_token(source, kinds, at)}, expected {expected}",
-        help or _mend(source, kinds, at, expected),
+        help or _help(source, kinds, at, expected),
         label=f"expected {expected}",
         notes=(note,) if note else (),
         related=related,
     )
 
 
-def _mend(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
+def _help(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
     if kinds[at] == "=" and "':='" in expected:
         return "write `:=` where a value is given; `=` compares"
     meant = foreign_syntax_help(source, at)

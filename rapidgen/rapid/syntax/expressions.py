@@ -48,12 +48,12 @@ _LEVELS: Final = {
     "+": _SIGN_LEVEL, "-": _SIGN_LEVEL,
     "*": 6, "/": 6, "DIV": 6, "MOD": 6,
 }  # fmt: skip
-_BEHIND_NAMES: Final = frozenset(("(", "{", "."))
+_AFTER_NAMES: Final = frozenset(("(", "{", "."))
 """Tokens that make a name part of a longer reference."""
-_BEHIND_DECLARED: Final = frozenset((";", ":=", "{", "(", ")", ",", "\\", "|", "FROM"))
+_AFTER_DECLARED: Final = frozenset((";", ":=", "{", "(", ")", ",", "\\", "|", "FROM"))
 """Tokens after a reserved word that was meant as a name."""
 _PLAIN_OPERANDS: Final = frozenset((NAME, NUMBER, STRING, "(", "[", "TRUE", "FALSE"))
-_BEHIND_ARGUMENTS: Final = frozenset((",", ";", "\\", ")"))
+_AFTER_ARGUMENTS: Final = frozenset((",", ";", "\\", ")"))
 _NOT_LEVEL: Final = 1
 """NOT takes a whole chain of ANDs, and ends at OR or XOR."""
 _INNER_NOT_LEVEL: Final = 3
@@ -138,7 +138,7 @@ class ExpressionParser:
             return self.texts[i]
         if self.kinds[i] is HOLDER and self.texts[i].upper() == "<ID>":
             return "<ID>"
-        if self.kinds[i] in lexer.KEYWORDS and self.kinds[i + 1] in _BEHIND_DECLARED:
+        if self.kinds[i] in lexer.KEYWORDS and self.kinds[i + 1] in _AFTER_DECLARED:
             # Accept it as the intended name, to avoid follow-up errors.
             self.fault(SyntaxFault(i, expected, f"{self.kinds[i]} is a reserved word"))
             return self.texts[i]
@@ -159,7 +159,7 @@ class ExpressionParser:
             node = NumberLiteral(i, i, self.numbers[text], text)
         elif kind is NAME:
             following = kinds[i + 1]
-            if following in _BEHIND_NAMES:
+            if following in _AFTER_NAMES:
                 node = self.named(i)
             else:
                 node = Name(i, i, self.texts[i])
@@ -178,7 +178,7 @@ class ExpressionParser:
         kind = self.kinds[i]
         if kind is NAME:
             following = self.kinds[i + 1]
-            if following in _BEHIND_NAMES:
+            if following in _AFTER_NAMES:
                 return self.named(i)
             return Name(i, i, self.texts[i])
         if kind is NUMBER:
@@ -394,7 +394,7 @@ class ExpressionParser:
         while True:
             if kind is NAME:
                 following = kinds[i + 1]
-                if following in _BEHIND_ARGUMENTS:
+                if following in _AFTER_ARGUMENTS:
                     argument = Argument(i, i, "required", None, Name(i, i, texts[i]))
                 elif following == ":=":
                     value = self.expression(i + 2)
@@ -404,7 +404,7 @@ class ExpressionParser:
                     argument = Argument(i, value.last, "required", None, value)
             elif kind == "\\":
                 argument = self._optional(i, close)
-            elif kind == "*" and kinds[i + 1] in _BEHIND_ARGUMENTS:
+            elif kind == "*" and kinds[i + 1] in _AFTER_ARGUMENTS:
                 argument = Argument(i, i, "required", None, Star(i, i))
             elif kind is HOLDER and close == ";" and texts[i].upper() == "<ARG>":
                 argument = Argument(i, i, "required", None, Placeholder(i, i, "<ARG>"))

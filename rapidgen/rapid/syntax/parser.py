@@ -77,7 +77,7 @@ class ModuleParser:
         i = self._declarations(i, declarations)
         if kinds[i] == "ENDMODULE":
             self.open.pop()
-            self._behind_module(i + 1)
+            self._after_module(i + 1)
             return name, attributes, declarations, i
         self.fault(SyntaxFault(i, "ENDMODULE"))
         return name, attributes, declarations, self._last()
@@ -85,7 +85,7 @@ class ModuleParser:
     def _last(self) -> int:
         return max(0, len(self.texts) - 1)
 
-    def _behind_module(self, i: int) -> None:
+    def _after_module(self, i: int) -> None:
         """Report text after the module [K §9].
 
         K derives modules and leaves open what a file may contain.
@@ -245,7 +245,7 @@ class ModuleParser:
                 if kinds[end] == "{":
                     help = "a component cannot be an array [K §2.14]"
                     self.fault(SyntaxFault(end, "';'", help))
-                    end = self._behind_braces(end)
+                    end = self._after_braces(end)
                 end = self.data.semicolon_here(end, "';'")
                 components.append(Component(at, end, texts[at], name_here))
                 at = end + 1
@@ -263,7 +263,7 @@ class ModuleParser:
             self.fault(SyntaxFault(at, "a component", "a record has at least one [K §2.14]"))
         return RecordDeclaration(first, at, scope, name, components)
 
-    def _behind_braces(self, i: int) -> int:
+    def _after_braces(self, i: int) -> int:
         """Return the index after the braces at i, if they are closed."""
         at = i
         while self.kinds[at] not in MODULE_STOPS and self.kinds[at] not in ("ENDRECORD", ";"):

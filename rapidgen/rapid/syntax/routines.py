@@ -62,10 +62,10 @@ class RoutineParser:
                 raise SyntaxFault(at, "the body of the trap", "a TRAP has no parameters")
         except SyntaxFault as result:
             self.expressions.fault(result)
-            at = self.behind_header(result.at)
+            at = self.after_header(result.at)
         return self._routine_body(first, i, at, scope, type_name, name, parameters, name_token)
 
-    def behind_header(self, at: int) -> int:
+    def after_header(self, at: int) -> int:
         """Return the index after a header with an error at token `at`."""
         kinds, starts_line = self.kinds, self.expressions.starts_line
         depth = 0
@@ -196,4 +196,4 @@ class RoutineParser:
                     raise SyntaxFault(at, "',' or ')'", "numbers and whole data only [K §7.2]")
         except SyntaxFault as result:
             self.expressions.fault(result)
-            return numbers, self.behind_header(result.at)
+            return numbers, self.after_header(result.at)

@@ -270,16 +270,16 @@ class StatementParser:
                     raise SyntaxFault(at, "THEN or an operator")
             except SyntaxFault as result:
                 condition = Placeholder(end, end, "<EXP>")
-                behind = self.blocks.header(end, result, "THEN")
-                at = (behind if behind >= 0 else self.blocks.resume(end, result.at)) - 1
+                after = self.blocks.header(end, result, "THEN")
+                at = (after if after >= 0 else self.blocks.resume(end, result.at)) - 1
         if kind == "ELSE":
             otherwise = self.statements(end + 1)
             while self.kinds[self.after] in ("ELSE", "ELSEIF") and self.open[-1][1] >= 0:
                 self.fault(SyntaxFault(self.after, "ENDIF", "ELSE is the last branch of an IF"))
-                otherwise += self.statements(self._behind_branch(self.after))
+                otherwise += self.statements(self._after_branch(self.after))
         return If(i, self.blocks.leave(self.after), branches, otherwise)
 
-    def _behind_branch(self, i: int) -> int:
+    def _after_branch(self, i: int) -> int:
         """Return the index after a wrong ELSE or ELSEIF ... THEN."""
         if self.kinds[i] == "ELSE" or not self.blocks.reaches(i + 1, "THEN"):
             return i + 1
@@ -387,12 +387,12 @@ class StatementParser:
             elif kind == "DEFAULT":
                 if default is not None:
                     self.fault(SyntaxFault(at, "ENDTEST", "a TEST has one DEFAULT"))
-                behind = at + 1
-                if kinds[behind] == ":":
-                    behind += 1
+                after = at + 1
+                if kinds[after] == ":":
+                    after += 1
                 else:
-                    self.fault(SyntaxFault(behind, "':'"))
-                default = self.statements(behind)
+                    self.fault(SyntaxFault(after, "':'"))
+                default = self.statements(after)
             elif kind is HOLDER and self.texts[at].upper() == "<CSE>":
                 cases.append(Case(at, at, [Placeholder(at, at, "<CSE>")], []))
                 self.after = at + 1

@@ -311,7 +311,7 @@ def copy_file(task: Task, old: str, new: str) -> None:
     """Copy a file; ERR_FILEEXIST: the new name exists."""
     source, target = _pair(task, old, new)
     try:
-        data = read_foreign(source, task.controller.files.room)
+        data = read_foreign(source, task.controller.files.free_space)
         spend(task, len(data))
         target.write_bytes(data)
     except OSError as error:
@@ -367,7 +367,7 @@ def fs_size(
 ) -> float:
     """Return the size of a disk, or its free space."""
     file_path(task, name)
-    size = DISK if total else task.controller.files.room
+    size = DISK if total else task.controller.files.free_space
     return single(size / (1_048_576 if megabytes else 1024 if kilobytes else 1))
 
 

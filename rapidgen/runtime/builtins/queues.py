@@ -82,11 +82,11 @@ def rmq_send_wait(
                 return message
         return None
 
-    patience = _DEFAULT_TIME if task.controller.dialect.queue_patience else None
+    default_timeout = _DEFAULT_TIME if task.controller.dialect.queue_patience else None
     if not task.wait_for(
         lambda: answer() is not None,
         on=(own.changed,),
-        timeout=_time(timeout, patience),
+        timeout=_time(timeout, default_timeout),
         why=lambda: f"RMQSendWait waits for an answer of {slot.name}",
     ):
         raise RapidError("ERR_RMQ_TIMEOUT")

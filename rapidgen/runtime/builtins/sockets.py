@@ -351,18 +351,18 @@ def _limit(
     text: Ref | None, raw: RawBytes | None, data: Ref | None, read_count: float | None
 ) -> int:
     if text is not None:
-        room = MAX_STRING
+        free = MAX_STRING
     elif raw is not None:
-        room = CAPACITY
+        free = CAPACITY
     elif data is not None:
-        room = min(CAPACITY, len(data.get()))
+        free = min(CAPACITY, len(data.get()))
     else:
         raise FatalError(40_660, "Nowhere to receive", "one of \\Str, \\RawData and \\Data")
     if read_count is None:
-        return room
+        return free
     expected = whole(read_count, "ERR_ARGVALERR")
-    if not 0 < expected <= room:
-        raise RapidError("ERR_ARGVALERR", f"\\ReadNoOfBytes:={expected} of at most {room}")
+    if not 0 < expected <= free:
+        raise RapidError("ERR_ARGVALERR", f"\\ReadNoOfBytes:={expected} of at most {free}")
     return expected
 
 

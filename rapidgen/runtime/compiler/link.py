@@ -269,10 +269,10 @@ class Linker:
         self.faults: list[Diagnostic] = []
         """Errors, and warnings of undeclared types."""
         self.trace_points: list[tuple[Routine, n.Statement]] = []
-        self.told: list[bool] = []
+        self.traced_points: list[bool] = []
         """By trace point: True while a tracer may need the statement. Compiled code reads this
         list."""
-        self.space["TOLD"] = self.told
+        self.space["TRACED"] = self.traced_points
         self._kept: dict[int, str] = {}
         self._loaded: dict[ModuleScope, LoadedModule] = {}
         self._modules = 0
@@ -302,7 +302,7 @@ class Linker:
     def trace_point(self, routine: Routine, statement: n.Statement) -> int:
         """Return a new trace point for a statement."""
         self.trace_points.append((routine, statement))
-        self.told.append(True)
+        self.traced_points.append(True)
         return len(self.trace_points) - 1
 
     # -- modules ---------------------------------------------------------------------------------

@@ -188,7 +188,7 @@ class Program:
         self.evaluate = self.linker.evaluate
         self.global_ref = self.linker.global_ref
         self.trace_points = self.linker.trace_points
-        self.told = self.linker.told
+        self.traced_points = self.linker.traced_points
 
     # -- loading ---------------------------------------------------------------------------------
 
@@ -263,13 +263,13 @@ class Program:
         traced = " traced" if self.options.tracing else ""
         return f"<rapid {self.name} {routine.module.name} {routine.name}{traced}>"
 
-    def tell_all(self) -> None:
+    def report_all(self) -> None:
         """Make all trace points active again."""
-        self.told[:] = [True] * len(self.told)
+        self.traced_points[:] = [True] * len(self.traced_points)
 
     def trace_from_now(self) -> None:
         """Compile with tracing from now on."""
-        self.tell_all()
+        self.report_all()
         if not self.options.tracing:
             self.options = replace(self.options, tracing=True, accounting="statement")
             self._reset_code()

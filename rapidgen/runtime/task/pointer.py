@@ -98,7 +98,7 @@ class Pointer:
     # -- place ------------------------------------------------------------------------------------
 
     @property
-    def begun(self) -> bool:
+    def in_statement(self) -> bool:
         """True if a statement is in execution, or was when stopped."""
         codes = self._task.program.codes
         return any(f.f_code.co_filename in codes for f in outwards(self._task.frame))

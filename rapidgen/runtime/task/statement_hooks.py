@@ -47,7 +47,7 @@ class Statements:
         """Report every statement to a tracer from now on."""
         self.tracers.append(tracer)
         for program in self.programs:
-            program.tell_all()
+            program.report_all()
 
     def before(
         self, task: str, module: str, line: int, count: int, action: Callable[[], None]

@@ -46,12 +46,12 @@ class StepHistory:
     def __init__(self, group: MotionGroup) -> None:
         self._group = group
         self._driven: list[_Driven] = []
-        self._begun: list[tuple[Move, Posture]] = []
+        self._current: list[tuple[Move, Posture]] = []
         self._listens = False
 
     def begin(self) -> None:
         """Begin a step forward."""
-        self._begun.clear()
+        self._current.clear()
         if not self._listens:
             self._group.listeners.append(self._note)
             self._listens = True
@@ -61,19 +61,19 @@ class StepHistory:
         if self._listens:
             self._group.listeners.remove(self._note)
             self._listens = False
-        if len(self._begun) == 1:
-            ((move, origin),) = self._begun
+        if len(self._current) == 1:
+            ((move, origin),) = self._current
             self._driven.append(_Driven(move, origin, self._group.positions()))
             del self._driven[:-MOST]
 
     def forget(self) -> None:
         """Clear the history: other execution, or a moved program pointer."""
-        self._begun.clear()
+        self._current.clear()
         self.end()
         self._driven.clear()
 
     def _note(self, move: Move) -> None:
-        self._begun.append((move, self._group.path_target))
+        self._current.append((move, self._group.path_target))
 
     @planned
     def drive(self, task: MotionWaiter, statement: Location, start: Callable[[], None]) -> bool:

@@ -198,7 +198,7 @@ class Task(Process):
             stepper.begin(over, stepper.at_point)
             self.release()
             return
-        if self.alive and self.pointer.place is None and not self.pointer.begun and not back:
+        if self.alive and self.pointer.place is None and not self.pointer.in_statement and not back:
             # Stopped before its first statement.
             stepper.begin(over)
             self.release()
@@ -439,7 +439,7 @@ class Task(Process):
         """
         program = self.program
         program.trace_from_now()
-        if self.pointer.place is not None or not self.pointer.begun:
+        if self.pointer.place is not None or not self.pointer.in_statement:
             return ""
         if all(program.codes[f.f_code.co_filename].traced for f in self._frames()):
             return ""
@@ -560,7 +560,7 @@ class Task(Process):
                     action()
                     self.process_pending()
         if not report:
-            self.program.told[point] = False
+            self.program.traced_points[point] = False
 
     def exit(self) -> None:
         """Execute EXIT [K §4.9]."""

@@ -123,11 +123,11 @@ def egm_setup_uc(task: Task, _name: str, arguments: Arguments) -> None:
     session.guidance = cast(Guidance, modes[0]) if modes else None
     session.device, session.active = device, None
     timeout = task.controller.dialect.egm_patience
-    session.patience = arguments["CommTimeout"]
+    session.comm_timeout = arguments["CommTimeout"]
     if timeout == "never":
-        session.patience = None
-    elif session.patience is None and timeout == "second":
-        session.patience = 1.0
+        session.comm_timeout = None
+    elif session.comm_timeout is None and timeout == "second":
+        session.comm_timeout = 1.0
 
 
 @by_name("EGMActJoint", "EGMActPose")
@@ -195,9 +195,9 @@ def egm_run(task: Task, name: str, arguments: Arguments) -> None:
     session.guided = True
     if not arguments["NoWaitCond"]:
         _await(task, session, name)
-    elif session.patience is not None:
+    elif session.comm_timeout is not None:
         session.limit = task.scheduler.after(
-            round(session.patience * S), lambda: _silent(task, session)
+            round(session.comm_timeout * S), lambda: _silent(task, session)
         )
 
 
@@ -207,7 +207,7 @@ def _await(task: Task, session: EgmSession, name: str) -> None:
         finished = task.wait_for(
             lambda: not session.guided,
             on=(session.changed,),
-            timeout=session.patience,
+            timeout=session.comm_timeout,
             why=lambda: f"{name} waits for datagrams of EGM partner {session.partner}",
         )
     finally:

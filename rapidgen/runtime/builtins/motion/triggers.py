@@ -312,12 +312,12 @@ def _tell_what_is_left_out(task: Task, arguments: Arguments) -> None:
         (track is not None and track.track_system != 0, "tracking"),
         (seam.heat_speed > 0 and (seam.heat_time > 0 or seam.heat_distance > 0), "heating"),
     ):
-        told = f"{text} is not simulated: the tool goes along the seam at its speed"
+        notice = f"{text} is not simulated: the tool goes along the seam at its speed"
         if target and not any(
-            e.code == NOT_SIMULATED and told in e.texts and e.task == task.name
+            e.code == NOT_SIMULATED and notice in e.texts and e.task == task.name
             for e in task.controller.log
         ):
-            task.controller.log.info(NOT_SIMULATED, "Arc welding", told, task=task.name)
+            task.controller.log.info(NOT_SIMULATED, "Arc welding", notice, task=task.name)
 
 
 by_name("ArcMoveAbsJ", cost="move")(move_abs_j)

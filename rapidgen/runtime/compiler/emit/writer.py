@@ -255,7 +255,7 @@ class Emitter:
         if self.options.tracing and not isinstance(node, n.Label):
             point = self.unit.linker.trace_point(self.unit.routine, node)
             w.close()
-            w.emit(f"if TOLD[{point}]: R.b = b; R.trace({point}); b = R.b")
+            w.emit(f"if TRACED[{point}]: R.b = b; R.trace({point}); b = R.b")
         written, names, state = w.mark(), self.unit.names, self.function.state()
         function = self.function
         try:
