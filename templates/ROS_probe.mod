@@ -198,10 +198,10 @@ MODULE ROS_probe
         VAR num place;
 
         place := StrFind("a", 2, STR_DIGIT);
-        IF place = 2 answer "find_behind=none";
+        IF place = 2 answer "find_past_end=none";
     ERROR
         SkipWarn;
-        answer "find_behind=error";
+        answer "find_past_end=error";
         RETURN;
     ENDPROC
 
@@ -233,11 +233,11 @@ MODULE ROS_probe
 
         ReadCfgData "/MOC/ARM/rob1_1", "lower_joint_bound", lowest;
         ReadCfgData "/MOC/ARM/rob1_1", "upper_joint_bound", highest;
-        answer "axis_limits_told=true";
+        answer "axis_limits_readable=true";
         answer "! axis 1: " + ValToStr(lowest) + " to " + ValToStr(highest) + " (rad?)";
     ERROR
         SkipWarn;
-        answer "axis_limits_told=false";
+        answer "axis_limits_readable=false";
         RETURN;
     ENDPROC
 
@@ -259,9 +259,9 @@ MODULE ROS_probe
     ! Does ModExist tell of a module that belongs to the task?
     LOCAL PROC ask_modules()
         IF ModExist("ROS_probe") THEN
-            answer "modules_told=true";
+            answer "installed_modules_exist=true";
         ELSE
-            answer "modules_told=false";
+            answer "installed_modules_exist=false";
         ENDIF
     ENDPROC
 

@@ -315,7 +315,10 @@ def _only_of_files(target: str, options: BootOptions, help: str) -> None:
     """Reject `robotware` for a target that defines its release."""
     if options.robotware is not None:
         raise refusal(
-            "RG901", None, f"'{target}' tells its RobotWare, and --robotware says another one", help
+            "RG901",
+            None,
+            f"'{target}' defines its RobotWare, and --robotware names another one",
+            help,
         )
 
 
@@ -325,6 +328,6 @@ def _only_of_folders(target: str, options: BootOptions) -> None:
         raise refusal(
             "RG433",
             None,
-            f"'{target}' is no generated folder, and --backup is what one is loaded onto",
+            f"'{target}' is not a generated folder; --backup requires one",
             "build it first: `rapidgen build CONFIG --backup FOLDER`",
         )

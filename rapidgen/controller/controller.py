@@ -132,7 +132,7 @@ class VirtualController:
         if ports != "auto" and not isinstance(ports, int):
             raise ValueError(f'ports={ports!r} is neither "auto" nor a number to add to every port')
         if not speed >= 0:
-            raise ValueError(f"speed={speed!r}: 1 is real time, 2 twice as fast, 0 lets time stand")
+            raise ValueError(f"speed={speed!r}: 1 is real time, 2 twice as fast, 0 stops time")
         self.cycle: Cycle = cycle
         self.scheduler = Scheduler(
             clock=clock,

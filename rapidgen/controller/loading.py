@@ -100,8 +100,8 @@ def _unguided(tasks: Iterable[Task]) -> list[Diagnostic]:
                     error(
                         "RG408",
                         source.span(at, at),
-                        "the virtual controller has no EGM partner: nobody guides a robot here",
-                        label="what is to be guided stands still and waits",
+                        "the virtual controller has no EGM partner",
+                        label="a robot under guidance stands still, and its task waits",
                         notes=("no datagram is sent or read, and no position is corrected",),
                         severity=Severity.WARNING,
                     )

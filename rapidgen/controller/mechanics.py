@@ -84,9 +84,7 @@ def mechanics(
             notes += report
         else:
             robots = of_unknown_payload(shipped_groups(DEFAULT_ROBOT))
-            notes.append(
-                _replacement_note(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}")
-            )
+            notes.append(_replacement_note(f"the mechanics are unknown: moving an {DEFAULT_ROBOT}"))
         group = next(g for g in groups_for(system, robots) if g.task == task)
         in_use = any(other.name == group.name for other in groups)
         if in_use:
@@ -126,11 +124,11 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
         group = group_of(very)
         if group is not None:
             guessed = any(axis.speed is None for axis in very.axes)
-            note = f"no source tells the speeds of a {name}: {ASSUMED_SPEED:g} deg/s are taken"
+            note = f"no source has the speeds of a {name}: {ASSUMED_SPEED:g} deg/s are used"
             return (group,), [_replacement_note(note, _SPEEDS.format(very.name))] if guessed else []
     if not model:
         others = [f"'{variant.name}'" for variant in kin if group_of(variant) is not None]
-        help = f"choose one of its kin with `--robot`: {', '.join(others)}" if others else _HELP
+        help = f"choose a similar one with `--robot`: {', '.join(others)}" if others else _HELP
         raise refusal("RG432", None, f"no known robot is a {name or unit}", help)
     if (very is not None and very.model) or not kin:
         return shipped_groups(model), []

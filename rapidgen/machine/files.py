@@ -117,7 +117,9 @@ class FileSystem:
             try:
                 copy_files(source, self.folder / "HOME")
             except TooLarge as fault:
-                help = "take out what the robot's programs do not need: is it the right folder?"
+                help = (
+                    "remove files that the robot's programs do not need, or choose another folder"
+                )
                 raise refusal("RG705", None, f"{source}: {fault.strerror}", help) from fault
 
     @property

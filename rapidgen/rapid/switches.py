@@ -96,7 +96,7 @@ class Switches:
     alias_by_name: bool = True
     """AliasIO takes the name of a signal as a string [mem]. False: event 40214 and stop."""
 
-    axis_limits_told: bool = True
+    axis_limits_readable: bool = True
     """ReadCfgData finds the limits of the axes, MOC/ARM [code]. False: ERR_CFG_NOTFND."""
 
     calc_in_background: bool = True
@@ -104,7 +104,7 @@ class Switches:
     names, as CRobT and CJointT do there in ABB's own module for RobotWare 7 [ABB]. False:
     ERR_NOT_MOVETASK [mem]."""
 
-    modules_told: bool = True
+    installed_modules_exist: bool = True
     """ModExist tells of every module of its task: it looks among loaded ones, then among installed
     ones [manual 3HAC050917]. False: of those alone that Load brought."""
 
@@ -126,7 +126,7 @@ class Switches:
     """IError tells a task of everybody's events, as public loggers in tasks of their own expect
     [code], or of those of its own only."""
 
-    find_behind: Literal["none", "error"] = "none"
+    find_past_end: Literal["none", "error"] = "none"
     """StrFind and StrMatch from the position right behind the text find nothing (Machina's driver
     ends every command so), or it is an error (S4 datasys 3-StrFind)."""
 
@@ -166,11 +166,11 @@ class Switches:
     """\\ListNo of ReadCfgData counts from 0, and -1 follows the last [mem], or from 1, and 0
     follows."""
 
-    queue_patience: bool = True
+    queue_timeout: bool = True
     """RMQSendWait without \\TimeOut gives up after 60 s [mem]. False: it waits for ever, as
     RMQReadWait does."""
 
-    egm_patience: Literal["second", "told", "never"] = "second"
+    egm_timeout: Literal["second", "explicit", "never"] = "second"
     """After which silence of an EGM partner EGMRunJoint raises ERR_UDPUC_COMM: after \\CommTimeout
     and, without it, after 1 s (as one of ABB's engineers recalls; the manual is silent), after
     \\CommTimeout alone, or never (a GoFa with RobotWare 7.21 stayed for 2 min with 5 s told)."""
@@ -210,8 +210,8 @@ NOT_THE_DRIVERS = frozenset(
         "signal_times",
         "bit_order",
         "list_number",
-        "queue_patience",
-        "egm_patience",
+        "queue_timeout",
+        "egm_timeout",
         "sockets_limited",
         "stationary_zones",
         "hands_calibrated",

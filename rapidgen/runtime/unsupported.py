@@ -11,7 +11,7 @@ from rapidgen.rapid.builtins import signatures
 
 _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     (
-        "nothing here guides a robot by signals, or corrects its path",
+        "a robot cannot be guided by signals, nor its path corrected",
         "EGMSetupAI EGMSetupAO EGMSetupGI EGMSetupLTAPP EGMActMove EGMMoveL EGMMoveC",
     ),
     ("the servo loops are not simulated", "TuneServo TuneReset"),

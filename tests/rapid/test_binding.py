@@ -176,7 +176,7 @@ def test_values_before_the_run(text, kind, value):
         ("1 / 0", "this cannot be evaluated (division by zero)"),
         ("1.5 DIV 1", "this cannot be evaluated (ERR_NOTINTVAL)"),
         ("1 MOD -2", "this cannot be evaluated (ERR_NEGARG)"),
-        ("row{4}", "the index lies outside the array"),
+        ("row{4}", "the index is outside the array"),
         ("p.c", "there is no component c"),
         ('"text"', "the value is string, not num"),
         ("1E39", "num cannot hold this"),

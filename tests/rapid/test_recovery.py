@@ -39,7 +39,7 @@ def test_message_says_what_was_met_expected_and_what_is_open():
     assert len(result) == 1
     assert result[0].message == "met ';', expected an expression"
     assert "FOR (line 3), PROC (line 2), MODULE (line 1)" in result[0].notes[0]
-    assert result[0].help == "write an expression here, or take out what stands here"
+    assert result[0].help == "write an expression here, or remove this"
     assert result[0].related[0].span.line == 3
 
 
@@ -86,11 +86,11 @@ def test_what_is_no_habit_is_told_as_before(body):
     [
         (
             "MoveL p1 v100, fine, tool0;",
-            "a ',' stands between two arguments: perhaps before 'v100'",
+            "a ',' is missing between two arguments, perhaps before 'v100'",
         ),
-        ("a := Offs(p, 1 2, 3);", "a ',' stands between two arguments: perhaps before '2'"),
-        ('TPWrite "a" "b";', "a ',' stands between two arguments: perhaps before '\"b\"'"),
-        ("a := [1 [2]];", "a ',' stands between two arguments: perhaps before '['"),
+        ("a := Offs(p, 1 2, 3);", "a ',' is missing between two arguments, perhaps before '2'"),
+        ('TPWrite "a" "b";', "a ',' is missing between two arguments, perhaps before '\"b\"'"),
+        ("a := [1 [2]];", "a ',' is missing between two arguments, perhaps before '['"),
         # At the beginning of a line it is more likely the semicolon.
         ("Foo 1\nBar 2;", "perhaps the one before has none"),
         ("a := 1\nb := 2;", "perhaps the one before has none"),

@@ -61,7 +61,7 @@ class ArgumentFault(Enum):
     SURPLUS = "no required parameter is left for it"
     UNKNOWN = "no parameter of this sort has the name"
     TWICE = "its parameter has an argument"
-    ORDER = "its parameter stands before one that has an argument"
+    ORDER = "its parameter precedes one that has an argument"
     EXCLUSIVE = "an alternative of its parameter has an argument"
 
 

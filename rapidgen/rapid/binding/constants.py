@@ -145,7 +145,7 @@ def _value(node: Expression, want: str | None, scope: Scope, depth: int) -> _Typ
                 at = evaluate(index, scope, "num")
                 parts = _members(value)
                 if not isinstance(at, int) or not 1 <= at <= len(parts):
-                    raise NotConstant("the index lies outside the array", index)
+                    raise NotConstant("the index is outside the array", index)
                 value = parts[at - 1]
             return value, element(complete) if complete else None
     raise NotConstant("this is no constant expression", node)

@@ -192,7 +192,7 @@ class CallChecker:
             node,
             help=f"this is checked for RobotWare {displayed}"
             if dialect.is_known
-            else "say for which RobotWare this is: --robotware",
+            else "name its RobotWare with --robotware",
             severity=Severity.ERROR if dialect.is_known else Severity.INFO,
         )
 
@@ -250,7 +250,7 @@ class CallChecker:
                 twice = misfit is ArgumentFault.TWICE
                 self.report(
                     "RG314",
-                    f"'{name}' is given twice" if twice else f"'{name}' stands too far behind",
+                    f"'{name}' is given twice" if twice else f"'{name}' is too far back",
                     argument,
                     help=f"the order is {_listed(parameters)}",
                     notes=("arguments have the order of the parameters [K §3.10]",),
@@ -375,7 +375,7 @@ class CallChecker:
         if isinstance(value, int | float) and not 1 <= value <= _RAW_BYTES:
             self.report(
                 "RG319",
-                f"a raw byte index lies in 1 to {_RAW_BYTES}, not {value:g}",
+                f"a raw byte index is in 1 to {_RAW_BYTES}, not {value:g}",
                 argument,
                 notes=("the error comes when it is executed",),
                 severity=Severity.WARNING,

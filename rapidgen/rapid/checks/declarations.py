@@ -229,7 +229,7 @@ class _ModuleChecker:
     def _not_constant(self, node: Expression, what: str, root: Symbol | None = None) -> None:
         self.report(
             "RG317",
-            f"{what} cannot stand in a constant expression",
+            f"{what} is not permitted in a constant expression",
             node,
             help="assign it as a statement",
             notes=("constant expressions [K §3.1, 2.22]",),

@@ -199,7 +199,9 @@ class FlowChecker:
         return False
 
     def _place(self, node: Statement, keyword: str, where: str, section: str) -> None:
-        self.report("RG321", f"{keyword} stands only in {where}", node, notes=(f"[K §{section}]",))
+        self.report(
+            "RG321", f"{keyword} is permitted only in {where}", node, notes=(f"[K §{section}]",)
+        )
 
     def _raise(self, node: Raise) -> bool:
         if node.number is None:
@@ -211,7 +213,7 @@ class FlowChecker:
                 # ABB's modules for RobotWare 7 contain it, so it is not an error.
                 self.report(
                     "RG321",
-                    "RAISE with a number in a handler gives the caller that error",
+                    "RAISE with a number in a handler passes that error to the caller",
                     node,
                     notes=("[K §4.8] has it in bodies only; controllers load and execute it",),
                     severity=Severity.INFO,
@@ -224,7 +226,7 @@ class FlowChecker:
             ):
                 self.report(
                     "RG321",
-                    f"an own error number lies in 1 to 90, not {value:g}",
+                    f"an error number of a program is in 1 to 90, not {value:g}",
                     node.number,
                     help="or book one with BookErrNo",
                     notes=("any other number becomes ERR_ILLRAISE [K §4.8]",),

@@ -142,7 +142,9 @@ class TypeChecker:
             self.calls.loose_arguments(node.arguments)
             return None
         if not isinstance(symbol, RoutineSymbol) or symbol.kind != "FUNC":
-            what = "an array: its index stands in braces" if symbol.kind in DATA else "no function"
+            what = (
+                "an array: its index is written in braces" if symbol.kind in DATA else "no function"
+            )
             self.report(
                 "RG306",
                 f"'{symbol.name}' is {what}",

@@ -13,7 +13,7 @@ from rapidgen.rapid.syntax.source import Source
 
 
 _CHARACTERS: Final = {
-    "'": 'a string stands in double quotes: "..."',
+    "'": 'a string requires double quotes: "..."',
     "&": "RAPID writes AND",
     "|": "RAPID writes OR",
     "~": "RAPID writes NOT",
@@ -213,12 +213,12 @@ def _help(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
     begins = kinds[at] in (lexer.NAME, lexer.NUMBER, lexer.STRING, "[")
     if begins and "','" in expected and source.line(at) == source.line(at - 1):
         met = describe_token(source, kinds, at)
-        return f"a ',' stands between two arguments: perhaps before {met}"
+        return f"a ',' is missing between two arguments, perhaps before {met}"
     if "';'" in expected:
         return "a statement or declaration ends with ';': perhaps the one before has none"
     if kinds[at] == lexer.EOF:
         return f"write {expected} here"
-    return f"write {expected} here, or take out what stands here"
+    return f"write {expected} here, or remove this"
 
 
 def unclosed(
@@ -250,7 +250,7 @@ def too_many(last: Diagnostic, limit: int) -> Diagnostic:
         "RG214",
         last.span,
         f"more than {limit} errors: the rest of the text was not read",
-        "mend the first ones and check again",
+        "correct the first ones and check again",
     )
 
 
@@ -268,7 +268,7 @@ def unmatched(
     """
     related, note = still_open(source, blocks)
     if suspect >= 0:
-        related = (Label(source.span(suspect, suspect), "is THEN missing behind this condition?"),)
+        related = (Label(source.span(suspect, suspect), "is THEN missing after this condition?"),)
     return error(
         "RG203",
         place(source, at),

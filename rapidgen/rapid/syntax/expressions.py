@@ -264,10 +264,10 @@ class ExpressionParser:
         if kind == "NOT":
             if not pending:
                 return _NOT_LEVEL
-            self._loose(i, pending, "NOT may stand only at the start of an expression")
+            self._loose(i, pending, "NOT is permitted only at the start of an expression")
             return _INNER_NOT_LEVEL if pending[-1][0] < _RELATION_LEVEL else _TIGHT
         if pending and pending[-1][0] >= _SIGN_LEVEL:
-            self._loose(i, pending, "a sign may stand only at the start of a sum")
+            self._loose(i, pending, "a sign is permitted only at the start of a sum")
             return _TIGHT
         return _SIGN_LEVEL
 

@@ -99,10 +99,10 @@ class ModuleParser:
                 errors.place(self.source, i),
                 "a second module in one file: it is not read"
                 if again
-                else "there is text behind ENDMODULE: it is not read",
+                else "the text after ENDMODULE is not read",
                 "give each module a file of its own" if again else "remove it",
                 label="not read from here on",
-                notes=("no manual says what a controller makes of it [K §9, 9.1]",),
+                notes=("no manual describes the effect on a controller [K §9, 9.1]",),
                 severity=Severity.WARNING,
             )
         )
@@ -133,7 +133,7 @@ class ModuleParser:
             other = next(o for o in before for pair in _EXCLUDED if {new, o} == set(pair))
             fault = f"the attributes {other} and {new} exclude each other"
         elif before and _ATTRIBUTES.index(new) < _ATTRIBUTES.index(before[-1]):
-            fault = f"{new} stands before {before[-1]}"
+            fault = f"{new} precedes {before[-1]}"
         else:
             return
         self.report(
@@ -206,7 +206,7 @@ class ModuleParser:
             error(
                 "RG213",
                 self.source.span(declaration.first, declaration.first),
-                f"a {what} stands behind {after}",
+                f"a {what} follows {after}",
                 "order a module: RECORD and ALIAS, then data, then routines",
                 label=f"{what}s come before {after}",
                 notes=("order inside a module [K §5, 9.1]",),

@@ -157,7 +157,7 @@ class RoutineParser:
         elif keyword in seen:
             message = f"a second {keyword} handler"
         elif seen and order.index(keyword) < max(order.index(s) for s in seen):
-            message = f"the {keyword} handler stands behind {seen[-1]}"
+            message = f"the {keyword} handler follows {seen[-1]}"
         else:
             return
         self.expressions.report(

@@ -136,7 +136,7 @@ class StatementParser:
             error(
                 "RG213",
                 source.span(i, i),
-                f"the declaration of '{declaration.name}' stands behind a statement",
+                f"the declaration of '{declaration.name}' follows a statement",
                 "move it to the head of the routine",
                 label="data come first in a routine",
                 notes=("data declarations come before the statements [K §5.3]",),

@@ -106,7 +106,7 @@ def _unseen(tokens: Tokens) -> Diagnostic:
         Span(source.path, line, column),
         f"this character has no meaning in RAPID: {' and '.join(named[:3])}{more}",
         "put a blank in its place",
-        notes=("nobody sees it: it looks like a blank, or like nothing",),
+        notes=("the character is invisible or looks like a blank",),
     )
 
 
@@ -120,9 +120,9 @@ def _touching(source: Source) -> list[Diagnostic]:
                 error(
                     "RG205",
                     source.span(at, at + 1),
-                    f"no blank stands between {number} and {source.tokens[at + 1]}",
+                    f"a blank is missing between {number} and {source.tokens[at + 1]}",
                     "put a blank between them",
-                    notes=("[K §2.2] wants one; controllers seem to do without",),
+                    notes=("[K §2.2] requires one; controllers seem to accept its absence",),
                     severity=Severity.WARNING,
                 )
             ]

@@ -113,7 +113,7 @@ def cam_req_image(
         raise FatalError(
             NOT_SIMULATED,
             "Nothing to see",
-            f"say what {camera.name} sees under `cameras:` in the description of the cell",
+            f"describe what {camera.name} sees under `cameras:` in the description of the cell",
         )
     camera.under_way += 1
     number = camera.taken + camera.under_way

@@ -262,7 +262,7 @@ def i_error(task: Task, domain: float, number: float | None, kind: float, interr
 def get_trap_data(task: Task, data: TrapData) -> None:
     """GetTrapData: read the data of the current trap."""
     if not task.in_trap:
-        raise FatalError(40_304, "GetTrapData stands only in a trap")
+        raise FatalError(40_304, "GetTrapData is permitted only in a trap")
     data.event = task.interrupts.trap_data
 
 

@@ -128,7 +128,9 @@ def erase_module(task: Task, module: str) -> None:
 def mod_exist(task: Task, module: str) -> bool:
     """Return True if the task has a module of that name or path."""
     known = task.program.modules.get(module.lower())
-    return known is not None and (task.controller.dialect.modules_told or known.origin is not None)
+    return known is not None and (
+        task.controller.dialect.installed_modules_exist or known.origin is not None
+    )
 
 
 @builtin("ModTime", cost="string")

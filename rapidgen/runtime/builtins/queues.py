@@ -1,7 +1,7 @@
 """RAPID message queues: RMQFindSlot to IRMQMessage.
 
 See `rapidgen/runtime/queues.py` for the queues. Sources: 3HAC16581-1's arguments and error names
-[manual]. Without \\TimeOut, RMQReadWait waits without limit; the switch `queue_patience` limits
+[manual]. Without \\TimeOut, RMQReadWait waits without limit; the switch `queue_timeout` limits
 RMQSendWait.
 """
 
@@ -82,7 +82,7 @@ def rmq_send_wait(
                 return message
         return None
 
-    default_timeout = _DEFAULT_TIME if task.controller.dialect.queue_patience else None
+    default_timeout = _DEFAULT_TIME if task.controller.dialect.queue_timeout else None
     if not task.wait_for(
         lambda: answer() is not None,
         on=(own.changed,),

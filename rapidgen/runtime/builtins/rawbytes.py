@@ -45,7 +45,9 @@ def pack_raw_bytes(
     value, _ = value_of(argument)
     index = whole(start, "ERR_OUTOFBND")
     if index > len(raw.data) + 1 and task.controller.dialect.pack_beyond == "error":
-        raise RapidError("ERR_OUTOFBND", f"{index} lies behind a gap after {len(raw.data)} bytes")
+        raise RapidError(
+            "ERR_OUTOFBND", f"{index} is after a gap that follows {len(raw.data)} bytes"
+        )
     if isinstance(value, str):
         if not (ascii_ or utf8) or not value:
             raise RapidError("ERR_ARGVALERR", "a string is packed with \\ASCII, and not empty")

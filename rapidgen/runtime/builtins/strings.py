@@ -33,8 +33,8 @@ def _place(text: str, position: float) -> int:
 
 
 def _search_place(task: Task, text: str, position: float) -> int:
-    """Return the start of a search; see `Switches.find_behind`."""
-    after = task.controller.dialect.find_behind == "none" and position == len(text) + 1
+    """Return the start of a search; see `Switches.find_past_end`."""
+    after = task.controller.dialect.find_past_end == "none" and position == len(text) + 1
     return len(text) + 1 if after else _place(text, position)
 
 

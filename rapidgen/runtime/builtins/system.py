@@ -210,7 +210,7 @@ def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | in
     configuration = task.controller.configuration
     result = configuration.find(path)
     hidden = path.strip("/").lower().startswith("moc/arm/")
-    if not result or (hidden and not task.controller.dialect.axis_limits_told):
+    if not result or (hidden and not task.controller.dialect.axis_limits_readable):
         raise RapidError("ERR_CFG_NOTFND", path)
     if number is None:
         return result[0]

@@ -584,7 +584,7 @@ class Linker:
         dims = tuple(_dimension(x, scope) for x in d.dimensions)
         if prod(dims) > MOST_ELEMENTS:
             raise CannotCompile(
-                f"{d.name} would have {prod(dims):,} elements, there is room for {MOST_ELEMENTS:,}",
+                f"{d.name} would have {prod(dims):,} elements; the limit is {MOST_ELEMENTS:,}",
                 d,
             )
         if d.initial is not None and kind.name not in self.shared.unknown:

@@ -162,7 +162,7 @@ def part_of(text: str, position: float, length: float) -> str:
 def _search_at(text: str, position: float) -> int:
     """Return the start of a search as an index from 0.
 
-    It may be just after the text (`Switches.find_behind`).
+    It may be just after the text (`Switches.find_past_end`).
     """
     return len(text) if position == len(text) + 1 else _at(text, position)
 

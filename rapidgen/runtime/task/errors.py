@@ -240,7 +240,7 @@ class Errors:
         Source: [code]; K §4.8 forbids it.
         """
         if self._switches.raise_in_handler == "error":
-            raise FatalError(40001, "RAISE with a number may not stand in a handler", "[K §4.8]")
+            raise FatalError(40001, "RAISE with a number is not permitted in a handler", "[K §4.8]")
         self._instead = self._own_error(number)
 
     def retry_here(self) -> NoReturn:
@@ -249,7 +249,7 @@ class Errors:
         FatalError: outside an ERROR handler.
         """
         if not self.handler_level:
-            raise FatalError(40001, "RETRY stands only in an error handler", "[K §4.10]")
+            raise FatalError(40001, "RETRY is permitted only in an error handler", "[K §4.10]")
         raise ResumeInside(RETRY)
 
     def _own_error(self, number: float) -> RapidError:

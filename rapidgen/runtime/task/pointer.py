@@ -113,7 +113,7 @@ class Pointer:
         frames = [(frame, frame.f_lineno) for frame in outwards(self._task.frame)]
         result = standing(self._task.program, reversed(frames))
         if result is None:
-            raise CannotStep("it stands in a handler, a trap or an event routine")
+            raise CannotStep("the program is in a handler, a trap or an event routine")
         return result
 
     def next_statement(self) -> Location | None:

@@ -238,7 +238,7 @@ class Stepper:
         last = places[-1]
         body, i = last.path[-1]
         if i == 0:
-            raise CannotStep("it stands at the top of a statement list")
+            raise CannotStep("the program is at the top of a statement list")
         statement = body[i - 1]
         before = replace(last, path=[*last.path[:-1], (body, i - 1)])
         if isinstance(statement, n.ProcedureCall):
@@ -282,9 +282,7 @@ class Stepper:
             raise CannotStep(f"{call.name} is not executed backward")
         place = Location(module.name, before.routine.name, module.span(call))
         if not self.history.drive(task, place, task.controller.operation.step_moves):
-            raise CannotStep(
-                f"{call.name}: where it began is not known, or the robot does not stand at its end"
-            )
+            raise CannotStep(f"{call.name}: its start is unknown, or the robot is not at its end")
 
 
 def _nothing(*_arguments: object, **_named: object) -> None:

@@ -125,7 +125,7 @@ class _Cell:
         log = self._bench.controller.log.since(self._newest)
         result = [e for e in log if e.title.startswith(title)]
         what = f"joint {number} may move from {reply.lower} to {reply.upper}, of {joint}"
-        if not (reply.log_text and self._bench.setting.dialect.axis_limits_told):
+        if not (reply.said and self._bench.setting.dialect.axis_limits_readable):
             if result:
                 raise CheckFailed(f"{what}: the event log says {result[0]}")
             return
@@ -185,7 +185,7 @@ def _counts(bench: Bench, cell: _Cell, reply: Sequence[_ReportedLimits]) -> None
     """Check that the limits in force are reported and applied."""
     cell.start(reply)
     hello, link = cell.in_force(), bench.motion()
-    silent = not bench.setting.dialect.axis_limits_told
+    silent = not bench.setting.dialect.axis_limits_readable
     left = [
         (joint.lower, joint.upper) if silent else one.left(joint)
         for joint, one in zip(bench.group.joints, reply, strict=True)
@@ -213,8 +213,8 @@ def _counts(bench: Bench, cell: _Cell, reply: Sequence[_ReportedLimits]) -> None
 
 @case("limits-without-sense", "a joint of which no range is left")
 def _limits_without_sense(bench: Bench) -> None:
-    """Make limits invalid: every point of such a joint is rejected."""
-    if not bench.setting.dialect.axis_limits_told:
+    """Nobody knows where such a joint may be: no point is taken, wherever it is."""
+    if not bench.setting.dialect.axis_limits_readable:
         raise NotApplicable("the controller does not tell limits of axes")
     joints, cell = bench.group.joints, _Cell(bench)
     for number in range(len(_nonsense(joints[0], 0.0, 0.0))):

@@ -83,8 +83,8 @@ def knows_these(bench: Bench) -> bool:
 
 
 def _has_these(bench: Bench) -> bool:
-    """True if it is so, and the motion task has the module."""
-    return knows_these(bench) and bench.setting.dialect.modules_told
+    """Whether it does, and the motion task is told that the module is there."""
+    return knows_these(bench) and bench.setting.dialect.installed_modules_exist
 
 
 @case("routine-absent", "a routine of a module that is not there refuses its program")
@@ -100,8 +100,8 @@ def _absent(bench: Bench) -> None:
         if ":" in routine.call and not routine.returns and (computes(bench) or not poses):
             reply = _calls(client, number, _zeros(bench, routine))
             client.refused(reply, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
-    if knows_these(bench) and not bench.setting.dialect.modules_told:
-        with bench.second_controller(_with_module(bench)) as other:
+    if knows_these(bench) and not bench.setting.dialect.installed_modules_exist:
+        with bench.beside(_with_module(bench)) as other:
             reply = _calls(Programmer(other), WELD, weld_words(1.0))
             client.refused(
                 reply, RawReason.NO_ROUTINE, 0, "a module that the configuration does not list"

@@ -190,7 +190,7 @@ def test_str_find_and_match(bench):
 
 
 def test_a_search_from_behind_by_the_manual_s_word(bench):
-    bench.controller.dialect = Switches(find_behind="error")
+    bench.controller.dialect = Switches(find_past_end="error")
     for name in ("StrFind", "StrMatch"):
         with pytest.raises(RapidError):
             bench(name, "Robotics", 9, "x")

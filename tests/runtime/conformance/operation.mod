@@ -411,20 +411,20 @@ MODULE long_jump_out_of_event_routine
         TRYNEXT;
     ENDPROC
 ENDMODULE
-!=== modules_told
-MODULE modules_told
+!=== installed_modules_exist
+MODULE installed_modules_exist
     ! source: nobody tells of which modules; ModExist; a switch
     ! robot: irb120
-    ! case: modules_told=true
+    ! case: installed_modules_exist=true
     ! do: start, run 1
     ! expect: TRUE
     ! expect: FALSE
-    ! case: modules_told=false
+    ! case: installed_modules_exist=false
     ! do: start, run 1
     ! expect: FALSE
     ! expect: FALSE
     PROC main()
-        TPWrite ValToStr(ModExist("modules_told"));
+        TPWrite ValToStr(ModExist("installed_modules_exist"));
         TPWrite ValToStr(ModExist("nothing"));
     ENDPROC
 ENDMODULE

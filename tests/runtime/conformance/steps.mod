@@ -138,7 +138,7 @@ MODULE moves_back
     ! expect: [314.354,0,544]
     ! do: step back
     ! at: main WaitTime 9;
-    ! log: 40700 MoveJ: where it began is not known, or the robot does not stand at its end
+    ! log: 40700 MoveJ: its start is unknown, or the robot is not at its end
     ! do: service look, run 0.5
     ! expect: [314.354,0,544]
     ! case:
@@ -147,7 +147,7 @@ MODULE moves_back
     ! expect: [366.038,104.654,585.889]
     ! do: step back
     ! at: main MoveC Offs(a, 50, 150, 0), Offs(a, 0, 200, 0), v500, z20, tool0;
-    ! log: 40700 MoveLDO: where it began is not known, or the robot does not stand at its end
+    ! log: 40700 MoveLDO: its start is unknown, or the robot is not at its end
     ! do: service look, run 0.5
     ! expect: [366.038,104.654,585.889]
     ! case: moves_back=false
@@ -369,7 +369,7 @@ MODULE steps_back
     ! at: main n := 2;
     ! do: step back
     ! at: main n := 2;
-    ! log: 40700 it stands at the top of a statement list
+    ! log: 40700 the program is at the top of a statement list
     ! CONNECT was executed before: it is not undone by going back.
     ! do: step
     ! at: main CONNECT i WITH t;

@@ -111,7 +111,7 @@ def egm_setup_uc(task: Task, _name: str, arguments: Arguments) -> None:
     """Set up a session with a UdpUc device. FatalError: unknown device.
 
     Without a mode the session only streams positions, as a public program uses it [code:
-    rparak/ABB_EGM_Motion_Mirroring]. The switch `egm_patience` is the time limit without
+    rparak/ABB_EGM_Motion_Mirroring]. The switch `egm_timeout` is the time limit without
     \\CommTimeout.
     """
     session = _session(task, arguments["EGMid"])
@@ -122,7 +122,7 @@ def egm_setup_uc(task: Task, _name: str, arguments: Arguments) -> None:
     session.end()
     session.guidance = cast(Guidance, modes[0]) if modes else None
     session.device, session.active = device, None
-    timeout = task.controller.dialect.egm_patience
+    timeout = task.controller.dialect.egm_timeout
     session.comm_timeout = arguments["CommTimeout"]
     if timeout == "never":
         session.comm_timeout = None
@@ -141,7 +141,7 @@ def egm_act(task: Task, name: str, arguments: Arguments) -> None:
     if session.guidance is None:
         raise _refused(f"EGMSetupUC \\{expected} comes first")
     if session.guidance != expected:
-        raise _mismatch(f"{name} behind EGMSetupUC \\{session.guidance}")
+        raise _mismatch(f"{name} after EGMSetupUC \\{session.guidance}")
     _check_load(task, name, arguments)
     session.active = expected
     if arguments["StreamStart"]:
@@ -186,7 +186,7 @@ def egm_run(task: Task, name: str, arguments: Arguments) -> None:
     if session.active is None:
         raise _refused(f"{name.replace('Run', 'Act')} comes first")
     if session.active != expected:
-        raise _mismatch(f"{name} behind EGMAct{session.active}")
+        raise _mismatch(f"{name} after EGMAct{session.active}")
     if not moving_group(task).is_standing:
         raise _refused(f"{name} begins in a fine point")
     if not any(arguments.get(axis) for axis in _AXES):
@@ -269,7 +269,7 @@ def _sensor(task: Task) -> ForceSensor:
         raise FatalError(
             NOT_SIMULATED,
             "Nothing to measure",
-            "say what the force sensor measures under `force:` in the description of the cell",
+            "describe what the force sensor measures under `force:` in the description of the cell",
         )
     return result
 
@@ -355,7 +355,7 @@ def press(task: Task, name: str, arguments: Arguments) -> None:
     sensor = _calibrated(task)
     if name != "FCPress1LStart" and not sensor.pressing:
         raise FatalError(
-            NOT_SIMULATED, "No process force", f"{name} goes on from FCPress1LStart, which was not"
+            NOT_SIMULATED, "No process force", f"{name} requires FCPress1LStart before"
         )
     sensor.controls = sensor.pressing = True
     if not arguments.get("DeactOnly"):

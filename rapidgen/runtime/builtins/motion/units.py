@@ -181,7 +181,7 @@ def _members(task: Task, tasks: Ref) -> frozenset[str]:
 
 def _missing(absent: frozenset[str]) -> str:
     tasks = ", ".join(sorted(absent))
-    return f"waits for {tasks} to come here" if tasks else "all have come to where it waits"
+    return f"waits for {tasks}" if tasks else "all tasks have arrived"
 
 
 def _meet(
@@ -317,7 +317,9 @@ def _pause(task: Task, *, suspended: bool) -> None:
     members = data.partners
     name = "SyncMoveSuspend" if suspended else "SyncMoveResume"
     if not members or group.path_level == 1 or data.suspended == suspended:
-        raise FatalError(_REFUSED, name, "it belongs to synchronised movement behind StorePath")
+        raise FatalError(
+            _REFUSED, name, "it is permitted in synchronised movement after StorePath only"
+        )
     _meet(task, name, members, None, "ERR_SYNCMOVEON")
     data.suspended = suspended
 

@@ -571,7 +571,7 @@ def _str_part(unit: Unit, node: n.FunctionCall) -> CompiledExpression | None:
 
 
 def _position(unit: Unit, node: n.FunctionCall, code: str) -> CompiledExpression | None:
-    if unit.options.dialect.find_behind == "error":
+    if unit.options.dialect.find_past_end == "error":
         return None
     e = _string_function(unit, node, code, (STRING, NUM, STRING))
     if e is not None:
@@ -700,7 +700,7 @@ def compile_expression(
             return compile_expression(unit, node.inner, expected, dims)
         case n.Placeholder():
             return failing("ERR_EXECPHR", kind=expected or NUM, dims=dims)
-    raise CannotCompile("an inlined position stands only for a target", node)
+    raise CannotCompile("an inlined position is permitted only as a target", node)
 
 
 def _number(unit: Unit, node: n.NumberLiteral, expected: Type | None) -> CompiledExpression:

@@ -543,7 +543,7 @@ def _return(emitter: Emitter, node: n.Return) -> None:
     w = emitter.w
     kind = emitter.unit.routine.type
     if emitter.function.handler is CodeRole.UNDO:
-        raise CannotCompile("RETURN may not stand in UNDO", node)
+        raise CannotCompile("RETURN is not permitted in UNDO", node)
     if kind is not None:
         if node.value is None:
             raise CannotCompile("RETURN of a function needs a value", node)
@@ -577,7 +577,9 @@ def _raise(emitter: Emitter, node: n.Raise) -> None:
     w = emitter.w
     if node.number is None:
         if emitter.function.handler is not CodeRole.HANDLER:
-            raise CannotCompile("RAISE without a number stands only in an error handler", node)
+            raise CannotCompile(
+                "RAISE without a number is permitted only in an error handler", node
+            )
         emitter.pay(CompiledExpression("", NUM))
         w.emit("R.b = b")
         w.emit("return 3")
@@ -590,14 +592,14 @@ def _raise(emitter: Emitter, node: n.Raise) -> None:
         w.close()
         return
     if emitter.function.handler.is_handler:
-        raise CannotCompile("RAISE with a number may not stand in a handler", node)
+        raise CannotCompile("RAISE with a number is not permitted in a handler", node)
     number = emitter.unit.value_of(node.number, NUM)
     emitter.simple(calling(f"R.throw({number.code})", NUM, number))
 
 
 def _recover(emitter: Emitter, node: n.Retry | n.TryNext) -> None:
     if emitter.function.handler is not CodeRole.HANDLER:
-        raise CannotCompile("RETRY and TRYNEXT stand only in an error handler", node)
+        raise CannotCompile("RETRY and TRYNEXT are permitted only in an error handler", node)
     emitter.pay(CompiledExpression("", NUM))
     emitter.w.emit("R.b = b")
     emitter.w.emit("return 0" if isinstance(node, n.Retry) else "return 1")

@@ -1,7 +1,7 @@
 !=== queue_for_ever
 MODULE queue_for_ever
     ! source: [mem] RMQSendWait without \TimeOut
-    ! dialect: queue_patience=false
+    ! dialect: queue_timeout=false
     ! task: T_OTHER other
     ! expect: answered after 90
     VAR clock watch;
@@ -27,8 +27,8 @@ MODULE queue_for_ever
         RMQSendMessage sender, 42;
     ENDPROC
 ENDMODULE
-!=== queue_patience
-MODULE queue_patience
+!=== queue_timeout
+MODULE queue_timeout
     ! source: [mem] RMQSendWait without \TimeOut
     ! task: T_OTHER other
     ! expect: 60

@@ -157,7 +157,7 @@ ENDMODULE
 !=== egm_never
 MODULE egm_never
     ! source: a GoFa with RobotWare 7.21 stayed in EGMRunJoint for 2 min with 5 s told [code: abb-gofa]
-    ! dialect: egm_patience=never
+    ! dialect: egm_timeout=never
     ! robot: irb120
     ! expect: 30 and 30
     CONST egm_minmax near := [-0.5, 0.5];
@@ -218,7 +218,7 @@ ENDMODULE
 !=== egm_told
 MODULE egm_told
     ! source: without \CommTimeout no time is documented [manual 3HAC073318]
-    ! dialect: egm_patience=told
+    ! dialect: egm_timeout=explicit
     ! robot: irb120
     ! expect: 30 and 5
     CONST egm_minmax near := [-0.5, 0.5];

@@ -235,7 +235,7 @@ MODULE string_parts
     ! Characters without a rank come behind all that have one.
     ! expect: TRUE TRUE FALSE FALSE
     ! expect: a: b
-    ! case: find_behind=error
+    ! case: find_past_end=error
     ! expect: Robot s
     ! expect: outside
     ! expect: outside

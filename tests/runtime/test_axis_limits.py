@@ -36,7 +36,7 @@ def test_the_limits_of_the_axes(robot, arm, bound):
     groups = load_config(robot).groups
     for report in (True, False):
         controller, printed = boot(
-            ASKS.replace("{arm}", arm), robots=groups, dialect=Switches(axis_limits_told=report)
+            ASKS.replace("{arm}", arm), robots=groups, dialect=Switches(axis_limits_readable=report)
         )
         controller.start_program()
         controller.run_for(1)
