@@ -78,7 +78,7 @@ def test_a_described_cell_answers_the_program(program, cell, tmp_path):
         assert controller.task("T_ROB1")["cell_data:wTable"].uframe.trans.x == 800
 
 
-def test_a_guessed_cell_has_what_the_program_names(program):
+def test_inferred_cell_has_names_of_program(program):
     result = load_target([program], BootOptions(cell="infer"))
     assert result.guessed is not None
     named = {one.name: one.type for one in result.guessed.named}
@@ -98,7 +98,7 @@ def test_a_guessed_cell_has_what_the_program_names(program):
     assert (0.3 < x < 0.4, y, 0.1 < z < 0.3) == (True, 0, True), "an IRB 120 reaches it"
 
 
-def test_what_a_program_waits_for_on_a_guessed_input_comes_half_a_second_later(tmp_path):
+def test_inferred_input_gets_awaited_value_after_half_second(tmp_path):
     path = tmp_path / "waits.mod"
     path.write_text(
         "MODULE waits\n PROC main()\n WaitDI diA, 1;\n WaitUntil (NOT diA = 1) AND giB >= 7;\n"
@@ -134,7 +134,7 @@ def test_without_a_cell_nothing_is_made_up(program):
         ("irb910sc", "[0,0,0,0,0,0]", ""),
     ],
 )
-def test_strangers_start_where_their_robots_usually_do(model, first, second):
+def test_foreign_program_starts_at_usual_pose(model, first, second):
     result = [shown(group, usual_start(group)) for group in load_config(model).groups]
     assert result == [text for text in (first, second) if text]
 
@@ -151,14 +151,14 @@ def refused(call, *words):
     return result.code
 
 
-def test_a_start_that_the_robot_cannot_have_is_refused(program):
+def test_unreachable_start_is_rejected(program):
     far = BootOptions(start=(0, 0, 0, 0, 130, 0))
     assert refused(lambda: load_target([program], far), "rax_5", "-120 to 120") == "RG435"
     few = BootOptions(start=(0, 0))
     assert refused(lambda: load_target([program], few), "2 values", "rax_6") == "RG435"
 
 
-def test_a_cell_that_does_not_fit_is_refused(program, cell):
+def test_mismatched_cell_is_rejected(program, cell):
     cell.write_text(
         "signals: {doGrip: {kind: DO}}\ndevices: {a: [{when: {dGrip: 1}, then: {x: 1}}]}"
     )
@@ -172,14 +172,14 @@ def test_a_cell_that_does_not_fit_is_refused(program, cell):
     assert refused(lambda: load_cell(cell), "signal", "signals") == "RG005"
 
 
-def test_a_robot_of_a_cell_may_be_a_configuration_beside_it(program, cell, tmp_path):
+def test_robot_of_cell_may_be_adjacent_configuration(program, cell, tmp_path):
     (tmp_path / "mine.yaml").write_text("name: mine\nmodel: irb1600\n")
     cell.write_text("robots: {T_ROB1: {model: mine.yaml, mechanical_unit: ROB_7}}")
     (group,) = load_target([program], BootOptions(cell=cell)).groups
     assert (group.model, group.mechanical_unit) == ("irb1600", "ROB_7")
 
 
-def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
+def test_inferred_input_polled_in_loop_is_pressed(tmp_path):
     path = tmp_path / "polls.mod"
     path.write_text(
         "MODULE polls\n VAR num done;\n PROC main()\n  WHILE done < 3 DO\n"
@@ -193,7 +193,7 @@ def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
         assert controller.signals["DI_1"] == 0, "a button is let go"
 
 
-def test_the_routine_that_a_task_starts_in_is_such_a_loop(tmp_path):
+def test_entry_routine_counts_as_loop(tmp_path):
     path = tmp_path / "cycles.mod"
     path.write_text(
         "MODULE cycles\n PERS num done := 0;\n PROC main()\n  IF DI_1 = 1 Incr done;\n"
@@ -215,7 +215,7 @@ def test_a_guessed_cell_does_not_hide_a_deadlock(tmp_path):
         assert "WaitTestAndSet waits for its flag" in controller.where()[0]
 
 
-def test_a_faulty_value_is_no_missing_one_too(tmp_path):
+def test_faulty_value_is_not_reported_as_missing(tmp_path):
     path = tmp_path / "cell.yaml"
     path.write_text("signals:\n  a: {kind: XX}\ntools:\n  1x: {}\n")
     with pytest.raises(DiagnosticError) as fault:
@@ -230,7 +230,7 @@ def test_a_faulty_value_is_no_missing_one_too(tmp_path):
     assert "`rapidgen schema --cell`" in fault.value.diagnostics[0].help
 
 
-def test_dialogs_of_a_guessed_cell_get_their_default_and_then_each_choice_in_turn(tmp_path):
+def test_dialog_of_inferred_cell_gets_default_then_choices(tmp_path):
     path = tmp_path / "asks.mod"
     path.write_text(
         "MODULE asks\n PERS num key := 0;\n PERS num sum := 0;\n VAR num n;\n PROC main()\n"
@@ -254,7 +254,7 @@ def test_dialogs_of_a_guessed_cell_get_their_default_and_then_each_choice_in_tur
         ]
 
 
-def test_a_script_of_answers_is_all_that_is_answered(tmp_path):
+def test_script_of_answers_replaces_inferred_answers(tmp_path):
     path = tmp_path / "asks.mod"
     path.write_text(
         'MODULE asks\n VAR num n;\n PROC main()\n  TPReadNum n, "A";\n ENDPROC\nENDMODULE\n'
@@ -264,7 +264,7 @@ def test_a_script_of_answers_is_all_that_is_answered(tmp_path):
         assert controller.guessed.answered == []
 
 
-def test_plain_data_that_nobody_declares_are_what_their_use_says(tmp_path):
+def test_undeclared_plain_data_have_type_of_use(tmp_path):
     path = tmp_path / "names.mod"
     path.write_text(
         'MODULE names\n CONST string named := "sig_a";\n VAR signaldo alias1;\n'
@@ -314,7 +314,7 @@ def test_a_folder_with_a_folder_for_each_task_is_those_tasks(tmp_path):
         assert controller.run(max_time=20) == "finished"
 
 
-def test_a_guess_takes_the_robot_that_reaches_what_the_program_aims_at(tmp_path):
+def test_inferred_robot_reaches_targets(tmp_path):
     group = load_config("irb4600").groups[0]
     kinematics = Kinematics.of(group)
     assert kinematics is not None
@@ -356,7 +356,7 @@ def test_an_arm_angle_guesses_the_robot_with_seven_axes(eax_a, robot, tmp_path):
     assert result.groups[0].model == robot
 
 
-def test_loose_files_are_on_the_controller_that_is_said(program, cell):
+def test_loose_files_run_on_given_release(program, cell):
     """An OmniCore before anybody came: its tasks, its robot, its firewall (backups of 7.5, 7.6)."""
     result = load_target([program], BootOptions(robotware=(7, 6), cell=cell))
     assert result.system.robotware == (7, 6)
@@ -366,13 +366,13 @@ def test_loose_files_are_on_the_controller_that_is_said(program, cell):
     assert result.cfg.signal("doGrip").text("SignalType") == "DO"
 
 
-def test_what_tells_its_release_is_not_given_another(program):
+def test_target_with_release_rejects_robotware(program):
     assert load_target([program]).system.robotware == UNKNOWN_ROBOTWARE
     with pytest.raises(DiagnosticError, match="'crb15000' tells its RobotWare"):
         load_target(["crb15000"], BootOptions(robotware=(7, 6)))
 
 
-def test_the_folder_one_is_in_has_a_name(tmp_path, monkeypatch):
+def test_current_folder_has_name(tmp_path, monkeypatch):
     folder = tmp_path / "wall"
     folder.mkdir()
     (folder / "m.mod").write_text("MODULE m\n PROC main()\n ENDPROC\nENDMODULE\n")

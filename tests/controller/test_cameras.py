@@ -70,7 +70,7 @@ def shown(files, **options):
         return lines, finished, controller.now, str(controller.task("T_ROB1").fault)
 
 
-def test_images_come_in_turn_with_what_the_cell_says_is_in_them(files):
+def test_images_of_description_come_in_turn(files):
     lines, finished, now, _ = shown(files, cell=files / "cell.yaml")
     part = ["Part[10,20,0]7ok", "Part[30,0,0]0"]
     assert lines == [*part, "none of 2", "none of 2", *part, "none of 2"]
@@ -85,20 +85,20 @@ def test_jobs_and_parameters_are_changed_in_program_mode(files):
     assert now == pytest.approx(1.2, abs=0.1), "a job takes a second"
 
 
-def test_a_guessed_camera_sees_one_thing(files):
+def test_inferred_camera_sees_one_object(files):
     lines, finished, _, _ = shown(files, cell="infer")
     assert lines == ["Cam1[0,0,0]0", "none of 0"] * 3
     assert finished == "finished"
 
 
-def test_a_camera_of_which_nothing_is_said_stops_the_program(files, tmp_path):
+def test_camera_without_description_stops_program(files, tmp_path):
     (files / "cell.yaml").write_text("description: nothing\n")
     lines, _, _, fault = shown(files, cell=files / "cell.yaml")
     assert lines == []
     assert "REFUNKDAT" in fault
 
 
-def test_a_camera_that_is_described_wrongly_is_refused(files):
+def test_camera_with_wrong_description_is_rejected(files):
     (files / "cell.yaml").write_text("cameras:\n  Cam1:\n    images: [{name: a}]\n")
     with pytest.raises(DiagnosticError):
         shown(files, cell=files / "cell.yaml")

@@ -20,13 +20,13 @@ def mains(system):
     ]
 
 
-def test_a_main_stands_in_for_ones_own():
+def test_missing_main_is_replaced():
     system = make_system(OWN, build(OWN))
     assert mains(system) == []
     assert mains(in_its_cell(system, OWN)) == ["own_main"]
 
 
-def test_a_main_that_is_there_stays_the_only_one():
+def test_existing_main_stays_the_only_main():
     system = make_system(OWN, build(OWN))
     motion, *others = system.tasks
     theirs = ModuleFile("theirs", "theirs.mod", THEIRS)
@@ -34,7 +34,7 @@ def test_a_main_that_is_there_stays_the_only_one():
     assert mains(in_its_cell(system, OWN)) == ["theirs"]
 
 
-def test_a_driver_with_a_main_of_its_own_gets_none():
+def test_driver_with_main_gets_no_other():
     config = load_config("irb120")
     system = make_system(config, build(config))
     assert mains(in_its_cell(system, config)) == ["ROS_motion"]

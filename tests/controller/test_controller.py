@@ -76,7 +76,7 @@ def test_setting_a_pers_from_outside_wakes_the_program() -> None:
         assert controller.run_until(lambda: bool(printed), timeout=1)
 
 
-def test_stop_and_start_go_on_where_it_was() -> None:
+def test_start_after_stop_continues() -> None:
     controller, _ = boot(COUNT)
     with controller:
         controller.start_program()
@@ -145,7 +145,7 @@ def test_trust_levels(trust: str, normal: str, startable: bool) -> None:
 
 
 @pytest.mark.parametrize("trust", ["SysHalt", "SysFail"])
-def test_a_task_that_halts_the_system_leaves_the_motors_off(trust: str) -> None:
+def test_system_halt_leaves_motors_off(trust: str) -> None:
     """[S4 overview 4-45]: what was allowed before is refused, and the outputs say so."""
     spec = {"T2": {"type": "STATIC", "trust": trust}}
     signals, outputs = (SignalSpec("doMotors", "DO"),), (SystemOutput("MotorOn", "doMotors"),)
@@ -161,7 +161,7 @@ def test_a_task_that_halts_the_system_leaves_the_motors_off(trust: str) -> None:
 @pytest.mark.parametrize(
     ("mode", "event"), [("manual_reduced", 10_015), ("manual_full", 10_015), ("auto", 10_017)]
 )
-def test_a_new_mode_stops_the_program_and_switches_the_motors_off(mode: str, event: int) -> None:
+def test_mode_change_stops_program_and_motors(mode: str, event: int) -> None:
     controller, _ = boot(COUNT)
     with controller:
         if mode == "auto":
@@ -178,7 +178,7 @@ def test_a_new_mode_stops_the_program_and_switches_the_motors_off(mode: str, eve
         assert controller.start_program()
 
 
-def test_the_mode_that_is_on_already_changes_nothing() -> None:
+def test_current_mode_has_no_effect() -> None:
     controller, _ = boot(COUNT)
     with controller:
         controller.start_program()
@@ -238,7 +238,7 @@ def test_a_generated_module_points_to_its_template() -> None:
         ),
     ],
 )
-def test_what_cannot_be_loaded_is_said(text: str, code: str) -> None:
+def test_faulty_module_is_reported(text: str, code: str) -> None:
     file = ModuleFile("m", "m.mod", text.encode())
     with pytest.raises(DiagnosticError) as caught:
         VirtualController(System("s", (TaskSpec("T1", modules=(file,)),)))
@@ -276,7 +276,7 @@ def test_a_backup_without_an_entry_routine_boots() -> None:
         assert controller.task("T1").state == "empty"
 
 
-def test_missing_routines_are_said_at_load_and_stop_when_reached() -> None:
+def test_missing_routine_is_reported_and_stops_task() -> None:
     controller, printed = boot('PROC main()\n TPWrite "x";\n FCRefStart;\n nobody;\nENDPROC')
     with controller:
         assert {d.code for d in controller.diagnostics} == {"RG403", "RG404"}

@@ -63,7 +63,7 @@ def run(tmp_path, text, **options):
         return finished, displayed, controller.where(), controller
 
 
-def test_a_server_hears_its_words_and_numbers_and_the_end_last(tmp_path):
+def test_server_receives_words_numbers_and_end_last(tmp_path):
     finished, displayed, _, controller = run(tmp_path, SERVER, cell="infer")
     assert finished == "finished"
     assert displayed[:4] == ["unknown", "seven", "unknown", "go"], "with more behind it"
@@ -126,7 +126,7 @@ ENDMODULE
 """
 
 
-def test_a_server_that_counts_values_hears_as_many_of_where_the_robot_stands(tmp_path):
+def test_server_receives_counted_values_of_start_pose(tmp_path):
     path = tmp_path / "counting.mod"
     path.write_text(COUNTING)
     displayed: list[str] = []
@@ -186,7 +186,7 @@ ENDMODULE
 """
 
 
-def test_a_server_of_binary_messages_hears_their_length_and_the_numbers_it_tests(tmp_path):
+def test_server_receives_binary_lengths_and_tested_numbers(tmp_path):
     """Length first, in the order of bytes that the program unpacks [S4 UnpackRawBytes]."""
     finished, displayed, where, controller = run(tmp_path, BINARY, cell="infer")
     assert displayed[:4] == ["begin", "between", "end 0", "unknown"]
@@ -235,7 +235,7 @@ ENDMODULE
 """
 
 
-def test_a_text_of_fields_has_what_each_is_compared_with(tmp_path):
+def test_text_fields_have_compared_values(tmp_path):
     path = tmp_path / "fields.mod"
     path.write_text(FIELDS)
     displayed: list[str] = []
@@ -247,7 +247,7 @@ def test_a_text_of_fields_has_what_each_is_compared_with(tmp_path):
     assert displayed[:3] == ["left", "right", "twelve"]
 
 
-def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
+def test_awaited_client_of_two_sends(tmp_path):
     two = (
         "MODULE two\n VAR socketdev s;\n VAR socketdev c;\n VAR socketdev d;\n VAR string said;\n"
         ' PROC main()\n  SocketCreate s;\n  SocketBind s, "127.0.0.1", 5000;\n'
@@ -259,7 +259,7 @@ def test_of_two_clients_at_a_port_the_one_speaks_that_is_waited_for(tmp_path):
     assert displayed == ["a"]
 
 
-def test_a_copy_of_what_is_received_is_compared_whole_and_errors_are_not_said(tmp_path):
+def test_copy_of_message_is_compared_without_error_texts(tmp_path):
     text = SERVER.replace(
         '   IF StrPart(said, 1, 1) = "G" TPWrite "go";\n',
         '   also := said;\n   IF also = "gate" AND ERRNO <> ERR_SOCK_TIMEOUT TPWrite "gate";\n',
@@ -269,14 +269,14 @@ def test_a_copy_of_what_is_received_is_compared_whole_and_errors_are_not_said(tm
     assert "1161" not in str(controller.guessed.answered)
 
 
-def test_a_client_finds_somebody_who_answers_and_then_falls_silent(tmp_path):
+def test_client_gets_answers_then_silence(tmp_path):
     finished, displayed, where, _ = run(tmp_path, CLIENT, cell="infer")
     assert displayed == ["got 12"], "as many bytes as it reads"
     assert finished == "deadlock"
     assert "waits for bytes" in where[0]
 
 
-def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tmp_path):
+def test_program_stopped_by_answer_restarts_with_next(tmp_path):
     path = tmp_path / "server.mod"
     path.write_text(
         SERVER.replace('"quit"', '"long" AND said <> "short"').replace(
@@ -292,7 +292,7 @@ def test_what_stops_behind_such_an_answer_starts_from_main_and_hears_the_next(tm
         assert "shortt" in displayed, "the one behind that which stopped it"
 
 
-def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
+def test_program_stopped_by_itself_is_not_restarted(tmp_path):
     path = tmp_path / "wrong.mod"
     path.write_text(
         'MODULE wrong\n PROC main()\n  TPWrite StrPart("a", 5, 1);\n ENDPROC\nENDMODULE\n'
@@ -304,13 +304,13 @@ def test_a_program_that_stops_by_itself_is_not_started_again(tmp_path):
 
 
 @pytest.mark.parametrize("text", [SERVER, CLIENT])
-def test_without_a_guess_nobody_is_there(tmp_path, text):
+def test_socket_without_inference_has_no_peer(tmp_path, text):
     _, displayed, _, controller = run(tmp_path, text)
     assert displayed == []
     assert "ERR_SOCK" in str(controller.task("T_ROB1").fault)
 
 
-def test_on_real_sockets_nobody_is_made_up(tmp_path):
+def test_real_socket_has_no_inferred_peer(tmp_path):
     path = tmp_path / "server.mod"
     path.write_text(SERVER)
     result = load_target([path], BootOptions(cell="infer"))

@@ -160,14 +160,14 @@ def test_condition_and_log_point(boot):
         debugger.add(Breakpoint("m", 10, hits="often"))
 
 
-def test_a_condition_that_cannot_be_worked_out_pauses_and_says_why(boot):
+def test_faulty_condition_pauses_with_reason(boot):
     controller, debugger = boot()
     debugger.add(Breakpoint("m", 10, condition="nobody > 3"))
     controller.run_for(1.0)
     assert "nobody is not known here" in debugger.halt.text
 
 
-def test_a_routine_that_is_being_executed_notices_a_new_breakpoint(boot):
+def test_running_routine_stops_at_new_breakpoint(boot):
     """main never returns: it goes on in other code, and nothing is executed twice."""
     controller, debugger = boot()
     controller.run_for(1.2)  # in the third WaitTime
@@ -218,7 +218,7 @@ ENDMODULE
 """
 
 
-def test_a_step_passes_over_traps_and_a_breakpoint_in_one_is_noticed(boot):
+def test_step_skips_trap_without_breakpoint(boot):
     controller, debugger = boot(TRAP)
     at = debugger.add(Breakpoint("m", 10)).number
     controller.run_for(1.0)
@@ -268,7 +268,7 @@ def test_stop_on_error(boot):
     assert controller.task("T_ROB1")["m:x"] == 9
 
 
-def test_stop_on_errors_that_are_handled(boot):
+def test_handled_error_pauses(boot):
     controller, debugger = boot(FAULTY, cycle="once")
     debugger.errors = "all"
     controller.run_for(1.0)
@@ -276,7 +276,7 @@ def test_stop_on_errors_that_are_handled(boot):
     assert debugger.evaluate("T_ROB1", "d").text == "0"
 
 
-def test_a_task_that_executes_nothing_has_its_data_and_no_variables(boot):
+def test_idle_task_has_data_without_variables(boot):
     controller, _ = boot(autostart=False)
     task = controller.rapid_tasks["T_ROB1"]
     frame = where_it_looks(task)
@@ -311,7 +311,7 @@ def test_a_debugger_changes_no_time(boot):
     assert times[0] == times[1]
 
 
-def test_in_real_time_requests_are_served_and_nothing_is_caught_up(boot):
+def test_paused_real_clock_serves_requests(boot):
     controller, debugger = boot(clock="real")
     halted = threading.Event()
     debugger.changed.add(lambda: halted.set() if debugger.halt is not None else None)
@@ -345,7 +345,7 @@ ENDMODULE
 """
 
 
-def test_a_routine_that_cannot_be_reached_is_told(boot):
+def test_unreachable_routine_is_reported(boot):
     controller, debugger = boot(JUMPS)
     controller.run_for(0.55)
     assert "GOTO" in debugger.add(Breakpoint("m", 5)).doubt
@@ -411,7 +411,7 @@ ENDMODULE
 """
 
 
-def test_steps_stay_in_a_module_that_is_executed_as_a_whole_only_if_they_began_there(boot):
+def test_steps_stay_in_nostepin_module_if_started_there(boot):
     controller, debugger = boot(HIDDEN, cycle="once")
     debugger.add(Breakpoint("m", 5))
     controller.run_for(1.0)
@@ -420,7 +420,7 @@ def test_steps_stay_in_a_module_that_is_executed_as_a_whole_only_if_they_began_t
     assert line(debugger) == 9
 
 
-def test_a_time_step_lets_so_much_time_pass(boot):
+def test_time_step_advances_by_given_time(boot):
     controller, debugger = boot()
     with pytest.raises(NotPaused):
         debugger.run_for(0.1)

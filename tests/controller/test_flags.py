@@ -42,7 +42,7 @@ def run(tmp_path, text, cell):
         return finished, displayed, controller.guessed.answered
 
 
-def test_each_becomes_what_it_is_looked_at_for_and_is_told(tmp_path):
+def test_polled_data_get_expected_values_and_are_reported(tmp_path):
     finished, displayed, answered = run(tmp_path, PROGRAM, "infer")
     assert finished == "finished"
     assert displayed == ["started", "three", "new"]
@@ -50,14 +50,14 @@ def test_each_becomes_what_it_is_looked_at_for_and_is_told(tmp_path):
     assert answered == given
 
 
-def test_what_the_program_sets_itself_is_left_alone(tmp_path):
+def test_data_set_by_program_are_unchanged(tmp_path):
     text = PROGRAM.replace("  WaitUntil bStart;", "  bStart := TRUE;\n  WaitUntil bStart;")
     _, _, answered = run(tmp_path, text, "infer")
     assert "bStart" not in [name for name, _ in answered]
     assert "bDone" not in [name for name, _ in answered]
 
 
-def test_without_a_guess_nobody_sets_it(tmp_path):
+def test_data_without_inference_are_unchanged(tmp_path):
     finished, displayed, answered = run(tmp_path, PROGRAM, "")
     assert (finished, displayed, answered) == ("time", [], [])
 
@@ -80,7 +80,7 @@ TOGETHER = {
 
 
 @pytest.mark.parametrize("name", TOGETHER)
-def test_what_has_to_hold_together_does(name, tmp_path):
+def test_combined_condition_becomes_true(name, tmp_path):
     text = (
         "MODULE flag\n PERS bool bAuto := FALSE;\n PERS num nPart := 0;\n VAR num nCopy;\n"
         " VAR intnum i;\n PROC main()\n  WHILE TRUE DO\n"
@@ -108,7 +108,7 @@ ENDMODULE
 
 
 @pytest.mark.parametrize(("cell", "starts"), [("infer", 50), ("", 0)])
-def test_behind_a_stop_somebody_presses_start(cell, starts, tmp_path):
+def test_program_is_started_after_stop(cell, starts, tmp_path):
     path = tmp_path / "stops.mod"
     path.write_text(STOPS)
     with VirtualController.from_files([path], cell=cell, cycle="once") as controller:
@@ -126,7 +126,7 @@ ENDMODULE
 """
 
 
-def test_what_fails_behind_each_answer_has_failed_in_the_end(tmp_path):
+def test_program_failing_after_all_answers_fails(tmp_path):
     path = tmp_path / "fails.mod"
     path.write_text(FAILS)
     with VirtualController.from_files([path], robot="irb120", cell="infer", cycle="once") as driven:

@@ -74,7 +74,7 @@ def run(controller):
     return displayed, controller.task("T_ROB1").fault
 
 
-def test_a_sensor_reads_what_the_file_says_and_the_robot_presses_along_its_path(boot):
+def test_sensor_reads_description_and_robot_follows_path(boot):
     with boot("main") as controller:
         displayed, fault = run(controller)
         assert fault is None
@@ -97,7 +97,7 @@ def test_a_sensor_reads_what_the_file_says_and_the_robot_presses_along_its_path(
         ("searches", "FCRefStart is not available"),
     ],
 )
-def test_what_cannot_be_stops_and_says_so(boot, entry, report):
+def test_unsupported_force_use_stops_with_reason(boot, entry, report):
     with boot(entry) as controller:
         displayed, fault = run(controller)
         assert report in fault.title

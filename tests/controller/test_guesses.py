@@ -8,7 +8,7 @@ from rapidgen.diagnostics import Severity
 from rapidgen.rapid import check
 
 
-def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
+def test_missing_routines_do_nothing_and_are_reported(tmp_path):
     path = tmp_path / "calls.mod"
     path.write_text(
         "MODULE calls\n VAR num x := 5;\n VAR robtarget p;\n LOCAL VAR socketdev s;\n PROC main()\n"
@@ -46,7 +46,7 @@ def test_routines_in_no_file_do_nothing_and_are_told(tmp_path):
         assert controller.positions() == pytest.approx(start, abs=1e-5)
 
 
-def test_a_routine_in_no_file_has_the_optional_arguments_of_all_its_calls(tmp_path):
+def test_missing_routine_has_optional_arguments_of_calls(tmp_path):
     """A logger of a public cell is called with another level each time."""
     path = tmp_path / "logs.mod"
     path.write_text(
@@ -63,7 +63,7 @@ def test_a_routine_in_no_file_has_the_optional_arguments_of_all_its_calls(tmp_pa
     assert displayed == ["behind"]
 
 
-def test_a_trap_in_no_file_does_nothing_and_is_told(tmp_path):
+def test_missing_trap_does_nothing_and_is_reported(tmp_path):
     path = tmp_path / "calls.mod"
     path.write_text(
         "MODULE calls\n VAR intnum i;\n PROC main()\n  CONNECT i WITH later;\n"
@@ -141,7 +141,7 @@ def test_a_program_ends_in_a_guessed_cell_alone(name, tmp_path):
         assert lacks in str(controller.task("T_ROB1").fault)
 
 
-def test_the_size_of_an_array_that_nobody_says_is_a_constant(tmp_path):
+def test_undeclared_array_size_is_constant(tmp_path):
     """As long as the initial value, if there is one; modules for picking leave it to others."""
     path = tmp_path / "sizes.mod"
     path.write_text(
@@ -176,7 +176,7 @@ ENDMODULE
 """
 
 
-def test_a_guessed_robot_goes_where_it_can_and_tells_where_it_did_not(tmp_path):
+def test_inferred_robot_reports_missed_targets(tmp_path):
     path = tmp_path / "far.mod"
     path.write_text(FAR)
     with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
@@ -189,7 +189,7 @@ def test_a_guessed_robot_goes_where_it_can_and_tells_where_it_did_not(tmp_path):
         assert controller.signals["doThere"] == 1, "what a move does on its way is done"
 
 
-def test_a_robot_that_somebody_chose_stops_where_it_does_not_come(tmp_path):
+def test_chosen_robot_stops_at_unreachable_target(tmp_path):
     path = tmp_path / "far.mod"
     path.write_text(FAR)
     with VirtualController.from_files(
@@ -211,7 +211,7 @@ def test_hands_of_a_guessed_cell_are_calibrated(tmp_path):
             assert (controller.task("T_ROB1").fault is None) is (cell == "infer")
 
 
-def test_inputs_that_a_backup_declares_are_given_but_for_what_crosses(tmp_path):
+def test_inputs_of_backup_are_inferred_without_crossings(tmp_path):
     for name, text in {
         "SYSPAR/SYS.cfg": 'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n -Name "T_ROB1" -MotionTask\n',
         "SYSPAR/EIO.cfg": "EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n"

@@ -76,7 +76,7 @@ def test_the_task_waits_for_the_partner_of_its_configuration(backup):
         assert where.endswith(f"EGMRunJoint waits for datagrams of EGM partner {partner}")
 
 
-def test_a_device_that_the_configuration_has_not_stops_the_task(backup):
+def test_unknown_device_stops_task(backup):
     with VirtualController.from_folder(backup(SIX, "UCdevice")) as controller:
         controller.run_for(1)
         fault = controller.task("T_ROB1").fault

@@ -85,7 +85,7 @@ def test_files_and_clocks_are_common() -> None:
         assert printed == ["T2 runs"]
 
 
-def test_pp_to_main_resets_only_what_each_task_has() -> None:
+def test_pp_to_main_resets_task_data_only() -> None:
     """[K §13.2]"""
     controller, printed = boot("PROC main()\n count;\n TPWrite all();\nENDPROC")
     with controller:

@@ -61,7 +61,7 @@ def test_a_copy_has_the_unit_of_its_task():
     ]
 
 
-def test_what_nothing_names_goes_by_order():
+def test_unnamed_robots_follow_task_order():
     tasks = (TaskSpec("T_A", motion=True), TaskSpec("T_B", motion=True))
     groups = groups_for(System("two", tasks), load_config("irb14000").groups)
     assert given(groups) == {"T_A": "rob_l", "T_B": "rob_r"}
@@ -85,7 +85,7 @@ def test_types_of_backups(robot_type, model):
     assert model_of(robot_type) == model
 
 
-def test_a_backup_moves_its_own_robots():
+def test_backup_moves_robots_of_its_type():
     system = two_robots(("ROB_1", "ROB1_120_0.58_3"), ("ROB_2", "ROB2_4600_2.05_60"))
     groups, notes = mechanics(system)
     assert {group.task: group.model for group in groups} == {
@@ -95,7 +95,7 @@ def test_a_backup_moves_its_own_robots():
     assert notes == ()
 
 
-def test_a_variant_that_is_no_shipped_model_moves_as_the_library_knows_it():
+def test_unshipped_variant_moves_as_in_library():
     system = two_robots(("ROB_1", "ROB1_140_0.81_6"), ("ROB_2", "ROB2_1300_0.9_11"))
     groups, (note,) = mechanics(system)
     assert {g.task: g.model for g in groups} == {
@@ -121,7 +121,7 @@ def test_a_variant_becomes_the_very_arm_of_a_shipped_file():
                     assert part == pytest.approx(own, abs=1e-9)
 
 
-def test_another_variant_is_told():
+def test_other_variant_is_reported():
     system = two_robots(("ROB_1", "ROB1_120_0.58_3"), ("ROB_2", "ROB2_4600_2.55_99"))
     (note,) = mechanics(system)[1]
     assert note.code == "RG432"
@@ -129,7 +129,7 @@ def test_another_variant_is_told():
     assert "60/2.05" in note.message
 
 
-def test_where_speeds_are_not_known_the_mend_is_a_file_of_ones_own():
+def test_unknown_speeds_suggest_user_file():
     system = two_robots(("ROB_1", "ROB1_1660ID_1.55_4"), ("ROB_2", "ROB1_4600_2.05_60"))
     (note,) = mechanics(system)[1]
     assert (note.code, "new robot.yaml --robot 'IRB 1660ID-4/1.55'" in note.help) == ("RG432", True)
@@ -153,7 +153,7 @@ def test_an_unknown_type_asks_for_a_robot():
     assert [group.model for group in mechanics(system, "irb1200")[0]] == ["irb1200", "irb1200"]
 
 
-def test_nothing_that_tells_is_told():
+def test_unknown_mechanics_are_reported():
     system = System("loose", (TaskSpec("T_ROB1", motion=True),))
     groups, (note,) = mechanics(system)
     assert [group.model for group in groups] == ["irb120"]

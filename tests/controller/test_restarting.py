@@ -6,7 +6,7 @@ from rapidgen.controller.runner import ControllerRunner
 PROGRAM = "MODULE m\n PROC main()\n  WaitTime 100;\n ENDPROC\nENDMODULE\n"
 
 
-def test_what_was_taken_before_a_restart_is_carried_out(tmp_path):
+def test_posted_function_runs_before_restart(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
     done, in_use = [], []

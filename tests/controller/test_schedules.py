@@ -26,7 +26,7 @@ def final(seed: int, **options) -> tuple[float, int, int]:
         return n, controller.scheduler.now, controller.scheduler.switches
 
 
-def test_round_robin_never_splits_so_short_a_loop() -> None:
+def test_round_robin_does_not_split_short_loop() -> None:
     assert {final(seed)[0] for seed in range(20)} == {20}
 
 

@@ -88,7 +88,7 @@ def test_an_error_is_shown():
         assert outputs(c)[2:] == [0, 1]
 
 
-def test_an_error_is_shown_for_the_task_that_the_output_names():
+def test_output_shows_error_of_named_task():
     """Backups and ABB's own files give Error a task in -Arg2."""
     fails = b"MODULE ends\nPROC main()\nVAR num x;\nx := 1 / x;\nENDPROC\nENDMODULE"
     names = ("T_ROB1", "T_SIDE")
@@ -221,7 +221,7 @@ def test_a_power_loss_closes_all_sockets_and_files_of_a_task():
         assert all(device.file is None for device in files)
 
 
-def test_a_power_loss_ends_every_state_that_forbids_a_start(cell):
+def test_power_loss_ends_states_forbidding_start(cell):
     operation = cell.operation
     for forbid in (
         operation.fail,
@@ -256,7 +256,7 @@ def test_a_power_loss_ends_every_state_that_forbids_a_start(cell):
         ((), "power-loss", [10140]),
     ],
 )
-def test_what_an_operator_does_has_its_event_numbers(cell, before, action, numbers):
+def test_operator_actions_have_event_numbers(cell, before, action, numbers):
     # No source was read for these numbers: they are those that this controller writes.
     for earlier in before:
         cell.perform(earlier)
@@ -283,7 +283,7 @@ def test_status(do, cell):
     assert "work.mod:" in do("where")[0]
 
 
-def test_variables_as_rapid_text(do, cell):
+def test_variables_have_rapid_text(do, cell):
     assert do("get", task="t_rob1", name="work:where") == "[1,2,3]"
     do("set", task="T_ROB1", name="work:where", value="[4, 5, 6]")
     assert do("get", task="T_ROB1", name="where") == "[4,5,6]"
@@ -312,7 +312,7 @@ def test_variables_as_rapid_text(do, cell):
         ({"do": "answer", "number": 9, "value": "1"}, "no such question"),
     ],
 )
-def test_requests_that_cannot_be_carried_out(cell, request_, words):
+def test_impossible_requests_are_rejected(cell, request_, words):
     with pytest.raises(CommandError, match=words):
         commands(cell)[request_["do"]](request_)
 
@@ -351,7 +351,7 @@ def test_subscribers_get_events_and_can_answer_dialogs(do, cell):
 # -- bad programs ---------------------------------------------------------------------------
 
 
-def test_a_program_that_leaks_sockets_is_told(cell):
+def test_leaked_sockets_are_reported(cell):
     text = """MODULE work
         VAR socketdev s{40};
         VAR num made := 0;

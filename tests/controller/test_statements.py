@@ -36,14 +36,14 @@ def hears(controller, *, enough=lambda line: False):
     return lines
 
 
-def test_a_tracer_hears_no_more_of_what_it_wants_no_more_of(controller):
+def test_tracer_can_drop_a_statement(controller):
     received = hears(controller, enough=lambda line: line == ADDS)
     controller.run_for(10.5)
     assert received.count(ADDS) == 1
     assert received.count(ADDS + 1) == 11
 
 
-def test_who_comes_later_hears_all(controller):
+def test_later_tracer_receives_all_statements(controller):
     first = hears(controller, enough=lambda line: True)
     controller.run_for(2.5)
     second = hears(controller)
@@ -55,7 +55,7 @@ def test_who_comes_later_hears_all(controller):
     assert len(first) < len(second) + 5
 
 
-def test_an_action_waits_for_a_statement_of_which_nobody_wanted_more(controller):
+def test_action_waits_for_dropped_statement(controller):
     hears(controller, enough=lambda line: True)
     controller.run_for(2.5)
     came = []

@@ -28,12 +28,12 @@ def test_the_virtual_clock_does_not_run_by_itself(files):
         controller.start()
 
 
-def test_a_clock_that_there_is_not(files):
+def test_unknown_clock_is_rejected(files):
     with pytest.raises(ValueError, match="virtual, real"):
         VirtualController.from_files(files, clock="fast")
 
 
-def test_a_mode_that_there_is_not(files):
+def test_unknown_mode_is_rejected(files):
     with VirtualController.from_files(files) as controller:
         with pytest.raises(ValueError, match="manual_reduced"):
             controller.set_mode("manual")
@@ -41,7 +41,7 @@ def test_a_mode_that_there_is_not(files):
 
 
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
-def test_a_thread_that_a_fault_has_ended_holds_up_nobody(files):
+def test_thread_ended_by_fault_blocks_no_caller(files):
     with VirtualController.from_files(files, clock="real") as controller:
         controller.start()
 
@@ -61,7 +61,7 @@ def test_the_address_tells_every_port():
         assert ports == ",".join(str(listeners[p][1]) for p in (11000, 11002, 11001))
 
 
-def test_what_a_call_raises_comes_to_its_caller_and_the_controller_goes_on(files):
+def test_exception_of_call_reaches_caller(files):
     with VirtualController.from_files(files, clock="real", speed=100) as controller:
         controller.start()
         with pytest.raises(KeyError, match="nowhere"):
@@ -84,7 +84,7 @@ def test_a_stopped_controller_is_started_again(files):
         assert controller.task("T_ROB1").state == "running"
 
 
-def test_what_was_stepped_here_does_not_go_on_in_a_thread(files):
+def test_stepped_controller_does_not_start_thread(files):
     with VirtualController.from_files(files, clock="real", speed=100) as controller:
         controller.run_for(0.01)
         with pytest.raises(RuntimeError, match=r"before run_for"):
@@ -92,7 +92,7 @@ def test_what_was_stepped_here_does_not_go_on_in_a_thread(files):
         controller.run_for(0.01)
 
 
-def test_one_thread_steps(files):
+def test_second_thread_cannot_step(files):
     controller = VirtualController.from_files(files)
     controller.run_for(0.5)
     with ThreadPoolExecutor(1) as others:
@@ -104,7 +104,7 @@ def test_one_thread_steps(files):
         controller.close()
 
 
-def test_a_controller_that_runs_by_itself_is_not_stepped(files):
+def test_threaded_controller_cannot_be_stepped(files):
     with VirtualController.from_files(files, clock="real") as controller:
         controller.start()
         controller.call(lambda: None)
@@ -129,7 +129,7 @@ def test_a_condition_only_looks(files):
         assert controller.now == pytest.approx(1)
 
 
-def test_a_closed_controller_says_so(files):
+def test_closed_controller_raises(files):
     for clock in ("virtual", "real"):
         controller = VirtualController.from_files(files, clock=clock)
         controller.close()
@@ -192,14 +192,14 @@ def data(tmp_path):
         ("watch", 1, "the program alone handles a clock"),
     ],
 )
-def test_a_value_that_does_not_fit_changes_nothing(data, name, value, wanted):
+def test_unfitting_value_changes_nothing(data, name, value, wanted):
     before = copy_value(data[f"data:{name}"])
     with pytest.raises(TypeError, match=wanted):
         data[f"data:{name}"] = value
     assert name == "watch" or data[f"data:{name}"] == before
 
 
-def test_values_that_fit(data):
+def test_fitting_values_are_accepted(data):
     changed = data["data:pp"].copy()
     changed.name = "b"
     given = {"n": 0.5, "big": 2**40, "go": 1, "word": "é", "row": {1: 4, 2: 5, 3: 6}}
@@ -219,14 +219,14 @@ def test_values_that_fit(data):
         ("zzz", "there are data:most, data:watch"),
     ],
 )
-def test_data_that_there_is_not(data, name, wanted):
+def test_unknown_data_raise_key_error(data, name, wanted):
     with pytest.raises(KeyError, match=wanted):
         data[name]
     with pytest.raises(KeyError, match=wanted):
         data[name] = 1
 
 
-def test_names_that_there_are_not():
+def test_unknown_names_raise_key_error():
     with VirtualController.from_config("irb120") as controller:
         for use, wanted in (
             (lambda: controller.task("T_ROB2"), "no task 'T_ROB2': did you mean 'T_ROB1'"),
@@ -249,12 +249,12 @@ def test_names_that_there_are_not():
         ({"speed": -1}, "speed=-1: 1 is real time"),
     ],
 )
-def test_an_option_that_there_is_not(files, options, wanted):
+def test_unknown_option_is_rejected(files, options, wanted):
     with pytest.raises(ValueError, match=wanted):
         VirtualController.from_files(files, **options)
 
 
-def test_files_that_are_none(files):
+def test_invalid_files_are_rejected(files):
     with pytest.raises(TypeError, match=r"T_ROB1 are a list: \['.*idle.mod'\]"):
         VirtualController.from_files({"T_ROB1": files[0]})
     for nothing in ([], {}, {"T_ROB1": []}):
@@ -262,7 +262,7 @@ def test_files_that_are_none(files):
             VirtualController.from_files(nothing)
 
 
-def test_overrides_that_are_no_list():
+def test_overrides_must_be_a_list():
     with pytest.raises(TypeError, match=r"a list, or a mapping .*: \['ports.motion=5000'\]"):
         VirtualController.from_config("irb120", overrides="ports.motion=5000")
 
@@ -281,13 +281,13 @@ raise SystemExit(3)
 """
 
 
-def test_a_controller_that_nobody_closes_ends_with_the_program():
+def test_unclosed_controller_ends_with_program():
     """Else greenlets run in a thread while the interpreter goes: one of twenty crashed."""
     done = subprocess.run([sys.executable, "-c", LEFT_OPEN], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (3, "threads []\n"), done.stderr
 
 
-def test_a_callback_that_never_ends_does_not_hold_up_the_end_of_the_program(files, monkeypatch):
+def test_endless_callback_does_not_block_exit(files, monkeypatch):
     monkeypatch.setattr("rapidgen.controller.thread._LEAVING", 0.05)
     held, finished = threading.Event(), threading.Event()
 

@@ -59,15 +59,13 @@ def test_all_files_together_are_limited(source, tmp_path, monkeypatch, largest, 
             copy_files(source, tmp_path / "target")
 
 
-def test_a_link_in_place_of_a_file_that_was_just_there_is_not_followed(
-    source, tmp_path, monkeypatch
-):
+def test_link_replacing_a_file_is_not_followed(source, tmp_path, monkeypatch):
     monkeypatch.setattr(Path, "is_symlink", lambda self: False)
     with pytest.raises(OutsideFolder):
         copy_files(source, tmp_path / "target")
     assert not (tmp_path / "target" / "link").exists()
 
 
-def test_a_folder_that_is_not_there_is_no_empty_one(tmp_path):
+def test_missing_folder_is_an_error(tmp_path):
     with pytest.raises(FileNotFoundError):
         copy_files(tmp_path / "nowhere", tmp_path / "target")

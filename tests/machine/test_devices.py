@@ -83,7 +83,7 @@ def test_text_tables():
 @pytest.mark.parametrize(
     ("text", "line"), [("1:\nx", 1), ("a::\nx", 2), ("a::\n1:\nx\ny", 4), ("a b ::" + "x", 1)]
 )
-def test_a_file_that_is_no_text_table(text, line):
+def test_invalid_text_table_is_rejected(text, line):
     with pytest.raises(ValueError, match=f"line {line}"):
         TextTables().install(text)
 
@@ -222,7 +222,7 @@ def test_an_arc_and_its_signals():
     assert (arc.gas, arc.arc, arc.feed, arc.all) == (False, False, False, (False,) * 4)
 
 
-def test_an_arc_that_was_held_burns_again_unless_it_was_given_up():
+def test_stopped_arc_burns_again_after_start():
     arc = Welder()
     arc.hold()
     arc.go_on()
@@ -246,7 +246,7 @@ def test_an_arc_that_was_held_burns_again_unless_it_was_given_up():
     assert not arc.gas
 
 
-def test_what_is_welded_with_is_shown_by_signals():
+def test_welding_data_appear_in_signals():
     arc = Welder()
     data = dict(sched=3, mode=2, voltage=20.5, wirefeed=0.1, control=1.5, current=150)
     arc.refer(data)
@@ -285,6 +285,6 @@ def test_costs_are_scaled_in_their_built_in_part():
     assert scaled == Costs(builtin_scale=6.0)
 
 
-def test_nobody_waits_for_anybody_at_first():
+def test_sync_points_are_empty_at_first():
     meetings = SyncPoints()
     assert (meetings.points, meetings.moves, meetings.any_task) == ({}, {}, False)

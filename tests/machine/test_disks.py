@@ -29,7 +29,7 @@ def test_home_is_the_users_over_the_systems(tmp_path):
     assert not home.exists()
 
 
-def test_a_home_that_is_too_large_is_refused(tmp_path, monkeypatch):
+def test_oversized_home_is_rejected(tmp_path, monkeypatch):
     monkeypatch.setattr(files, "LARGEST_COPY", 3)
     home = tmp_path / "home"
     home.mkdir()
@@ -40,7 +40,7 @@ def test_a_home_that_is_too_large_is_refused(tmp_path, monkeypatch):
     assert str(home) in error.value.diagnostics[0].message
 
 
-def test_a_scratch_folder_is_made_when_it_is_needed_and_removed(tmp_path, monkeypatch):
+def test_scratch_folder_is_created_on_demand_and_removed(tmp_path, monkeypatch):
     monkeypatch.setattr(files.tempfile, "tempdir", str(tmp_path))
     disks = FileSystem()
     assert os.listdir(tmp_path) == []
@@ -55,7 +55,7 @@ def test_a_scratch_folder_is_made_when_it_is_needed_and_removed(tmp_path, monkey
     assert os.listdir(tmp_path) == []
 
 
-def test_a_fork_does_not_remove_the_scratch_folder_that_it_inherits(tmp_path, monkeypatch):
+def test_fork_keeps_inherited_scratch_folder(tmp_path, monkeypatch):
     monkeypatch.setattr(files.tempfile, "tempdir", str(tmp_path))
     disks = FileSystem()
     assert disks.folder.is_dir()

@@ -71,7 +71,7 @@ def test_rules_concern_a_port_and_a_connection():
     assert not NetworkRule("split", connection=1).concerns(5, 2)
 
 
-def test_split_in_one_direction():
+def test_split_affects_given_direction_only():
     net = Net(NetworkRule("split", direction="in", bytes=2, seconds=0.001, after=1))
     program, client = net.pair()
     pieces, other = net.heard(program), net.heard(client, net.plain)
@@ -126,7 +126,7 @@ def test_merged_bytes_come_at_the_end_of_a_stretch():
 
 
 @pytest.mark.parametrize("after", [0, 3])
-def test_a_reset_comes_behind_so_many_bytes(after):
+def test_reset_follows_given_bytes(after):
     net = Net(NetworkRule("reset", direction="out", after=after))
     program, client = net.pair()
     if after:
@@ -150,7 +150,7 @@ def test_a_reset_in_the_other_direction():
     assert reason(net.plain.receive, client, 1) is NetworkReason.RESET
 
 
-def test_silence_says_nothing():
+def test_silence_stops_both_directions():
     net = Net(NetworkRule("silent", after=2))
     program, client = net.pair()
     net.plain.send(client, b"abcd")
@@ -175,7 +175,7 @@ def test_half_open():
     assert reason(net.send, program, b"x") is NetworkReason.RESET
 
 
-def test_without_half_open_the_end_is_seen_behind_what_came():
+def test_end_without_half_open_follows_data():
     net = Net(NetworkRule("delay", seconds=0.5))
     program, client = net.pair()
     net.plain.send(client, b"ab")
@@ -197,7 +197,7 @@ def test_the_other_end_s_reset_is_seen():
 
 
 @pytest.mark.parametrize("abort", [True, False])
-def test_what_waits_is_still_sent_when_a_connection_is_closed(abort):
+def test_close_sends_waiting_bytes(abort):
     net = Net(NetworkRule("delay", seconds=0.5, direction="out"))
     program, client = net.pair()
     pieces = net.heard(client, net.plain) if not abort else []
@@ -210,7 +210,7 @@ def test_what_waits_is_still_sent_when_a_connection_is_closed(abort):
         assert net.plain.receive(client, 1) == b""
 
 
-def test_room_is_that_of_a_connection():
+def test_buffer_size_is_that_of_a_connection():
     net = Net(NetworkRule("delay", seconds=0.5))
     program, client = net.pair()
     assert net.send(program, bytes(BUFFER + 1)) == BUFFER
@@ -241,7 +241,7 @@ def test_other_rules_for_connections_to_come():
 
 
 @pytest.mark.parametrize("rules", [(), (NetworkRule("delay", seconds=0.1),)])
-def test_a_rule_for_a_connection_that_is_there(rules):
+def test_rule_applies_to_open_connection(rules):
     net = Net(*rules)
     program, client = net.pair()
     net.send(program, b"before")
@@ -253,7 +253,7 @@ def test_a_rule_for_a_connection_that_is_there(rules):
     assert net.receive(program, 99) == b"in"
 
 
-def test_connections_that_the_program_makes():
+def test_rule_applies_to_outgoing_connection():
     net = Net(NetworkRule("reset", port=7, direction="out"))
     other = net.plain.bind(HOST, 7)
     net.plain.listen(other)
@@ -273,7 +273,7 @@ def test_everything_is_shut_down():
 
 
 @pytest.mark.parametrize(("into", "out"), [(0.5, 0.2), (0.2, 0.5), (0.3, 0.3)])
-def test_what_waits_in_both_directions_passes_each_at_its_own_time(into, out):
+def test_each_direction_passes_at_separate_times(into, out):
     net = Net(
         NetworkRule("delay", direction="in", seconds=into),
         NetworkRule("delay", direction="out", seconds=out),
@@ -289,7 +289,7 @@ def test_what_waits_in_both_directions_passes_each_at_its_own_time(into, out):
     assert seen == [(pytest.approx(1000 * out + 0.2, abs=0.001), b"out")]
 
 
-def test_what_the_other_end_has_no_room_for_waits_in_its_order():
+def test_bytes_beyond_peer_buffer_wait_in_order():
     net = Net(NetworkRule("delay", direction="out", seconds=0.1))
     program, client = net.pair()
     sent = b""
@@ -306,7 +306,7 @@ def test_what_the_other_end_has_no_room_for_waits_in_its_order():
     assert net.send(program, b"e") == 1
 
 
-def test_a_reset_is_met_by_what_was_delayed():
+def test_delayed_bytes_meet_reset():
     net = Net(NetworkRule("delay", direction="out", seconds=0.5))
     program, client = net.pair()
     assert net.send(program, b"late") == 4
@@ -327,7 +327,7 @@ def test_of_several_rules_each_holds(other):
         assert reason(net.send, program, b"x") is NetworkReason.RESET
 
 
-def test_half_open_begins_behind_so_many_bytes():
+def test_half_open_begins_after_given_bytes():
     net = Net(NetworkRule("half-open", direction="in", after=2))
     program, client = net.pair()
     net.plain.send(client, b"a")
@@ -360,7 +360,7 @@ def test_half_open_begins_behind_so_many_bytes():
         ),
     ],
 )
-def test_bytes_are_cut_by_the_rules_that_hold_for_them(rules, pieces):
+def test_rules_apply_to_their_bytes(rules, pieces):
     made = (
         NetworkRule(do, direction="out", bytes=count, seconds=seconds, after=after)
         for do, count, seconds, after in rules

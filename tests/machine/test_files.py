@@ -30,13 +30,13 @@ def disks(tmp_path):
         ("HOME:/" + "x" * 256, "leads out of the controller"),
     ],
 )
-def test_a_path_that_lies_on_no_disk_is_no_access(disks, path, message):
+def test_path_outside_disks_is_no_access(disks, path, message):
     with pytest.raises(DiskFault, match=message) as fault:
         disks.path(path)
     assert fault.value.reason is DiskReason.NO_ACCESS
 
 
-def test_a_link_that_leads_out_is_no_access(disks, tmp_path_factory):
+def test_link_to_outside_is_no_access(disks, tmp_path_factory):
     (disks.folder / "HOME" / "out").symlink_to(tmp_path_factory.mktemp("elsewhere"))
     with pytest.raises(DiskFault, match="leads out of the controller"):
         disks.path("HOME:/out/x")
@@ -48,7 +48,7 @@ def test_names_are_found_without_case(disks):
     assert disks.path("new.txt") == disks.folder / "HOME" / "new.txt"
 
 
-def test_so_many_files_are_open_at_a_time(disks):
+def test_number_of_open_files_is_limited(disks):
     devices = [IODevice() for _ in range(MAX_OPEN + 1)]
     for device in devices[:-1]:
         disks.hold(device, "T_ROB1")

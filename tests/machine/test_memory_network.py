@@ -52,7 +52,7 @@ def test_ports_end_at_65535(net, port):
     assert net.connect(HOST, 65_535).peer == (HOST, 65_535)
 
 
-def test_a_port_is_taken_once_by_each_protocol_until_it_is_given_back(net):
+def test_port_is_bound_once_per_protocol(net):
     datagram = net.bind(HOST, PORT, datagram=True)
     assert reason(net.bind, HOST, PORT) is NetworkReason.ADDRESS_IN_USE
     assert reason(net.bind, HOST, PORT, datagram=True) is NetworkReason.ADDRESS_IN_USE
@@ -64,7 +64,7 @@ def test_a_port_is_taken_once_by_each_protocol_until_it_is_given_back(net):
     assert not first.connected
 
 
-def test_who_listens_is_known(net):
+def test_listeners_are_listed(net):
     report = []
     net.listening.add(lambda: report.append(dict(net.listeners)))
     other = net.bind(HOST, 5)
@@ -93,7 +93,7 @@ def test_a_connection_has_two_ends(net):
     assert net.accept(net.listener) is None
 
 
-def test_nobody_listens(net):
+def test_connect_without_listener_is_refused(net):
     bound = net.bind(HOST, 5)
     for port in (5, 6):
         report = []
@@ -111,7 +111,7 @@ def test_nobody_listens(net):
     assert net.accept(bound) is None
 
 
-def test_a_listener_lets_so_many_wait_and_the_next_one_until_there_is_room(net):
+def test_full_backlog_delays_next_client(net):
     clients = [net.connect(HOST, PORT) for _ in range(BACKLOG + 1)]
     net.scheduler.advance(LATENCY + 1)
     assert [c.connected for c in clients] == [True] * BACKLOG + [False]
@@ -144,7 +144,7 @@ def test_bytes_arrive_in_order_after_the_latency(net):
     assert net.receive(client, 100) == b"back"
 
 
-def test_a_sender_waits_while_nobody_reads(net):
+def test_sender_waits_for_reader(net):
     client, server = net.pair()
     report = []
     client.changed.add(lambda: report.append(1))
@@ -167,7 +167,7 @@ def test_a_sender_waits_while_nobody_reads(net):
     assert net.receive(server, 1) is None
 
 
-def test_what_was_sent_comes_before_the_end(net):
+def test_sent_data_precede_end(net):
     client, server = net.pair()
     net.send(client, b"bye")
     report = []
@@ -233,7 +233,7 @@ def test_a_reset_is_seen_by_the_other_end(net, why):
         assert reason(net.send, server, b"x") is NetworkReason.RESET
 
 
-def test_a_silent_connection_says_nothing_to_either_end(net):
+def test_silent_connection_passes_nothing(net):
     client, server = net.pair()
     net.send(client, b"under way")
     net.silence(server)
@@ -267,7 +267,7 @@ def test_datagrams(net):
     assert reason(net.receive, other, 1) is NetworkReason.CLOSED
 
 
-def test_datagrams_for_which_there_is_no_room_are_lost(net):
+def test_datagrams_beyond_buffer_are_lost(net):
     one, other = (net.bind(HOST, port, datagram=True) for port in (7, 8))
     net.send(one, bytes(BUFFER - 1), (HOST, 8))
     net.send(one, b"xx", (HOST, 8))

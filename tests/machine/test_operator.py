@@ -18,7 +18,7 @@ def asked(operator, text="How many parts?", task="T_ROB1", dialog="TPReadNum"):
     return operator.ask(task, dialog, text, ("OK",), number, "3")
 
 
-def test_texts_are_shown_on_rows_and_told_whole():
+def test_texts_are_split_on_screen_and_reported_whole():
     operator, told = Operator(Scheduler()), []
     end = operator.subscribe(lambda *text: told.append(text))
     operator.write("T_ROB1", "x" * ROW + "y")
@@ -34,7 +34,7 @@ def test_texts_are_shown_on_rows_and_told_whole():
     assert not operator.rows
 
 
-def test_somebody_is_there_to_answer():
+def test_attached_source_is_present():
     assert not Operator(Scheduler()).present
     assert Operator(Scheduler(), []).present
     operator = Operator(Scheduler())
@@ -46,7 +46,7 @@ def test_somebody_is_there_to_answer():
     assert not operator.present
 
 
-def test_a_question_waits_until_it_is_answered_or_withdrawn():
+def test_question_waits_for_answer_or_withdrawal():
     operator, report = Operator(Scheduler()), []
     operator.asked.add(lambda: report.append(len(operator.questions)))
     first, second = asked(operator, "one\ntwo"), asked(operator, task="T_ROB2")
@@ -86,7 +86,7 @@ def test_conditions_of_an_answer(answer, fits):
     assert answer.fits(asked(Operator(Scheduler()))) is fits
 
 
-def test_a_script_answers_each_question_with_the_first_that_fits_once():
+def test_script_uses_first_matching_answer_once():
     scheduler = Scheduler()
     operator = Operator(scheduler, [Answer("7", text="other"), Answer("5", after=2), Answer("6")])
     first, second, third = (asked(operator) for _ in range(3))
@@ -96,7 +96,7 @@ def test_a_script_answers_each_question_with_the_first_that_fits_once():
     assert first.answer == 5
 
 
-def test_a_scripted_answer_that_does_not_fit_is_told():
+def test_unfitting_scripted_answer_is_reported():
     scheduler = Scheduler()
     operator = Operator(scheduler, [Answer("10"), Answer("11")])
     question, gone = asked(operator), asked(operator)
@@ -138,7 +138,7 @@ def test_a_file_of_answers(tmp_path):
         (None, "No such file"),
     ],
 )
-def test_a_file_of_answers_that_cannot_be_used(tmp_path, text, said):
+def test_invalid_answer_file_is_rejected(tmp_path, text, said):
     file = tmp_path / "answers.yaml"
     if text is not None:
         file.write_bytes(text.encode("utf-8", "surrogateescape"))

@@ -8,7 +8,7 @@ from rapidgen.machine.scheduler import Scheduler
 MINUTE = 60_000_000_000
 
 
-def test_what_is_posted_while_the_selector_is_made_is_not_left_lying(monkeypatch):
+def test_post_during_selector_creation_runs(monkeypatch):
     scheduler, came = Scheduler(clock="real", speed=60), []
 
     def made():

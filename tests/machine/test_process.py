@@ -19,7 +19,7 @@ class Attending(Process):
         self.attended.append(self.scheduler.now)
 
 
-def test_a_blocked_process_goes_on_when_it_is_woken_and_attends_first():
+def test_woken_process_handles_pending_first():
     scheduler, seen = Scheduler(), []
     process = Attending(scheduler)
     assert not process.alive
@@ -41,7 +41,7 @@ def test_a_blocked_process_goes_on_when_it_is_woken_and_attends_first():
     assert not process.alive
 
 
-def test_an_abandoned_process_is_not_woken_and_can_be_launched_again():
+def test_abandoned_process_can_be_launched_again():
     scheduler, seen = Scheduler(), []
     process = Process(scheduler, "p")
     process.launch(process.block)
@@ -103,12 +103,12 @@ def turns(way, attends):
     return "".join(seen)
 
 
-def test_who_gives_way_goes_behind_those_that_are_ready():
+def test_yielding_process_runs_after_ready_ones():
     assert turns(Process.yield_cpu, attends=3) == "ababab"
     assert turns(Process.switch, attends=0) == "ababab"
 
 
-def test_a_kick_during_a_switch_is_attended_before_the_next_statement():
+def test_wake_during_switch_is_handled_before_statement():
     scheduler = Scheduler()
     process, other = Attending(scheduler), Process(scheduler, "q")
     before = []
@@ -128,7 +128,7 @@ def test_a_kick_during_a_switch_is_attended_before_the_next_statement():
 # -- clocks --------------------------------------------------------------------------------------
 
 
-def test_no_time_passes_while_it_is_paused_and_what_is_posted_is_done():
+def test_pause_stops_time_and_runs_posts():
     scheduler, seen = Scheduler(), []
     process = Process(scheduler, "p")
 
@@ -154,7 +154,7 @@ def test_no_time_passes_while_it_is_paused_and_what_is_posted_is_done():
     assert not scheduler.paused
 
 
-def test_a_paused_real_clock_waits_for_what_is_posted_and_catches_nothing_up():
+def test_paused_real_clock_waits_for_posts():
     scheduler, seen = Scheduler(clock="real", speed=1000.0), []
     scheduler.pause()
     scheduler.after(1, lambda: seen.append("event"))
@@ -190,7 +190,7 @@ def test_nothing_of_a_closed_clock_goes_on():
     assert seen == []
 
 
-def test_time_is_not_let_pass_by_what_is_called_meanwhile():
+def test_advance_within_advance_raises():
     scheduler, refused = Scheduler(), []
 
     def again():
@@ -232,13 +232,13 @@ def test_another_thread_does_not_let_time_pass():
 
 
 @pytest.mark.parametrize("options", [{"clock": "wall"}, {"schedule": "by lot"}])
-def test_an_option_that_is_none_is_refused(options):
+def test_unknown_option_is_rejected(options):
     (name,) = options
     with pytest.raises(ValueError, match=f"{name}='{options[name]}' is none of"):
         Scheduler(**options)
 
 
-def test_a_process_that_is_alone_is_left_alone_for_50_ms_at_a_time():
+def test_single_process_runs_for_50_ms():
     scheduler = Scheduler()
     process = Attending(scheduler)
 
@@ -251,7 +251,7 @@ def test_a_process_that_is_alone_is_left_alone_for_50_ms_at_a_time():
     assert process.attended == [51 * MS, 102 * MS]
 
 
-def test_what_is_posted_while_a_process_computes_is_done_at_its_next_poll():
+def test_post_runs_at_next_poll_of_process():
     scheduler, seen = Scheduler(), []
     process = Process(scheduler, "p")
 
@@ -267,7 +267,7 @@ def test_what_is_posted_while_a_process_computes_is_done_at_its_next_poll():
     assert seen == ["not yet", "posted", "polled"]
 
 
-def test_who_loses_its_priority_comes_behind_those_that_lost_theirs_more_often():
+def test_lost_priority_orders_by_number_of_losses():
     scheduler, seen = Scheduler(schedule="priorities", seed=3), []
     first, second = Process(scheduler, "a"), Process(scheduler, "b")
 

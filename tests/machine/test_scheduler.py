@@ -24,7 +24,7 @@ def test_events_come_in_order_of_time_then_of_making() -> None:
     assert (seen, scheduler.now) == (["a", "b", "c"], 20)
 
 
-def test_events_see_their_own_time_while_a_process_computes() -> None:
+def test_event_time_is_exact_during_process() -> None:
     scheduler, seen = Scheduler(), []
     process = Process(scheduler, "p")
     process.launch(lambda: [process.charge(3 * MS) for _ in range(5)])
@@ -85,7 +85,7 @@ def test_running_in_pieces_changes_nothing() -> None:
     assert order(1) == order(13) == order(100)
 
 
-def test_who_only_looks_changes_nothing() -> None:
+def test_readonly_call_changes_nothing() -> None:
     def run(looks: bool) -> tuple[list[tuple[str, int]], list[int], list[int]]:
         scheduler = Scheduler(seed=3, schedule="random", quantum=2 * MS)
         turns, seen, requested = [], [], []
@@ -146,7 +146,7 @@ def test_an_exception_of_a_process_is_not_swallowed() -> None:
         scheduler.advance()
 
 
-def test_real_clock_keeps_to_the_wall_and_posts_from_other_threads() -> None:
+def test_real_clock_follows_wall_and_runs_posts() -> None:
     scheduler, seen = Scheduler(clock="real"), []
     scheduler.after(50 * MS, lambda: seen.append("timer"))
     thread = threading.Thread(target=lambda: scheduler.post(lambda: seen.append("posted")))
@@ -159,7 +159,7 @@ def test_real_clock_keeps_to_the_wall_and_posts_from_other_threads() -> None:
     scheduler.close()
 
 
-def test_a_machine_that_falls_behind_does_not_make_up_for_it_in_a_burst() -> None:
+def test_lagging_machine_does_not_catch_up_in_burst() -> None:
     scheduler = Scheduler(clock="real")
 
     def stall() -> None:
@@ -201,7 +201,7 @@ def _who_runs(accesses: list[int]) -> str:
     return "".join(seen)
 
 
-def test_the_highest_priority_runs_until_it_is_lost() -> None:
+def test_highest_priority_runs_until_lost() -> None:
     undisturbed = _who_runs([])
     assert len({undisturbed[n : n + 4] for n in (0, 4, 8)}) == 3
     first, second, third = undisturbed[0], undisturbed[4], undisturbed[8]
@@ -210,7 +210,7 @@ def test_the_highest_priority_runs_until_it_is_lost() -> None:
     assert _who_runs([2, 3]) == first * 2 + second + third * 4 + first * 2 + second * 3
 
 
-def test_whoever_has_waited_long_comes_first_whatever_its_priority() -> None:
+def test_long_wait_precedes_priority() -> None:
     scheduler, seen = Scheduler(schedule="priorities", seed=3), []
 
     def works(process: Process) -> None:
@@ -226,7 +226,7 @@ def test_whoever_has_waited_long_comes_first_whatever_its_priority() -> None:
     assert 20 <= seen.index(other) <= 25
 
 
-def test_time_stands_at_pace_0_and_goes_on_from_there() -> None:
+def test_pace_0_stops_time_until_next_pace() -> None:
     scheduler, seen = Scheduler(clock="real"), []
     scheduler.after(3600 * S, lambda: seen.append(scheduler.now))
     scheduler.pace(0.0)
@@ -279,7 +279,7 @@ def test_a_thread_may_end_while_its_scheduler_is_collected() -> None:
     assert (done.returncode, done.stdout) == (0, "True\n"), done.stderr
 
 
-def test_while_time_stands_nobody_computes_further_than_a_millisecond_ahead() -> None:
+def test_stopped_time_limits_computing_to_1_ms() -> None:
     class Standing(Scheduler):
         def _serve(self, timeout: float | None) -> None:
             over.append(timeout)

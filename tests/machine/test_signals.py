@@ -47,7 +47,7 @@ def digital(*names, kind="DO", **more):
         (SignalSpec("s", "AI", low=-5, high=0), [-5, 0], [-5.1, 0.1]),
     ],
 )
-def test_what_fits_a_signal(spec, good, bad):
+def test_signal_accepts_fitting_values(spec, good, bad):
     board = Board(spec)
     for value in good:
         board.put("S", value)
@@ -83,7 +83,7 @@ def test_the_largest_value():
         (">=", [False, True, True], 5),
     ],
 )
-def test_what_is_awaited(relation, held, fulfilling):
+def test_awaited_condition_is_reported(relation, held, fulfilling):
     board = Board(SignalSpec("g", "GI", size=4))
     awaited = SignalCondition(board["g"], relation, 5)
     result = []
@@ -95,7 +95,7 @@ def test_what_is_awaited(relation, held, fulfilling):
     assert str(awaited) == f"g {relation} 5; g is 6"
 
 
-def test_what_cannot_be_fulfilled():
+def test_impossible_condition_has_no_value():
     board = Board(SignalSpec("d", "DI"))
     assert SignalCondition(board["d"], ">", 1).fulfilling() is None
     assert SignalCondition(board["d"], "<", 0).fulfilling() is None
@@ -103,7 +103,7 @@ def test_what_cannot_be_fulfilled():
     assert SignalCondition(board["d"], "=", 2).fulfilling() is None
 
 
-def test_whoever_drives_inputs_is_told_what_is_awaited():
+def test_input_source_receives_awaited_condition():
     board = Board(SignalSpec("d", "DI"))
     awaited = SignalCondition(board["d"], "=", 1)
     board.await_value(awaited)
@@ -115,7 +115,7 @@ def test_whoever_drives_inputs_is_told_what_is_awaited():
     assert report == [awaited]
 
 
-def test_a_value_comes_after_its_delay_unless_there_is_a_later_order():
+def test_later_order_cancels_delayed_value():
     board = Board(*digital("d"))
     report = []
     board["d"].changed.add(lambda: report.append((board.scheduler.now, board["d"].value)))
@@ -169,7 +169,7 @@ def test_power_up():
     assert board.values("out", "high", "in", "low") == [0, 1, 1, 1]
 
 
-def test_signals_that_share_bits_change_together():
+def test_signals_with_common_bits_change_together():
     shared = dict(device="d1")
     board = Board(
         SignalSpec("group", "GO", size=3, bits=(4, 5, 6), **shared),
@@ -232,7 +232,7 @@ def test_a_cross_connection(operators, a, b, c, result):
     assert board.values("r", "s") == [result, 1 - result]
 
 
-def test_what_a_cross_connection_orders_drops_pending_changes_and_pulses_do_not_travel():
+def test_cross_connection_cancels_pending_changes():
     board = Board(*digital("a", "r"), cross=(CrossConnection("x", "r", (("a", False),)),))
     board.put("r", 1, delay=1)
     board.put("a", 1)
@@ -245,7 +245,7 @@ def test_what_a_cross_connection_orders_drops_pending_changes_and_pulses_do_not_
     assert board.values("a", "r") == [0, 0]
 
 
-def test_cross_connections_that_close_a_loop_or_name_nothing_are_refused():
+def test_invalid_cross_connections_are_rejected():
     board = Board(
         *digital("a", "b", "c", "d"),
         cross=(
@@ -277,7 +277,7 @@ def test_defaults_are_there_at_first_and_travel():
     assert board.values("a", "r") == [1, 1]
 
 
-def test_a_system_input_acts_when_it_rises_and_ends_when_it_falls():
+def test_system_input_acts_on_both_edges():
     board = Board(
         *digital("di", kind="DI"),
         inputs=(SystemInput("Start", "DI", "CYCLE"), SystemInput("Stop", "gone")),
@@ -343,7 +343,7 @@ def test_statuses_have_several_spellings(spelling, name):
     assert status_name(spelling) == name
 
 
-def test_signals_that_a_guessed_cell_makes_up():
+def test_inferred_cell_creates_signals():
     board = Board(*digital("d", device="Board1"))
     assert board.made_up("new", "DO") is None
     assert board.is_unit("BOARD1")

@@ -48,7 +48,7 @@ def opened():
     return cell
 
 
-def test_fingers_stop_at_a_part_and_hold_it(opened):
+def test_fingers_stop_at_part(opened):
     hand = opened.hand
     hand.part = 12.0
     hand.command(Command.AGILE_INWARD)
@@ -67,7 +67,7 @@ def test_fingers_stop_inside_of_a_ring(opened):
     assert (opened.hand.position, opened.hand.state) == (22.0, HandState.KEEP_OBJECT)
 
 
-def test_a_move_that_a_part_stops_is_an_error(opened):
+def test_move_stopped_by_part_is_an_error(opened):
     opened.hand.part = 12.0
     opened.hand.command(Command.TO_MIN)
     opened.wait(1)
@@ -94,7 +94,7 @@ def test_a_part_closes_the_cup(opened):
     assert (hand.pressure(0), hand.pressure(1)) == (SUCKED, AMBIENT)
 
 
-def test_a_driver_in_rapid_moves_it_by_signals():
+def test_rapid_driver_moves_hand_by_signals():
     """What HandDriver.sys does for Hand_MoveTo 15."""
     cell = Cell(*SIGNALS)
     cell.set("CmdGripper", Command.CALIBRATE)
@@ -113,7 +113,7 @@ def test_a_driver_in_rapid_moves_it_by_signals():
     assert cell.get("StatusVacuum1") == 1
 
 
-def test_registers_begin_with_what_the_signals_have():
+def test_registers_start_with_signal_values():
     (known,) = (s for s in SIGNALS if s.name == "hand_MaxSpeed_L")
     hand = Cell(SignalSpec(known.name, "GO", size=8, default=55)).hand
     assert hand.max_speed == 5.5
@@ -128,7 +128,7 @@ def test_registers_begin_with_what_the_signals_have():
         (11, 6, 6, 0.0), (15, 16, 9, 0.0), (16, 17, 9, 25.0), (12, 6, 6, 10.0), (17, 6, 6, 10.0),
     ],
 )  # fmt: skip
-def test_a_command_by_its_signal_is_told_by_numbers(command, moving, after, position):
+def test_command_signal_carries_number(command, moving, after, position):
     cell = Cell(*SIGNALS)
     cell.hand.command(Command.CALIBRATE)
     cell.hand.max_position, cell.hand.min_position, cell.hand.max_speed = 10.0, 2.0, 20.0

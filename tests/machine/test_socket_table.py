@@ -60,7 +60,7 @@ def test_every_socket_of_a_task_is_closed_and_none_of_another(table):
 
 
 @pytest.mark.parametrize(("limited", "full"), [(True, True), (False, False)])
-def test_so_many_sockets_are_in_use_at_a_time(limited, full):
+def test_number_of_sockets_is_limited(limited, full):
     # [S4 datasys SocketCreate: 32 sockets; switch `sockets_limited`]
     table = Table(limited=limited)
     for _ in range(MAX_SOCKETS - 1):
@@ -73,7 +73,7 @@ def test_so_many_sockets_are_in_use_at_a_time(limited, full):
     assert not table.full
 
 
-def test_others_are_told_of_a_connection_and_its_end(table):
+def test_listeners_receive_connection_and_end(table):
     device, peer = table.connected("T_ROB1")
     here, target = device.endpoint.local, device.endpoint.peer
     assert table.connections() == [SocketNews("open", "T_ROB1", here, target)]
@@ -92,7 +92,7 @@ def test_others_are_told_of_a_connection_and_its_end(table):
 
 
 @pytest.mark.parametrize("abort", [True, False])
-def test_a_socket_that_is_aborted_is_reset(table, abort):
+def test_aborted_socket_is_reset(table, abort):
     device, peer = table.connected("T_ROB1")
     table.release(device, abort=abort)
     table.scheduler.advance()
@@ -103,7 +103,7 @@ def test_a_socket_that_is_aborted_is_reset(table, abort):
         assert table.network.receive(peer, 1) == b""
 
 
-def test_a_connection_that_is_cut_is_a_reset_for_both_ends(table):
+def test_cut_connection_is_reset_at_both_ends(table):
     device, peer = table.connected("T_ROB1")
     table.cut(device)
     table.scheduler.advance()

@@ -55,7 +55,7 @@ def reason(function, *arguments, **options):
     return fault.value.reason
 
 
-def test_a_program_s_port_is_found_where_it_is(net):
+def test_program_port_maps_to_actual_port(net):
     report = []
     net.listening.add(lambda: report.append(dict(net.listeners)))
     listener, client, server = net.pair()
@@ -104,7 +104,7 @@ def test_a_reset_is_seen_by_the_other_end(net, why):
     assert reason(net.send, client, b"x") is NetworkReason.RESET
 
 
-def test_nobody_listens(net):
+def test_connect_without_listener_is_refused(net):
     bound = net.bind(HOST, 5)
     client = net.connect(HOST, 5)
 
@@ -119,7 +119,7 @@ def test_nobody_listens(net):
     assert not bound.connected
 
 
-def test_a_sender_waits_for_room(net):
+def test_sender_waits_for_buffer_space(net):
     _, client, server = net.pair()
     sent = 0
     while count := net.send(client, bytes(BUFFER)):
@@ -134,7 +134,7 @@ def test_a_sender_waits_for_room(net):
 
 
 @pytest.mark.parametrize("port", [-1, 65_536])
-def test_what_is_no_address(net, port):
+def test_invalid_address_is_rejected(net, port):
     assert reason(net.bind, HOST, port) is NetworkReason.ADDRESS_INVALID
     assert reason(net.connect, HOST, port) is NetworkReason.ADDRESS_INVALID
     assert reason(net.connect, HOST, 0) is NetworkReason.ADDRESS_INVALID

@@ -22,7 +22,7 @@ from rapidgen.system.model import TaskSpec
         ("irb120_track", {"external_units": ()}, ["rob1_7", "rob1_8"]),
     ],
 )
-def test_arms_are_named_as_in_backups(robot, changes, external):
+def test_arm_names_match_backups(robot, changes, external):
     group = replace(load_config(robot).groups[0], **changes)
     robots = {"ROB_1": "rob1", "ROB_2": "rob2", "ROB_R": "rob_R"}
     own = [f"{robots[group.mechanical_unit]}_{i}" for i in range(1, 7)]
@@ -53,7 +53,7 @@ def test_instances_are_found_by_their_path(path, count):
         assert parameters.find("/MOC/ARM/rob1_1")[0]["upper_joint_bound"] == 1.5
 
 
-def test_domains_are_told_as_cfg_text():
+def test_domains_have_cfg_text():
     parameters = SystemParameters(System("S", ()), load_config("irb120").groups)
     assert parameters.domains == ("SYS", "EIO", "MOC")
     for domain in parameters.domains:

@@ -89,7 +89,7 @@ def test_modules_come_and_go():
     assert (one.find("mine"), one.type_of(x), set(task.modules)) == (None, None, {"m"})
 
 
-def test_types_behind_aliases():
+def test_aliases_resolve_to_types():
     (scope,) = bind(
         module(
             "RECORD pair\nnum a;\nerrnum b;\nENDRECORD\nALIAS pair twin;\n"
@@ -109,7 +109,7 @@ def test_types_behind_aliases():
     ]  # fmt: skip
 
 
-def test_a_record_that_contains_itself_has_no_class_of_its_own():
+def test_recursive_record_has_no_class():
     (scope,) = bind("MODULE m\nRECORD r\nr inner;\nENDRECORD\nENDMODULE")
     assert scope.type_class("r") == "value"
 
@@ -184,7 +184,7 @@ def test_values_before_the_run(text, kind, value):
         ("NOT 1", "NOT takes bool"),
     ],
 )
-def test_what_has_no_value_before_the_run(text, why):
+def test_run_time_expressions_have_no_value(text, why):
     node, scope = expression(text, DATA)
     with pytest.raises(NotConstant) as error:
         evaluate(node, scope, "num")
@@ -234,7 +234,7 @@ def test_types_of_expressions(text, result):
     assert type_of(routine.body[0].value, scope.routine(routine)) == result
 
 
-def test_the_datum_that_a_reference_starts_from():
+def test_root_of_reference_is_first_symbol():
     node, scope = expression("row{1}", DATA)
     assert root(node, scope).name == "row"
     assert root(*expression("1", DATA)) is None
@@ -380,7 +380,7 @@ def place(line, word, nth=0):
         (place(21, "both"), "VAR", (7, 12)),
     ],
 )
-def test_what_stands_at_a_place(places, at, kind, declared):
+def test_symbol_at_place_is_found(places, at, kind, declared):
     symbol = places[0].at(*at)
     assert (symbol.kind, symbol.declared_at.line, symbol.declared_at.column) == (kind, *declared)
 
@@ -395,11 +395,11 @@ def test_built_in_names_have_no_place(places, at, name):
 
 
 @pytest.mark.parametrize("at", [(1, 1), (1, 7), (7, 1), (9, 18), (40, 1), (0, 0)])
-def test_nothing_stands_where_no_name_is(places, at):
+def test_place_without_name_has_no_symbol(places, at):
     assert places[0].at(*at) is None
 
 
-def test_a_name_is_found_from_its_first_to_behind_its_last_letter(places):
+def test_name_extends_to_position_after_last_letter(places):
     line, column = place(7, "both")
     result = [places[0].at(line, c) for c in (column, column + 3, column + 4)]
     assert [s.name for s in result] == ["both"] * 3

@@ -37,21 +37,21 @@ def test_indices_known_before_the_run(index, fits):
 
 
 @pytest.mark.parametrize("value", ["n DIV 2", "Abs(n)", "v", "NOT_THERE"])
-def test_indices_that_are_not_known(value):
+def test_unknown_indices_are_not_reported(value):
     data = "CONST num n := 3;\nVAR num v;\nVAR num NOT_THERE;\nVAR num a{n};"
     assert codes(f"a{{{value}}} := 1;", data) == []
 
 
-def test_constants_that_name_each_other_end():
+def test_cyclic_constants_terminate():
     assert codes("a{x} := 1;", "CONST num x := y;\nCONST num y := x;\nVAR num a{3};") == []
 
 
 @pytest.mark.parametrize("body", ["Hand_GripInward \\holdForce:=10;", "CamReqImage c;"])
-def test_arguments_that_no_source_tells_are_not_checked(body):
+def test_unknown_arguments_are_not_checked(body):
     assert codes(body, "VAR cameradev c;") == []
 
 
-def test_alternatives_are_told_by_type():
+def test_alternatives_are_selected_by_type():
     data = "VAR dnum d;\nVAR byte b;\nVAR bool f;\nVAR num n;"
     assert codes("BitSet d, 52;\nBitSet b, 8;\nIncr d;\nAdd d, d;\nAdd n, 1;", data) == []
     assert codes("BitSet f, 1;", data) == ["RG307"]
@@ -63,7 +63,7 @@ def test_conditional_arguments_of_the_wrong_kind():
     assert codes("p;", remaining=remaining) == ["RG316"]
 
 
-def test_parameters_that_are_placeholders_are_not_checked():
+def test_placeholder_parameters_are_not_checked():
     assert codes("p 1, 2, 3;", remaining="PROC p(<PAR>)\nENDPROC") == []
 
 
@@ -77,7 +77,7 @@ def test_unknown_traps_and_endless_steps():
     ("line", "text"),
     [("IF b != c THEN", 1), ("IF b", 0), ("IF b ! = c", 0), ("IF b !==== c", 0), ("IF b <> c", 0)],
 )
-def test_a_condition_that_ends_before_what_looks_like_an_operator(line, text):
+def test_condition_ending_before_unequal_is_reported(line, text):
     # What an IF without THEN takes is below it [K §2.10, 4.14].
     assert codes(f"{line}\nTPErase;", "VAR bool b;\nVAR bool c;") == ["RG332"] * text
     assert codes(f"{line}\nTHEN TPErase;\nENDIF", "VAR bool b;\nVAR bool c;") == ["RG332"] * text
@@ -89,7 +89,7 @@ def test_arrays_assigned_from_elements_are_not_compared_in_size():
     assert codes("r.x := 1;\na := b;", "VAR pos r;\nVAR pos a{2};\nVAR pos b{2};") == []
 
 
-def test_records_that_hold_each_other_end():
+def test_cyclic_records_terminate():
     data = "RECORD r1\nr2 x;\nENDRECORD\nRECORD r2\nr1 y;\nENDRECORD\nVAR r1 a;"
     assert codes("a.x.y.x := a.x;", data) == []
 
@@ -127,7 +127,7 @@ def test_array_parameters_have_three_dimensions_at_most():
         ("PackRawBytes s, r, 1 \\ASCII;", "always"),
     ],
 )
-def test_what_robotware_7_has_and_lacks(body, lasts):
+def test_robotware_7_features_are_checked(body, lasts):
     data = "VAR rawbytes r;\nVAR string s;\nVAR signaldi di;\nVAR robtarget p;"
     six, seven = (codes(body, data, dialect=Dialect(v)) == ["RG325"] for v in ((6, 15), (7, 0)))
     assert (six, seven) == {
@@ -137,7 +137,7 @@ def test_what_robotware_7_has_and_lacks(body, lasts):
     }[lasts]
 
 
-def test_a_routine_that_a_later_robotware_lacks(monkeypatch):
+def test_removed_routine_is_reported(monkeypatch):
     gone = Signature("Gone", "PROC", None, (), None, (7, 0))
     result = signatures.routine
     monkeypatch.setattr(signatures, "routine", lambda n: gone if n == "gone" else result(n))
@@ -146,7 +146,7 @@ def test_a_routine_that_a_later_robotware_lacks(monkeypatch):
 
 
 @pytest.mark.parametrize("name", ["tool0", "main", "TPErase", "anytype"])
-def test_what_is_no_type(name):
+def test_unknown_type_is_reported(name):
     assert codes("a := a;", f"VAR {name} a;")[:1] == ["RG303"]
 
 
@@ -155,7 +155,7 @@ def test_a_persistent_has_literals_at_any_depth():
     assert codes("a := a;\nb := b;", data) == ["RG317", "RG317"]
 
 
-def test_local_routines_that_nothing_calls():
+def test_unused_local_routines_are_reported():
     remaining = (
         "LOCAL PROC p()\nENDPROC\nLOCAL FUNC num f()\nRETURN 1;\nENDFUNC\nLOCAL TRAP t\nENDTRAP"
     )
@@ -181,9 +181,7 @@ def test_local_routines_that_nothing_calls():
         ("VAR num a{3};\n{also}VAR num i;", "i := 1;\na{i} := 2;", False),
     ],
 )
-def test_a_datum_that_is_only_written_is_unused_unless_it_is_written_in_part(
-    local, data, written, is_unused
-):
+def test_written_datum_is_unused_unless_partly_written(local, data, written, is_unused):
     """A write to an element or a component leaves the rest as it was: the datum counts as used."""
     expected = ["RG324"] if is_unused else []
     if local:
@@ -204,11 +202,11 @@ def test_a_datum_that_is_only_written_is_unused_unless_it_is_written_in_part(
         ("a := [1, 2];", "VAR num a;", ["RG330"]),
     ],
 )
-def test_names_and_aggregates_that_do_not_fit(body, data, expected):
+def test_unfitting_names_and_aggregates_are_reported(body, data, expected):
     assert codes(body, data) == expected
 
 
-def test_a_raw_byte_index_out_of_range_is_loaded_and_fails_when_executed():
+def test_raw_byte_index_out_of_range_is_warning():
     body = "VAR rawbytes r;\nPackRawBytes 1, r, 0 \\IntX:=1;"
     (result,) = check(f"MODULE m\nPROC main()\n{body}\nENDPROC\nENDMODULE")
     assert (result.code, result.severity) == ("RG319", Severity.WARNING)

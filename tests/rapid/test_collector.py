@@ -22,7 +22,7 @@ def small(monkeypatch):
     monkeypatch.setattr(parser._COLLECTOR, "promoted", 0)
 
 
-def test_who_parses_again_and_again_gets_his_memory_back(small):
+def test_repeated_parse_releases_memory(small):
     gc.collect()
     gone = weakref.ref(Cycle())
     for _ in range(100):
@@ -32,7 +32,7 @@ def test_who_parses_again_and_again_gets_his_memory_back(small):
     raise AssertionError("a cycle outlived a hundred modules")
 
 
-def test_a_collector_that_was_off_stays_off(small):
+def test_disabled_collector_stays_disabled(small):
     gc.disable()
     try:
         gone = weakref.ref(Cycle())

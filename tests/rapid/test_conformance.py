@@ -9,14 +9,14 @@ FILES = all_files()
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda f: "/".join(f.name.split("/")[-2:]))
-def test_file_gives_what_it_announces(file):
+def test_conformance_file_gives_declared_findings(file):
     displayed = "\n".join(
         f"{d.span.line if d.span else 0}: {d.code} {d.message}" for d in file.findings()
     )
     assert file.found() == file.expected, f"{file.program}\n{displayed}"
 
 
-def test_every_file_says_its_rule_and_source():
+def test_conformance_file_has_rule_and_source():
     assert [f.name for f in FILES if not {"rule", "source"} <= f.head.keys()] == []
 
 

@@ -21,7 +21,7 @@ def system(*texts, **parts):
     return System("s", (TaskSpec("T_ROB1", modules=files),), **parts)
 
 
-def test_of_a_record_that_is_known_in_part_only_any_component_may_be_named():
+def test_partly_known_record_accepts_any_component():
     data = "VAR num n;\nPERS partdata part;"
     assert found(module("a", "n := part.validStation;", data)) == [("warning", "RG304")]
     assert found(module("a", "n := part.plcCode;", data)) == []
@@ -36,11 +36,11 @@ UNKNOWN = {
 
 
 @pytest.mark.parametrize("body", ["OwnThing 1;", "own_flag := TRUE;", "IF di_ready = 1 TPErase;"])
-def test_a_lone_file_may_use_what_is_elsewhere(body):
+def test_single_file_may_use_names_elsewhere(body):
     assert [severity for severity, _ in found(module("a", body))] == ["info"]
 
 
-def test_a_note_says_what_a_name_may_be():
+def test_note_lists_possible_sources_of_name():
     body = "SetDO doGrip, 1;\nMoveL p10, v100, fine, tGrip;\nIF found = 3 Helper;"
     (data, calls) = check(module("a", body))
     assert data.message == (
@@ -65,7 +65,7 @@ def test_a_slip_in_a_lone_file_is_a_warning(body, code, suggestion):
     assert suggestion in diagnostics[0].help
 
 
-def test_what_has_another_type_is_not_meant():
+def test_suggestion_skips_other_types():
     frame = "[[0,0,0],[1,0,0,0]]"
     data = f'VAR robtarget p1;\nPERS wobjdata wCamera := [FALSE,TRUE,"",{frame},{frame}];'
     tool = f"\nPERS tooldata tCamera := [TRUE,{frame},[1,[0,0,1],[1,0,0,0],0,0,0]];"
@@ -84,7 +84,7 @@ def test_what_has_another_type_is_not_meant():
         ("SetDO do1, edges;", "edge"),
     ],
 )
-def test_what_is_predefined_is_meant_where_its_type_fits(call, meant):
+def test_suggestion_includes_fitting_predefined_names(call, meant):
     (text,) = check(module("a", call, "VAR robtarget p1;\nVAR signaldo do1;"))
     assert text.help == (f"did you mean '{meant}'?" if meant else ""), text
     assert text.severity == (Severity.WARNING if meant else Severity.INFO)
@@ -112,7 +112,7 @@ def test_modules_of_several_tasks_in_a_folder_do_not_clash():
     assert found([one, two]) == []
 
 
-def test_objects_that_differ_between_tasks_are_not_judged():
+def test_differing_objects_of_tasks_are_not_checked():
     one = parse(module("a", "x := 1;", "PERS num x;"), path="a.mod")
     two = parse(module("b", 'x := "1";', "PERS string x;"), path="b.mod")
     assert found([one, two]) == []
@@ -127,13 +127,13 @@ def test_a_signal_may_have_the_name_of_a_predefined_type(body):
     assert found(complete, gaps=True) == [("info", "RG302")]
 
 
-def test_a_module_that_cannot_be_read_may_declare_anything():
+def test_unreadable_module_may_declare_any_name():
     one = parse(module("a", "Missing;"), path="a.mod")
     encoded = parse(b"\xfc\x00\x01", path="b.mod")
     assert found([one, encoded]) == [("info", "RG301"), ("warning", "RG219")]
 
 
-def test_a_program_that_loads_modules_may_get_names_from_them():
+def test_loading_program_may_get_names_of_modules():
     text = module("a", 'Load "HOME:/b.mod";\nMissing;')
     assert found(system(text)) == [("info", "RG301")]
 
@@ -160,7 +160,7 @@ SetDO di_ready, 1;"""
     assert [(d.code, d.span.line) for d in diagnostics] == [("RG307", 7)]
 
 
-def test_globals_of_one_task_clash_and_locals_do_not():
+def test_only_globals_of_a_task_clash():
     one = module("a", data="VAR num x;\nLOCAL VAR num y;\nVAR num z;")
     two = module(
         "b", "y := 1;\nz := y;", data="VAR num x;\nVAR num y;\nLOCAL VAR num z;", entry="b2"
@@ -196,7 +196,7 @@ def test_dialects():
     assert found(text, dialect=Dialect((7, 0))) == []
 
 
-def test_a_system_is_checked_for_its_own_robotware():
+def test_system_is_checked_for_its_robotware():
     text = module("a", "x := 0x1F;", "VAR num x;")
     assert [c for _, c in found(system(text, robotware=(5, 0)))] == ["RG205"]
     assert found(system(text, robotware=(7, 2))) == []
@@ -208,7 +208,7 @@ def test_findings_of_the_parser_come_with_those_of_the_checker():
     assert [c for _, c in found(text)] == ["RG213", "RG324", "RG307"]
 
 
-def test_a_module_that_is_there_twice_is_one_finding():
+def test_duplicate_module_gives_single_finding():
     text = module("a", "x := y;", data="VAR num x;\nVAR num y;")
     clashes = [d for d in check(system(text, text)) if d.code == "RG305"]
     assert [(d.message, d.span.path) for d in clashes] == [
@@ -235,7 +235,7 @@ def test_a_task_starts_in_a_procedure_without_parameters(routine, expected):
     assert sorted(found(system(f"MODULE a\n{routine}\nENDMODULE\n"))) == expected
 
 
-def test_the_entry_routine_is_the_one_that_the_configuration_names():
+def test_entry_routine_is_that_of_configuration():
     file = ModuleFile("a", "a.mod", module("a", entry="start").encode())
     assert found(System("s", (TaskSpec("T_ROB1", entry="Start", modules=(file,)),))) == []
     assert found(System("s", (TaskSpec("T_ROB1", modules=(file,)),))) == [("warning", "RG331")]
@@ -248,7 +248,7 @@ def test_no_entry_is_missed_where_modules_are_missing():
 
 
 @pytest.mark.parametrize("flag", ["installed", "shared"])
-def test_the_program_hides_names_of_installed_modules_and_is_not_seen_by_them(flag):
+def test_program_hides_names_of_installed_modules(flag):
     tools = "MODULE tools\nVAR num count;\nPROC Grip()\ncount := ours;\nENDPROC\nENDMODULE\n"
     program = module("p", "Grip;\ncount := TRUE;", "VAR bool count;\nVAR num ours;")
     files = (
@@ -261,18 +261,18 @@ def test_the_program_hides_names_of_installed_modules_and_is_not_seen_by_them(fl
     assert ("error", "RG305") in found(System("s", (TaskSpec("T_ROB1", modules=alike),)))
 
 
-def test_a_module_that_is_not_here_may_hide_a_built_in_that_is_called_without_arguments():
+def test_missing_module_may_hide_built_in_without_arguments():
     assert found(module("a", "Reset;")) == [("warning", "RG311")]
     assert found(module("a", "Reset 1, 2;"))[0][0] == "error"
     assert found(system(module("a", "Reset;"))) == [("error", "RG311")]
 
 
-def test_a_routine_that_is_not_here_gives_its_arguments_the_type():
+def test_missing_routine_gives_arguments_the_type():
     body = "a := elsewhere([1, 2, 3] - [a, 2, 3]);\nother [1, 2, 3] + [a, 2, b];"
     assert {code for _, code in found(module("a", body, "VAR num a;"))} == {"RG301", "RG302"}
 
 
-def test_a_backup_that_does_not_say_its_release_has_what_some_release_of_its_number_has():
+def test_backup_without_exact_release_accepts_any_minor():
     text = module("a", "d := GInputDnum(gi1);\nd := 1;", "VAR dnum d;\nVAR signalgi gi1;")
     told = system(text, robotware=(5, 7))
     some = system(text, robotware=(5, 0), is_robotware_known=False)
@@ -317,7 +317,7 @@ def tool(mass):
         ("PERS loaddata l;", "l.cog.x := -1200;", []),
     ],
 )
-def test_loads_that_the_robot_cannot_carry(data, body, masses):
+def test_excessive_loads_are_reported(data, body, masses):
     for given, task in (
         (module("a", body, data), ""),
         (system(module("a", body, data)), "t_rob1"),

@@ -31,7 +31,7 @@ def test_each_file_of_a_sample_is_red_for_a_mutant():
     assert [file.name for file in SAMPLE if file.found() != file.expected] == []
 
 
-def test_a_file_that_shows_nothing_is_told():
+def test_ineffective_file_is_reported():
     empty = replace(SAMPLE[0], program=replace(SAMPLE[0].program, text="MODULE Demo\nENDMODULE\n"))
     assert campaign([empty]).left == [empty]
 
@@ -62,17 +62,17 @@ def busy(*seconds):
     return SimpleNamespace(found=result, expected="as announced")
 
 
-def test_a_file_that_is_held_up_once_does_not_hang(monkeypatch):
+def test_delayed_file_does_not_hang(monkeypatch):
     monkeypatch.setattr(trials, "SECONDS", (0.05, 60.0))
     assert trials.red(busy(0.2, 0)) is False
 
 
-def test_a_file_that_hangs_is_neither_green_nor_red(monkeypatch):
+def test_hanging_file_is_neither_passed_nor_failed(monkeypatch):
     monkeypatch.setattr(trials, "SECONDS", (0.02, 0.04))
     assert trials.red(busy(60, 60)) is None
 
 
-def test_time_that_is_up_when_a_file_is_judged_is_nothing(monkeypatch):
+def test_timeout_during_judgement_is_ignored(monkeypatch):
     def late(which, *seconds):
         setitimer(which, *seconds)
         if not seconds[0]:

@@ -71,7 +71,7 @@ def mutants(text, count, seed):
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_agrees_on_texts_with_one_change(seed):
+def test_parser_agrees_with_oracle_on_changed_texts(seed):
     chance = random.Random(seed)
     disagreed = []
     for file in chance.sample(FILES, 40):
@@ -92,7 +92,7 @@ def derivations():
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_what_the_oracle_derives_is_accepted(seed):
+def test_derivations_of_oracle_are_accepted(seed):
     chance = random.Random(seed)
     refused = []
     for _ in range(60):
@@ -112,7 +112,7 @@ def test_derivations_use_every_word():
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_agrees_on_derivations_and_made_up_programs_with_one_change(seed):
+def test_parser_agrees_with_oracle_on_changed_derivations(seed):
     chance = random.Random(seed)
     disagreed = []
     for k in range(40):

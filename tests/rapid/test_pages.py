@@ -20,7 +20,7 @@ def test_most_pages_have_examples_in_rapid():
 
 
 @pytest.mark.parametrize(("code", "bad", "good"), PAGES, ids=[p[0] for p in PAGES])
-def test_bad_example_gives_its_code_and_only_that(code, bad, good):
+def test_bad_example_gives_only_its_code(code, bad, good):
     findings = check(bad, path="bad.mod")
     assert {d.code for d in findings} == {code}, [f"{d.code} {d.message}" for d in findings]
 

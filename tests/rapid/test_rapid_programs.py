@@ -5,7 +5,7 @@ import pytest
 from tests.rapid_programs import read, read_all
 
 
-def test_a_program_is_what_is_between_its_line_and_the_next(tmp_path):
+def test_program_extends_to_next_header_line(tmp_path):
     file = tmp_path / "loops.mod"
     file.write_text("!=== one\nMODULE a\n !=== b\n\nENDMODULE\n\n!=== two\n! end\n", "utf-8")
     one, two = read_all(tmp_path)
@@ -28,7 +28,7 @@ def test_a_program_is_what_is_between_its_line_and_the_next(tmp_path):
         ("!=== one\nMODULE a\n!=== two", 3),
     ],
 )
-def test_a_file_that_cannot_be_cut_is_refused_with_its_line(tmp_path, text, line):
+def test_unsplittable_file_is_rejected_with_line(tmp_path, text, line):
     file = tmp_path / "loops.mod"
     file.write_text(text, "utf-8")
     with pytest.raises(ValueError, match=rf"loops\.mod:{line}: "):

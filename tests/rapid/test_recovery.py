@@ -34,7 +34,7 @@ g := 7;"""
     ]
 
 
-def test_message_says_what_was_met_expected_and_what_is_open():
+def test_message_names_token_expectation_and_blocks():
     result = parse(routine("FOR i FROM 1 TO 3 DO\n    a := ;\nENDFOR")).diagnostics
     assert len(result) == 1
     assert result[0].message == "met ';', expected an expression"
@@ -67,14 +67,14 @@ def test_nothing_can_be_taken_out_at_the_end_of_a_file():
         ("IF a = 1 THEN\nELSE IF a = 2 THEN\nENDIF", "ELSEIF is one word"),
     ],
 )
-def test_habits_of_other_languages_are_told_in_rapid(body, mend):
+def test_foreign_syntax_has_rapid_help(body, mend):
     assert any(mend in result.help for result in parse(routine(body)).diagnostics)
 
 
 @pytest.mark.parametrize(
     "body", ["a := b / ;", "a := 1 + + 2;", "IF a = 1 THEN\nELSE\nIF a = 2 THEN\nENDIF"]
 )
-def test_what_is_no_habit_is_told_as_before(body):
+def test_other_syntax_error_has_general_help(body):
     result = parse(routine(body)).diagnostics
     assert result
     for one in result:
@@ -97,7 +97,7 @@ def test_what_is_no_habit_is_told_as_before(body):
         ("a := 1 b := 2;", "perhaps the one before has none"),
     ],
 )
-def test_a_missing_comma_is_told_apart_from_a_missing_semicolon(body, mend):
+def test_missing_comma_differs_from_missing_semicolon(body, mend):
     (result,) = parse(routine(body)).diagnostics
     assert mend in result.help
 
@@ -114,7 +114,7 @@ def test_a_missing_comma_is_told_apart_from_a_missing_semicolon(body, mend):
         "a := ASin(1 \\Unit = 2);",
     ],
 )
-def test_an_equals_sign_that_should_assign_is_told(body):
+def test_equals_sign_for_assignment_is_reported(body):
     (result,) = parse(routine(body)).diagnostics
     assert (result.span.line, result.code) == (3, "RG201")
     assert result.message.startswith("met '=', expected ")
@@ -168,7 +168,7 @@ def test_an_equals_sign_that_should_assign_is_told(body):
         ("VAR num a b;\nc := 1;", [(3, "RG201")]),
     ],
 )
-def test_one_mistake_is_one_error(body, expected):
+def test_single_mistake_gives_single_error(body, expected):
     assert places(routine(body)) == expected
 
 
@@ -205,7 +205,7 @@ def test_declarations(line, expected):
     assert places(f"MODULE m\n{line}\nENDMODULE\n") == expected
 
 
-def test_junk_among_declarations_is_one_error():
+def test_junk_among_declarations_gives_single_error():
     text = "MODULE m\nVAR num a;\nthis is no declaration at all;\nVAR num b;\nENDMODULE\n"
     assert places(text) == [(3, "RG201")]
     assert [d.name for d in parse(text).data] == ["a", "b"]
@@ -268,13 +268,13 @@ ENDLESS = {
 
 
 @pytest.mark.parametrize("name", ENDLESS)
-def test_bad_input_gives_one_diagnostic(name):
+def test_bad_input_gives_single_diagnostic(name):
     module = parse(ENDLESS[name], path="bad.mod")
     assert len(module.diagnostics) == 1, module.diagnostics
     assert module.diagnostics[0].span.path == "bad.mod"
 
 
-def test_a_module_cut_off_anywhere_is_one_error():
+def test_truncated_module_gives_single_error():
     """What is open at the end is told once, whatever the cut leaves behind."""
     text = """MODULE m(SYSMODULE)
 RECORD r num x; ENDRECORD

@@ -5,7 +5,7 @@ import pytest
 from rapidgen.rapid.builtins import signatures
 
 
-def test_every_type_that_a_header_names_exists():
+def test_types_in_headers_exist():
     known = {name.lower() for name in signatures.type_names()} | {"anytype", "switch"}
     named = {p.type.lower() for s in signatures.routines().values() for p in s.parameters}
     named |= {s.type.lower() for s in signatures.routines().values() if s.type}
@@ -78,7 +78,7 @@ def test_values(name, value):
     assert signatures.constant(name).value == value
 
 
-def test_marks_behind_headers():
+def test_header_marks_are_parsed():
     assert signatures.marked("steps") == {"incr", "decr", "add", "clear"}
     assert signatures.marked("ends") == {"exitcycle"}
     assert signatures.marked("whole") == {"dim", "strfind", "strlen", "strmatch"}
@@ -91,7 +91,7 @@ def test_marks_behind_headers():
     assert not signatures.routine("SpotL").checked
 
 
-def test_names_behind_marks_are_parameters():
+def test_names_after_marks_are_parameters():
     for signature in signatures.routines().values():
         names = {p.name.lower() for p in signature.parameters}
         versions = ("came", "went")
@@ -100,20 +100,20 @@ def test_names_behind_marks_are_parameters():
         assert {name for words in marked for name in words} <= names
 
 
-def test_numbers_that_a_controller_told():
+def test_numbers_match_real_controller():
     text = {"ERR_WHLSEARCH": 1072, "ERR_SIGSUPSEARCH": 1073, "ERR_SOCK_CLOSED": 1095}
     assert {name: signatures.constant(name).value for name in text} == text
     numbers = [d.value for d in signatures.predefined().values() if d.type == "errnum"]
     assert len(set(numbers)) == len(numbers)
 
 
-def test_what_no_program_can_write():
+def test_readonly_data_are_marked():
     data = signatures.predefined().values()
     assert {d.name for d in data if d.readonly and d.kind != "CONST"} == {"ERRNO", "INTNO"}
     assert [d.name for d in data if not d.readonly and d.kind == "CONST"] == ["vmax"]
 
 
-def test_what_is_known_whole_stands_in_no_list_of_bare_names():
+def test_fully_known_names_are_in_no_option_list():
     listed = signatures.option_names
     assert {n.lower() for n in signatures.type_names()} & listed("types") == set()
     routines = {n.lower() for n in signatures.routine_names()}

@@ -42,7 +42,7 @@ def test_header_is_kept():
     assert format_source(text) == text
 
 
-def test_strings_are_bytes_behind_their_escapes():
+def test_string_escapes_resolve_to_bytes():
     text = 'MODULE m\nCONST string s := "a""b\\\\c\\0Aé";\nENDMODULE\n'
     assert parse(text).data[0].initial.value == 'a"b\\c\né'
     wide = 'MODULE m\nCONST string s := "漢";\nENDMODULE\n'
@@ -106,7 +106,7 @@ ENDMODULE
     )
 
 
-def test_text_behind_the_module_is_told_and_left_as_it_is():
+def test_text_after_module_is_reported_and_preserved():
     text = "MODULE m\n  VAR num a;\nENDMODULE ! end\n\n  MoveL  p;\nendmodule\n"
     module = parse(text)
     told = [(d.code, d.severity, d.span.line) for d in module.diagnostics]
@@ -122,7 +122,7 @@ def system(*texts):
     return System("s", (TaskSpec("T_ROB1", modules=files),))
 
 
-def test_names_that_unread_text_could_declare_are_not_called_unknown():
+def test_names_of_unread_text_are_not_unknown():
     one = "MODULE a\nPROC main()\nelsewhere;\nENDPROC\nENDMODULE\n"
     after = "MODULE b\nENDMODULE\nMODULE c\nPROC elsewhere()\nENDPROC\nENDMODULE\n"
     other = "MODULE b\nENDMODULE\n"
@@ -133,14 +133,14 @@ def test_names_that_unread_text_could_declare_are_not_called_unknown():
 
 
 @pytest.mark.parametrize("count", [1, 2])
-def test_a_stray_zero_byte_is_told_at_its_place(count):
+def test_stray_zero_byte_is_reported_at_its_place(count):
     text = b"MODULE m\nVAR num" + b"\0" * count + b"a;\nENDMODULE\n"
     (result,) = parse(text, path="m.mod").diagnostics
     assert (result.code, result.span.line, result.span.column) == ("RG204", 2, 8)
     assert "U+0000" in result.message
 
 
-def test_comments_stand_as_deep_as_what_they_belong_to():
+def test_comments_have_indentation_of_their_block():
     """[K §2.10]: behind the data they belong to the routines, or to the statements."""
     text = """MODULE m
 ! data

@@ -70,7 +70,7 @@ def together(body: str, **options):
 
 
 @pytest.mark.parametrize("body", ENDLESS.values(), ids=ENDLESS.keys())
-def test_what_never_ends_holds_up_nobody(body: str) -> None:
+def test_endless_program_blocks_no_other_task(body: str) -> None:
     with together(body) as controller:
         controller.run_for(3)
         assert controller.task("T1")["n"] >= 28
@@ -79,7 +79,7 @@ def test_what_never_ends_holds_up_nobody(body: str) -> None:
 
 
 @pytest.mark.parametrize(("body", "error"), STOPPING.values(), ids=STOPPING.keys())
-def test_what_cannot_go_on_stops_alone(body: str, error: str, monkeypatch) -> None:
+def test_failing_task_stops_alone(body: str, error: str, monkeypatch) -> None:
     monkeypatch.setattr("rapidgen.machine.files.CAPACITY", 100_000)
     with together(body) as controller:
         controller.run_until(lambda: controller.task("T2").state == "error", timeout=600)

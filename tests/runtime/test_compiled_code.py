@@ -20,7 +20,7 @@ def test_text_of_a_program_is_no_placeholder_of_the_compiler(text: str) -> None:
     assert _printed(source) == [text]
 
 
-def test_late_call_takes_a_required_argument_by_name_and_an_optional_one_with_a_backslash() -> None:
+def test_late_call_accepts_named_and_optional_arguments() -> None:
     source = """
     PROC two(num a, num b \\num c)
       TPWrite ValToStr(a) + ValToStr(b) + ValToStr(c);
@@ -46,7 +46,7 @@ def test_late_call_with_wrong_arguments(arguments: str) -> None:
     assert _printed(source) == ["does not fit"]
 
 
-def test_constants_of_records_and_arrays_stand_in_constant_expressions() -> None:
+def test_record_constants_work_in_constant_expressions() -> None:
     source = """
     RECORD pair
       num a;
@@ -63,7 +63,7 @@ def test_constants_of_records_and_arrays_stand_in_constant_expressions() -> None
     assert _printed(source) == ["93[2,3,4]"]
 
 
-def test_initial_value_of_another_type_is_refused_when_the_module_is_loaded() -> None:
+def test_initial_value_of_other_type_is_rejected_at_load() -> None:
     with pytest.raises(DiagnosticError, match="RG401: the value is bool, not num"):
         boot("VAR num a := TRUE;\nPROC main()\nENDPROC")
 

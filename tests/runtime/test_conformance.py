@@ -222,7 +222,7 @@ def cases(text: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda p: p.below(HERE))
-def test_program_does_what_its_source_says(program: Program) -> None:
+def test_program_matches_its_source(program: Program) -> None:
     text = program.text
     assert marks(text, "source"), f"{program}: name the source"
     for case, told in cases(text):

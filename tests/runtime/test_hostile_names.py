@@ -42,7 +42,7 @@ def names():
             yield word
 
 
-def test_names_and_texts_stay_such(tmp_path):
+def test_hostile_names_stay_names_and_texts(tmp_path):
     used, known = [], set()
     for word in names():
         if word.lower() not in known and word.lower() not in ("m", "main", "text"):

@@ -28,7 +28,7 @@ ENDPROC
     "statement", ["WaitTime seconds;", r"WaitUntil go \MaxTime:=seconds \TimeFlag:=late;"]
 )
 @pytest.mark.parametrize("ordered", ["stop", "PP to main"])
-def test_a_stop_that_comes_before_the_wait_begins(monkeypatch, statement, ordered):
+def test_stop_before_wait_is_handled(monkeypatch, statement, ordered):
     controller, _ = boot(
         WAITS.format(statement=statement),
         BUSY,

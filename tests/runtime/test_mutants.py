@@ -24,7 +24,7 @@ def test_each_file_of_a_sample_is_red_for_a_mutant(campaign: Campaign) -> None:
         assert (outcome(file), outcome(file, mutant)) == (PASSED, FAILED)
 
 
-def test_a_file_that_says_something_else_is_red() -> None:
+def test_changed_expectation_fails() -> None:
     goto = SAMPLE[0].program
     other = replace(goto, text=goto.text.replace("! expect: ", "! expect: not ", 1))
     assert outcome(replace(SAMPLE[0], program=other)) == FAILED

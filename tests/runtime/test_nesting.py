@@ -123,7 +123,7 @@ def test_long_jump_to_a_point_deep_inside() -> None:
     assert run(text)[:2] == (["here", "end"], None)
 
 
-def test_too_many_jumps_out_are_refused_in_words() -> None:
+def test_too_many_jumps_are_rejected_with_message() -> None:
     body = nested("while", 40, "GOTO out;")
     text = f'PROC main()\n VAR num n;\n{body} TPWrite "no";\n out:\n TPWrite "out";\nENDPROC'
     printed, fault, _ = run(text)

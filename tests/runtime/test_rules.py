@@ -29,7 +29,7 @@ def exists(name: str) -> bool:
     return path.is_file() and (not test or f"def {test}(" in path.read_text("utf-8"))
 
 
-def test_every_rule_has_what_holds_it() -> None:
+def test_rules_have_existing_tests() -> None:
     assert len(ROWS) > 180
     assert sorted(name for name in NAMED if not exists(name)) == []
 

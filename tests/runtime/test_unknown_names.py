@@ -16,7 +16,7 @@ from rapidgen.system.model import ModuleFile, System, TaskSpec
         ("CONNECT i WITH nowhere;", "ERR_REFUNKTRP"),
     ],
 )
-def test_the_event_says_which(body, error):
+def test_event_names_unknown_name(body, error):
     text = f"MODULE m\nVAR intnum i;\nVAR num n;\nPROC main()\n{body}\nENDPROC\nENDMODULE\n"
     task = TaskSpec("T_ROB1", modules=(ModuleFile("m", "m.mod", text.encode()),))
     with VirtualController(System("unknown", (task,)), cycle="once") as controller:
@@ -68,7 +68,7 @@ def test_other_statements_of_the_routine_are_executed(statement):
     assert controller.task("T_ROB1").fault is None
 
 
-def test_a_statement_that_breaks_a_rule_stops_the_task_when_it_is_reached():
+def test_invalid_statement_stops_task_when_executed():
     out, controller = printed('TPWrite "before";\nIF n > 9 n := "a";\nn := "b";', "VAR num n;")
     fault = controller.task("T_ROB1").fault
     assert out == ["before"]
@@ -87,7 +87,7 @@ TPWrite "used";
 ENDPROC"""
 
 
-def test_data_of_types_that_lie_in_an_addin_are_handed_on():
+def test_data_of_addin_types_are_passed_on():
     """[backup] RobotWare 6: pm_projectinfo is in the add-in, not in the backup."""
     out, controller = printed("use info, many, other;", DATA, USES)
     assert out == ["used"]
@@ -104,14 +104,14 @@ def test_data_of_types_that_lie_in_an_addin_are_handed_on():
         "other := [1];",
     ],
 )
-def test_a_statement_that_looks_into_them_says_what_it_needs(statement):
+def test_statement_using_addin_type_names_it(statement):
     out, controller = printed(f'TPWrite "before";\n{statement}', DATA, USES)
     fault = controller.task("T_ROB1").fault
     assert out == ["before"]
     assert fault.arguments[0].startswith("nothing declares pm_info, which ")
 
 
-def test_data_whose_size_another_module_has_are_missed_when_they_are_reached():
+def test_data_of_unknown_size_fail_when_executed():
     """[code] ROS_motion.mod of abb_driver alone: MAX_TRAJ_LENGTH is in ROS_common.sys."""
     data = "VAR robtarget way{MAX_LENGTH};\nCONST num half := MAX_LENGTH / 2;\nVAR num n;"
     out, controller = printed('TPWrite "before";\nway{1} := CRobT();\nn := half;', data)
@@ -121,13 +121,13 @@ def test_data_whose_size_another_module_has_are_missed_when_they_are_reached():
     assert [d.code for d in controller.diagnostics] == ["RG404"]
 
 
-def test_a_signal_that_is_not_here_may_be_named_like_a_type():
+def test_missing_signal_may_have_name_of_type():
     out, _ = printed('TPWrite "before";\nWaitDI SENSOR, 1;\nTPWrite "after";')
     assert out == ["before", UNKNOWN, "after"]
 
 
 @pytest.mark.parametrize("body", ["SetTmSignal n;", "n := PathLengthGet();"])
-def test_a_routine_of_an_option_is_missed_when_it_is_reached(body):
+def test_option_routine_fails_when_executed(body):
     out, controller = printed(f'TPWrite "before";\n{body}', "VAR num n;")
     assert out == ["before"]
     assert [d.code for d in controller.diagnostics] == ["RG403"]

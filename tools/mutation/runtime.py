@@ -16,7 +16,7 @@ from pathlib import Path
 import rapidgen
 from rapidgen.machine.process import Process
 from tests.rapid_programs import Program
-from tests.runtime.test_conformance import HERE, PROGRAMS, test_program_does_what_its_source_says
+from tests.runtime.test_conformance import HERE, PROGRAMS, test_program_matches_its_source
 from tools.mutation.front_end import Mutant, NoProgram, of_functions
 
 PACKAGES = ("machine", "motion", "runtime", "controller")
@@ -44,8 +44,8 @@ class File:
 
 
 def all_files() -> list[File]:
-    """Return every conformance program of the runtime."""
-    return [File(program, test_program_does_what_its_source_says) for program in PROGRAMS]
+    """Every conformance program of the runtime."""
+    return [File(program, test_program_matches_its_source) for program in PROGRAMS]
 
 
 # -- a file in a process of its own ----------------------------------------------------------

@@ -20,7 +20,7 @@ def test_a_binding_takes_the_arguments_of_its_signature(name):
     inspect.signature(builtin.function).bind(None, *signature.parameters)
 
 
-def test_what_is_left_out_on_purpose_has_a_signature_and_no_binding():
+def test_deliberate_omission_has_signature_without_binding():
     for name in unsupported.names():
         assert signatures.routine(name) is not None, name
         assert bound(name) is None, name
@@ -47,7 +47,7 @@ def _called(name, number):
     return data, f"PROC p{number}()\n{call};\nENDPROC"
 
 
-def test_what_is_left_out_is_said_at_load_and_stops_the_task_with_its_reason():
+def test_omission_is_reported_at_load_and_stops_task():
     """Every one of them: arguments as its signature has them."""
     names = sorted(unsupported.names())
     data, routines = [], []

@@ -156,7 +156,7 @@ def _send(link, data):
     link.sendall(data)
 
 
-def test_a_peer_that_does_not_read(cell):
+def test_unread_data_do_not_block_controller(cell):
     controller, connect = cell
     pulse = Pulse(connect)
     with connect(POUR) as idle:

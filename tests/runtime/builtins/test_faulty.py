@@ -150,7 +150,7 @@ def test_half_open_hides_the_end_until_the_second_send(server):
     assert got[0] == ["ERR_SOCK_TIMEOUT", "", "ERR_SOCK_CLOSED"]
 
 
-def test_half_open_begins_where_the_rule_says(server):
+def test_half_open_begins_at_byte_of_rule(server):
     """Before that many bytes have passed, the end of the connection is seen as ever."""
     bench, inner = server(NetworkRule("half-open", after=10))
 
@@ -163,7 +163,7 @@ def test_half_open_begins_where_the_rule_says(server):
     assert got[0] == "ERR_SOCK_CLOSED"
 
 
-def test_slow_reader_limits_what_the_program_can_send(server):
+def test_slow_reader_limits_sent_bytes(server):
     """1000 bytes a second: 64 kB go into the buffer, what is behind waits for room."""
     bench, inner = server(NetworkRule("slow", direction="out", bytes=1000))
 
@@ -176,7 +176,7 @@ def test_slow_reader_limits_what_the_program_can_send(server):
     assert 3.0 < got[0] < 6.0
 
 
-def test_only_the_connection_that_is_meant(server):
+def test_rule_applies_to_named_connection_only(server):
     bench, inner = server(NetworkRule("split", port=5001, direction="in", bytes=1))
     got = bench.run(
         serve(bench, chunks(bench, 4)), outside(bench, inner, lambda t, e: inner.send(e, b"abcd"))
@@ -184,7 +184,7 @@ def test_only_the_connection_that_is_meant(server):
     assert [data for _, data in got] == [b"abcd"]
 
 
-def test_close_still_delivers_what_the_plan_holds_back(server):
+def test_close_delivers_delayed_bytes(server):
     bench, inner = server(NetworkRule("delay", direction="out", seconds=0.3))
 
     def body(task, socket):
@@ -236,7 +236,7 @@ def test_reading_a_plan(tmp_path):
         ("a: [", "flow"),
     ],
 )
-def test_a_plan_that_cannot_be_used(tmp_path, text, words):
+def test_invalid_plan_is_rejected(tmp_path, text, words):
     path = tmp_path / "plan.yaml"
     path.write_text(text)
     with pytest.raises(DiagnosticError) as caught:

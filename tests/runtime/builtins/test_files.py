@@ -57,7 +57,7 @@ def test_no_link_leads_out(bench, disk, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["loop", "x" * 300])
-def test_what_lies_nowhere_is_an_error_not_a_fault(bench, disk, name):
+def test_path_outside_disks_is_rapid_error(bench, disk, name):
     os.symlink(disk / "loop", disk / "loop")
     for call in (
         lambda: bench("Open", name, IODevice(), Write=True),
@@ -69,7 +69,7 @@ def test_what_lies_nowhere_is_an_error_not_a_fault(bench, disk, name):
         assert caught.value.name == "ERR_FILEACC"
 
 
-def test_what_is_no_regular_file_is_not_opened(bench, disk):
+def test_special_file_is_not_opened(bench, disk):
     """A pipe would hold the whole controller up."""
     os.mkfifo(disk / "pipe")
     (disk / "folder").mkdir()
@@ -80,7 +80,7 @@ def test_what_is_no_regular_file_is_not_opened(bench, disk):
             assert caught.value.name == "ERR_FILEOPEN"
 
 
-def test_names_that_no_string_can_hold_are_shown_with_question_marks(bench, disk):
+def test_unrepresentable_names_have_question_marks(bench, disk):
     (disk / "\u65e5\u672c.txt").write_text("x")
     folder, name = Directory(), bench.box("")
     bench("OpenDir", folder, "HOME:")
@@ -118,7 +118,7 @@ def test_a_full_disk(bench, monkeypatch):
     assert caught.value.name == "ERR_FILEACC"
 
 
-def test_opening_again_closes_what_was_open(bench):
+def test_reopening_closes_device(bench):
     """A device that is opened 70 times in a row holds one file, not 70."""
     device = IODevice()
     for i in range(70):
@@ -127,7 +127,7 @@ def test_opening_again_closes_what_was_open(bench):
     assert bench("FileSize", "f69") == 2
 
 
-def test_too_many_open_files(bench):
+def test_too_many_open_files_raise_error(bench):
     devices = [IODevice() for _ in range(65)]
     for i, device in enumerate(devices[:64]):
         bench("Open", f"f{i}", device)
@@ -138,7 +138,7 @@ def test_too_many_open_files(bench):
     bench("Open", "f64", devices[64])
 
 
-def test_times_are_the_controllers_own(bench):
+def test_file_times_are_controller_times(bench):
     device, digits = IODevice(), bench.box("")
     bench("Open", "a", device)
     bench("Close", device)
@@ -164,7 +164,7 @@ def test_scratch_folder_goes_with_its_controller():
     assert not folder.exists()
 
 
-def test_what_a_fork_made_goes_with_it(tmp_path, monkeypatch):
+def test_scratch_folder_of_fork_is_removed(tmp_path, monkeypatch):
     """A copy that ends by `os._exit`, with files open and nothing closed."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     disks = FileSystem()
@@ -184,7 +184,7 @@ def test_what_a_fork_made_goes_with_it(tmp_path, monkeypatch):
     assert os.listdir(tmp_path) == []
 
 
-def test_a_controller_that_touches_no_file_makes_no_folder(tmp_path, monkeypatch):
+def test_controller_without_files_creates_no_folder(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     with VirtualController.from_config("irb120") as controller:
         controller.run_for(1.0)

@@ -59,7 +59,7 @@ def test_limits_of_an_analogue_signal(make_bench):
     assert signal.value == 0
 
 
-def test_signals_that_share_bits_of_a_device_change_together(make_bench):
+def test_signals_with_common_device_bits_change_together(make_bench):
     """A group and single outputs on one device; inputs with the same numbers are others."""
     specs = (
         SignalSpec("go1", "GO", device="d652", size=4, bits=(0, 1, 2, 3)),
@@ -84,7 +84,7 @@ def test_signals_that_share_bits_of_a_device_change_together(make_bench):
 
 
 @pytest.mark.parametrize(("lowest", "value"), [(True, 0b0100), (False, 0b0010)])
-def test_which_bit_of_a_group_comes_first(lowest, value):
+def test_bit_order_of_group_follows_switch(lowest, value):
     """[mem] switch `bit_order`"""
     specs = (
         SignalSpec("go1", "GO", device="d652", size=4, bits=(4, 5, 6, 7)),
@@ -257,7 +257,7 @@ def test_the_words_of_abb_drivers_manual_are_understood():
     assert all(status_name(word) in STATUSES.values() for word in words)
 
 
-def test_a_system_output_that_is_not_known_is_said(plant):
+def test_unknown_system_output_is_reported(plant):
     bench, _ = plant(
         outputs=(SystemOutput("Levitating", "do1"), SystemOutput("MotorOn", "doMissing"))
     )

@@ -51,7 +51,7 @@ def test_dnum_twins_keep_their_digits(bench):
         ("Round", (1, -1)),
     ],
 )
-def test_arguments_that_are_not_allowed(bench, name, arguments):
+def test_invalid_arguments_raise_error(bench, name, arguments):
     options = {"Dec": arguments[1]} if name == "Round" else {}
     required = arguments[:1] if name == "Round" else arguments
     with pytest.raises(RapidError) as caught:
@@ -66,7 +66,7 @@ def test_round_and_trunc(bench):
     assert [bench("Trunc", v) for v in (1.9, -1.9)] == [1, -1]
 
 
-def test_counters_change_what_they_are_given(bench):
+def test_counters_change_their_argument(bench):
     value = bench.box(5)
     bench("Incr", value)
     bench("Add", value, -3)

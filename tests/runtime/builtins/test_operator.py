@@ -12,7 +12,7 @@ from rapidgen.runtime.values import ListItem, Orient, PersistentCell, Pos
 from rapidgen.system.model import SignalSpec, System
 
 
-def test_tp_write_breaks_at_40_and_listeners_get_it_whole(bench):
+def test_tp_write_breaks_at_40_for_screen_only(bench):
     got = []
     bench.controller.operator.subscribe(lambda task, text: got.append((task, text)))
     bench("TPWrite", "x" * 45)
@@ -45,7 +45,7 @@ def test_tp_erase(bench):
 # -- dialogs --------------------------------------------------------------------------------
 
 
-def test_without_anybody_a_dialog_fails(bench):
+def test_dialog_without_operator_fails(bench):
     with pytest.raises(RapidError) as caught:
         bench("TPReadNum", bench.box(0), "how many?")
     assert caught.value.name == "ERR_TP_NO_CLIENT"
@@ -73,7 +73,7 @@ def test_scripted_answers_are_used_once_and_in_order(make_bench):
     assert bench.now == pytest.approx(2, abs=0.01)
 
 
-def test_an_answer_that_is_none_is_refused_and_the_dialog_waits(make_bench):
+def test_invalid_answer_is_rejected_and_dialog_waits(make_bench):
     bench = make_bench(answers=[Answer("1")])
     key = bench.box(0)
     with pytest.raises(RapidError) as caught:
@@ -82,7 +82,7 @@ def test_an_answer_that_is_none_is_refused_and_the_dialog_waits(make_bench):
     assert "refused" in bench.controller.operator.rows[-1]
 
 
-def test_what_a_task_waits_for_can_be_asked(make_bench):
+def test_awaited_dialog_of_task_is_reported(make_bench):
     bench = make_bench(answers=[Answer("1")])
     operator = bench.controller.operator
     message = []
@@ -108,7 +108,7 @@ def waiting(make_bench):
     return make_bench(System("x", (), signals=signals), answers=[])
 
 
-def test_a_dialog_is_broken_off_by_a_signal_even_if_it_is_high_already(waiting):
+def test_dialog_is_broken_off_by_high_signal(waiting):
     io = waiting.controller.io
     io.set(io["di1"], 1)
     with pytest.raises(RapidError) as caught:
@@ -170,7 +170,7 @@ def test_message_boxes(make_bench):
         assert other("UIMessageBox", Buttons=buttons) == number
 
 
-def test_default_button_of_a_box_that_is_broken_off(waiting):
+def test_broken_off_box_returns_default_button(waiting):
     flag = waiting.box(0)
     assert waiting("UIMessageBox", DefaultBtn=7, Buttons=4, MaxTime=1, BreakFlag=flag) == 7
 
@@ -188,7 +188,7 @@ def test_number_and_text_entry(make_bench):
 
 
 @pytest.mark.parametrize("value", ["inf", "1e400", "nan", "many", "2.5", "11"])
-def test_what_is_no_number_is_refused_and_told_what_is_wanted(make_bench, value):
+def test_invalid_number_is_rejected_with_expectation(make_bench, value):
     bench = make_bench(answers=[Answer(value)])
     options = {"MinValue": 1, "MaxValue": 10} if value == "11" else {}
     flag = bench.box(0)
@@ -207,7 +207,7 @@ def test_what_is_no_number_is_refused_and_told_what_is_wanted(make_bench, value)
         ({"AsInteger": True, "InitValue": 1.5}, "ERR_UI_NOTINT"),
     ],
 )
-def test_number_entry_that_makes_no_sense(waiting, options, error):
+def test_contradictory_number_entry_raises_error(waiting, options, error):
     with pytest.raises(RapidError) as caught:
         waiting("UINumEntry", **options)
     assert caught.value.name == error

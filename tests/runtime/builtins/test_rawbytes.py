@@ -36,7 +36,7 @@ def test_packing(bench, value, options, expected):
     assert raw.data.hex() == expected
 
 
-def test_valid_length_grows_only_when_bytes_end_behind_it(bench):
+def test_valid_length_grows_with_bytes_beyond_end(bench):
     raw = RawBytes()
     pack(bench, raw, 1, 5, IntX=DINT)
     assert bench("RawBytesLen", raw) == 8
@@ -60,7 +60,7 @@ def test_valid_length_grows_only_when_bytes_end_behind_it(bench):
         (1, 1, {"IntX": 3}, "ERR_ARGVALERR"),
     ],
 )
-def test_packing_that_is_refused(bench, value, start, options, error):
+def test_invalid_packing_raises_error(bench, value, start, options, error):
     raw = RawBytes(b"keep")
     with pytest.raises(RapidError) as caught:
         pack(bench, raw, value, start, **options)

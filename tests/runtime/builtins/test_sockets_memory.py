@@ -49,7 +49,7 @@ def test_closing_a_task_closes_its_sockets_only(bench):
     assert (mine.status, others.status) == (SocketStatus.CLOSED, SocketStatus.CREATED)
 
 
-def test_a_crowd_waits_until_there_is_room_in_the_backlog(bench):
+def test_many_clients_wait_for_backlog(bench):
     """16 clients wait to be accepted; the 17th asks again, as TCP does, and is served."""
     network = bench.controller.network
     server = SocketDevice()
@@ -80,7 +80,7 @@ def test_a_closed_endpoint_gives_its_port_back(bench):
     assert network.bind("127.0.0.1", 0).local == first.local
 
 
-def test_a_cut_cable_is_not_told(bench):
+def test_cut_cable_is_not_reported(bench):
     """Only the reader's own time-out ends the wait; what is sent vanishes."""
     network = bench.controller.network
 
@@ -96,7 +96,7 @@ def test_a_cut_cable_is_not_told(bench):
     assert pair(bench, serving, asking) == ["ERR_SOCK_TIMEOUT", "ERR_SOCK_TIMEOUT"]
 
 
-def test_a_reset_is_told_to_both_sides_at_once(bench):
+def test_reset_reaches_both_sides_at_once(bench):
     network = bench.controller.network
 
     def serving(task, socket):

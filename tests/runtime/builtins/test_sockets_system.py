@@ -78,7 +78,7 @@ def test_an_echo_over_loopback(real):
     assert seen == [b"hello"]
 
 
-def test_binding_is_to_loopback_whatever_the_program_says(real):
+def test_binding_is_to_loopback_for_any_address(real):
     endpoint = real.controller.network.bind("192.168.125.1", 11000)
     assert endpoint.local[0] == "127.0.0.1"
     assert endpoint.local[1] != 11000
@@ -92,7 +92,7 @@ def test_ports_are_moved_by_an_offset(make_bench):
     assert bench.controller.network.listeners == {11000: ("127.0.0.1", free)}
 
 
-def test_a_port_that_another_process_has_is_in_use(make_bench):
+def test_port_of_other_process_is_in_use(make_bench):
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
@@ -103,7 +103,7 @@ def test_a_port_that_another_process_has_is_in_use(make_bench):
     assert caught.value.reason is NetworkReason.ADDRESS_IN_USE
 
 
-def test_a_client_that_resets_and_one_that_ends(real):
+def test_reset_and_end_of_client_differ(real):
     server, accepted = SocketDevice(), SocketDevice()
 
     def script(sock):
@@ -121,7 +121,7 @@ def test_a_client_that_resets_and_one_that_ends(real):
     finish()
 
 
-def test_a_peer_that_does_not_read_holds_the_sender_up(real):
+def test_peer_without_reads_blocks_sender(real):
     """Back-pressure reaches the task: it waits, and goes on when the peer reads."""
     server, accepted = SocketDevice(), SocketDevice()
     total = 4_000_000

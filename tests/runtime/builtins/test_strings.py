@@ -61,7 +61,7 @@ def test_val_to_str_over_80_characters(bench):
     assert caught.value.name == "ERR_STRTOOLNG"
 
 
-def test_numbers_of_many_digits(bench):
+def test_long_numbers_have_exact_text(bench):
     assert bench("NumToStr", single(3e38), 2).startswith("3")
     assert bench("NumToStr", single(3e38), 2, Exp=True) == "3.00E+38"
 
@@ -102,7 +102,7 @@ def test_str_to_val(bench, text, type_, expected):
         ("[", Pos.rapid_type),
     ],
 )
-def test_str_to_val_that_fails_leaves_the_target_alone(bench, text, type_):
+def test_failed_str_to_val_keeps_target(bench, text, type_):
     """FALSE, no error, and the target is as it was [S4 StrToVal]."""
     target = bench.box(type_.default(), type_)
     assert bench("StrToVal", text, target) is False
@@ -189,7 +189,7 @@ def test_str_find_and_match(bench):
                 bench(name, "Robotics", place, "x")
 
 
-def test_a_search_from_behind_by_the_manual_s_word(bench):
+def test_search_past_end_is_error_by_switch(bench):
     bench.controller.dialect = Switches(find_past_end="error")
     for name in ("StrFind", "StrMatch"):
         with pytest.raises(RapidError):

@@ -58,7 +58,7 @@ BOX = r"WZBoxDef \Inside, s, [0,0,0], [100,100,100];"
         ("WZDisable z;", "not defined"),
     ],
 )
-def test_what_is_refused(irb120, body, reason):
+def test_invalid_zones_are_rejected(irb120, body, reason):
     with controller(irb120, body) as cell:
         cell.run()
         fault = cell.tasks["T_ROB1"].fault
@@ -66,7 +66,7 @@ def test_what_is_refused(irb120, body, reason):
         assert reason in fault.arguments[0]
 
 
-def test_freeing_what_is_not_there_is_nothing(irb120):
+def test_freeing_without_zone_has_no_effect(irb120):
     with controller(irb120, "WZFree z; WZFree z;") as cell:
         assert cell.run() == "finished"
 
@@ -90,7 +90,7 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_the_signal_is_that_of_the_place(irb120, shape):
+def test_zone_signal_follows_position(irb120, shape):
     """Looked at from outside every 7 ms, on lines, corners and joint moves."""
     body = f"""
     MoveAbsJ start, v1000, fine, tool0;
