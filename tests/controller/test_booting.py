@@ -368,7 +368,7 @@ def test_loose_files_run_on_given_release(program, cell):
 
 def test_target_with_release_rejects_robotware(program):
     assert load_target([program]).system.robotware == UNKNOWN_ROBOTWARE
-    with pytest.raises(DiagnosticError, match="'crb15000' tells its RobotWare"):
+    with pytest.raises(DiagnosticError, match="'crb15000' defines its RobotWare"):
         load_target(["crb15000"], BootOptions(robotware=(7, 6)))
 
 

@@ -34,7 +34,7 @@ def test_a_file_is_read_below_its_folder(folder):
         assert read_foreign(folder / name, LIMIT, below=folder) == b"content"
 
 
-def test_special_file_is_not_opened(folder, monkeypatch):
+def test_special_files_are_not_opened(folder, monkeypatch):
     os.mkfifo(folder / "pipe")
     (folder / "zero").symlink_to("/dev/zero")
     (folder / "terminal").symlink_to("/dev/tty")

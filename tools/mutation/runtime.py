@@ -44,7 +44,7 @@ class File:
 
 
 def all_files() -> list[File]:
-    """Every conformance program of the runtime."""
+    """Return every conformance program of the runtime."""
     return [File(program, test_program_matches_its_source) for program in PROGRAMS]
 
 

@@ -125,7 +125,7 @@ class _Cell:
         log = self._bench.controller.log.since(self._newest)
         result = [e for e in log if e.title.startswith(title)]
         what = f"joint {number} may move from {reply.lower} to {reply.upper}, of {joint}"
-        if not (reply.said and self._bench.setting.dialect.axis_limits_readable):
+        if not (reply.log_text and self._bench.setting.dialect.axis_limits_readable):
             if result:
                 raise CheckFailed(f"{what}: the event log says {result[0]}")
             return
@@ -213,7 +213,7 @@ def _counts(bench: Bench, cell: _Cell, reply: Sequence[_ReportedLimits]) -> None
 
 @case("limits-without-sense", "a joint of which no range is left")
 def _limits_without_sense(bench: Bench) -> None:
-    """Nobody knows where such a joint may be: no point is taken, wherever it is."""
+    """Make limits invalid: every point of such a joint is rejected."""
     if not bench.setting.dialect.axis_limits_readable:
         raise NotApplicable("the controller does not tell limits of axes")
     joints, cell = bench.group.joints, _Cell(bench)

@@ -341,7 +341,7 @@ def _events(bench: Bench) -> None:
 
 @case("read-limits", "limits read from the controller count where they are narrower")
 def _limits_of_the_controller(bench: Bench) -> None:
-    """A joint that the controller lets move less has those limits."""
+    """Narrow a joint's limits on the controller: they apply."""
     if not bench.setting.dialect.axis_limits_readable:
         raise NotApplicable("the controller does not tell limits of axes")
     group = bench.group

@@ -83,7 +83,7 @@ def knows_these(bench: Bench) -> bool:
 
 
 def _has_these(bench: Bench) -> bool:
-    """Whether it does, and the motion task is told that the module is there."""
+    """True if it is so, and the motion task has the module."""
     return knows_these(bench) and bench.setting.dialect.installed_modules_exist
 
 
@@ -101,7 +101,7 @@ def _absent(bench: Bench) -> None:
             reply = _calls(client, number, _zeros(bench, routine))
             client.refused(reply, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
     if knows_these(bench) and not bench.setting.dialect.installed_modules_exist:
-        with bench.beside(_with_module(bench)) as other:
+        with bench.second_controller(_with_module(bench)) as other:
             reply = _calls(Programmer(other), WELD, weld_words(1.0))
             client.refused(
                 reply, RawReason.NO_ROUTINE, 0, "a module that the configuration does not list"
