@@ -57,7 +57,7 @@ class ControllerRunner:
         cfg: ControllerCfg | None = None,
         **options: Unpack[ControllerOptions],
     ) -> None:
-        self.folder = Path(tempfile.mkdtemp(prefix="rapidgen-cabinet-"))
+        self.folder = Path(tempfile.mkdtemp(prefix="rapidgen-controller-"))
         self._remove = weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
         self._options = options
         self._options["folder"] = self.folder
@@ -160,7 +160,7 @@ class ControllerRunner:
         """Run in a separate thread from now on."""
         self._ended = False
         self._set_going()
-        self._thread = threading.Thread(target=self._run_alone, name="cabinet", daemon=True)
+        self._thread = threading.Thread(target=self._run_alone, name="controller", daemon=True)
         self._thread.start()
 
     def _run_alone(self) -> None:

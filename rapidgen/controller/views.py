@@ -141,7 +141,7 @@ class TaskView:
 
     @property
     def place(self) -> Location | None:
-        """Return the next statement of a stopped task, None if unknown."""
+        """Next statement of a stopped task, None if unknown."""
         return self.rapid.pointer.next_statement()
 
     def pp_to_routine(self, name: str) -> None:

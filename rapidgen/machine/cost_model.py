@@ -22,8 +22,8 @@ class Costs:
     quantum: int = 2_000_000
     """Round robin."""
     interrupt_delay: tuple[int, int] = (2_000_000, 30_000_000)
-    """Return the costs with `builtin_scale` multiplied by `factor`."""
+    """From event to trap [K §8.1]."""
 
     def scaled(self, factor: float) -> "Costs":
-        """The same with the built-in part times `factor`."""
+        """Return the costs with `builtin_scale` multiplied by `factor`."""
         return replace(self, builtin_scale=self.builtin_scale * factor)

@@ -109,7 +109,7 @@ class FileSystem:
         home: Path | None = None,
         home_below: Path | None = None,
     ) -> None:
-        self._room = CAPACITY
+        self._free = CAPACITY
         self._open: dict[IODevice | Directory, str] = {}
         self._scratch: weakref.finalize[[Path], FileSystem] | None = None
         self._folder = None if folder is None else _with_devices(folder)
@@ -200,14 +200,14 @@ class FileSystem:
 
     def spend(self, count: int) -> None:
         """Account for written bytes. DiskFault NO_ACCESS: the disk is full."""
-        if count > self._room:
+        if count > self._free:
             raise DiskFault(DiskReason.NO_ACCESS, "the disk is full")
-        self._room -= count
+        self._free -= count
 
     @property
     def free_space(self) -> int:
-        """Return the number of bytes that can still be written."""
-        return self._room
+        """Number of bytes that can still be written."""
+        return self._free
 
 
 def _with_devices(folder: Path) -> Path:

@@ -1,7 +1,7 @@
-"""Switches for behaviour that no public source settles.
+"""Switches for behaviour without a conclusive public source.
 
-Every field is a question that the kernel manual leaves open, or on which sources disagree; the
-default is the answer that a source (named) or, failing that, memory of RobotWare 6 gives.
+Every field is a question that the kernel manual leaves open, or on which sources disagree. The
+default follows a source (named) or, without one, memory of RobotWare 6 [mem].
 docs/rapid/virtual-controller.md lists them.
 """
 
@@ -11,55 +11,56 @@ from typing import Literal, get_args
 
 @dataclass(frozen=True, slots=True)
 class Switches:
-    """How the virtual controller decides what is not settled."""
+    """Decisions of the virtual controller on open questions."""
 
     num_rounding: Literal["store", "operation"] = "store"
-    """Where a num is rounded to IEEE single: when it is stored, passed or returned, or after
-    every operator. No source."""
+    """When a num is rounded to IEEE single: at a store, a parameter or a result, or after every
+    operator. No source."""
 
     dnum_whole: Literal["52", "53"] = "52"
-    """Up to which power of 2 a dnum counts whole numbers: what the manuals promise [mem], or as far
-    as an IEEE double does. What is larger loses its last bits."""
+    """Power of 2 up to which a dnum counts whole numbers: as the manuals promise [mem], or as an
+    IEEE double. Larger values lose their last bits."""
 
     for_loop: Literal["kernel", "tested"] = "kernel"
-    """`kernel`: the first pass of FOR is never tested, and without STEP it counts down when
-    the end lies below the start [K §4.15]. `tested`: STEP is 1 and the first pass is tested."""
+    """`kernel`: FOR does not test the first pass, and without STEP it counts down if the end is
+    below the start [K §4.15]. `tested`: STEP is 1 and the first pass is tested."""
 
     unhandled_error: Literal["propagate", "stop"] = "stop"
-    """What happens to an error in a routine without ERROR: straight to the system error handler, as
-    on controllers (the log of one with RobotWare 6.03; tests on a virtual one of 6.15; ABB's own
+    """An error in a routine without ERROR goes directly to the system error handler, as on
+    controllers (the log of one with RobotWare 6.03; tests on a virtual one of 6.15; ABB's own
     modules for RobotWare 7 end each helper in RAISE), or to the caller [K §7.1, S4 overview]."""
 
     integer_division: Literal["truncate", "floor"] = "truncate"
     """DIV and MOD with a negative left operand. K is silent."""
 
     retry_raised: bool = True
-    """RETRY is allowed for an error made by RAISE. False: S4 datasys 2-RETRY-1."""
+    """RETRY is permitted for an error of RAISE. False: S4 datasys 2-RETRY-1."""
 
     raise_in_handler: Literal["caller", "error"] = "caller"
-    """RAISE with a number in an ERROR handler: the caller gets that error (public modules that
-    run on controllers do it), or the task stops (K §4.8 forbids it)."""
+    """RAISE with a number in an ERROR handler passes the error to the caller (public modules on
+    controllers do it), or stops the task (K §4.8 forbids it)."""
 
     negative_mod: Literal["allow", "error"] = "allow"
     """A negative left operand of MOD. `error`: S4 overview 4-26."""
 
     cycle_resets_interrupts: bool = False
-    """The next cycle of main keeps ordered interrupts (S4 overview 4-24); True deletes them."""
+    """True: the next cycle of main deletes ordered interrupts. False: it keeps them (S4 overview
+    4-24)."""
 
     e_stop_routines: bool = True
     """An emergency stop runs the routines of QSTOP [mem]. False: it runs none."""
 
     after_error: Literal["statement", "main"] = "statement"
-    """After an error that nobody handled the program pointer is at the faulty statement, which a
-    start of a NORMAL task tries again [S4 overview 3-23], or the task starts from main only."""
+    """Effect of an unhandled error: the program pointer is at the failed statement, which a start
+    of a NORMAL task executes again [S4 overview 3-23], or the task starts from main only."""
 
     fault_routines: bool = False
-    """The task that an error stopped runs its STOP routines [mem]. The NORMAL tasks that are
-    stopped with it always do."""
+    """A task stopped by an error runs its STOP routines [mem]. The NORMAL tasks stopped together
+    with it always do."""
 
     wait_until: Literal["polled", "event"] = "polled"
-    """WaitUntil looks every 0.1 s [S4 datasys 2-WaitUntil-1], or whenever a persistent or
-    signal in its condition changes (later RobotWare) [mem]."""
+    """WaitUntil evaluates every 0.1 s [S4 datasys 2-WaitUntil-1], or at each change of a persistent
+    or signal in its condition (later RobotWare) [mem]."""
 
     dionum: Literal["strict", "nonzero"] = "strict"
     """A dionum other than 0 and 1 is an error (S4 datasys 1-dionum-1), or counts as 1."""
@@ -68,30 +69,30 @@ class Switches:
     """Open without a mode: \\Write (S4 datasys 2-Open-1), or \\Read."""
 
     refused_connect: Literal["timeout", "unreachable", "closed"] = "timeout"
-    """Which ERR_SOCK_ a connection that the partner refuses raises. No source."""
+    """The ERR_SOCK_ error of a connection that the partner rejects. No source."""
 
     failed_connect: Literal["again", "create"] = "again"
-    """Behind a SocketConnect that failed the same socket may connect again, as a RETRY in public
-    programs does (Keyence's CV-X modules), or it has to be closed and created first [mem]."""
+    """After a failed SocketConnect the same socket may connect again, as a RETRY in public programs
+    does (Keyence's CV-X modules), or must be closed and created first [mem]."""
 
     receive_timeout: Literal["keep", "drop"] = "keep"
-    """Bytes that came before a SocketReceive timed out wait for the next one, or are gone. No
+    """Bytes received before a timeout of SocketReceive stay for the next one, or are lost. No
     source."""
 
     unpack_beyond: Literal["error", "zero"] = "error"
-    """UnpackRawBytes behind the valid length: ERR_OUTOFBND, or the bytes count as 0. No source."""
+    """UnpackRawBytes beyond the valid length: ERR_OUTOFBND, or the bytes count as 0. No source."""
 
     pack_beyond: Literal["zero", "error"] = "zero"
-    """PackRawBytes that leaves a gap behind the valid length: the bytes between are 0 (the new
-    length of 3HAC16581-1 covers them), or ERR_OUTOFBND."""
+    """PackRawBytes that leaves a gap after the valid length: the bytes in the gap are 0 (the new
+    length of 3HAC16581-1 includes them), or ERR_OUTOFBND."""
 
     unpack_ulint: Literal["exact", "single", "error"] = "exact"
-    """A ULINT read into a dnum: exact as far as a dnum counts (3HAC16581-1 lists the type, and
-    that it needs a dnum), rounded on a way through a num, or ERR_ARGVALERR."""
+    """A ULINT read into a dnum: exact as far as a dnum counts (3HAC16581-1 lists the type and
+    requires a dnum), rounded through a num, or ERR_ARGVALERR."""
 
     send_attends: bool = True
-    """Traps run while SocketSend waits for room, as in the waiting routines of [K §8.1]. False:
-    not before it has ended. No source."""
+    """Traps run while SocketSend waits for buffer space, as in the waiting routines of [K §8.1].
+    False: only after its end. No source."""
 
     alias_by_name: bool = True
     """AliasIO takes the name of a signal as a string [mem]. False: event 40214 and stop."""
@@ -100,103 +101,104 @@ class Switches:
     """ReadCfgData finds the limits of the axes, MOC/ARM [code]. False: ERR_CFG_NOTFND."""
 
     calc_in_background: bool = True
-    """CalcRobT and CalcJointT in a task that moves no robot compute for the one that its unit group
-    names, as CRobT and CJointT do there in ABB's own module for RobotWare 7 [ABB]. False:
-    ERR_NOT_MOVETASK [mem]."""
+    """CalcRobT and CalcJointT in a task without a robot use the robot of its unit group, as CRobT
+    and CJointT do there in ABB's own module for RobotWare 7 [ABB]. False: ERR_NOT_MOVETASK
+    [mem]."""
 
     installed_modules_exist: bool = True
-    """ModExist tells of every module of its task: it looks among loaded ones, then among installed
-    ones [manual 3HAC050917]. False: of those alone that Load brought."""
+    """ModExist reports every module of its task: loaded ones and installed ones [manual
+    3HAC050917]. False: only those of Load."""
 
     data_of_tasks: bool = True
-    """GetDataVal and SetDataVal with \\TaskName reach persistents of another task: that is what the
-    argument is for [manual 3HAC050917 lists it], and public programs for recovery read robtargets
-    of T_ROB1 so [code]. False: ERR_TASKNAME [mem]."""
+    """GetDataVal and SetDataVal with \\TaskName reach persistents of another task, for which the
+    argument exists [manual 3HAC050917]; public programs for recovery read robtargets of T_ROB1 with
+    it [code]. False: ERR_TASKNAME [mem]."""
 
     search_pattern: Literal["whole", "part"] = "whole"
-    """\\Object of SetDataSearch has to fit a whole name, as ABB's programs for hands with cameras
-    write it (a prefix and `.*`) [ABB], or some part of it [mem]."""
+    """\\Object of SetDataSearch matches a whole name, as ABB's programs for hands with cameras use
+    it (a prefix and `.*`) [ABB], or a part of it [mem]."""
 
     next_symbol: Literal["level", "below"] = "level"
-    """GetNextSym without \\Recursive stays where SetDataSearch began: in a module, or above all of
-    them, where only predefined data are, as public programs use it that seek camera devices and
-    units so, and \\Recursive for their own data [code]; or it looks into all modules."""
+    """GetNextSym without \\Recursive stays on the level of SetDataSearch: in a module, or above all
+    modules with the predefined data, as public programs search camera devices and units [code]
+    (they use \\Recursive for their own data); or it searches all modules."""
 
     error_reach: Literal["all", "own"] = "all"
-    """IError tells a task of everybody's events, as public loggers in tasks of their own expect
-    [code], or of those of its own only."""
+    """IError reports events of all tasks, as public loggers in separate tasks expect [code], or of
+    its own task only."""
 
     find_past_end: Literal["none", "error"] = "none"
-    """StrFind and StrMatch from the position right behind the text find nothing (Machina's driver
-    ends every command so), or it is an error (S4 datasys 3-StrFind)."""
+    """StrFind and StrMatch from the position just after the text have no match (Machina's driver
+    ends every command with it), or raise an error (S4 datasys 3-StrFind)."""
 
     moves_back: bool = True
-    """A backward step over a move that was stepped takes the robot to where it began (S4 datasys
-    2-SearchL-6: "carries out the movement"), or refuses."""
+    """A backward step over a stepped move drives the robot back to its start (S4 datasys
+    2-SearchL-6: "carries out the movement"), or is rejected."""
 
     whole_text: Literal["six", "all"] = "six"
-    """A whole num in the standard format: 6 significant digits (S4 datasys 3-ValToStr-1), or all of
-    them up to 16777215, as the check sums of Keyence's CV-X modules need it."""
+    """A whole num in the standard format: 6 significant digits (S4 datasys 3-ValToStr-1), or all
+    digits up to 16777215, which check sums of Keyence's CV-X modules require."""
 
     argument_error: Literal["recoverable", "fatal"] = "recoverable"
-    """An argument that a built-in refuses is ERR_ARGVALERR, which a handler gets: the later manuals
-    have the name, which built-ins raise it is remembered [mem]. `fatal`: no handler gets it."""
+    """An invalid argument of a built-in raises ERR_ARGVALERR, which a handler receives: later
+    manuals contain the name; which built-ins raise it is remembered [mem]. `fatal`: no handler
+    receives it."""
 
     undo_error: Literal["stop", "ignore"] = "stop"
-    """An error in an UNDO handler stops the task and leaves out the other ones, or ends that
+    """An error in an UNDO handler stops the task and skips the other UNDO handlers, or ends that
     handler only, with a message [mem]. K is silent."""
 
     event_stops: bool = False
-    """Stop in an event routine brings the STOP routines, too [mem]."""
+    """A Stop in an event routine also runs the STOP routines [mem]."""
 
     interrupts_limited: bool = True
     """A task may have 100 connected interrupts, then ERR_INOMAX [mem]. False: any number [K §8]."""
 
     shortest_timer: Literal["limited", "any"] = "limited"
-    """ITimer below 0.1 s, with \\Single below 0.01 s, is an error [mem], or is allowed (S4 datasys
+    """ITimer below 0.1 s, with \\Single below 0.01 s, is an error [mem], or permitted (S4 datasys
     2-ITimer names no limit)."""
 
     signal_times: Literal["irc5", "s4"] = "irc5"
     """\\SDelay and \\PLength: 0.001 to 2000 s [mem], or 0.1 to 32 s (S4 datasys 2-SetDO-1)."""
 
     bit_order: Literal["lowest", "highest"] = "lowest"
-    """Which bit of a group signal the first number of its DeviceMap is [mem]."""
+    """Meaning of the first number in the DeviceMap of a group signal: its lowest or highest bit
+    [mem]."""
 
     list_number: Literal["zero", "one"] = "zero"
     """\\ListNo of ReadCfgData counts from 0, and -1 follows the last [mem], or from 1, and 0
     follows."""
 
     queue_timeout: bool = True
-    """RMQSendWait without \\TimeOut gives up after 60 s [mem]. False: it waits for ever, as
+    """RMQSendWait without \\TimeOut ends after 60 s [mem]. False: it waits without limit, as
     RMQReadWait does."""
 
     egm_timeout: Literal["second", "explicit", "never"] = "second"
-    """After which silence of an EGM partner EGMRunJoint raises ERR_UDPUC_COMM: after \\CommTimeout
-    and, without it, after 1 s (as one of ABB's engineers recalls; the manual is silent), after
-    \\CommTimeout alone, or never (a GoFa with RobotWare 7.21 stayed for 2 min with 5 s told)."""
+    """Time without an EGM partner after which EGMRunJoint raises ERR_UDPUC_COMM: \\CommTimeout, by
+    default 1 s (an engineer of ABB recalls it; the manual is silent); only an explicit
+    \\CommTimeout; or never (a GoFa with RobotWare 7.21 waited for 2 min with 5 s)."""
 
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
     stationary_zones: Literal["power_on", "anywhere"] = "power_on"
-    """Where stationary world zones may be defined: in event routines of POWER ON [manual
-    3HAC050917], or in any routine, for programs that are tried without their event routines."""
+    """Stationary world zones may be defined in event routines of POWER ON [manual 3HAC050917], or
+    in any routine, for programs tested without their event routines."""
 
     hands_calibrated: bool = False
-    """Whether the hands of a YuMi are calibrated when the controller is switched on [HandDriver.sys
-    asks for it]. True: as if a program before had done it."""
+    """True: the hands of a YuMi are calibrated at power-up, as after an earlier program. False:
+    they are not [HandDriver.sys checks it]."""
 
     no_configuration: Literal["limit", "reach", "stop"] = "limit"
-    """CalcJointT of a configuration that the place has not: ERR_ROBLIMIT, as an axis would have to
-    be where it cannot be [manual], ERR_OUTSIDE_REACH, or the task stops as with a move."""
+    """CalcJointT of a configuration that is impossible at the place: ERR_ROBLIMIT, because an axis
+    would be outside its range [manual], ERR_OUTSIDE_REACH, or the task stops as with a move."""
 
     delimiters: Literal["added", "alone"] = "added"
-    """The \\Delim of ReadStr comes in addition to the line feed, as with ReadNum [mem], or in its
-    place."""
+    """\\Delim of ReadStr adds to the line feed, as in ReadNum [mem], or replaces it."""
 
     byte_to_str: Literal["character", "code"] = "character"
-    """ByteToStr \\Char of a code that cannot be shown: the character itself (open_abb's servers
-    end their lines so), or three characters such as `\\07` (S4 datasys 3-ByteToStr by its word)."""
+    """ByteToStr \\Char of a non-printable code: the character itself (open_abb's servers end their
+    lines with it), or three characters such as `\\07` (S4 datasys 3-ByteToStr, literally)."""
 
 
 NOT_THE_DRIVERS = frozenset(
@@ -219,11 +221,11 @@ NOT_THE_DRIVERS = frozenset(
         "no_configuration",
     }
 )
-"""Switches that no generated driver can notice: it does nothing that they are about."""
+"""Switches without an effect on generated drivers."""
 
 
 def parse_switches(text: str) -> Switches:
-    """Switches from `name=value,...`. ValueError: unknown switch or value."""
+    """Parse `name=value,...`. ValueError: unknown switch or value."""
     chosen: dict[str, object] = {}
     known = {f.name: f for f in fields(Switches)}
     for part in filter(None, (p.strip() for p in text.split(","))):

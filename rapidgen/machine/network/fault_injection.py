@@ -84,7 +84,7 @@ class _Lane:
         self._rules = [replace(rule, after=self._taken + rule.after) for rule in rules]
 
     def half_open(self) -> bool:
-        """True if the program does not see the end of the connection."""
+        """Return True if the program does not see the connection's end."""
         return any(r.do == "half-open" and self._taken >= r.after for r in self._rules)
 
     def put(self, data: bytes) -> None:

@@ -78,7 +78,7 @@ class SocketTable:
 
     @property
     def in_use(self) -> Mapping[SocketDevice, str]:
-        """Return sockets and the tasks that use them."""
+        """Used sockets and their tasks."""
         return MappingProxyType(self._owners)
 
     def cut(self, device: SocketDevice) -> None:

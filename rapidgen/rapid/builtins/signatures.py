@@ -1,29 +1,29 @@
 """Every built-in routine, type, constant and datum, as data.
 
-`builtins/*.rapid` hold them in RAPID's own declaration syntax and this module reads them with
-the parser, on demand and once. Sources: 3HAC050917 (RobotWare 6) for the arguments, [K §11-12]
-for what belongs to the language, public code for names.
+`builtins/*.rapid` contain them in RAPID's declaration syntax; this module reads them with the
+parser, on demand and once. Sources: 3HAC050917 (RobotWare 6) for the arguments, [K §11-12] for
+parts of the language, public code for names.
 
-Marks behind a header say what its parameters do not:
+Marks after a header add to its parameters:
 
     !since 6.10  !until 7.0   RobotWare versions that have it: from the first, before the second
-    !came 7.0 UTF8Encoding    this argument came with that version, ...
-    !went 7.0 ASCII           ... or went with it
-    !open                     the name is certain, its arguments are not well enough to check them
-    !ends                     it never comes back
-    !steps                    it changes the number in its first argument, where that stands
-    !inline                   so small, or so much about the program itself, that it becomes code
-    !inplace                  looks at its arguments where they stand: needs no reference to them
-    !whole                    gives a whole number from 0
-    !lazy Cond                looks at this argument again and again, not at its first value
-    !index FromIndex          the place of a byte in raw data
+    !came 7.0 UTF8Encoding    that version added the argument
+    !went 7.0 ASCII           that version removed the argument
+    !open                     the name is certain, the arguments are too uncertain for a check
+    !ends                     it never returns
+    !steps                    it changes the number in its first argument in place
+    !inline                   the compiler emits code for it: small, or about the program itself
+    !inplace                  it uses its arguments in place, without references
+    !whole                    it returns a whole number from 0
+    !lazy Cond                it evaluates this argument repeatedly
+    !index FromIndex          the index of a byte in raw data
 
-and lines beside declarations: `!readonly ERRNO` names data that a program cannot write, `!writable
-vmax` constants that it can, `!newer accdata finepramp` the last components of a record, which are
-missing in values of older releases, `!partly partdata` a record some of whose components have names
-of ours, because the real ones are not public. Alternatives of *required* parameters (`VAR signaldi
-Signal | PERS bool PersBool`) exist in built-ins only, and so does an optional one in place of a
-required one (`string Message | \\string MsgArray{*}`).
+Lines next to declarations: `!readonly ERRNO` names data that a program cannot write, `!writable
+vmax` constants that it can. `!newer accdata finepramp` names the last components of a record, which
+values of older releases do not have. `!partly partdata` names a record with substitute names for
+components that are not public. Only built-ins have alternatives of *required* parameters (`VAR
+signaldi Signal | PERS bool PersBool`), or an optional one in place of a required one (`string
+Message | \\string MsgArray{*}`).
 """
 
 import re

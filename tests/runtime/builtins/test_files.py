@@ -109,7 +109,7 @@ def test_dots_inside_a_disk_and_names_without_case(bench, disk):
 
 
 def test_a_full_disk(bench, monkeypatch):
-    bench.controller.files._room = 10
+    bench.controller.files._free = 10
     device = IODevice()
     bench("Open", "a", device, Write=True)
     bench("Write", device, "12345")
