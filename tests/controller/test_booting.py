@@ -1,4 +1,4 @@
-"""Whatever a person brings is booted in one way, in the cell that is described or guessed."""
+"""Boot of any target, with a described or an inferred cell."""
 
 import pytest
 
@@ -273,7 +273,7 @@ def test_undeclared_plain_data_have_type_of_use(tmp_path):
         '  IF bReady OR nMode > 3 THEN\n   TPWrite stText + "x";\n  ENDIF\n'
         "  WHILE nCount < nMax DO\n   nCount := nCount + 1;\n  ENDWHILE\n"
         "  WaitDI Sensor, 1;\n"
-        '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := unheard;\n'
+        '  FOR i FROM 1 TO nParts DO\n   TPWrite "part";\n  ENDFOR\n  x{3} := undeclared;\n'
         " ENDPROC\nENDMODULE\n"
     )
     result = load_target([path], BootOptions(cell="infer", robot="irb1600"))
@@ -293,7 +293,7 @@ def test_undeclared_plain_data_have_type_of_use(tmp_path):
         "nParts": "num",
         "Sensor": "signaldi",
     }
-    assert [one.name for one in result.guessed.unknown] == ["unheard"]
+    assert [one.name for one in result.guessed.unknown] == ["undeclared"]
     with VirtualController.boot(result, cycle="once") as controller:
         start = controller.positions()
         controller.run(max_time=20)
@@ -357,7 +357,7 @@ def test_an_arm_angle_guesses_the_robot_with_seven_axes(eax_a, robot, tmp_path):
 
 
 def test_loose_files_run_on_given_release(program, cell):
-    """An OmniCore before anybody came: its tasks, its robot, its firewall (backups of 7.5, 7.6)."""
+    """An OmniCore as delivered: tasks, robot, firewall (backups of 7.5, 7.6)."""
     result = load_target([program], BootOptions(robotware=(7, 6), cell=cell))
     assert result.system.robotware == (7, 6)
     assert result.cfg.tasks == {"t_rob1"}

@@ -1,4 +1,4 @@
-"""Cameras answer by the description of a cell, and one made up in a guessed cell."""
+"""Cameras with described results, and inferred cameras."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What a configuration leaves to the customer is there when its driver is booted."""
+"""Objects of the customer exist when a driver is booted."""
 
 from dataclasses import replace
 

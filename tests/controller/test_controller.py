@@ -146,7 +146,7 @@ def test_trust_levels(trust: str, normal: str, startable: bool) -> None:
 
 @pytest.mark.parametrize("trust", ["SysHalt", "SysFail"])
 def test_system_halt_leaves_motors_off(trust: str) -> None:
-    """[S4 overview 4-45]: what was allowed before is refused, and the outputs say so."""
+    """[S4 overview 4-45]: the outputs report it, and actions are rejected."""
     spec = {"T2": {"type": "STATIC", "trust": trust}}
     signals, outputs = (SignalSpec("doMotors", "DO"),), (SystemOutput("MotorOn", "doMotors"),)
     halting = replace(system({"T1": COUNT, "T2": FAULT}, signals=signals, **spec), outputs=outputs)
@@ -254,7 +254,10 @@ def task(name: str, *bodies: str) -> TaskSpec:
 
 
 def test_two_entry_routines_are_in_the_way_of_their_task_only() -> None:
-    """RobotWare 7.21: "Global routine name main ambiguous", only when that task is started."""
+    """RobotWare 7.21: "Global routine name main ambiguous".
+
+    The error occurs only at the start of that task.
+    """
     main = 'PROC main()\nTPWrite "main";\nENDPROC'
     system = System("s", (task("T1", main, main), task("T2", main)))
     with VirtualController(system, autostart=False, cycle="once") as controller:
@@ -277,7 +280,7 @@ def test_a_backup_without_an_entry_routine_boots() -> None:
 
 
 def test_missing_routine_is_reported_and_stops_task() -> None:
-    controller, printed = boot('PROC main()\n TPWrite "x";\n FCRefStart;\n nobody;\nENDPROC')
+    controller, printed = boot('PROC main()\n TPWrite "x";\n FCRefStart;\n missing;\nENDPROC')
     with controller:
         assert {d.code for d in controller.diagnostics} == {"RG403", "RG404"}
         controller.start_program()

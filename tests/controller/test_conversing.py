@@ -1,4 +1,4 @@
-"""At the sockets of a guessed cell somebody is made up who says what the program listens for."""
+"""Socket peers of an inferred cell send the expected messages."""
 
 import pytest
 
@@ -9,7 +9,7 @@ from rapidgen.controller.runner import run_past_stops
 SERVER = """MODULE server
  VAR socketdev s;
  VAR socketdev c;
- VAR string said;
+ VAR string reply;
  VAR num code;
  VAR bool ok;
  PROC main()
@@ -17,10 +17,10 @@ SERVER = """MODULE server
   SocketBind s, "192.168.125.1", 5000;
   SocketListen s;
   SocketAccept s, c;
-  WHILE said <> "quit" DO
-   SocketReceive c \\Str:=said;
-   ok := StrToVal(StrPart(said, 1, 1), code);
-   IF StrPart(said, 1, 1) = "G" TPWrite "go";
+  WHILE reply <> "quit" DO
+   SocketReceive c \\Str:=reply;
+   ok := StrToVal(StrPart(reply, 1, 1), code);
+   IF StrPart(reply, 1, 1) = "G" TPWrite "go";
    IF ok THEN
     TEST code
     CASE 7:
@@ -38,16 +38,16 @@ ENDMODULE
 """
 CLIENT = """MODULE client
  VAR socketdev s;
- VAR string said;
+ VAR string reply;
  PROC main()
   SocketCreate s;
   SocketConnect s, "10.0.0.7", 4000;
   SocketSend s \\Str:="where";
-  SocketReceive s \\Str:=said \\ReadNoOfBytes:=12;
-  TPWrite "got " + ValToStr(StrLen(said));
-  SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
-  SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
-  SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
+  SocketReceive s \\Str:=reply \\ReadNoOfBytes:=12;
+  TPWrite "got " + ValToStr(StrLen(reply));
+  SocketReceive s \\Str:=reply \\Time:=WAIT_MAX;
+  SocketReceive s \\Str:=reply \\Time:=WAIT_MAX;
+  SocketReceive s \\Str:=reply \\Time:=WAIT_MAX;
  ENDPROC
 ENDMODULE
 """
@@ -77,7 +77,7 @@ COUNTING = """MODULE counting
  CONST num MOVE := 3;
  VAR socketdev s;
  VAR socketdev c;
- VAR string said;
+ VAR string reply;
  VAR num code;
  VAR num params{10};
  VAR num n;
@@ -87,7 +87,7 @@ COUNTING = """MODULE counting
   SocketListen s;
   SocketAccept s, c;
   WHILE code <> 99 DO
-   SocketReceive c \\Str:=said;
+   SocketReceive c \\Str:=reply;
    cut;
    TEST code
    CASE MOVE:
@@ -109,10 +109,10 @@ COUNTING = """MODULE counting
   VAR num found;
   VAR bool ok;
   n := -1;
-  IF StrPart(said, StrLen(said), 1) <> "#" RETURN;
-  WHILE at < StrLen(said) DO
-   next := StrFind(said, at, " ");
-   ok := StrToVal(StrPart(said, at, next - at), found);
+  IF StrPart(reply, StrLen(reply), 1) <> "#" RETURN;
+  WHILE at < StrLen(reply) DO
+   next := StrFind(reply, at, " ");
+   ok := StrToVal(StrPart(reply, at, next - at), found);
    n := n + 1;
    IF n = 0 THEN
     code := found;
@@ -187,7 +187,7 @@ ENDMODULE
 
 
 def test_server_receives_binary_lengths_and_tested_numbers(tmp_path):
-    """Length first, in the order of bytes that the program unpacks [S4 UnpackRawBytes]."""
+    """Length first, in the byte order of the program [S4 UnpackRawBytes]."""
     finished, displayed, where, controller = run(tmp_path, BINARY, cell="infer")
     assert displayed[:4] == ["begin", "between", "end 0", "unknown"]
     assert (finished, "waits for bytes" in where[0]) == ("deadlock", True)
@@ -197,7 +197,7 @@ def test_server_receives_binary_lengths_and_tested_numbers(tmp_path):
 
 FIELDS = """MODULE fields
  VAR socketdev s;
- VAR string said;
+ VAR string reply;
  VAR num a;
  VAR num b;
  VAR num x;
@@ -209,8 +209,8 @@ FIELDS = """MODULE fields
   SocketCreate s;
   SocketConnect s, "10.0.0.7", 4000;
   WHILE TRUE DO
-   SocketReceive s \\Str:=said \\Time:=WAIT_MAX;
-   IF StrPart(said, 1, 1) = "J" THEN
+   SocketReceive s \\Str:=reply \\Time:=WAIT_MAX;
+   IF StrPart(reply, 1, 1) = "J" THEN
     fixed;
    ELSE
     cut;
@@ -218,17 +218,17 @@ FIELDS = """MODULE fields
   ENDWHILE
  ENDPROC
  PROC cut()
-  a := StrFind(said, 1, ";");
-  b := StrFind(said, a + 1, ";");
-  ok := StrToVal(StrPart(said, 1, a - 1), x);
-  side := StrPart(said, a + 1, b - a - 1);
+  a := StrFind(reply, 1, ";");
+  b := StrFind(reply, a + 1, ";");
+  ok := StrToVal(StrPart(reply, 1, a - 1), x);
+  side := StrPart(reply, a + 1, b - a - 1);
   IF NOT ok OR x < 200 OR x > 300 RETURN;
   IF side = "left" TPWrite "left";
   IF side = "right" TPWrite "right";
  ENDPROC
  PROC fixed()
-  code := StrPart(said, 1, 1);
-  IF NOT StrToVal(StrPart(said, 3, 3), job) RETURN;
+  code := StrPart(reply, 1, 1);
+  IF NOT StrToVal(StrPart(reply, 3, 3), job) RETURN;
   IF code = "J" AND job = 12 TPWrite "twelve";
  ENDPROC
 ENDMODULE
@@ -249,10 +249,10 @@ def test_text_fields_have_compared_values(tmp_path):
 
 def test_awaited_client_of_two_sends(tmp_path):
     two = (
-        "MODULE two\n VAR socketdev s;\n VAR socketdev c;\n VAR socketdev d;\n VAR string said;\n"
+        "MODULE two\n VAR socketdev s;\n VAR socketdev c;\n VAR socketdev d;\n VAR string reply;\n"
         ' PROC main()\n  SocketCreate s;\n  SocketBind s, "127.0.0.1", 5000;\n'
         "  SocketListen s;\n  SocketAccept s, c;\n  SocketAccept s, d;\n"
-        '  SocketReceive d \\Str:=said;\n  IF said = "a" TPWrite said;\n ENDPROC\nENDMODULE\n'
+        '  SocketReceive d \\Str:=reply;\n  IF reply = "a" TPWrite reply;\n ENDPROC\nENDMODULE\n'
     )
     finished, displayed, _, _ = run(tmp_path, two, cell="infer")
     assert finished == "finished"
@@ -261,8 +261,8 @@ def test_awaited_client_of_two_sends(tmp_path):
 
 def test_copy_of_message_is_compared_without_error_texts(tmp_path):
     text = SERVER.replace(
-        '   IF StrPart(said, 1, 1) = "G" TPWrite "go";\n',
-        '   also := said;\n   IF also = "gate" AND ERRNO <> ERR_SOCK_TIMEOUT TPWrite "gate";\n',
+        '   IF StrPart(reply, 1, 1) = "G" TPWrite "go";\n',
+        '   also := reply;\n   IF also = "gate" AND ERRNO <> ERR_SOCK_TIMEOUT TPWrite "gate";\n',
     ).replace(" VAR bool ok;", " VAR bool ok;\n VAR string also;")
     _, displayed, _, controller = run(tmp_path, text, cell="infer")
     assert "gate" in displayed
@@ -279,8 +279,8 @@ def test_client_gets_answers_then_silence(tmp_path):
 def test_program_stopped_by_answer_restarts_with_next(tmp_path):
     path = tmp_path / "server.mod"
     path.write_text(
-        SERVER.replace('"quit"', '"long" AND said <> "short"').replace(
-            "   SocketSend c", "   TPWrite said + StrPart(said, 5, 1);\n   SocketSend c"
+        SERVER.replace('"quit"', '"long" AND reply <> "short"').replace(
+            "   SocketSend c", "   TPWrite reply + StrPart(reply, 5, 1);\n   SocketSend c"
         )
     )
     displayed: list[str] = []

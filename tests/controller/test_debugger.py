@@ -1,4 +1,4 @@
-"""Breakpoints, steps, stacks and values; all time stands while it is paused."""
+"""Breakpoints, steps, stacks and values; time stops during a pause."""
 
 import threading
 
@@ -162,13 +162,13 @@ def test_condition_and_log_point(boot):
 
 def test_faulty_condition_pauses_with_reason(boot):
     controller, debugger = boot()
-    debugger.add(Breakpoint("m", 10, condition="nobody > 3"))
+    debugger.add(Breakpoint("m", 10, condition="missing > 3"))
     controller.run_for(1.0)
-    assert "nobody is not known here" in debugger.halt.text
+    assert "missing is not known here" in debugger.halt.text
 
 
 def test_running_routine_stops_at_new_breakpoint(boot):
-    """main never returns: it goes on in other code, and nothing is executed twice."""
+    """main never returns: it continues in other code, without repetition."""
     controller, debugger = boot()
     controller.run_for(1.2)  # in the third WaitTime
     assert debugger.add(Breakpoint("m", 9)).doubt == ""
@@ -384,7 +384,7 @@ ENDMODULE
 
 @pytest.mark.parametrize("moment", [0.0001, 0.0004, 0.0007, 0.0011, 0.0016, 0.0023, 0.0031])
 def test_going_on_in_other_code_executes_nothing_twice(boot, moment):
-    """Wherever the program is when the first breakpoint comes, deep in loops and calls."""
+    """The first breakpoint may come anywhere, deep in loops and calls."""
     results = []
     for debugged in (False, True):
         controller, debugger = boot(NESTED, cycle="once")

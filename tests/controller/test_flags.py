@@ -1,4 +1,4 @@
-"""Data that a program waits for and nothing in it sets: in a guessed cell they are set in turn."""
+"""Polled data in an inferred cell are set in turn."""
 
 import pytest
 

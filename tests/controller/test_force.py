@@ -1,4 +1,4 @@
-"""Force control answers by the description of a cell, and a guessed cell measures nothing."""
+"""Force control with described readings; an inferred cell has none."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What a guess makes up beside signals and data: routines in no file, and places out of reach."""
+"""Inferred routines, and unreachable targets of inferred robots."""
 
 import pytest
 
@@ -42,7 +42,7 @@ def test_missing_routines_do_nothing_and_are_reported(tmp_path):
         controller.operator.subscribe(lambda _task, text: displayed.append(text))
         start = controller.positions()
         assert controller.run(max_time=20) == "finished"
-        assert displayed == ["x 5"], "a function gives 0, FALSE, and where the robot stands"
+        assert displayed == ["x 5"], "a function gives 0, FALSE, and the position of the robot"
         assert controller.positions() == pytest.approx(start, abs=1e-5)
 
 
@@ -82,7 +82,7 @@ ENDS = {
         "  MoveJ p, v100, fine, tool0;\n  TPWrite ValToStr(count);\n ENDPROC\n",
         "Statement cannot be executed",
     ),
-    "a size that nobody says is a constant, and as long as the initial value": (
+    "an undeclared size is a constant, and as long as the initial value": (
         " VAR num many{maxSources};\n VAR num few{maxParts} := [1,2,3];\n PROC main()\n"
         "  many{3} := few{3};\n  TPWrite ValToStr(Dim(few, 1));\n ENDPROC\n",
         "Statement cannot be executed",
@@ -112,7 +112,7 @@ ENDS = {
         "  MoveL p, v100, fine, grip \\WObj:=table;\n ENDPROC\n",
         "Tool and work object contradict",
     ),
-    "a unit that nobody describes carries its work objects": (
+    "an undescribed unit carries its work objects": (
         ' PERS wobjdata plate := [FALSE,FALSE,"STN1",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n'
         " VAR robtarget p;\n PROC main()\n  ActUnit STN1;\n  p := CRobT(\\WObj:=plate);\n"
         "  MoveL p, v100, fine, tool0 \\WObj:=plate;\n ENDPROC\n",
@@ -142,7 +142,7 @@ def test_a_program_ends_in_a_guessed_cell_alone(name, tmp_path):
 
 
 def test_undeclared_array_size_is_constant(tmp_path):
-    """As long as the initial value, if there is one; modules for picking leave it to others."""
+    """The size is that of an initial value, if there is one."""
     path = tmp_path / "sizes.mod"
     path.write_text(
         "MODULE sizes\n VAR num many{maxSources};\n VAR num few{maxParts} := [1,2,3];\n"

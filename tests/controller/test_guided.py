@@ -1,4 +1,4 @@
-"""Externally guided motion of a backup: whom a task waits for, and whom a controller knows."""
+"""Externally guided motion of a backup: partners and known devices."""
 
 import pytest
 

@@ -59,7 +59,7 @@ def boot(*mains: str, extra=(), shared=SHARED, **flags: bool):
 
 
 def test_data_of_a_shared_module_are_common_to_all_tasks() -> None:
-    """All but what is declared TASK, ERRNO, and the data of routines [K §2.18, 14.2]."""
+    """Except TASK data, ERRNO, and data of routines [K §2.18, 14.2]."""
     controller, printed = boot(
         "PROC main()\n count;\n WaitTime 1;\n TPWrite all();\nENDPROC",
         "PROC main()\n WaitTime 0.5;\n count;\n TPWrite all();\nENDPROC",
@@ -74,7 +74,7 @@ def test_data_of_a_shared_module_are_common_to_all_tasks() -> None:
 
 
 def test_files_and_clocks_are_common() -> None:
-    """It is the only way to share non-value data [K §14]."""
+    """This is the only way to share non-value data [K §14]."""
     controller, printed = boot(
         "PROC main()\n ClkStart watch;\n WaitTime 2;\nENDPROC",
         'PROC main()\n WaitTime 1;\n IF ClkRead(watch) > 0.9 TPWrite "runs";\nENDPROC',
@@ -174,7 +174,7 @@ def test_an_installed_module_cannot_use_data_of_the_program() -> None:
 
 
 def test_installed_modules_stay() -> None:
-    """EraseModule and Save are not for them [manual]; their code cannot be viewed [K §13]."""
+    """EraseModule and Save reject them [manual]; no view of code [K §13]."""
     controller, printed = boot(
         'PROC main()\n EraseModule "common";\n Save "common" \\FilePath:="HOME:/x.mod";\n'
         " TPWrite all();\nERROR\n TPWrite ValToStr(ERRNO = ERR_MODULE);\n TRYNEXT;\nENDPROC"

@@ -1,4 +1,4 @@
-"""Which robot moves which task: by mechanical unit, by name, by the type that a backup tells."""
+"""Robots of tasks: by mechanical unit, name, or type in a backup."""
 
 import pytest
 

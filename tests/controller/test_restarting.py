@@ -1,4 +1,4 @@
-"""A controller with a power switch: what was asked of it before a restart is done."""
+"""Restarts of a controller run functions posted before."""
 
 from rapidgen.controller.boot_targets import load_target
 from rapidgen.controller.runner import ControllerRunner
@@ -10,14 +10,14 @@ def test_posted_function_runs_before_restart(tmp_path):
     path = tmp_path / "m.mod"
     path.write_text(PROGRAM)
     done, in_use = [], []
-    with ControllerRunner.boot(load_target([path]), clock="real") as cabinet:
+    with ControllerRunner.boot(load_target([path]), clock="real") as runner:
 
         def restart_and_more():
-            cabinet.ask_restart()
-            in_use.append(cabinet.post(lambda: done.append(cabinet.restarts)))
+            runner.ask_restart()
+            in_use.append(runner.post(lambda: done.append(runner.restarts)))
 
-        cabinet.on_restart.append(lambda: in_use.append(cabinet.post(lambda: done.append(-1))))
-        cabinet.post(restart_and_more)
-        cabinet.run(lambda: cabinet.restarts == 1)
+        runner.on_restart.append(lambda: in_use.append(runner.post(lambda: done.append(-1))))
+        runner.post(restart_and_more)
+        runner.run(lambda: runner.restarts == 1)
     assert in_use == [True, False]
     assert done == [0]

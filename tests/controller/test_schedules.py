@@ -45,7 +45,7 @@ def test_a_seed_replays_exactly() -> None:
 
 @pytest.mark.parametrize("schedule", ["round-robin", "random"])
 def test_block_and_statement_accounting_tell_the_same_times(schedule: str) -> None:
-    """Three tasks, traps, locals and shared data: every store into a PERS at the same time."""
+    """Three tasks, traps, locals and shared data: equal times of stores."""
     busy = """
   PERS num n := 0;
   PERS num ticks := 0;

@@ -1,4 +1,4 @@
-"""I/O, faults, files, sockets and the control commands on a whole controller."""
+"""I/O, faults, files, sockets and control commands of a controller."""
 
 import pytest
 
@@ -122,7 +122,10 @@ def test_system_inputs_stop_and_start(cell):
 
 
 def test_pp_to_main_closes_sockets_and_files(cell):
-    """Sockets and files do not outlive PP to main [S4 overview 4-24]; so main can run again."""
+    """PP to main closes sockets and files, so that main can run again.
+
+    Source: [S4 overview 4-24].
+    """
     assert 5000 in cell.network.listeners
     cell.pp_to_main()
     cell.run_for(0.1)

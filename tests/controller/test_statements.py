@@ -1,4 +1,4 @@
-"""Who hears of statements, and for how long."""
+"""Tracers of statements, and the duration of tracing."""
 
 import pytest
 

@@ -79,8 +79,8 @@ def test_a_stopped_controller_is_started_again(files):
             controller.start()
             assert passed.wait(60)
             controller.stop()
-            stands = controller.now
-            assert controller.call(lambda: controller.now) == stands
+            stopped_at = controller.now
+            assert controller.call(lambda: controller.now) == stopped_at
         assert controller.task("T_ROB1").state == "running"
 
 
@@ -282,7 +282,10 @@ raise SystemExit(3)
 
 
 def test_unclosed_controller_ends_with_program():
-    """Else greenlets run in a thread while the interpreter goes: one of twenty crashed."""
+    """Without a close, greenlets ran in a thread at interpreter exit.
+
+    One of twenty runs crashed.
+    """
     done = subprocess.run([sys.executable, "-c", LEFT_OPEN], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (3, "threads []\n"), done.stderr
 
@@ -302,7 +305,7 @@ def test_endless_callback_does_not_block_exit(files, monkeypatch):
         try:
             assert held.wait(60)
             controller._thread._leave()
-            assert not controller._thread._stands.is_set()
+            assert not controller._thread._stopped.is_set()
         finally:
             finished.set()
             holder.join()

@@ -1,4 +1,4 @@
-"""Folders of others that are copied onto a disk: regular files, and no more than a limit."""
+"""Copies of foreign folders: regular files up to a limit."""
 
 import os
 from pathlib import Path

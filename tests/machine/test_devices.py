@@ -1,4 +1,4 @@
-"""Small devices by themselves: log, texts, calendar, cameras, force sensors, EGM, arc, costs."""
+"""Small devices: log, texts, calendar, cameras, force, EGM, arc, costs."""
 
 from datetime import datetime
 

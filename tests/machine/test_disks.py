@@ -1,4 +1,4 @@
-"""Disks of a controller: where a HOME comes from, how paths are read, what stays behind."""
+"""Disks of a controller: source of HOME, paths, remains."""
 
 import os
 

@@ -1,4 +1,4 @@
-"""Rules of what goes wrong with connections, each alone, on a network in memory."""
+"""Rules of network faults, one at a time, on a network in memory."""
 
 import pytest
 
@@ -31,7 +31,7 @@ class Net(FaultyNetwork):
     def wait(self, time):
         self.scheduler.advance(self.scheduler.now + time + 1)
 
-    def heard(self, endpoint, network=None):
+    def pieces_at(self, endpoint, network=None):
         """Pieces as they came, with their times in ms from now."""
         network, began, pieces = network or self, self.scheduler.now, []
 
@@ -74,7 +74,7 @@ def test_rules_concern_a_port_and_a_connection():
 def test_split_affects_given_direction_only():
     net = Net(NetworkRule("split", direction="in", bytes=2, seconds=0.001, after=1))
     program, client = net.pair()
-    pieces, other = net.heard(program), net.heard(client, net.plain)
+    pieces, other = net.pieces_at(program), net.pieces_at(client, net.plain)
     net.plain.send(client, b"abcde")
     net.send(program, b"fghij")
     net.settle()
@@ -86,7 +86,7 @@ def test_slow_in_the_other_direction():
     net = Net(NetworkRule("slow", direction="out", bytes=100))
     program, client = net.pair()
     net.wait(S)
-    pieces = net.heard(client, net.plain)
+    pieces = net.pieces_at(client, net.plain)
     net.send(program, bytes(25))
     net.settle()
     assert [(t, len(p)) for t, p in pieces] == [(0.1, 10), (100.1, 10), (200.1, 5)]
@@ -96,7 +96,7 @@ def test_slower_than_ten_bytes_a_second():
     net = Net(NetworkRule("slow", direction="out", bytes=5))
     program, client = net.pair()
     net.wait(S)
-    pieces = net.heard(client, net.plain)
+    pieces = net.pieces_at(client, net.plain)
     net.send(program, bytes(2))
     net.settle()
     assert [(t, len(p)) for t, p in pieces] == [(0.1, 1), (200.1, 1)]
@@ -105,7 +105,7 @@ def test_slower_than_ten_bytes_a_second():
 def test_delayed_bytes_keep_their_order():
     net = Net(NetworkRule("delay", seconds=0.5))
     program, client = net.pair()
-    pieces = net.heard(client, net.plain)
+    pieces = net.pieces_at(client, net.plain)
     net.send(program, b"ab")
     net.wait(100 * MS)
     net.send(program, b"c")
@@ -117,7 +117,7 @@ def test_merged_bytes_come_at_the_end_of_a_stretch():
     net = Net(NetworkRule("merge", direction="in", seconds=0.2))
     program, client = net.pair()
     net.scheduler.advance(round(1.05 * S))
-    pieces = net.heard(program)
+    pieces = net.pieces_at(program)
     for _ in range(2):
         net.plain.send(client, b"a")
         net.wait(60 * MS)
@@ -200,7 +200,7 @@ def test_the_other_end_s_reset_is_seen():
 def test_close_sends_waiting_bytes(abort):
     net = Net(NetworkRule("delay", seconds=0.5, direction="out"))
     program, client = net.pair()
-    pieces = net.heard(client, net.plain) if not abort else []
+    pieces = net.pieces_at(client, net.plain) if not abort else []
     net.send(program, b"last")
     net.close(program, abort=abort)
     net.settle()
@@ -217,7 +217,7 @@ def test_buffer_size_is_that_of_a_connection():
     assert net.send(program, b"x") == 0
     net.settle()
     assert net.send(program, b"xy") == 2
-    pieces = net.heard(client, net.plain)
+    pieces = net.pieces_at(client, net.plain)
     net.settle()
     assert sum(len(p) for _, p in pieces) == BUFFER + 2
     net.plain.send(client, bytes(BUFFER))
@@ -280,7 +280,7 @@ def test_each_direction_passes_at_separate_times(into, out):
     )
     program, client = net.pair()
     net.wait(S)
-    received, seen = net.heard(program), net.heard(client, net.plain)
+    received, seen = net.pieces_at(program), net.pieces_at(client, net.plain)
     net.plain.send(client, b"into")
     net.wait(LATENCY)
     net.send(program, b"out")
@@ -368,7 +368,7 @@ def test_rules_apply_to_their_bytes(rules, pieces):
     net = Net(*made)
     program, client = net.pair()
     net.wait(10 * S)
-    received = net.heard(client, net.plain)
+    received = net.pieces_at(client, net.plain)
     assert net.send(program, b"abcd") == 4
     net.settle()
     assert received == pieces

@@ -14,7 +14,7 @@ PORT = 11000
 
 
 class Net(MemoryNetwork):
-    """With its scheduler, a listener at PORT, and connections that are there at once."""
+    """A network with its scheduler, a listener at PORT, and connections."""
 
     def __init__(self):
         self.scheduler = Scheduler()
@@ -253,7 +253,7 @@ def test_datagrams(net):
     other.changed.add(lambda: report.append(1))
     assert net.receive(other, 10) is None
     assert net.send(one, b"hello", (HOST, 8)) == 5
-    assert net.send(one, b"nobody", (HOST, 9)) == 6
+    assert net.send(one, b"unread", (HOST, 9)) == 6
     assert net.send(one, b"second", (HOST, 8)) == 6
     assert net.receive(other, 10) is None
     net.settle()

@@ -19,14 +19,14 @@ def asked(operator, text="How many parts?", task="T_ROB1", dialog="TPReadNum"):
 
 
 def test_texts_are_split_on_screen_and_reported_whole():
-    operator, told = Operator(Scheduler()), []
-    end = operator.subscribe(lambda *text: told.append(text))
+    operator, texts = Operator(Scheduler()), []
+    end = operator.subscribe(lambda *text: texts.append(text))
     operator.write("T_ROB1", "x" * ROW + "y")
     operator.write("T_ROB1", "")
     assert list(operator.rows) == ["x" * ROW, "y", ""]
     end()
     operator.write("T_ROB1", "more")
-    assert told == [("T_ROB1", "x" * ROW + "y"), ("T_ROB1", "")]
+    assert texts == [("T_ROB1", "x" * ROW + "y"), ("T_ROB1", "")]
     for _ in range(ROWS + 1):
         operator.show("z")
     assert list(operator.rows) == ["z"] * ROWS
@@ -126,7 +126,7 @@ def test_a_file_of_answers(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("answer: 1", "it holds no list"),
         ("- 1\n- {answer: 1, more: 2}", "entry 2: unknown key 'more'"),
@@ -138,11 +138,11 @@ def test_a_file_of_answers(tmp_path):
         (None, "No such file"),
     ],
 )
-def test_invalid_answer_file_is_rejected(tmp_path, text, said):
+def test_invalid_answer_file_is_rejected(tmp_path, text, message):
     file = tmp_path / "answers.yaml"
     if text is not None:
         file.write_bytes(text.encode("utf-8", "surrogateescape"))
     (result,) = refusal(read_answers, file).diagnostics
     assert result.code == "RG420"
-    assert said in result.message
+    assert message in result.message
     assert result.span.path == str(file)

@@ -1,4 +1,4 @@
-"""What other threads post to a real clock is done when it comes."""
+"""Functions posted by other threads to a real clock run at once."""
 
 import selectors
 
@@ -24,7 +24,7 @@ def test_post_during_selector_creation_runs(monkeypatch):
 def test_posting_to_a_full_pipe_neither_fails_nor_loses_anything():
     scheduler, came = Scheduler(clock="real", speed=60), []
     assert scheduler.selector
-    # More than a pipe holds, 65,536 bytes on Linux, and nobody reads it meanwhile.
+    # More than a pipe can store, 65,536 bytes on Linux, without a reader.
     for number in range(70_000):
         scheduler.post(lambda number=number: came.append(number))
     assert scheduler.advance(MINUTE, lambda: len(came) == 70_000) == "stop"

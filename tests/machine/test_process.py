@@ -1,4 +1,4 @@
-"""One process by itself or two: waits, kicks, turns; and a clock that is paused or closed."""
+"""One or two processes: waits, wake-ups, turns; paused, closed clocks."""
 
 import threading
 

@@ -205,7 +205,7 @@ def test_highest_priority_runs_until_lost() -> None:
     undisturbed = _who_runs([])
     assert len({undisturbed[n : n + 4] for n in (0, 4, 8)}) == 3
     first, second, third = undisturbed[0], undisturbed[4], undisturbed[8]
-    # At the second access whoever runs becomes the last of all.
+    # At the second access the running process becomes the last of all.
     assert _who_runs([2]) == first * 2 + second * 4 + third * 4 + first * 2
     assert _who_runs([2, 3]) == first * 2 + second + third * 4 + first * 2 + second * 3
 
@@ -243,7 +243,7 @@ def test_pace_0_stops_time_until_next_pace() -> None:
 
 
 def test_a_thread_may_end_while_its_scheduler_is_collected() -> None:
-    """greenlet 3.5.6 gave the thread's own greenlet away, and the process crashed."""
+    """greenlet 3.5.6 freed the thread's own greenlet, and crashed."""
     program = """if True:
         import gc, threading
         from rapidgen.machine.process import Process

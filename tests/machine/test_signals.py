@@ -1,4 +1,4 @@
-"""Signals by themselves: what fits, delays, pulses, shared bits, cross connections, statuses."""
+"""Signals: values, delays, pulses, shared bits, cross connections."""
 
 import math
 
@@ -282,7 +282,7 @@ def test_system_input_acts_on_both_edges():
         *digital("di", kind="DI"),
         inputs=(SystemInput("Start", "DI", "CYCLE"), SystemInput("Stop", "gone")),
     )
-    board.put("di", 1)  # nobody is there to be told
+    board.put("di", 1)  # no listener exists
     board.put("di", 0)
     report = []
     board.on_action = lambda *action: report.append(action)
@@ -304,12 +304,12 @@ def test_a_status_drives_its_outputs():
             SystemOutput("MechUnitNotMoving", "all"),
             SystemOutput("MechUnitActive", "whole", unit="ROB_1"),
             SystemOutput("TCPSpeed", "speed"),
-            SystemOutput("Unheard", "any"),
+            SystemOutput("Unknown", "any"),
             SystemOutput("AutoOn", "gone"),
         ),
     )
     assert [(e.code, e.texts) for e in board.log] == [
-        (71_101, ("Unheard", "signal any")),
+        (71_101, ("Unknown", "signal any")),
         (71_102, ("system output AutoOn names 'gone'",)),
     ]
     board.report("TaskExecuting", 1, "T_ROB2")

@@ -1,4 +1,4 @@
-"""The hand of a YuMi: what stops its fingers, and how a driver in RAPID talks to it by signals."""
+"""Hand of a YuMi: stops of its fingers, control by RAPID signals."""
 
 import pytest
 
@@ -95,7 +95,7 @@ def test_a_part_closes_the_cup(opened):
 
 
 def test_rapid_driver_moves_hand_by_signals():
-    """What HandDriver.sys does for Hand_MoveTo 15."""
+    """Sequence of HandDriver.sys for Hand_MoveTo 15."""
     cell = Cell(*SIGNALS)
     cell.set("CmdGripper", Command.CALIBRATE)
     assert (cell.get("StatusCalibrated"), cell.get("SysState")) == (1, HandState.COMPLETED)

@@ -1,4 +1,4 @@
-"""Sockets in use: whose they are, how many there may be, and what others are told of them."""
+"""Sockets in use: owners, maximum number, and notifications."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Sockets of the operating system behind the same methods, on loopback and free ports."""
+"""Sockets of the operating system, on loopback and free ports."""
 
 import socket
 
@@ -20,7 +20,7 @@ class Net(SystemNetwork):
         super().__init__(self.scheduler, ports="auto")
 
     def until(self, result):
-        """What `result` gives as soon as it gives something."""
+        """Return the first result of `result` that is not None."""
         seen = []
 
         def look():

@@ -1,4 +1,4 @@
-"""What ReadCfgData finds on a controller that is made of a configuration."""
+"""ReadCfgData on a controller made of a configuration."""
 
 from dataclasses import replace
 

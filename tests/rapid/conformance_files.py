@@ -27,7 +27,7 @@ _ARROW = re.compile(r"! -> ((?:RG\d{3}[?~]? ?)+)$")
 
 @dataclass(frozen=True, eq=False)
 class Conformance:
-    """One program, and what it says about itself."""
+    """A program and its declared findings."""
 
     program: Program
     head: dict[str, str]
@@ -49,7 +49,7 @@ class Conformance:
         return self.name.split("/")[0]
 
     def findings(self) -> list[Diagnostic]:
-        """What the checker says."""
+        """Findings of the checker."""
         major, minor = map(int, self.head.get("robotware", "6.0").split("."))
         name = f"{self.program.name}.mod"
         if self.head.get("given") != "system":
@@ -61,7 +61,10 @@ class Conformance:
         return check(System("demo", (TaskSpec("T_ROB1", modules=(file,)),)))
 
     def found(self) -> Counter[tuple[int, str]]:
-        """(line, code) of each finding; a warning's has a `?` behind it, a note's a `~`."""
+        """Return (line, code) of each finding.
+
+        The code of a warning ends in `?`, that of a note in `~`.
+        """
         marks = {Severity.ERROR: "", Severity.WARNING: "?", Severity.INFO: "~"}
         return Counter(
             (d.span.line if d.span else 0, d.code + marks[d.severity]) for d in self.findings()

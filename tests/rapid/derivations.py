@@ -1,4 +1,4 @@
-"""Texts that the second grammar derives, at random: every rule of it, to a bounded depth."""
+"""Random texts of the second grammar: every rule, to a bounded depth."""
 
 from collections import defaultdict
 

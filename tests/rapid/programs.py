@@ -1,4 +1,4 @@
-"""Made-up modules that derive, from a seed: every construct, with gaps of all kinds."""
+"""Random modules from a seed: every construct, with all kinds of gaps."""
 
 import random
 

@@ -1,4 +1,4 @@
-"""Binding: what names, constants, types and arguments mean, and what stands at a place."""
+"""Binding: names, constants, types, arguments, and symbols at a place."""
 
 import pytest
 
@@ -170,7 +170,7 @@ def test_values_before_the_run(text, kind, value):
     ("text", "why"),
     [
         ("v", "v is no constant"),
-        ("nobody", "nobody is not known"),
+        ("missing", "missing is not known"),
         ("loop_a", "loop_a has no value that is known"),
         ("Abs(n)", "this is no constant expression"),
         ("1 / 0", "this cannot be evaluated (division by zero)"),
@@ -293,7 +293,7 @@ def test_arguments_are_matched(call, pairs, misfits, missing):
 
 
 @pytest.mark.parametrize(
-    ("value", "name"), [("n", "Name"), ("d", "Dname"), ("1", "Name"), ("nobody", "Name")]
+    ("value", "name"), [("n", "Name"), ("d", "Dname"), ("1", "Name"), ("missing", "Name")]
 )
 def test_required_alternatives_go_by_the_type(value, name):
     assert matched(f"VAR num n;\nVAR dnum d;\nIncr {value};") == ([name], [], [])

@@ -182,7 +182,7 @@ def test_unused_local_routines_are_reported():
     ],
 )
 def test_written_datum_is_unused_unless_partly_written(local, data, written, is_unused):
-    """A write to an element or a component leaves the rest as it was: the datum counts as used."""
+    """A write to a part keeps the rest, so the datum counts as used."""
     expected = ["RG324"] if is_unused else []
     if local:
         assert codes(written, "LOCAL " + data.replace("{also}", "LOCAL ")) == expected

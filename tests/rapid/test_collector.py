@@ -1,4 +1,4 @@
-"""Parsing keeps the collector away from trees that grow, not from what is garbage."""
+"""Parsing suspends the collector for growing trees, not for garbage."""
 
 import gc
 import weakref

@@ -1,4 +1,7 @@
-"""Every conformance program gives just what it announces; see conformance_files.py."""
+"""Conformance programs give exactly their declared findings.
+
+See conformance_files.py.
+"""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What is unknown is judged by what was given: a file, a folder, a task, a system."""
+"""Unknown names depend on the input: a file, folder, task or system."""
 
 import pytest
 
@@ -96,7 +96,7 @@ def test_siblings_of_a_slip_are_no_slips():
 
 
 def test_a_folder_may_lack_a_module():
-    """Of 59 errors in folders of public programs 34 were about names that something else had."""
+    """Public folders: 34 of 59 errors were names of missing modules."""
     one = parse(module("a", "Helper;\nHelpr;\nIF di_ready = 1 TPErase;"), path="a.mod")
     two = parse("MODULE b\nPROC Helper()\nENDPROC\nENDMODULE\n", path="b.mod")
     assert found([one, two]) == [("warning", "RG301"), ("info", "RG302")]
@@ -120,7 +120,10 @@ def test_differing_objects_of_tasks_are_not_checked():
 
 @pytest.mark.parametrize("body", ["WaitDI SENSOR, 1;", "n := Sensor + 1;", "WaitUntil pose = 1;"])
 def test_a_signal_may_have_the_name_of_a_predefined_type(body):
-    """[code] A program for RobotStudio has an input SENSOR, which is no record there."""
+    """[code] A program for RobotStudio has an input SENSOR.
+
+    It is not a record there.
+    """
     assert found(module("a", body, "VAR num n;")) == [("info", "RG302")]
     complete = system(module("a", body, "VAR num n;"))
     assert "RG306" in {code for _, code in found(complete)}
@@ -231,7 +234,7 @@ def test_duplicate_module_gives_single_finding():
     ],
 )
 def test_a_task_starts_in_a_procedure_without_parameters(routine, expected):
-    """[K §9]: one task module holds the entry routine, which has no parameters."""
+    """[K §9]: one task module has the entry routine, without parameters."""
     assert sorted(found(system(f"MODULE a\n{routine}\nENDMODULE\n"))) == expected
 
 
@@ -274,9 +277,9 @@ def test_missing_routine_gives_arguments_the_type():
 
 def test_backup_without_exact_release_accepts_any_minor():
     text = module("a", "d := GInputDnum(gi1);\nd := 1;", "VAR dnum d;\nVAR signalgi gi1;")
-    told = system(text, robotware=(5, 7))
+    exact = system(text, robotware=(5, 7))
     some = system(text, robotware=(5, 0), is_robotware_known=False)
-    assert ("error", "RG325") in found(told)
+    assert ("error", "RG325") in found(exact)
     assert "error" not in {severity for severity, _ in found(some)}
 
 

@@ -1,4 +1,7 @@
-"""Conformance programs are red for defects: a sample; all in tools/conformance_mutants.py."""
+"""Conformance programs fail for defects: a sample.
+
+All are in tools/conformance_mutants.py.
+"""
 
 import gc
 import signal
@@ -50,7 +53,7 @@ def test_a_mutant_is_taken_back(kind):
 
 
 def busy(*seconds):
-    """A file that takes so much CPU time, trial by trial, and finds what it announces."""
+    """A file with given CPU times per trial and its declared findings."""
     left = list(seconds)
 
     def result():

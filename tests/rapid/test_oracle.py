@@ -1,4 +1,4 @@
-"""A second grammar, written from the kernel manual alone, accepts what the parser accepts."""
+"""A second grammar from the kernel manual agrees with the parser."""
 
 import random
 import re
@@ -51,7 +51,7 @@ def test_agrees_on_the_conformance_files(folder):
 
 
 def mutants(text, count, seed):
-    """Texts with a token left out, doubled, swapped with its neighbour or taken from elsewhere."""
+    """Texts with a token removed, doubled, swapped or replaced."""
     source = parse(text).source
     tokens = source.tokens
     chance = random.Random(seed)
@@ -82,7 +82,10 @@ def test_parser_agrees_with_oracle_on_changed_texts(seed):
 
 
 def too_deep(text):
-    """Whether the text is beyond the parser's limits, which the oracle has not."""
+    """Return True if a text exceeds the parser's limits.
+
+    The oracle has none.
+    """
     return any(d.code in ("RG210", "RG211") for d in parse(text).diagnostics)
 
 

@@ -1,4 +1,4 @@
-"""The examples of the diagnostics' own pages: the bad one gives the code, the good one nothing."""
+"""Examples of the diagnostics' pages: only the bad one gives the code."""
 
 import re
 

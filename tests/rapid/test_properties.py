@@ -1,4 +1,4 @@
-"""Properties of tokens, trees and formatted text, on made-up programs and on noise."""
+"""Properties of tokens, trees and formatted text on random input."""
 
 import random
 

@@ -1,4 +1,4 @@
-"""Several errors in one text: each is reported at its place, and one does not bring ten."""
+"""Several errors in one text: each at its place, without follow-ups."""
 
 import pytest
 
@@ -49,16 +49,16 @@ def test_nothing_can_be_taken_out_at_the_end_of_a_file():
 
 
 @pytest.mark.parametrize(
-    ("body", "mend"),
+    ("body", "help_text"),
     [
         ("IF a == 1 a := 2;", "compares with one `=`"),
         ("WHILE a == 1 DO\nENDWHILE", "compares with one `=`"),
         ("a += 1;", "RAPID has no `+=`: write a := a + ...;"),
         ("a++;", "Incr a;"),
         ("a--;", "Decr a;"),
-        ("// told", "a comment begins with `!`"),
-        ("/* told */", "a comment begins with `!`"),
-        ("# told", "a comment begins with `!`"),
+        ("// note", "a comment begins with `!`"),
+        ("/* note */", "a comment begins with `!`"),
+        ("# note", "a comment begins with `!`"),
         ("s := 'text';", "double quotes"),
         ("b := a && c;", "RAPID writes AND"),
         ("b := a || c;", "RAPID writes OR"),
@@ -67,8 +67,8 @@ def test_nothing_can_be_taken_out_at_the_end_of_a_file():
         ("IF a = 1 THEN\nELSE IF a = 2 THEN\nENDIF", "ELSEIF is one word"),
     ],
 )
-def test_foreign_syntax_has_rapid_help(body, mend):
-    assert any(mend in result.help for result in parse(routine(body)).diagnostics)
+def test_foreign_syntax_has_rapid_help(body, help_text):
+    assert any(help_text in result.help for result in parse(routine(body)).diagnostics)
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_other_syntax_error_has_general_help(body):
 
 
 @pytest.mark.parametrize(
-    ("body", "mend"),
+    ("body", "help_text"),
     [
         (
             "MoveL p1 v100, fine, tool0;",
@@ -97,9 +97,9 @@ def test_other_syntax_error_has_general_help(body):
         ("a := 1 b := 2;", "perhaps the one before has none"),
     ],
 )
-def test_missing_comma_differs_from_missing_semicolon(body, mend):
+def test_missing_comma_differs_from_missing_semicolon(body, help_text):
     (result,) = parse(routine(body)).diagnostics
-    assert mend in result.help
+    assert help_text in result.help
 
 
 @pytest.mark.parametrize(
@@ -275,7 +275,7 @@ def test_bad_input_gives_single_diagnostic(name):
 
 
 def test_truncated_module_gives_single_error():
-    """What is open at the end is told once, whatever the cut leaves behind."""
+    """Open blocks at the end are reported once, for any cut."""
     text = """MODULE m(SYSMODULE)
 RECORD r num x; ENDRECORD
 PERS r a := [1];

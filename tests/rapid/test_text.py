@@ -109,8 +109,8 @@ ENDMODULE
 def test_text_after_module_is_reported_and_preserved():
     text = "MODULE m\n  VAR num a;\nENDMODULE ! end\n\n  MoveL  p;\nendmodule\n"
     module = parse(text)
-    told = [(d.code, d.severity, d.span.line) for d in module.diagnostics]
-    assert told == [("RG217", Severity.WARNING, 5)]
+    findings = [(d.code, d.severity, d.span.line) for d in module.diagnostics]
+    assert findings == [("RG217", Severity.WARNING, 5)]
     assert module.source.tokens[module.last] == "ENDMODULE"
     formatted = format_source(text)
     assert formatted == "MODULE m\n    VAR num a;\nENDMODULE ! end\n\nMoveL  p;\nendmodule\n"
@@ -141,7 +141,7 @@ def test_stray_zero_byte_is_reported_at_its_place(count):
 
 
 def test_comments_have_indentation_of_their_block():
-    """[K §2.10]: behind the data they belong to the routines, or to the statements."""
+    """[K §2.10]: after the data they belong to routines or statements."""
     text = """MODULE m
 ! data
 VAR num a;

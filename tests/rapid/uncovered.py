@@ -1,4 +1,4 @@
-"""Lists rules of docs/rapid/language.md without a program or test, and programs without a rule.
+"""List rules of docs/rapid/language.md without tests, and vice versa.
 
 python -m tests.rapid.uncovered
 """

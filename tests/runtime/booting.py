@@ -5,7 +5,10 @@ from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 
 
 def system(tasks: dict[str, str], *, signals: tuple[SignalSpec, ...] = (), **specs) -> System:
-    """One task for each text (the bodies between MODULE and ENDMODULE); `specs` by task name."""
+    """Return a system with one task per text; `specs` by task name.
+
+    Texts are the bodies between MODULE and ENDMODULE.
+    """
     return System(
         "test",
         tuple(

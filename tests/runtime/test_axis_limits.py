@@ -1,4 +1,4 @@
-"""Limits of the axes in the configuration: a switch, for no manual settles it."""
+"""Axis limits in the configuration: a switch, without a manual."""
 
 import pytest
 

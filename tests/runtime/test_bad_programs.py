@@ -1,6 +1,6 @@
-"""What a program does wrong stays its own: it is reported, and the other tasks go on.
+"""Faults of a program are reported and do not affect other tasks.
 
-Clients that do wrong: tests/runtime/builtins/test_contained.py.
+Bad clients: tests/runtime/builtins/test_contained.py.
 """
 
 import pytest
@@ -62,7 +62,7 @@ BAD = """
 
 
 def together(body: str, **options):
-    """A task that counts ten times in a second, and a background task that does wrong."""
+    """Return a task that counts, and a faulty background task."""
     specs = {"T2": {"type": "STATIC", "trust": "NoSafety"}}
     controller, _ = boot(COUNT, BAD.replace("BODY", body), specs=specs, **options)
     controller.start_program()

@@ -1,4 +1,4 @@
-"""What no conformance program can tell: placeholders, constants, named arguments."""
+"""Compiled code beyond conformance programs: placeholders, constants."""
 
 import pytest
 

@@ -1,17 +1,17 @@
-"""Programs in RAPID that say what they expect, in both kinds of accounting.
+"""RAPID programs with declared expectations, in both kinds of accounting.
 
 They are in theme files, each below a line `!=== NAME` (tests/rapid_programs.py). Line numbers count
-from the line below that. The head of a program names its source; comments tell the rest:
+from the line below that. The head of a program names its source; comments describe the rest:
 `! expect: TEXT` one TPWrite, in order · `! fault: NAME LINE` how a task ends ·
 `! dialect: SWITCH=VALUE` · `! signal: NAME TYPE [BITS]` · `! robot: SHIPPED NAME` ·
 `! cycle: N` main runs again, N lines are read · `! until: S` simulated seconds to run at most ·
 `! task: NAME ENTRY [TYPE]` one more task (a ROB in the name: it has a robot) ·
-`! hook: ROUTINE EVENT TASK` an event routine · `! arc: USE SIGNAL` what welding has a signal for ·
-`! case: SWITCH=VALUE` all that follows on a
-controller of its own, with this switch (or motion setting) too.
+`! hook: ROUTINE EVENT TASK` an event routine · `! arc: USE SIGNAL` a signal of welding ·
+`! case: SWITCH=VALUE` the lines
+after it run on a separate controller with this switch (or motion setting).
 
-`! do: ACTION, ...` is what somebody does at the controller (`Run.act`); behind it stand, in this
-order, what was refused, what was printed, and what can be seen then: `! state:` of each task,
+`! do: ACTION, ...` is an action of a user (`Run.act`). After it follow, in this order, rejected
+actions, printed texts, and visible results: `! state:` of each task,
 `! at: ROUTINE STATEMENT`, `! value: NAME = VALUE`, `! log: CODE TEXT` of an event since the `do`.
 """
 
@@ -53,7 +53,7 @@ def words(text: str, marker: str) -> list[list[str]]:
 
 
 def modules(program: Program) -> Iterator[ModuleFile]:
-    """The modules of a program; the lines of each are counted from the program's beginning."""
+    """Iterate over modules of a program, with its line numbers."""
     text, path = program.text, f"{program.file}/{program.name}.mod"
     starts = [m.start() for m in re.finditer(r"^MODULE", text, re.MULTILINE)]
     for start, end in zip([0, *starts[1:]], [*starts[1:], len(text)], strict=True):
@@ -62,7 +62,7 @@ def modules(program: Program) -> Iterator[ModuleFile]:
 
 
 def system(program: Program) -> System:
-    """What the head of a program describes."""
+    """Return the system that the head of a program describes."""
     text = program.text
     files = tuple(modules(program))
     tasks = [TaskSpec("T_ROB1", "NORMAL", "SysFail", "main", True, "", files)]
@@ -131,7 +131,7 @@ class Run:
             assert finished == "finished" or until, self.controller.where()
 
     def act(self, action: str) -> bool:
-        """One action of a `do`; whether it was allowed."""
+        """Execute an action of a `do`; return True if permitted."""
         match action.split():
             case ["start"]:
                 return self.controller.start_program()
@@ -160,7 +160,7 @@ class Run:
         return True
 
     def seen(self, marker: str, remaining: str) -> str:
-        """What there is to see of what a comment tells."""
+        """Return the observed value for a comment."""
         first = remaining.split()[0]
         if marker == "state":
             return " ".join(task.state for task in self.controller.tasks.values())
@@ -180,7 +180,7 @@ class Run:
         return "; ".join(report) or first
 
     def script(self, report: list[tuple[str, str]]) -> list[tuple[str, str]]:
-        """Do what the comments say; what they should have told."""
+        """Execute the comments of a program; return expected and seen."""
         result: list[tuple[str, str]] = []
         for marker, remaining in report:
             if marker == "do":
@@ -199,7 +199,7 @@ class Run:
         return result + [("expect", line) for line in self.printed]
 
     def faults(self) -> list[str]:
-        """How the tasks ended that did so with an error."""
+        """Return how tasks ended with an error."""
         result = [task.fault for task in self.controller.tasks.values() if task.fault is not None]
         return [
             f"{f.cause.name if f.cause is not None else f.event} "
@@ -209,7 +209,7 @@ class Run:
 
 
 def cases(text: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
-    """The switches of each case, and what is done and told there."""
+    """Iterate over the switches and comments of each case."""
     result: list[tuple[str, list[tuple[str, str]]]] = [("", [])]
     for marker, remaining in marks(text):
         if marker == "case":
@@ -225,16 +225,16 @@ def cases(text: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
 def test_program_matches_its_source(program: Program) -> None:
     text = program.text
     assert marks(text, "source"), f"{program}: name the source"
-    for case, told in cases(text):
+    for case, lines in cases(text):
         ends = []
         where = f"{program} {case}"
         for accounting in ("block", "statement"):
             run = Run(program, case, accounting)
             with run.controller:
-                result = run.script([line for line in told if line[0] != "fault"])
-                assert result == [line for line in told if line[0] not in ("do", "fault")], where
+                result = run.script([line for line in lines if line[0] != "fault"])
+                assert result == [line for line in lines if line[0] not in ("do", "fault")], where
                 assert run.faults() == [
-                    remaining for marker, remaining in told if marker == "fault"
+                    remaining for marker, remaining in lines if marker == "fault"
                 ], where
                 ends.append(run.controller.scheduler.now)
         assert ends[0] == ends[1], f"{where}: block and statement accounting differ"

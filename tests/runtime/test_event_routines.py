@@ -1,4 +1,7 @@
-"""Event routines (CAB_EXEC_HOOKS) of a whole system; the rest: conformance/operation."""
+"""Event routines (CAB_EXEC_HOOKS) of a whole system.
+
+The rest: conformance/operation.
+"""
 
 from dataclasses import replace
 
@@ -22,9 +25,9 @@ def test_start_main_by_a_signal() -> None:
 
 def test_routines_of_all_motion_tasks() -> None:
     """-AllMotionTask [code]"""
-    routine = 'PROC begun()\n TPWrite "START";\nENDPROC\n'
+    routine = 'PROC started()\n TPWrite "START";\nENDPROC\n'
     base = system({"T1": MAIN, "T2": routine + MAIN}, T2={"motion": True})
-    hooks = (EventRoutine("begun", "Start", "", True), EventRoutine("nobody", "START", "T2"))
+    hooks = (EventRoutine("started", "Start", "", True), EventRoutine("missing", "START", "T2"))
     printed: list[str] = []
     with VirtualController(replace(base, events=hooks), autostart=False) as controller:
         controller.operator.subscribe(lambda task, text: printed.append(f"{task} {text}"))

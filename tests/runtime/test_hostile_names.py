@@ -1,4 +1,4 @@
-"""Names and texts of RAPID stay such in the Python that a program is compiled to."""
+"""Names and texts of RAPID stay names and texts in Python code."""
 
 import builtins
 import keyword

@@ -1,4 +1,4 @@
-"""What comes while a statement reads a PERS, where another task may come first, is attended to."""
+"""Events during a PERS access within a statement are handled."""
 
 import pytest
 

@@ -47,7 +47,7 @@ def test_depth(kind: str, depth: int, handler: str) -> None:
 
 @pytest.mark.parametrize("depth", [5, 24, 60])
 def test_leaving_from_deep_inside(depth: int) -> None:
-    """RETURN with and without a value, in the body and in a handler; RETRY and TRYNEXT; EXIT."""
+    """RETURN in body and handler; RETRY, TRYNEXT and EXIT."""
     text = f"""
   VAR num g := 0;
   PROC main()

@@ -1,6 +1,6 @@
-"""What the planner refuses in an event of the scheduler stops the program it comes in, by its name.
+"""Planner faults in scheduler events stop the program by name.
 
-It comes between two statements, where no handler is asked.
+They occur between two statements, where no handler receives them.
 """
 
 import pytest

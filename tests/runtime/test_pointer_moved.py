@@ -1,4 +1,7 @@
-"""The path behind a move of the program pointer; the rest: conformance/operation."""
+"""The path after a moved program pointer.
+
+The rest: conformance/operation.
+"""
 
 from copy import copy
 

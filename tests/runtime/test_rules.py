@@ -1,4 +1,4 @@
-"""docs/rapid/runtime-rules.md: what it names exists, and no conformance program is left out."""
+"""docs/rapid/runtime-rules.md names existing tests and all programs."""
 
 import re
 from dataclasses import fields

@@ -1,4 +1,4 @@
-"""A step is possible from wherever a program stands, and a refusal tells the true reason."""
+"""A step is possible at any place, and a refusal has its reason."""
 
 import pytest
 
@@ -52,7 +52,7 @@ def test_after_a_stop_before_the_first_statement(controller):
 
 
 def test_right_after_pp_to_main(controller):
-    """Routines are still being left then: the step waits for that, as a start does."""
+    """Routines are still being left then: the step waits for it."""
     controller.run_for(0.1)
     controller.stop_program()
     controller.pp_to_main()

@@ -1,4 +1,7 @@
-"""Statement by statement, in between [K §6, S4 overview 4-39]; the rest: conformance/steps."""
+"""Statement by statement [K §6, S4 overview 4-39].
+
+The rest: conformance/steps.
+"""
 
 import pytest
 
@@ -38,7 +41,7 @@ def test_steps_take_the_time_of_the_program() -> None:
 
 
 def test_moves_are_driven_back_on_their_way() -> None:
-    """[S4 2-SearchL-6] backward a move carries out the movement, with the shape it has."""
+    """[S4 2-SearchL-6] backward, a move executes the movement."""
     robots = load_config("irb120").groups
     controller, _ = boot(WAY, robots=robots, specs={"T1": {"motion": True}}, cycle="once")
     with controller:

@@ -1,4 +1,7 @@
-"""What nobody declares: found by the statement that needs it, when it is reached [K §12]."""
+"""Undeclared names are reported by the statement that needs them.
+
+Source: [K §12].
+"""
 
 import pytest
 
@@ -27,7 +30,7 @@ def test_event_names_unknown_name(body, error):
 
 
 def printed(body: str, data: str = "", remaining: str = "") -> tuple[list[str], VirtualController]:
-    """What a program prints whose errors are passed over, and how it ended."""
+    """Return output of a program that skips errors, and its end."""
     text = (
         f"MODULE m\n{data}\nPROC main()\n{body}\nERROR\nTPWrite ValToStr(ERRNO);\nTRYNEXT;\n"
         f"ENDPROC\n{remaining}\nENDMODULE\n"
@@ -88,7 +91,7 @@ ENDPROC"""
 
 
 def test_data_of_addin_types_are_passed_on():
-    """[backup] RobotWare 6: pm_projectinfo is in the add-in, not in the backup."""
+    """[backup] RobotWare 6: pm_projectinfo is in the add-in."""
     out, controller = printed("use info, many, other;", DATA, USES)
     assert out == ["used"]
     assert [d.code for d in controller.diagnostics] == ["RG404"]
@@ -112,7 +115,10 @@ def test_statement_using_addin_type_names_it(statement):
 
 
 def test_data_of_unknown_size_fail_when_executed():
-    """[code] ROS_motion.mod of abb_driver alone: MAX_TRAJ_LENGTH is in ROS_common.sys."""
+    """[code] ROS_motion.mod of abb_driver alone.
+
+    MAX_TRAJ_LENGTH is in ROS_common.sys.
+    """
     data = "VAR robtarget way{MAX_LENGTH};\nCONST num half := MAX_LENGTH / 2;\nVAR num n;"
     out, controller = printed('TPWrite "before";\nway{1} := CRobT();\nn := half;', data)
     fault = controller.task("T_ROB1").fault

@@ -86,7 +86,7 @@ MODULE Demo
     VAR num a1TO;
     PROC main()
         IF a1TO = 1THEN  ! -> RG205?
-            a1TO := 7DIV 2;  ! as the first: told once
+            a1TO := 7DIV 2;  ! as the first: reported once
         ENDIF
         FOR i FROM 1TO 3.5DO
             TPWrite "1TO";
@@ -134,7 +134,7 @@ MODULE Demo
     ENDPROC
 ENDMODULE
 !=== unseen_character
-! rule: characters that nobody sees are told once, by their number
+! rule: invisible characters are reported once, by their number
 ! source: [K §2.8]
 ! at 7: RG204
 MODULE Demo

@@ -74,7 +74,7 @@ MODULE Demo
     ENDPROC
 ENDMODULE
 !=== not_before_two_signs
-! rule: behind a leading NOT one sign may stand, not two; a row of prefixes is told once
+! rule: behind a leading NOT one sign may stand, not two; a row of prefixes is reported once
 ! source: [K §3]
 MODULE Demo
     VAR bool a;

@@ -1,4 +1,4 @@
-"""Built-ins on a scheduler without compiled RAPID: Python functions stand for tasks."""
+"""Built-ins without compiled RAPID: Python functions act as tasks."""
 
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace
@@ -26,7 +26,7 @@ _TYPES = {bool: BOOL, str: STRING}
 
 
 def box(value: Any, type_: Type | None = None, dims: tuple[int, ...] = ()) -> ValueRef:
-    """A variable; numbers are num unless told."""
+    """Return a variable; numbers are num by default."""
     return ValueRef(value, type_ or _TYPES.get(type(value), NUM), dims)
 
 
@@ -60,9 +60,9 @@ class Bench:
         self.scheduler.close()
 
     def run(self, *bodies: Callable[[Task], Any], until: float | None = None) -> list[Any]:
-        """Run tasks until all have returned (or until `until` s); what they returned.
+        """Run tasks until all have returned (or until `until` s).
 
-        An exception of a task comes out here.
+        Returns their results; raises an exception of a task.
         """
         results: dict[int, Any] = {}
 

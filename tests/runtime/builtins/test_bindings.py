@@ -1,4 +1,4 @@
-"""Every built-in with a signature is bound, compiled, or left out with a reason that is said."""
+"""Built-ins are bound, compiled, or omitted with a reported reason."""
 
 import inspect
 
@@ -27,14 +27,14 @@ def test_deliberate_omission_has_signature_without_binding():
 
 
 def test_every_signature_is_bound_compiled_or_left_out():
-    """New signatures need one of the three; what the compiler has may be bound as well."""
+    """New signatures need one of the three; compiled ones may be bound."""
     known = unsupported.names() | marked("inline") | {name.lower() for name in bound_names()}
     missing = [name for name in signatures.routine_names() if name.lower() not in known]
     assert missing == []
 
 
 def _called(name, number):
-    """A procedure that calls a routine with what its parameters want, and the data for that."""
+    """Return a procedure that calls a routine, and the data for it."""
     result = signatures.routine(name)
     data, arguments = [], []
     for k, parameter in enumerate(p for p in result.parameters if not p.optional):
@@ -61,12 +61,12 @@ def test_omission_is_reported_at_load_and_stops_task():
     with VirtualController(
         System("left out", (task,)), cycle="once", autostart=False
     ) as controller:
-        said = {
+        notes = {
             d.message.split()[0].lower(): d.notes
             for d in controller.diagnostics
             if d.code == "RG403"
         }
-        assert said == {name: (unsupported.reason(name),) for name in names}
+        assert notes == {name: (unsupported.reason(name),) for name in names}
         task = controller.task("T_ROB1")
         for number, name in enumerate(names):
             task.pp_to_routine(f"p{number}")

@@ -1,4 +1,7 @@
-"""Clocks, dates, the controller about itself. Sources: S4 reference [manual], [K §15]."""
+"""Clocks, dates, system information.
+
+Sources: S4 reference [manual], [K §15].
+"""
 
 from types import SimpleNamespace
 

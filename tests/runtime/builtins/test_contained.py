@@ -1,7 +1,7 @@
-"""Bad clients of one task do not reach the others: floods, garbage, a peer that does not read.
+"""Bad clients of one task do not affect the others.
 
-A whole controller in real time on the operating system's sockets. T_PULSE answers each byte with
-its count; as long as it answers, the controller lives.
+Floods, garbage, a peer without reads. A whole controller in real time on the operating system's
+sockets. T_PULSE answers each byte with its count; while it answers, the controller works.
 """
 
 import os

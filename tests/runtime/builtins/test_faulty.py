@@ -54,7 +54,7 @@ def outside(bench, inner, script):
 
 
 def chunks(bench, count):
-    """Receive without a count until `count` bytes are there; (milliseconds, bytes) of each."""
+    """Receive until `count` bytes arrived: (milliseconds, bytes) of each."""
 
     def body(task, socket):
         got, raw = [], RawBytes()
@@ -113,7 +113,7 @@ def test_reset_after_byte_n(server):
 
 
 def test_silent_after_byte_n_outwards(server):
-    """The program is told nothing; the client gets the first bytes and then nothing."""
+    """The program gets no notification, the client only the first bytes."""
     bench, inner = server(NetworkRule("silent", direction="out", after=5, connection=1))
 
     def body(task, socket):
@@ -136,7 +136,7 @@ def test_half_open_hides_the_end_until_the_second_send(server):
         errors = []
         for name, options in (
             ("SocketReceive", {"RawData": RawBytes(), "Time": 2}),
-            ("SocketSend", {"Str": "anybody there?"}),
+            ("SocketSend", {"Str": "is it open?"}),
             ("SocketSend", {"Str": "hello?"}),
         ):
             try:
@@ -151,7 +151,7 @@ def test_half_open_hides_the_end_until_the_second_send(server):
 
 
 def test_half_open_begins_at_byte_of_rule(server):
-    """Before that many bytes have passed, the end of the connection is seen as ever."""
+    """Before that many bytes, the end of the connection is visible."""
     bench, inner = server(NetworkRule("half-open", after=10))
 
     def body(task, socket):
@@ -164,7 +164,7 @@ def test_half_open_begins_at_byte_of_rule(server):
 
 
 def test_slow_reader_limits_sent_bytes(server):
-    """1000 bytes a second: 64 kB go into the buffer, what is behind waits for room."""
+    """1000 bytes per second: 64 kB fill the buffer, the rest waits."""
     bench, inner = server(NetworkRule("slow", direction="out", bytes=1000))
 
     def body(task, socket):

@@ -1,4 +1,7 @@
-"""Files: no way out, limits, folders of their own (what a program reads: conformance/)."""
+"""Files: no access outside, limits, separate folders.
+
+Programs that read files: conformance/.
+"""
 
 import gc
 import os

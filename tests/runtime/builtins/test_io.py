@@ -1,4 +1,7 @@
-"""Signals. Sources: S4 user's guide and reference [manual]; abb_driver's system outputs [code]."""
+"""Signals.
+
+Sources: S4 user's guide and reference [manual]; abb_driver's system outputs [code].
+"""
 
 import pytest
 
@@ -60,7 +63,7 @@ def test_limits_of_an_analogue_signal(make_bench):
 
 
 def test_signals_with_common_device_bits_change_together(make_bench):
-    """A group and single outputs on one device; inputs with the same numbers are others."""
+    """A group and single outputs on one device; equal input numbers differ."""
     specs = (
         SignalSpec("go1", "GO", device="d652", size=4, bits=(0, 1, 2, 3)),
         SignalSpec("do2", "DO", device="d652", bits=(2,)),
@@ -122,7 +125,10 @@ def test_alias_io_by_name_in_the_other_dialect(plant):
 
 
 def test_wait_di_sees_a_short_pulse(plant):
-    """It is woken by the change, not polled [S4 WaitDI]; a right value goes straight on."""
+    """The change wakes the task without polling [S4 WaitDI].
+
+    A correct value continues at once.
+    """
     bench, io = plant()
 
     def waiter(task):

@@ -1,4 +1,7 @@
-"""Operator window, dialogs, event log. Sources: S4 reference, TPWrite to ErrWrite [manual]."""
+"""Operator window, dialogs, event log.
+
+Sources: S4 reference, TPWrite to ErrWrite [manual].
+"""
 
 import pytest
 
@@ -273,7 +276,7 @@ def test_the_log_keeps_the_newest_and_tells_listeners():
     for i in range(5):
         log.info(10_000 + i, f"event {i}")
     end()
-    log.error(20_000, "unheard")
+    log.error(20_000, "unread")
     assert [e.sequence for e in log] == [4, 5, 6]
     assert [e.code for e in seen] == [10_000, 10_001, 10_002, 10_003, 10_004]
     assert [e.sequence for e in log.since(5)] == [6]

@@ -1,4 +1,7 @@
-"""What SYS.cfg says of a task's message queue: RmqType, RmqMaxMsgSize, RmqMaxNoOfMsg [mem]."""
+"""Message queue settings in SYS.cfg [mem].
+
+RmqType, RmqMaxMsgSize, RmqMaxNoOfMsg.
+"""
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.system import parse_cfg, sys_cfg

@@ -112,7 +112,7 @@ def test_unpacking_text(bench):
     ("switch", "result"), [("exact", 64 + (11 << 32)), ("single", 11 << 32), ("error", None)]
 )
 def test_a_ulint_in_all_dialects(bench, switch, result):
-    """3HAC16581-1 lists ULINT, and that it needs a dnum; whether it is exact is in no source."""
+    """3HAC16581-1 lists ULINT with a dnum; no source says if it is exact."""
     bench.controller.dialect = Switches(unpack_ulint=switch)
     target = bench.dnum(5)
     raw = RawBytes(bytes([64, 0, 0, 0, 11, 0, 0, 0]))

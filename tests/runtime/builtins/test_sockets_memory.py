@@ -1,4 +1,7 @@
-"""Socket built-ins on the network in memory: what no program can do (the rest: conformance/)."""
+"""Socket built-ins on the network in memory.
+
+Programs test the rest: conformance/.
+"""
 
 import pytest
 
@@ -50,7 +53,7 @@ def test_closing_a_task_closes_its_sockets_only(bench):
 
 
 def test_many_clients_wait_for_backlog(bench):
-    """16 clients wait to be accepted; the 17th asks again, as TCP does, and is served."""
+    """16 clients wait for accept; the 17th repeats its request, as in TCP."""
     network = bench.controller.network
     server = SocketDevice()
     accepted = [SocketDevice() for _ in range(20)]

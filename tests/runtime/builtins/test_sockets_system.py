@@ -1,4 +1,4 @@
-"""Socket built-ins on the operating system's sockets, in real time, against plain Python."""
+"""Socket built-ins on the system's sockets, in real time."""
 
 import socket
 import threading
@@ -27,7 +27,10 @@ def serve(bench, task, server, accepted, port=11000):
 
 
 def talk(bench, script, port=11000):
-    """Run `script(socket)` in a thread once the bench listens; its errors come out here."""
+    """Run `script(socket)` in a thread once the bench listens.
+
+    Raises its errors here.
+    """
     started, failed = [], []
 
     def client(address):
@@ -122,7 +125,7 @@ def test_reset_and_end_of_client_differ(real):
 
 
 def test_peer_without_reads_blocks_sender(real):
-    """Back-pressure reaches the task: it waits, and goes on when the peer reads."""
+    """Back-pressure blocks the task until the peer reads."""
     server, accepted = SocketDevice(), SocketDevice()
     total = 4_000_000
     gate = threading.Event()
@@ -159,7 +162,7 @@ def test_peer_without_reads_blocks_sender(real):
 
 
 def test_connecting_out_reaches_this_machine_only(real):
-    """A loopback controller finds its partner here, whatever address the program names."""
+    """A loopback controller reaches this machine for any address."""
     with socket.socket() as partner:
         partner.bind(("127.0.0.1", 0))
         partner.listen()
@@ -186,7 +189,7 @@ def test_refused(real):
             real.call(task, "SocketConnect", client, "127.0.0.1", port, Time=10)
         return caught.value.name
 
-    with socket.socket() as deaf:  # bound, so nobody else's, and without listen()
+    with socket.socket() as deaf:  # bound, so in use, and without listen()
         deaf.bind(("127.0.0.1", 0))
         port = deaf.getsockname()[1]
         assert real.run(body) == ["ERR_SOCK_TIMEOUT"]

@@ -1,4 +1,7 @@
-"""Strings and conversions. Sources: the S4 reference's page of each name [manual]."""
+"""Strings and conversions.
+
+Sources: the S4 reference's page of each name [manual].
+"""
 
 import pytest
 from hypothesis import given
@@ -168,9 +171,10 @@ def test_str_part_outside(bench, position, length):
 
 
 def test_str_find_and_match(bench):
-    """Nothing found is length + 1; a position outside is an error [S4 StrFind, StrMatch].
+    """No match is length + 1, an outside position an error.
 
-    Machina's driver [code] looks for its next word right behind the last one.
+    Source: [S4 StrFind, StrMatch]. Machina's driver [code] searches its next word right after the
+    last one.
     """
     assert bench("StrFind", "Robotics", 1, "aeiou") == 2
     assert bench("StrFind", "Robotics", 1, "aeiou", NotInSet=True) == 1

@@ -1,4 +1,4 @@
-"""World zones: what is refused, and that each shape is told when the robot crosses it."""
+"""World zones: rejected definitions, and reports of crossed shapes."""
 
 from math import dist, hypot
 

@@ -666,7 +666,7 @@ MODULE hidden(NOSTEPIN)
 ENDMODULE
 !=== raise_to_user_limit
 MODULE user
-! source: [K §7.3, 7.5] a statement has its retries, whoever says RETRY
+! source: [K §7.3, 7.5] a statement has its retries, for every RETRY
 ! fault: ERR_EXCRTYMAX 28
   PROC main()
     fails;

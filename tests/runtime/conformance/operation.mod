@@ -413,7 +413,7 @@ MODULE long_jump_out_of_event_routine
 ENDMODULE
 !=== installed_modules_exist
 MODULE installed_modules_exist
-    ! source: nobody tells of which modules; ModExist; a switch
+    ! source: no source names the modules of ModExist: a switch
     ! robot: irb120
     ! case: installed_modules_exist=true
     ! do: start, run 1
@@ -467,12 +467,12 @@ MODULE next_symbol
 
     PROC main()
         SetDataSearch "tooldata";
-        told;
+        logged;
         SetDataSearch "tooldata" \InMod:="next_symbol";
-        told;
+        logged;
     ENDPROC
 
-    PROC told()
+    PROC logged()
         VAR string names := "";
         WHILE GetNextSym(name, block) DO
             IF names <> "" names := names + " ";
@@ -498,8 +498,8 @@ MODULE pointer_moved
     ! expect: behind 1224
     ! expect: trap
     ! expect: written
-    ! do: routine nobody
-    ! refused: routine nobody
+    ! do: routine missing
+    ! refused: routine missing
     ! case:
     ! do: start, run 1, stop, run 0.1, cursor -18
     ! refused: cursor -18
@@ -724,14 +724,14 @@ MODULE search_pattern
 
     PROC main()
         SetDataSearch "num" \Object:="part" \InMod:="search_pattern";
-        told;
+        logged;
         SetDataSearch "num" \Object:="^part.*$" \InMod:="search_pattern";
-        told;
+        logged;
         SetDataSearch "num" \Object:="^part$" \InMod:="search_pattern";
-        told;
+        logged;
     ENDPROC
 
-    PROC told()
+    PROC logged()
         VAR string names := "";
         WHILE GetNextSym(name, block) DO
             IF names <> "" names := names + " ";

@@ -23,7 +23,7 @@ MODULE behind_an_error
 ENDMODULE
 !=== error_in_backward_handler
 MODULE error_in_backward_handler
-    ! source: [K §7.1] it is nobody's
+    ! source: [K §7.1] no handler receives it
     ! do: step over
     ! expect: work
     ! do: step back

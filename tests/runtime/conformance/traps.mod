@@ -146,7 +146,7 @@ MODULE error_numbers
   VAR intnum elsewhere;
   VAR trapdata found;
   PROC main()
-    CONNECT one WITH told;
+    CONNECT one WITH logged;
     CONNECT other WITH never;
     CONNECT warned WITH never;
     CONNECT elsewhere WITH never;
@@ -162,7 +162,7 @@ MODULE error_numbers
     ! expect: 11 5031 1 ErrLog
     ! expect: end
   ENDPROC
-  TRAP told
+  TRAP logged
     VAR errdomain domain;
     VAR num number;
     VAR errtype kind;

@@ -41,7 +41,7 @@ MODULE Demo
     ENDPROC
 ENDMODULE
 !=== release_not_told
-! rule: what another release brings is a note where the release is not told
+! rule: what another release brings is a note where the release is unknown
 ! source: [code] a driver for RobotWare 5, 6 and 7 (UnpackRawBytes)
 MODULE Demo
     PROC main()

@@ -337,10 +337,10 @@ MODULE sockets_calls
         wrong_order;
         one_port;
         too_many;
-        patience;
+        time_limit;
     ENDPROC
 
-    PROC told()
+    PROC logged()
         TEST ERRNO
         CASE ERR_SOCK_CLOSED:
             TPWrite "closed";
@@ -389,7 +389,7 @@ MODULE sockets_calls
         count := SocketPeek(socket);
         SocketClose socket;
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 
@@ -404,7 +404,7 @@ MODULE sockets_calls
         show other;
         SocketClose other;
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 
@@ -421,11 +421,11 @@ MODULE sockets_calls
             SocketClose many{i};
         ENDFOR
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 
-    PROC patience()
+    PROC time_limit()
         VAR clock watch;
         SocketCreate socket;
         SocketBind socket, "127.0.0.1", 5000;
@@ -434,7 +434,7 @@ MODULE sockets_calls
         SocketAccept socket, other;
         TPWrite NumToStr(ClkRead(watch), 0) + " s";
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 ENDMODULE

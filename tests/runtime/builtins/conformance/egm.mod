@@ -156,7 +156,7 @@ MODULE egm_moving
 ENDMODULE
 !=== egm_never
 MODULE egm_never
-    ! source: a GoFa with RobotWare 7.21 stayed in EGMRunJoint for 2 min with 5 s told [code: abb-gofa]
+    ! source: a GoFa with RobotWare 7.21 stayed in EGMRunJoint for 2 min with 5 s set [code: abb-gofa]
     ! dialect: egm_timeout=never
     ! robot: irb120
     ! expect: 30 and 30
@@ -170,12 +170,12 @@ MODULE egm_never
         EGMGetId id;
         CONNECT ends WITH stops;
         first := Lasts();
-        TPWrite ValToStr(first) + " and " + ValToStr(Lasts(\told:=5));
+        TPWrite ValToStr(first) + " and " + ValToStr(Lasts(\logged:=5));
     ENDPROC
 
-    FUNC num Lasts(\num told)
-        IF Present(told) THEN
-            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=told;
+    FUNC num Lasts(\num logged)
+        IF Present(logged) THEN
+            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=logged;
         ELSE
             EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint;
         ENDIF
@@ -231,12 +231,12 @@ MODULE egm_told
         EGMGetId id;
         CONNECT ends WITH stops;
         first := Lasts();
-        TPWrite ValToStr(first) + " and " + ValToStr(Lasts(\told:=5));
+        TPWrite ValToStr(first) + " and " + ValToStr(Lasts(\logged:=5));
     ENDPROC
 
-    FUNC num Lasts(\num told)
-        IF Present(told) THEN
-            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=told;
+    FUNC num Lasts(\num logged)
+        IF Present(logged) THEN
+            EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=logged;
         ELSE
             EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint;
         ENDIF

@@ -213,7 +213,7 @@ MODULE file_errors
         copies;
     ENDPROC
 
-    PROC told()
+    PROC logged()
         TEST ERRNO
         CASE ERR_FILEACC:
             TPWrite "access";
@@ -236,7 +236,7 @@ MODULE file_errors
         WriteStrBin file, "x";
         Close file;
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 
@@ -250,7 +250,7 @@ MODULE file_errors
         text := ReadStr(closed);
         Close closed;
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 
@@ -270,7 +270,7 @@ MODULE file_errors
         TPWrite ""\Bool:=IsFile("HOME:/d");
         RemoveDir "HOME:";
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 
@@ -287,7 +287,7 @@ MODULE file_errors
         CopyFile "e", "f";
         RenameFile "e", "f";
     ERROR
-        told;
+        logged;
         TRYNEXT;
     ENDPROC
 ENDMODULE

@@ -334,15 +334,15 @@ MODULE search_predefined
     PROC main()
         VAR tooldata found;
         SetDataSearch "tooldata" \Object:="tool.*";
-        told;
+        logged;
         SetDataSearch "wobjdata" \Object:="wobj0";
-        told;
+        logged;
         SetDataSearch "tooldata" \InTask;
-        told;
+        logged;
         SetDataSearch "tooldata" \InMod:="search_predefined";
-        told;
+        logged;
         SetDataSearch "tooldata" \Object:="tool0" \VarSym;
-        told;
+        logged;
         SetDataSearch "tooldata" \Object:="tool0";
         IF GetNextSym(name, block \Recursive) THEN
             GetDataVal name \Block:=block, found;
@@ -350,7 +350,7 @@ MODULE search_predefined
         ENDIF
     ENDPROC
 
-    PROC told()
+    PROC logged()
         VAR string names := "";
         WHILE GetNextSym(name, block \Recursive) DO
             IF names <> "" names := names + " ";

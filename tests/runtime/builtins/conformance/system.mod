@@ -21,9 +21,9 @@ MODULE clocks
 ENDMODULE
 !=== dialogs
 MODULE dialogs
-    ! source: [manual] S4 TPReadNum, TPReadFK; ERR_TP_NO_CLIENT when nobody is there (3HAC16581-1)
+    ! source: [manual] S4 TPReadNum, TPReadFK; ERR_TP_NO_CLIENT without an operator (3HAC16581-1)
     ! expect: how many?
-    ! expect: nobody
+    ! expect: no operator
     ! expect: FALSE
     PROC main()
         VAR num answer;
@@ -34,7 +34,7 @@ MODULE dialogs
         IF broken <> ERR_TP_NO_CLIENT TPWrite "wrong";
         TPWrite ValToStr(UIClientExist());
     ERROR
-        IF ERRNO = ERR_TP_NO_CLIENT TPWrite "nobody";
+        IF ERRNO = ERR_TP_NO_CLIENT TPWrite "no operator";
         TRYNEXT;
     ENDPROC
 ENDMODULE
