@@ -40,7 +40,7 @@ MODULE Demo
         RaiseToUser \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE
-!=== release_not_told
+!=== release_unknown
 ! rule: what another release brings is a note where the release is unknown
 ! source: [code] a driver for RobotWare 5, 6 and 7 (UnpackRawBytes)
 MODULE Demo

@@ -78,7 +78,7 @@ MODULE queues
         VAR num answer;
         VAR num wanted;
         WaitTime 0.1;
-        RMQFindSlot partner, "RMQ_nobody";
+        RMQFindSlot partner, "RMQ_missing";
         RMQFindSlot partner, "RMQ_T_OTHER";
         RMQSendMessage partner, p \UserDef:=7;
         WaitTime 0.5;
@@ -489,8 +489,8 @@ MODULE sockets_limited
         EXIT;
     ENDPROC
 ENDMODULE
-!=== sockets_patience
-MODULE sockets_patience
+!=== sockets_time_limits
+MODULE sockets_time_limits
     ! source: bytes that came before a time-out (switch `receive_timeout`): no source; 64 kB in either buffer, then 60 s without progress [mem]; WAIT_MAX [manual]
     ! task: T_CLIENT client
     ! until: 30000000

@@ -215,8 +215,8 @@ MODULE egm_not_awaited
         TRYNEXT;
     ENDPROC
 ENDMODULE
-!=== egm_told
-MODULE egm_told
+!=== egm_explicit_timeout
+MODULE egm_explicit_timeout
     ! source: without \CommTimeout no time is documented [manual 3HAC073318]
     ! dialect: egm_timeout=explicit
     ! robot: irb120

@@ -65,7 +65,7 @@ MODULE modules
         %"part2_run"%;
         part "3", "TPWrite ""part 3"" THEN;";
         Load \Dynamic, "HOME:/part3.mod";
-        part "4", "nobody_has_this;";
+        part "4", "undeclared_name;";
         Load \Dynamic, "HOME:/part4.mod" \CheckRef;
     ERROR
         TEST ERRNO

@@ -38,8 +38,8 @@ MODULE dialogs
         TRYNEXT;
     ENDPROC
 ENDMODULE
-!=== told_by_the_controller
-MODULE told_by_the_controller
+!=== reported_by_controller
+MODULE reported_by_controller
     ! source: [manual 3HAC050917] GetSignalOrigin, GetTSPStatus, FileTimeDnum, ModTimeDnum, IsBrakeCheckActive; numbers of
     ! the named values [mem]
     ! signal: do1 DO
@@ -61,6 +61,6 @@ MODULE told_by_the_controller
         Open "HOME:" \File:="a.txt", file \Write;
         Close file;
         TPWrite ValToStr(DnumToStr(FileTimeDnum("HOME:/a.txt" \StrDig:=digits), 0) = digits) + " "
-            + ValToStr(DnumToNum(ModTimeDnum("told_by_the_controller")) = ModTime("told_by_the_controller"));
+            + ValToStr(DnumToNum(ModTimeDnum("reported_by_controller")) = ModTime("reported_by_controller"));
     ENDPROC
 ENDMODULE
