@@ -67,12 +67,12 @@ def busy(*seconds):
 
 def test_delayed_file_does_not_hang(monkeypatch):
     monkeypatch.setattr(trials, "SECONDS", (0.05, 60.0))
-    assert trials.red(busy(0.2, 0)) is False
+    assert trials.fails(busy(0.2, 0)) is False
 
 
 def test_hanging_file_is_neither_passed_nor_failed(monkeypatch):
     monkeypatch.setattr(trials, "SECONDS", (0.02, 0.04))
-    assert trials.red(busy(60, 60)) is None
+    assert trials.fails(busy(60, 60)) is None
 
 
 def test_timeout_during_judgement_is_ignored(monkeypatch):
@@ -84,5 +84,5 @@ def test_timeout_during_judgement_is_ignored(monkeypatch):
     setitimer = signal.setitimer
     before = signal.getsignal(signal.SIGVTALRM), gc.isenabled(), gc.callbacks[:]
     monkeypatch.setattr(signal, "setitimer", late)
-    assert trials.red(busy(0)) is False
+    assert trials.fails(busy(0)) is False
     assert (signal.getsignal(signal.SIGVTALRM), gc.isenabled(), gc.callbacks[:]) == before
