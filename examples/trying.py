@@ -10,7 +10,7 @@ from rapidgen.client import Robot
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.controller import VirtualController
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.system.model import ModuleFile
 

@@ -32,7 +32,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.cli.terminal import Bars
 from rapidgen.config import load_config
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.verification.campaign import Campaign, Limits
 from rapidgen.verification.cluster import Cluster

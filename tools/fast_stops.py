@@ -19,7 +19,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.verification.fast_stops import fast_stop
 from rapidgen.verification.settings import assumed, rows

@@ -183,7 +183,7 @@ def _run(
     controller: "VirtualController", max_time: float, max_statements: int, cell: str
 ) -> list[Diagnostic]:
     """Run to the end; return the errors."""
-    from rapidgen.controller.runner import run_past_stops
+    from rapidgen.controller.inference.restarts import run_past_stops
 
     finished = run_past_stops(controller, max_time=max_time, max_statements=max_statements)
     findings = [

@@ -15,7 +15,7 @@ from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import ChainLink, GroupConfig, Positioner, RobotConfig
 from rapidgen.config.registry import is_path
 from rapidgen.controller.cell_setup import CellSetup, apply_cell, cameras_of, force_of
-from rapidgen.controller.inference.robot import start_of, start_targets, table_pose
+from rapidgen.controller.inference.start_poses import start_of, start_targets, table_pose
 from rapidgen.controller.mechanics import DEFAULT_ROBOT, mechanics, of_unknown_payload
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
@@ -178,7 +178,7 @@ def _driver(
 
     Its robots are those of the configuration and start at 0.
     """
-    from rapidgen.controller.cell_setup import in_its_cell
+    from rapidgen.controller.cell import in_its_cell
 
     if options.robot:
         raise refusal(

@@ -308,7 +308,7 @@ class VirtualController:
         """
         if not isinstance(config, RobotConfig):
             return cls.boot(load_target([str(config)], BootOptions(overrides=overrides)), **options)
-        from rapidgen.controller.cell_setup import in_its_cell
+        from rapidgen.controller.cell import in_its_cell
         from rapidgen.generate import build, make_system
 
         options.setdefault("robots", tuple(config.groups))

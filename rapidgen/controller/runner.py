@@ -1,4 +1,4 @@
-"""A controller over its restarts, and runs in inferred cells."""
+"""A controller over its restarts."""
 
 import shutil
 import tempfile
@@ -7,7 +7,7 @@ import uuid
 import weakref
 from collections.abc import Callable
 from pathlib import Path
-from typing import Final, Literal, NamedTuple
+from typing import NamedTuple
 
 from rapidgen._compat import Self, Unpack
 from rapidgen.controller.boot_targets import Bootable
@@ -25,10 +25,10 @@ from rapidgen.system.model import System
 
 # -- Runs ------------------------------------------------------------------------------------------
 #
-# A controller with a power switch: what outlives a restart, and who runs what is booted.
+# A controller with a power switch: the state that survives a restart, and its thread.
 #
-# A restart makes a new `VirtualController` from the disks, the cfg database and the modules that
-# lie in the tasks. Disks, cfg and clock stay; sockets, paths and program pointers do not.
+# A restart makes a new `VirtualController` from the disks, the cfg database and the modules in
+# the tasks. Disks, cfg and clock stay; sockets, paths and program pointers do not.
 
 
 _NS = 1_000_000_000
@@ -199,56 +199,3 @@ class ControllerRunner:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-# -- Inferred cells --------------------------------------------------------------------------------
-#
-# A complete run of a program in an inferred cell, as an operator would do it. A program that stops
-# after an inferred answer is started from main again and receives the next answer; after a Stop
-# instruction it continues.
-
-
-_MOST: Final = 50
-"""Maximum number of restarts."""
-Ended = Literal["finished", "time", "statements", "deadlock", "paused"]
-
-
-def run_past_stops(
-    controller: VirtualController, *, max_time: float, max_statements: int | None = None
-) -> Ended:
-    """Run a program, and restart it while inferred answers stop it.
-
-    A restart follows if a task stopped with an error after an answer since the last start;
-    `controller.guessed.stopped` lists these places. In an inferred cell, a task at a Stop
-    instruction is started again, too.
-
-    `max_time` (s) limits the total, `max_statements` each start. The faults of the last start
-    remain in the tasks.
-    """
-    until = controller.now + max_time
-    guessed = controller.guessed
-    for starts in range(_MOST + 1):
-        answers = len(guessed.answered)
-        left = until - controller.now
-        finished = controller.run(max_time=left, max_statements=max_statements)
-        if starts == _MOST:
-            break
-        frames = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
-        if finished == "finished" and guessed.is_guess and frames and controller.now < until:
-            for top in (task.stack()[-1] for task in frames if task.stack()):
-                place = f"{Path(top.span.path).name}:{top.span.line}"
-                guessed.answered.append((f"Stop at {place}", "start"))
-            if not controller.start_program():
-                break
-            continue
-        faults = [task.fault for task in controller.tasks.values() if task.fault is not None]
-        if not faults or len(guessed.answered) == answers or controller.now >= until:
-            break
-        for fault in faults:
-            at = fault.span or (fault.stack[-1].span if fault.stack else None)
-            place = f"{Path(at.path).name}:{at.line}" if at is not None else ""
-            guessed.stopped.append((place, ": ".join(filter(None, fault.arguments)) or str(fault)))
-        controller.pp_to_main()
-        if not controller.start_program():
-            break
-    return finished

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from rapidgen.axes.frames import Pose
 from rapidgen.config.model import RobotConfig
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.motion.moves import MoveFrames
 from rapidgen.runtime.builtins.motion.targets import rob_target

@@ -13,7 +13,7 @@ from typing import TextIO
 from pydantic import TypeAdapter
 
 from rapidgen.config.model import RobotConfig
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.system.model import System
 from rapidgen.verification.bench_pool import BenchPool

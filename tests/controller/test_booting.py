@@ -9,7 +9,8 @@ from rapidgen.config.cell import load_cell
 from rapidgen.controller import VirtualController
 from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.cell_setup import GUESSED
-from rapidgen.controller.inference.robot import RobotCandidate, shown
+from rapidgen.controller.inference.robot import RobotCandidate
+from rapidgen.controller.inference.start_poses import shown
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 

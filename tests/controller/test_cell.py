@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from rapidgen.config import load_config
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.system.model import ModuleFile
 

@@ -4,7 +4,7 @@ import pytest
 
 from rapidgen.controller import VirtualController
 from rapidgen.controller.boot_targets import BootOptions, load_target
-from rapidgen.controller.runner import run_past_stops
+from rapidgen.controller.inference.restarts import run_past_stops
 
 SERVER = """MODULE server
  VAR socketdev s;

@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.controller.runner import run_past_stops
+from rapidgen.controller.inference.restarts import run_past_stops
 
 PROGRAM = """MODULE flag
  PERS bool bStart := FALSE;

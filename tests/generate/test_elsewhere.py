@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, make_system
 from rapidgen.verification.testbench import Bench

@@ -6,7 +6,7 @@ from functools import cache
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.controller.cell_setup import in_its_cell
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.machine.cost_model import Costs
 from rapidgen.motion.settings import MotionSettings

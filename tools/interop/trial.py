@@ -21,7 +21,7 @@ from pathlib import Path
 from rapidgen.controller import VirtualController
 from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.controller import Cycle
-from rapidgen.controller.runner import run_past_stops
+from rapidgen.controller.inference.restarts import run_past_stops
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check
