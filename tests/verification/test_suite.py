@@ -191,6 +191,12 @@ DEFECTS = {
         "IF ROS_peek(newcomer) = 0 stops_before_newcomer := stops;",
         "stops_before_newcomer := stops;",
     ),
+    # Bytes that are still unread count as sent after STOP.
+    "unread-before-stop": (
+        "ROS_motionServer",
+        "IF ROS_peek(client) = 0 ROS_stops_before := stops;",
+        "ROS_stops_before := stops;",
+    ),
     "power-loss-after-stop": (
         "ROS_supervisor",
         "ROS_start_clock since_bell;\n        ROS_start",

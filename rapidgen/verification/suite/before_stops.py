@@ -1,11 +1,12 @@
 """Data received before a stop does not move the robot after Start."""
 
 from rapidgen.verification.case import SuiteGroup
-from rapidgen.verification.messages import RawTrajectoryState
+from rapidgen.verification.messages import RawComm, RawPing, RawTrajectoryState, encode
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
-from rapidgen.verification.raw_connection import RawLink
+from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.suite.control import stop
 from rapidgen.verification.testbench import Bench
 
 case = SuiteGroup("controller")
@@ -15,6 +16,10 @@ _SHORT = 0.002
 
 _BRAKING = 0.02
 """rad or m that an axis may move while it brakes; the whole trajectory is longer."""
+
+
+_FILLER = 200 * encode(RawPing(), RawComm.TOPIC)
+"""Messages without an effect that the motion server needs some ms to read."""
 
 
 def _order(bench: Bench, path: str, link: RawLink) -> bytes:
@@ -116,3 +121,41 @@ def _waiting_before_stop(bench: Bench) -> None:
                     link.close()
                 bench.run(1.5)
     bench.assert_moves_through(bench.motion(), bench.wave(3))
+
+
+@case(
+    "unread-before-stop",
+    "an order that is unread when STOP comes on the control port",
+    "R7a",
+    needs="control",
+)
+def _unread_before_control_stop(bench: Bench) -> None:
+    """It is behind other bytes, or behind a silent client; the next order is executed."""
+    control = bench.control()
+    for path in _ways(bench):
+        for ms in (0, 1, 3, 8, 20):
+            link = bench.motion()
+            bench.run(0.15)
+            link.at_once(_FILLER + _order(bench, path, link))
+            bench.run(ms * 1e-3)
+            place = bench.position
+            stop(control)
+            what = f"a {path} {ms} ms before STOP on the control port"
+            bench.wait_until_at_rest(3, 2, what)
+            if distance(bench.position, place) > _BRAKING:
+                raise CheckFailed(f"{what}: the robot went {distance(bench.position, place):.3f}")
+            link.close(then=1.2)
+        silent, link = bench.motion(), bench.motion()
+        bench.run(0.2)
+        link.send(_order(bench, path, link))
+        bench.run(0.01)
+        control.send(STOP)
+        silent.close()
+        bench.assert_at_rest(3, f"a {path} waited behind a silent client at STOP")
+        control.expect_reply(1, "STOP is answered")
+        stop(control)
+        bench.assert_moves_through(link, bench.wave(3))
+        stop(control)
+        link.close()
+        bench.assert_moves_through(bench.motion(), bench.wave(3))
+        bench.run(1.2)

@@ -8,7 +8,13 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "33a345e9b546";
+    ! Stops and starts of the program, and stops that the control server asked for.
+    RECORD ROS_stop_counts
+        num program;
+        num control;
+    ENDRECORD
+
+    CONST string ROS_BUILD_ACCEPTANCE := "8a237425283c";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -47,12 +53,10 @@ MODULE ROS_acceptance
     VAR num ROS_to_feed := 0;
     VAR num ROS_fed := 0;
 
-    ! Stops and starts of the program that came before all that is being taken, ...
-    VAR num ROS_stops_before := 0;
+    ! Stops that came before all that is being taken, ...
+    VAR ROS_stop_counts ROS_stops_before;
     ! ... and before the first point of the trajectory.
-    LOCAL VAR num program_stops := 0;
-    ! Stops by the control server that came before the trajectory did.
-    LOCAL VAR num stops_seen := 0;
+    LOCAL VAR ROS_stop_counts stops_seen;
     ! Warnings are rationed.
     LOCAL VAR clock since_line;
     LOCAL VAR num silent_lines := 0;
@@ -67,12 +71,22 @@ MODULE ROS_acceptance
         IF ROS_build_fault() = ROS_REASON_BUILD_MISMATCH ROS_refuse ROS_REASON_BUILD_MISMATCH, -1;
     ENDPROC
 
+    ! Stops so far.
+    FUNC ROS_stop_counts ROS_stops_now()
+        RETURN [ROS_program_stops,ROS_control_asked];
+    ENDFUNC
+
+    ! What is received from now on came after these stops, whoever sends it.
+    PROC ROS_show_stops_seen(ROS_stop_counts stops)
+        ROS_stops_seen := stops.program;
+        ROS_control_seen := stops.control;
+    ENDPROC
+
     PROC ROS_new_trajectory()
         ROS_first := TRUE;
         ROS_count := 0;
         ROS_fault := ROS_REASON_NONE;
-        program_stops := ROS_stops_before;
-        stops_seen := ROS_control_asked;
+        stops_seen := ROS_stops_before;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory := ROS_next(ROS_trajectory);
         IF ROS_program = ROS_trajectory ROS_program := -1;
@@ -90,8 +104,8 @@ MODULE ROS_acceptance
         ROS_phase := ROS_TRAJ_MOVING;
         ROS_session := ROS_trajectory;
         ! A stop that comes from here on finds it under way; one that came before did not.
-        IF ROS_control_asked <> stops_seen ROS_end_session ROS_control_reason;
-        IF ROS_program_stops <> program_stops THEN
+        IF ROS_control_asked <> stops_seen.control ROS_end_session ROS_control_reason;
+        IF ROS_program_stops <> stops_seen.program THEN
             ROS_end_session ROS_cause(ROS_REASON_PROGRAM_STOPPED);
             ! Its points are announced only when the robot has been stopped.
             ROS_await_halt;
@@ -236,11 +250,10 @@ MODULE ROS_acceptance
     ! Ask the supervisor whether the trajectory may start. A halt that is still under way is
     ! waited for.
     FUNC num ROS_what_hinders()
-        ! A stop that came while it was received is for this trajectory, too.
-        IF ROS_control_asked <> stops_seen RETURN ROS_control_reason;
-        ! So is what forbade motion meanwhile, even if it is over.
         FOR try FROM 1 TO 30 DO
-            ROS_stops_seen := program_stops;
+            ! A stop that came behind its first byte is for this trajectory, too.
+            IF ROS_control_asked <> stops_seen.control RETURN ROS_control_reason;
+            ! So is what forbade motion meanwhile, even if it is over.
             ROS_look_asked := ROS_next(ROS_look_asked);
             IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
             IF NOT ROS_answered(ROS_LATE) THEN
@@ -250,7 +263,7 @@ MODULE ROS_acceptance
             IF ROS_not_ready > ROS_REASON_NONE RETURN ROS_not_ready;
             IF ROS_hindered = ROS_trajectory RETURN ROS_hindrance;
             ! Or if it is over before the supervisor has looked.
-            IF ROS_program_stops <> program_stops RETURN ROS_cause(ROS_REASON_PROGRAM_STOPPED);
+            IF ROS_program_stops <> stops_seen.program RETURN ROS_cause(ROS_REASON_PROGRAM_STOPPED);
             IF ROS_not_ready = ROS_REASON_NONE RETURN ROS_REASON_NONE;
             WaitTime 0.1;
         ENDFOR

@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "33a345e9b546";
+    CONST string ROS_BUILD_EXECUTION := "8a237425283c";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;

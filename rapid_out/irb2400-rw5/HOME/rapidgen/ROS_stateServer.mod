@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "33a345e9b546";
+    CONST string ROS_BUILD_STATE_SERVER := "8a237425283c";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;

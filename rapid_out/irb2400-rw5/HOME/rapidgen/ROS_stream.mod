@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "33a345e9b546";
+    CONST string ROS_BUILD_STREAM := "8a237425283c";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;

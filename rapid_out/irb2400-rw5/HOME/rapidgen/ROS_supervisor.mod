@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "33a345e9b546";
+    CONST string ROS_BUILD_SUPERVISOR := "8a237425283c";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -286,6 +286,7 @@ MODULE ROS_supervisor
         IF ROS_latched OR ROS_paused >= 0 RETURN -1;
         IF ROS_interrupts_seen <> ROS_interrupts RETURN -1;
         IF ROS_stops_seen <> ROS_program_stops RETURN -1;
+        IF ROS_control_seen <> ROS_control_asked RETURN -1;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 

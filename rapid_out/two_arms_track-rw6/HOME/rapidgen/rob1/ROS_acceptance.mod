@@ -8,7 +8,13 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "6da5ed19b85e";
+    ! Stops and starts of the program, and stops that the control server asked for.
+    RECORD ROS_stop_counts
+        num program;
+        num control;
+    ENDRECORD
+
+    CONST string ROS_BUILD_ACCEPTANCE := "88e807c4be29";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -42,12 +48,10 @@ MODULE ROS_acceptance
     VAR num ROS_to_feed := 0;
     VAR num ROS_fed := 0;
 
-    ! Stops and starts of the program that came before all that is being taken, ...
-    VAR num ROS_stops_before := 0;
+    ! Stops that came before all that is being taken, ...
+    VAR ROS_stop_counts ROS_stops_before;
     ! ... and before the first point of the trajectory.
-    LOCAL VAR num program_stops := 0;
-    ! Stops by the control server that came before the trajectory did.
-    LOCAL VAR num stops_seen := 0;
+    LOCAL VAR ROS_stop_counts stops_seen;
     ! Warnings are rationed.
     LOCAL VAR clock since_line;
     LOCAL VAR num silent_lines := 0;
@@ -62,12 +66,22 @@ MODULE ROS_acceptance
         IF ROS_build_fault() = ROS_REASON_BUILD_MISMATCH ROS_refuse ROS_REASON_BUILD_MISMATCH, -1;
     ENDPROC
 
+    ! Stops so far.
+    FUNC ROS_stop_counts ROS_stops_now()
+        RETURN [ROS_program_stops_1,ROS_control_asked_1];
+    ENDFUNC
+
+    ! What is received from now on came after these stops, whoever sends it.
+    PROC ROS_show_stops_seen(ROS_stop_counts stops)
+        ROS_stops_seen_1 := stops.program;
+        ROS_control_seen_1 := stops.control;
+    ENDPROC
+
     PROC ROS_new_trajectory()
         ROS_first := TRUE;
         ROS_count := 0;
         ROS_fault := ROS_REASON_NONE;
-        program_stops := ROS_stops_before;
-        stops_seen := ROS_control_asked_1;
+        stops_seen := ROS_stops_before;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory_1 := ROS_next(ROS_trajectory_1);
         IF ROS_program_1 = ROS_trajectory_1 ROS_program_1 := -1;
@@ -85,8 +99,8 @@ MODULE ROS_acceptance
         ROS_phase_1 := ROS_TRAJ_MOVING;
         ROS_session_1 := ROS_trajectory_1;
         ! A stop that comes from here on finds it under way; one that came before did not.
-        IF ROS_control_asked_1 <> stops_seen ROS_end_session ROS_control_reason_1;
-        IF ROS_program_stops_1 <> program_stops THEN
+        IF ROS_control_asked_1 <> stops_seen.control ROS_end_session ROS_control_reason_1;
+        IF ROS_program_stops_1 <> stops_seen.program THEN
             ROS_end_session ROS_cause(ROS_REASON_PROGRAM_STOPPED);
             ! Its points are announced only when the robot has been stopped.
             ROS_await_halt;
@@ -158,11 +172,10 @@ MODULE ROS_acceptance
     ! Ask the supervisor whether the trajectory may start. A halt that is still under way is
     ! waited for.
     FUNC num ROS_what_hinders()
-        ! A stop that came while it was received is for this trajectory, too.
-        IF ROS_control_asked_1 <> stops_seen RETURN ROS_control_reason_1;
-        ! So is what forbade motion meanwhile, even if it is over.
         FOR try FROM 1 TO 30 DO
-            ROS_stops_seen_1 := program_stops;
+            ! A stop that came behind its first byte is for this trajectory, too.
+            IF ROS_control_asked_1 <> stops_seen.control RETURN ROS_control_reason_1;
+            ! So is what forbade motion meanwhile, even if it is over.
             ROS_look_asked_1 := ROS_next(ROS_look_asked_1);
             IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
             IF NOT ROS_answered(ROS_LATE) THEN
@@ -172,7 +185,7 @@ MODULE ROS_acceptance
             IF ROS_not_ready_1 > ROS_REASON_NONE RETURN ROS_not_ready_1;
             IF ROS_hindered_1 = ROS_trajectory_1 RETURN ROS_hindrance_1;
             ! Or if it is over before the supervisor has looked.
-            IF ROS_program_stops_1 <> program_stops RETURN ROS_cause(ROS_REASON_PROGRAM_STOPPED);
+            IF ROS_program_stops_1 <> stops_seen.program RETURN ROS_cause(ROS_REASON_PROGRAM_STOPPED);
             IF ROS_not_ready_1 = ROS_REASON_NONE RETURN ROS_REASON_NONE;
             WaitTime 0.1;
         ENDFOR

@@ -9,11 +9,13 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "6da5ed19b85e";
+    CONST string ROS_BUILD_CONTROL := "88e807c4be29";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
     LOCAL CONST num LOOK_PERIOD := 0.1;
+    ! s for the motion server to look at its sockets after a STOP. It waits for bytes for ROS_WAIT, which is less.
+    LOCAL CONST num SEEN_TIMEOUT := 0.15;
     ! s: the longest time between heartbeats.
     LOCAL CONST num LONGEST := 3600;
 
@@ -209,20 +211,25 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! STOP is the only point that comes here. The reply comes when the stop is sure to last.
+    ! STOP is the only point that comes here. The reply comes when the stop is sure to last, and the motion
+    ! server counts what comes from now on as sent after it; but it does not wait for that for long.
     LOCAL PROC take_stop(VAR socketdev client)
         VAR num sequence;
+        VAR num code := ROS_REPLY_SUCCESS;
 
         UnpackRawBytes request, 17, sequence \IntX:=DINT;
         linked := (sequence = ROS_SEQ_STOP);
         IF NOT linked RETURN;
         ask_stop ROS_REASON_STOPPED;
-        IF answered(ROS_control_asked_1, ROS_control_done_1, ROS_LATE - ROS_SOON) THEN
-            confirm client;
-        ELSE
-            ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_FAILURE;
-            send_answer client;
+        IF NOT answered(ROS_control_asked_1, ROS_control_done_1, ROS_LATE - ROS_SOON) THEN
+            code := ROS_REPLY_FAILURE;
+        ELSEIF NOT answered(ROS_control_asked_1, ROS_control_seen_1, SEEN_TIMEOUT) THEN
+            ! The motion server is still reading. It rejects what it reads before its socket is empty.
         ENDIF
+        ROS_pack_reply answer, ROS_frame_type, code;
+        send_answer client;
+        ! A heartbeat that came meanwhile was not read yet, and is not late for that.
+        ROS_start_clock since_heartbeat;
     ERROR
         RAISE;
     ENDPROC

@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
     ! leaves an instruction that is under way when the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "6da5ed19b85e";
+    CONST string ROS_BUILD_EXECUTION := "88e807c4be29";
 
     ! The instruction at hand, and why it could not be carried out, 0: it could.
     VAR ROS_order ROS_ordered;

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "6da5ed19b85e";
+    CONST string ROS_BUILD_MOTION_SERVER := "88e807c4be29";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -30,10 +30,10 @@ MODULE ROS_motionServer
     LOCAL VAR rawbytes early;
     LOCAL VAR num early_bytes := 0;
     LOCAL VAR clock since_look;
-    ! Stops and starts of the program that came before all that the newer client has sent, and before
-    ! any client came who has not been accepted yet.
-    LOCAL VAR num stops_before_newcomer := 0;
-    LOCAL VAR num stops_before_others := 0;
+    ! Stops that came before all that the newer client has sent, and before any client came who has
+    ! not been accepted yet.
+    LOCAL VAR ROS_stop_counts stops_before_newcomer;
+    LOCAL VAR ROS_stop_counts stops_before_others;
     LOCAL VAR rawbytes answer;
     ! Of the message at hand: what it asks for, its reply code, and the number of a point.
     LOCAL VAR num comm_type := 0;
@@ -57,7 +57,7 @@ MODULE ROS_motionServer
         ROS_phase_of_1 := ROS_trajectory_1;
         ROS_end_session ROS_REASON_CLIENT_LOST;
         ROS_listen server, PORT;
-        stops_before_others := ROS_program_stops_1;
+        stops_before_others := ROS_stops_now();
         WHILE TRUE DO
             serve client_1, client_2;
             lose client_1;
@@ -75,6 +75,7 @@ MODULE ROS_motionServer
         IF NOT taken_over THEN
             WHILE NOT has_come(client, ROS_WAIT) DO
                 ! Nobody, a stranger, or the server socket broke and was opened again.
+                ROS_show_stops_seen stops_before_others;
             ENDWHILE
         ENDIF
         taken_over := FALSE;
@@ -82,6 +83,7 @@ MODULE ROS_motionServer
         ROS_part_bytes := 0;
         ROS_start_clock since_look;
         ROS_stops_before := stops_before_newcomer;
+        ROS_show_stops_seen ROS_stops_before;
         ! What it said while another one was served.
         received := early_bytes;
         early_bytes := 0;
@@ -91,7 +93,7 @@ MODULE ROS_motionServer
         ENDIF
         WHILE linked AND (NOT taken_over) DO
             busy := ROS_active();
-            note_stops client;
+            note_stops client, newcomer;
             IF ROS_fed < ROS_to_feed THEN
                 ROS_feed;
                 received := short_look(client);
@@ -117,27 +119,29 @@ MODULE ROS_motionServer
 
     ! TRUE if a client has come on `client` within `seconds`.
     LOCAL FUNC bool has_come(VAR socketdev client, num seconds)
-        VAR num stops;
+        VAR ROS_stop_counts stops;
 
-        stops := ROS_program_stops_1;
+        stops := ROS_stops_now();
         IF ROS_accept(server, PORT, client, seconds) THEN
             stops_before_newcomer := stops_before_others;
             RETURN TRUE;
         ENDIF
         ! Who comes now has sent nothing before these stops.
         IF ROS_nobody stops_before_others := stops;
-        ROS_stops_seen_1 := stops;
         RETURN FALSE;
     ENDFUNC
 
-    ! What has been received before a stop of the program must not move the robot: stops are known when
-    ! nothing is left to read.
-    LOCAL PROC note_stops(VAR socketdev client)
-        VAR num stops;
+    ! What has been received before a stop must not move the robot: stops are known when nothing is left
+    ! to read. They are shown as seen when they are known of every client.
+    LOCAL PROC note_stops(VAR socketdev client, VAR socketdev newcomer)
+        VAR ROS_stop_counts stops;
 
-        stops := ROS_program_stops_1;
+        stops := ROS_stops_now();
         IF stops = ROS_stops_before OR ROS_part_bytes > 0 RETURN;
         IF ROS_peek(client) = 0 ROS_stops_before := stops;
+        IF ROS_stops_before <> stops RETURN;
+        IF NOT waiting waiting := has_come(newcomer, 0.001);
+        ROS_show_stops_seen stops;
     ENDPROC
 
     ! A newer client is served when this one has been silent for a while: it may be the same
@@ -145,16 +149,15 @@ MODULE ROS_motionServer
     ! is silent means nothing, and to connect is no reason to stop the robot.
     LOCAL PROC look_at(VAR socketdev newcomer, num quiet)
         VAR num wish;
-        VAR num stops;
+        VAR ROS_stop_counts stops;
 
         ROS_start_clock since_look;
         IF NOT waiting waiting := has_come(newcomer, 0.001);
         IF NOT waiting RETURN;
-        stops := ROS_program_stops_1;
+        stops := ROS_stops_now();
         IF early_bytes = 0 THEN
             IF ROS_peek(newcomer) = 0 stops_before_newcomer := stops;
         ENDIF
-        ROS_stops_seen_1 := stops;
         IF NOT ROS_active() THEN
             taken_over := (quiet >= PATIENCE);
             RETURN;

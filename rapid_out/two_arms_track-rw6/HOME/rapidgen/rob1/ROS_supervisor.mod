@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "6da5ed19b85e";
+    CONST string ROS_BUILD_SUPERVISOR := "88e807c4be29";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -286,6 +286,7 @@ MODULE ROS_supervisor
         IF ROS_latched_1 OR ROS_paused_1 >= 0 RETURN -1;
         IF ROS_interrupts_seen_1 <> ROS_interrupts_1 RETURN -1;
         IF ROS_stops_seen_1 <> ROS_program_stops_1 RETURN -1;
+        IF ROS_control_seen_1 <> ROS_control_asked_1 RETURN -1;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 

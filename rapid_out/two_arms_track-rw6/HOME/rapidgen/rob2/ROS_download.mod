@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "6da5ed19b85e";
+    CONST string ROS_BUILD_DOWNLOAD := "88e807c4be29";
 
     ! A trajectory is being received, and still may become one.
     VAR bool ROS_receiving := FALSE;

@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "6da5ed19b85e";
+    CONST string ROS_BUILD_PROGRAMS := "88e807c4be29";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 5000;

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "6da5ed19b85e";
+    CONST string ROS_BUILD_STATE_SERVER := "88e807c4be29";
 
     LOCAL CONST num PORT := 11012;
     LOCAL CONST num PERIOD := 0.1;
