@@ -151,7 +151,7 @@ def feed(bench: Bench, client: RawLink, count: int) -> Iterator[int]:
         assert accepted == first + size
         first += size
         allowed = planned + RING
-    while bench.controller.task("T_ROB1")["ROS_common:ROS_done"] != 1:
+    while bench.controller.task("T_ROB1")["ROS_common:ROS_done_trajectory"] != 1:
         yield first
 
 

@@ -47,9 +47,9 @@ _MM = 1000.0
 _TURN_PER_MM = 0.2
 # Axes of a kind share one component of a corner's zone.
 _SUMS = (
-    {"name": "turning", "field": "zone_ori", "least": "SMALLEST_TURN"},
-    {"name": "swinging", "field": "zone_reax", "least": "SMALLEST_TURN"},
-    {"name": "sliding", "field": "zone_leax", "least": "SMALLEST_CORNER"},
+    {"name": "robot_speed_sum", "field": "zone_ori", "least": "MIN_ZONE_DEG"},
+    {"name": "axis_speed_sum", "field": "zone_reax", "least": "MIN_ZONE_DEG"},
+    {"name": "linear_speed_sum", "field": "zone_leax", "least": "MIN_ZONE_MM"},
 )
 # The driver believes the controller's movement report for this time, s, and this number of
 # messages.
@@ -64,8 +64,8 @@ _TARGET_PARTS = (
     *((f"robconf.{name}", "") for name in ("cf1", "cf4", "cf6", "cfx")),
 )
 _FACTORS = (
-    {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
-    {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
+    {"name": "ROS_DEG", "value": "57.29578", "text": "Factor from rad to deg."},
+    {"name": "ROS_MM", "value": "1000", "text": "Factor from m to mm."},
 )
 
 
@@ -249,11 +249,11 @@ def _exposed(config: RobotConfig) -> list[dict[str, object]]:
 
 _FORMS = {
     # For a parameter's type: its RAPID variable, and its reader.
-    "num": ("numbers{{{}}}", "take_num"),
-    "bool": ("yes_{}", "take_bool"),
-    "string": ("texts{{{}}}", "take_text"),
-    "robtarget": ("targets{{{}}}", "take_target"),
-    "jointtarget": ("places{{{}}}", "take_place"),
+    "num": ("numbers{{{}}}", "read_num"),
+    "bool": ("flag_{}", "read_bool"),
+    "string": ("texts{{{}}}", "read_text"),
+    "robtarget": ("targets{{{}}}", "read_target"),
+    "jointtarget": ("places{{{}}}", "read_place"),
 }
 
 
@@ -349,6 +349,13 @@ def to_rapid(joint: Joint, value: float) -> float:
     return math.degrees(value) if joint.kind == "revolute" else value * _MM
 
 
+def _speed_sum(part: str, revolute: bool) -> str:
+    """Return the name of the sum of speeds to which an axis belongs (`_SUMS`)."""
+    if not revolute:
+        return "linear_speed_sum"
+    return "robot_speed_sum" if part == "robax" else "axis_speed_sum"
+
+
 def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]:
     joint = group.joints[n - 1]
     policy = config.trajectory
@@ -364,21 +371,21 @@ def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]
         "low": literal(inward(to_rapid(joint, joint.lower), up=True)),
         "high": literal(inward(to_rapid(joint, joint.upper), up=False)),
         "speed": literal(round(to_rapid(joint, joint.speed) * _SPEED_MARGIN, 4)),
-        "sum": ("turning" if part == "robax" else "swinging") if revolute else "sliding",
+        "sum": _speed_sum(part, revolute),
         "turn": literal(round(to_rapid(joint, joint.acceleration) * _TURN_SHARE, 4)),
         "lower": literal(joint.lower),
         "upper": literal(joint.upper),
         "arm": layout.arm(group, joint),
         "tolerance": literal(round(to_rapid(joint, tolerance), 4)),
         "factor": "ROS_DEG" if revolute else "ROS_MM",
-        "step": "DEG" if revolute else "MM",
+        "step": "DEG_PER_STEP" if revolute else "MM_PER_STEP",
     }
 
 
 def _robot_axes(group: GroupConfig) -> list[str]:
     """Return the members of a robjoint: joint variables or fixed values."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
-    return [joints.get(f"rax_{n}", f"ROS_kept_{n}") for n in range(1, 7)]
+    return [joints.get(f"rax_{n}", f"ROS_fixed_axis_{n}") for n in range(1, 7)]
 
 
 def _external_axes(group: GroupConfig) -> list[str]:

@@ -41,7 +41,7 @@ STATUS_SIGNALS = (
     StatusSignal(
         "signalMotorOn",
         "motors_on",
-        "Are the motors on?",
+        "Return whether the motors are on (ROS_TRI_...).",
         {5: "MotOnState", 7: "MotorOn"},
         frozenset({6, 7}),
         one_when_well=True,
@@ -49,14 +49,14 @@ STATUS_SIGNALS = (
     StatusSignal(
         "signalRobotEStop",
         "emergency_stop",
-        "Is an emergency stop active?",
+        "Return whether an emergency stop is active.",
         {5: "EmStop"},
         frozenset({6}),
     ),
     StatusSignal(
         "signalExecutionError",
         "controller_error",
-        "Has the program of the motion task stopped with an error?",
+        "Return whether the motion task's program has stopped with an error.",
         {5: "Error"},
         frozenset({6, 7}),
         of="task",
@@ -64,7 +64,7 @@ STATUS_SIGNALS = (
     StatusSignal(
         "signalRobotNotMoving",
         "standing",
-        "Does the robot stand?",
+        "Return whether the robot stands.",
         {5: "MechUnitNotMoving"},
         frozenset({6}),
         one_when_well=True,
@@ -73,7 +73,7 @@ STATUS_SIGNALS = (
     StatusSignal(
         "signalRosMotionTaskExecuting",
         "executing",
-        "Is the program of the motion task running?",
+        "Return whether the motion task's program is running.",
         {5: "TaskExecuting"},
         frozenset({5, 6}),
         one_when_well=True,

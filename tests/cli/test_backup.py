@@ -56,7 +56,9 @@ def test_check_looks_at_a_configuration_and_a_folder_on_the_cell(built, capsys):
     backup, out = built
     assert main(["check", "irb120", str(out), "--backup", str(backup)]) == 0
     program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
-    program.write_text(program.read_text().replace("  PROC", "  VAR num ROS_latched;\n  PROC", 1))
+    program.write_text(
+        program.read_text().replace("  PROC", "  VAR num ROS_stop_latched;\n  PROC", 1)
+    )
     capsys.readouterr()
     assert main(["check", "irb120", "--backup", str(backup)]) == 1
     assert "RG112" in capsys.readouterr().out

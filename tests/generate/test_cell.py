@@ -171,7 +171,7 @@ def test_a_module_in_the_program_is_refused(backup):
     assert fault.span.path == str(place)
 
 
-@pytest.mark.parametrize("name", ["ROS_run", "ROS_latched"])
+@pytest.mark.parametrize("name", ["ROS_run", "ROS_stop_latched"])
 def test_a_name_of_the_program_is_in_the_way(backup, name):
     """A Grinding.mod of 6.13 has a global `distance`, which hides a predefined function."""
     path = backup / "RAPID/TASK1/PROGMOD/theirs.mod"

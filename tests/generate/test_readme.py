@@ -61,7 +61,7 @@ def test_readme_has_first_steps_and_removal(robot):
     assert places == sorted(places)
     assert "ROS_StateServer" in text
     assert "rapidgen uninstall" in text
-    assert "\n## The robot stands and nothing says why\n" in text
+    assert "\n## The robot does not move, without an error\n" in text
     assert "\n\n\n" not in text
     assert "{" not in text.replace("{bind: service}", "")
 

@@ -160,29 +160,29 @@ DEFECTS = {
     # The sequence check of the motion server, left out.
     "hole": (
         "ROS_download",
-        "ELSEIF sequence = ROS_count OR sequence = ROS_SEQ_END OR ROS_count = 0 THEN",
+        "ELSEIF sequence = ROS_point_count OR sequence = ROS_SEQ_END OR ROS_point_count = 0 THEN",
         "ELSEIF TRUE THEN",
     ),
     "too-many-points": (
         "ROS_download",
-        "ROS_refuse_download ROS_REASON_CAPACITY, ROS_count, sequence = ROS_SEQ_END;",
+        "ROS_refuse_download ROS_REASON_CAPACITY, ROS_point_count, sequence = ROS_SEQ_END;",
         "",
     ),
-    "padding": ("ROS_download", "IF NOT (padding = 0) ROS_object", "IF FALSE ROS_object"),
+    "padding": ("ROS_download", "IF NOT (padding = 0) ROS_set_fault", "IF FALSE ROS_set_fault"),
     "newest-takes-over": (
         "ROS_motionServer",
-        "taken_over := (quiet >= PATIENCE);",
-        "taken_over := FALSE;",
+        "is_taken_over := (silence >= TAKEOVER_DELAY);",
+        "is_taken_over := FALSE;",
     ),
     "leaves-moving": (
         "ROS_motionServer",
-        "IF NOT (taken_over AND ROS_active()) ROS_end_session ROS_REASON_CLIENT_LOST;",
+        "IF NOT (is_taken_over AND ROS_is_active()) ROS_end_trajectory ROS_REASON_CLIENT_LOST;",
         "",
     ),
     # The event routines count no stop of the program.
     "order-before-stop": (
         "ROS_events",
-        "ROS_program_stops := ROS_next(ROS_program_stops);",
+        "ROS_program_stops := ROS_next_count(ROS_program_stops);",
         "",
     ),
     # What waits behind a client counts as new when it is read.
@@ -199,11 +199,19 @@ DEFECTS = {
     ),
     "power-loss-after-stop": (
         "ROS_supervisor",
-        "ROS_start_clock since_bell;\n        ROS_start",
+        "ROS_start_clock clock_wakeup;\n        ROS_start",
         "ROS_start",
     ),
-    "task-ends-moving": ("ROS_common", "RETURN unchanged >= ROS_MISSED_PULSES;", "RETURN FALSE;"),
-    "speed-keeps-own": ("ROS_motion", "program_share := refreshed();", "program_share := 100;"),
+    "task-ends-moving": (
+        "ROS_common",
+        "RETURN unchanged >= ROS_MAX_MISSED_COUNTS;",
+        "RETURN FALSE;",
+    ),
+    "speed-keeps-own": (
+        "ROS_motion",
+        "program_percent := program_refresh();",
+        "program_percent := 100;",
+    ),
 }
 
 

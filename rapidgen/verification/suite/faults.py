@@ -148,9 +148,9 @@ def _stale_data(bench: Bench) -> None:
 
 
 def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:
-    if "ring" in cell.name.lower() and cell.dims:
+    if "ros_ring" in cell.name.lower() and cell.dims:
         for point in cell.v.values():
-            point.session, point.index = chance.randrange(0, 300), chance.randrange(1, 9)
+            point.trajectory, point.index = chance.randrange(0, 300), chance.randrange(1, 9)
             point.duration = 1.0
             for n, axis in enumerate(("rax_1", "rax_2", "rax_3")):
                 setattr(point.target.robax, axis, float(5 * n + chance.randrange(0, 5)))

@@ -332,7 +332,7 @@ def _progress_in_between(bench: Bench) -> None:
         raise CheckFailed(f"a trajectory begins after {reply}, PROGRESS says {between}")
     task[names["ros_trajectory"]] = reply.trajectory
     # STOP resets the rejection: its code is written before its state.
-    task[names["ros_refusal"]] = RawReason.STOPPED
+    task[names["ros_refusal_code"]] = RawReason.STOPPED
     between = _newest(bench, link)
     if between[1:] != (RawTrajectoryState.STOPPED, 2, 0, 0, RawReason.STOPPED, -1, 0):
         raise CheckFailed(f"a STOP takes back a refusal, PROGRESS says {between}")

@@ -25,16 +25,22 @@ case = SuiteGroup("failing")
 
 _COUNTERS = (
     ("head", "tail"),
-    ("trajectory", "phase_of", "session", "done", "started"),
+    (
+        "trajectory",
+        "phase_trajectory",
+        "active_trajectory",
+        "done_trajectory",
+        "started_trajectory",
+    ),
     ("stop_asked", "stop_done"),
-    ("look_asked", "look_done"),
+    ("check_asked", "check_done"),
     ("control_asked", "control_done"),
     ("pause_asked", "pause_done"),
     ("speed_asked", "speed_done"),
     ("abort", "abort_done"),
-    ("bell",),
-    ("interrupts", "interrupts_seen"),
-    ("dead", "halted"),
+    ("wakeup",),
+    ("interruptions", "interruptions_seen"),
+    ("ended_early", "halted_trajectory"),
 )
 """Counters in ROS_common.
 
@@ -223,7 +229,7 @@ def _number_again(bench: Bench) -> None:
     """Restart the numbers after a program: the points are no instructions."""
     watcher, link = bench.watcher(), bench.motion()
     task = bench.controller.task(bench.task("ROS_motion"))
-    task[datum(bench, "ros_program")] = bench.progress(watcher).trajectory + 1
+    task[datum(bench, "ros_program_number")] = bench.progress(watcher).trajectory + 1
     bench.assert_moves_through(link, bench.wave(4))
 
 

@@ -154,7 +154,7 @@ def _late_point(bench: Bench) -> None:
     reply = _ended(bench, watcher, RawReason.STOPPED, "STOP")
     points = list(task[ring].values())
     place = int(task[head]) % len(points)
-    points[place].session, points[place].index = reply.trajectory, reply.planned + 1
+    points[place].trajectory, points[place].index = reply.trajectory, reply.planned + 1
     points[place].target, points[place].duration = points[1].target, 1.0
     task[head] = task[head] + 1
     bench.assert_at_rest(1, "a point of a stopped trajectory came late")
@@ -446,7 +446,7 @@ def _stale_build(bench: Bench) -> None:
     mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
     with _second_controller(bench, mixed, early=True) as other:
         task = other.controller.task(other.task("ROS_motion"))
-        task[datum(other, "ros_shown_motion")] = bench.system.build_id
+        task[datum(other, "ros_task_build_motion")] = bench.system.build_id
         watcher, link = other.watcher(), other.motion()
         link.send(other.download(other.wave(3)))
         other.assert_at_rest(1, "modules of the motion task are of different builds")

@@ -399,7 +399,7 @@ def _gives_up(bench: Bench) -> None:
             fails(bench, "ROS_motion", "MoveAbsJ", error, after=1)
         else:
             ring = task[datum(bench, "ros_ring")].values()
-            next(p for p in ring if (p.session, p.index) == (number, 4)).index = 5.0
+            next(p for p in ring if (p.trajectory, p.index) == (number, 4)).index = 5.0
         bench.wait_until_standing(5)
         # The axes come to rest after the controller's planned end.
         latest = 2 * unit + 0.1 + bench.setting.motion.servo_lag

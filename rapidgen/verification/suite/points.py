@@ -298,7 +298,7 @@ def _full(bench: Bench, table: Table) -> None:
         table.row(_BEGIN, current, _SLOW, _TAKEN)
         table.ask()
         # Simulate the other points: sending a thousand equal points adds nothing.
-        bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_count"] = (
+        bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_point_count"] = (
             capacity - 1
         )
         full = messages.RawRefused(RawReason.CAPACITY, capacity, 0)
@@ -317,7 +317,7 @@ def _of_other_builds(bench: Bench, table: Table) -> None:
     The build comes before every other reason.
     """
     task = bench.controller.task(bench.task("ROS_motionServer"))
-    name = datum(bench, "ros_shown_state")
+    name = datum(bench, "ros_task_build_state")
     mixed = messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0)
     own, task[name] = task[name], "000000000000"
     for sequence in (_BEGIN, 1, 1, _END, _BEGIN):

@@ -31,7 +31,7 @@ def _ring(bench: Bench) -> list[Value]:
     """Return the instructions in the motion task's ring, by index."""
     task = bench.rapid_task("ROS_motion")
     declared = task.program.modules["ros_instructions"].declarations
-    name = next(key for key in declared if re.fullmatch(r"ros_orders(_\d+)?", key))
+    name = next(key for key in declared if re.fullmatch(r"ros_instr_ring(_\d+)?", key))
     view = bench.controller.task(bench.group.task)
     return list(view[f"ROS_instructions:{name}"].values())
 
@@ -63,12 +63,12 @@ def _late(bench: Bench) -> None:
     reply = _expect_progress(bench, watcher, number, RawTrajectoryState.STOPPED, RawReason.STOPPED)
     ring = _ring(bench)
     late, like = ring[int(task[head]) % len(ring)], ring[0]
-    late.session, late.index = number, reply.planned + 1
+    late.trajectory, late.index = number, reply.planned + 1
     late.kind, late.joints, late.speed, late.zone = like.kind, like.joints, like.speed, like.zone
     task[head] = task[head] + 1
     bench.assert_at_rest(1, "an instruction of a stopped program came late")
     number = client.takes("a program after it", program)
-    next(o for o in ring if (o.session, o.index) == (number, 4)).index = 5.0
+    next(o for o in ring if (o.trajectory, o.index) == (number, 4)).index = 5.0
     bench.wait_until_at(program[2].joints, 60)
     bench.assert_at_rest(1, "an instruction is missing")
     reply = _expect_progress(bench, watcher, number, RawTrajectoryState.FAILED, RawReason.INTERNAL)

@@ -301,7 +301,7 @@ def _events(bench: Bench) -> None:
     links = [subscribe(bench, RawFeature.EVENTS), bench.state()]
     links.append(subscribe(bench, RawFeature.EVENTS | RawFeature.PROGRESS))
     server = bench.controller.task(bench.task("ROS_stateServer"))
-    for name in ("events_put", "events_taken"):
+    for name in ("events_written", "events_read"):
         # The last values of counters come after years.
         server[f"ROS_stateServer:{name}"] = WRAP - 12
     for count in (12, 16, 17, 21):

@@ -29,7 +29,7 @@ def _at_once(bench: Bench) -> float:
 
 
 _SOCKETS_CHECKED = 0.12
-"""s until the motion server has checked its sockets: STOP's reply on the control port waits for it."""
+"""s until the motion server has checked its sockets. The reply on the control port waits for it."""
 
 
 def _prompt(bench: Bench, requested: float, what: str, allowed: float = 0) -> None:
@@ -279,7 +279,7 @@ def _builds_differ(bench: Bench) -> None:
     """Show another build in a task: one report after 2 s, no trajectories."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     task = bench.controller.task(bench.task("ROS_supervisor"))
-    displayed, last = datum(bench, "ros_shown_state"), bench.last_event
+    displayed, last = datum(bench, "ros_task_build_state"), bench.last_event
     good = task[displayed]
 
     def mix() -> None:
@@ -313,7 +313,7 @@ def _builds_differ(bench: Bench) -> None:
     for number, role in enumerate(("motion_server", "supervisor", "control"), 1):
         if role == "control" and not bench.group.ports.control:
             continue
-        other = datum(bench, f"ros_shown_{role}")
+        other = datum(bench, f"ros_task_build_{role}")
         task[other] = "0123456789ab"
         link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
@@ -327,7 +327,7 @@ def _builds_differ(bench: Bench) -> None:
             stream.refused(RawReason.BUILD_MISMATCH, f"the {role} shows another build")
         task[other] = good
     # The value of the motion task counts once its program runs.
-    displayed = datum(bench, "ros_shown_motion")
+    displayed = datum(bench, "ros_task_build_motion")
     for text, stopped, reason in (
         ("", False, RawReason.NOT_EXECUTING),
         ("mixed", True, RawReason.NOT_EXECUTING),

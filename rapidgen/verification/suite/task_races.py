@@ -132,7 +132,7 @@ def _is_over(bench: Bench, came: list[float]) -> None:
 )
 def _stream_stopped_at_every_statement(bench: Bench) -> None:
     """Stop streams that run, starve and end, at each statement."""
-    routines = ("next_point", "wait_for_points", "finish")
+    routines = ("next_point", "wait_for_points", "finish_trajectory")
     with _stepped(bench) as other:
         for number, line in enumerate(2 * _lines(other, "ROS_motion", *routines)):
             link = other.motion()
@@ -183,8 +183,8 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
     with _stepped(bench) as other:
         control = other.control()
         for module, routines in (
-            ("ROS_acceptance", ("ROS_hand_over", "ROS_what_hinders")),
-            ("ROS_stream", ("take_points",)),
+            ("ROS_acceptance", ("ROS_start_motion", "ROS_blocker")),
+            ("ROS_stream", ("read_points",)),
         ):
             for line in _lines(other, module, *routines):
                 link = other.motion()
@@ -218,7 +218,7 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
     with _stepped(bench) as other:
         control, link = other.control(), other.motion()
         other.run(0.5)
-        for line in _lines(other, "ROS_supervisor", "go_on"):
+        for line in _lines(other, "ROS_supervisor", "resume"):
             other.start_motion(link, other.wave(12), 0.3)
             control.ask(messages.RawPause(1))
             other.wait_until_standing(2)
@@ -247,11 +247,15 @@ def _progress_at_every_statement(bench: Bench) -> None:
     with _stepped(bench) as other:
         link, watcher = other.motion(), other.watcher()
         for module, places, refused in (
-            ("ROS_stateServer", (("ROS_stateServer", "tell"),), True),
-            ("ROS_stateServer", (("ROS_messages", "ROS_look"), ("ROS_messages", "look_at")), True),
+            ("ROS_stateServer", (("ROS_stateServer", "send_state"),), True),
+            (
+                "ROS_stateServer",
+                (("ROS_messages", "ROS_read_progress"), ("ROS_messages", "read_trajectory")),
+                True,
+            ),
             ("ROS_motionServer", (("ROS_acceptance", "ROS_new_trajectory"),), False),
-            ("ROS_motionServer", (("ROS_acceptance", "ROS_hand_over"),), False),
-            ("ROS_motionServer", (("ROS_download", "hand_over"),), False),
+            ("ROS_motionServer", (("ROS_acceptance", "ROS_start_motion"),), False),
+            ("ROS_motionServer", (("ROS_download", "start_motion"),), False),
             ("ROS_motion", (("ROS_motion", "next_point"),), False),
         ):
             for home, routine in places:

@@ -3,202 +3,210 @@ MODULE ROS_motionServer
     !
     ! Robot "irb2400-rw5", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! A trajectory comes whole, as points -1, 1, 2, ..., -3 (ROS_download), or in batches without
-    ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
-    ! this task never waits for room: it reads, and feeds the ring in between.
+    ! A trajectory is sent as a whole, as points -1, 1, 2, ..., -3
+    ! (ROS_download), or in batches of any number
+    ! (ROS_stream). The client sends STOP behind its points on the same connection. This
+    ! task therefore never waits for free places in the ring buffer: it reads, and feeds the ring buffer
+    ! in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "8a237425283c";
+    CONST string ROS_BUILD_MOTION_SERVER := "84947c65be85";
 
     LOCAL CONST num PORT := 11000;
-    ! s between two looks for bytes while the ring is being fed
-    LOCAL CONST num LOOK_PERIOD := 0.008;
-    ! s of silence after which a newer client is served, unless a trajectory is under way
-    LOCAL CONST num PATIENCE := 1;
-    ! s between two looks for newer clients
-    LOCAL CONST num NEWCOMER_PERIOD := 0.1;
+    ! Time between two checks for bytes while the ring buffer is being fed, s. It is short compared with
+    ! the duration of a point.
+    LOCAL CONST num POLL_PERIOD := 0.008;
+    ! Time without bytes after which a newer client is served, s, unless a trajectory is active. It is
+    ! short, because the newer client may be the same one after a broken connection.
+    LOCAL CONST num TAKEOVER_DELAY := 1;
+    ! Time between two checks for newer clients, s. Each check takes about 1 ms.
+    LOCAL CONST num ACCEPT_PERIOD := 0.1;
 
     LOCAL VAR socketdev server;
     LOCAL VAR socketdev client_1;
     LOCAL VAR socketdev client_2;
-    ! The other socket already holds the next client.
-    LOCAL VAR bool taken_over := FALSE;
-    LOCAL VAR bool linked := FALSE;
-    ! The other socket holds a newer client, who waits, and what it has said so far.
-    LOCAL VAR bool waiting := FALSE;
-    LOCAL VAR rawbytes early;
-    LOCAL VAR num early_bytes := 0;
-    LOCAL VAR clock since_look;
-    ! Stops that came before all that the newer client has sent, and before any client came who has
-    ! not been accepted yet.
+    ! TRUE if the other socket already holds the next client to serve; TRUE while the present client is
+    ! connected.
+    LOCAL VAR bool is_taken_over := FALSE;
+    LOCAL VAR bool is_connected := FALSE;
+    ! TRUE while the other socket holds a newer client that waits, and the bytes it has sent so far.
+    LOCAL VAR bool has_newcomer := FALSE;
+    LOCAL VAR rawbytes newcomer_data;
+    LOCAL VAR num newcomer_bytes := 0;
+    LOCAL VAR clock clock_accept;
+    ! Stops that occurred before the newer client sent anything, and before any client connected that
+    ! was not accepted yet.
     LOCAL VAR ROS_stop_counts stops_before_newcomer;
     LOCAL VAR ROS_stop_counts stops_before_others;
     LOCAL VAR rawbytes answer;
-    ! Of the message at hand: what it asks for, its reply code, and the number of a point.
+    ! Present message: its comm_type and reply code, whether it is a request, and the number of its
+    ! point.
     LOCAL VAR num comm_type := 0;
     LOCAL VAR num reply_code := 0;
-    LOCAL VAR bool requested := FALSE;
+    LOCAL VAR bool is_request := FALSE;
     LOCAL VAR num sequence := 0;
 
     PROC main()
-        ROS_start_task ROS_shown_motion_server,
+        ROS_start_task ROS_task_build_motion_server,
             ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_ACCEPTANCE = ROS_BUILD_ID AND
             ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
             ROS_BUILD_PROGRAMS = ROS_BUILD_ID AND ROS_BUILD_STREAM = ROS_BUILD_ID AND
             ROS_BUILD_MOTION_SERVER = ROS_BUILD_ID;
-        ROS_begin_pulse 1;
-        ROS_read_limits \tell;
-        ! Counters start where those that answer them stand.
+        ROS_start_alive_count 1;
+        ROS_read_limits \log;
+        ! Initialise the counters to the values of those that answer them.
         ROS_head := ROS_tail;
-        ROS_closed := -1;
+        ROS_closed_trajectory := -1;
         ROS_phase := ROS_TRAJ_NONE;
-        ROS_phase_of := ROS_trajectory;
-        ROS_end_session ROS_REASON_CLIENT_LOST;
+        ROS_phase_trajectory := ROS_trajectory;
+        ROS_end_trajectory ROS_REASON_CLIENT_LOST;
         ROS_listen server, PORT;
-        stops_before_others := ROS_stops_now();
+        stops_before_others := ROS_current_stops();
         WHILE TRUE DO
             serve client_1, client_2;
-            lose client_1;
+            drop_client client_1;
             serve client_2, client_1;
-            lose client_2;
+            drop_client client_2;
         ENDWHILE
     ENDPROC
 
-    ! Serve the client on `client` until it is gone, or until a newer one has come on `newcomer`.
+    ! Serve the client on `client` until it disconnects or a newer client on `newcomer` takes over.
     LOCAL PROC serve(VAR socketdev client, VAR socketdev newcomer)
         VAR num received;
-        VAR num quiet := 0;
-        VAR bool busy;
+        VAR num silence := 0;
+        VAR bool was_active;
 
-        IF NOT taken_over THEN
-            WHILE NOT has_come(client, ROS_WAIT) DO
-                ! Nobody, a stranger, or the server socket broke and was opened again.
-                ROS_show_stops_seen stops_before_others;
+        IF NOT is_taken_over THEN
+            WHILE NOT accept_client(client, ROS_WAIT_TIMEOUT) DO
+                ! No client came, or one that is not allowed, or the server socket was opened again.
+                ROS_publish_stops_seen stops_before_others;
             ENDWHILE
         ENDIF
-        taken_over := FALSE;
-        linked := TRUE;
-        ROS_part_bytes := 0;
-        ROS_start_clock since_look;
+        is_taken_over := FALSE;
+        is_connected := TRUE;
+        ROS_partial_bytes := 0;
+        ROS_start_clock clock_accept;
         ROS_stops_before := stops_before_newcomer;
-        ROS_show_stops_seen ROS_stops_before;
-        ! What it said while another one was served.
-        received := early_bytes;
-        early_bytes := 0;
+        ROS_publish_stops_seen ROS_stops_before;
+        ! Process what it sent while another client was served.
+        received := newcomer_bytes;
+        newcomer_bytes := 0;
         IF received > 0 THEN
-            CopyRawBytes early, 1, ROS_chunk, 1 \NoOfBytes:=received;
-            take_chunk client, received;
+            CopyRawBytes newcomer_data, 1, ROS_chunk, 1 \NoOfBytes:=received;
+            handle_chunk client, received;
         ENDIF
-        WHILE linked AND (NOT taken_over) DO
-            busy := ROS_active();
-            note_stops client, newcomer;
-            IF ROS_fed < ROS_to_feed THEN
-                ROS_feed;
-                received := short_look(client);
-                quiet := quiet + LOOK_PERIOD;
+        WHILE is_connected AND (NOT is_taken_over) DO
+            was_active := ROS_is_active();
+            update_stops client, newcomer;
+            IF ROS_feed_count < ROS_feed_total THEN
+                ROS_feed_ring;
+                received := poll_client(client);
+                silence := silence + POLL_PERIOD;
             ELSE
-                received := ROS_receive(client, ROS_chunk, ROS_WAIT);
-                quiet := quiet + ROS_WAIT;
+                received := ROS_receive(client, ROS_chunk, ROS_WAIT_TIMEOUT);
+                silence := silence + ROS_WAIT_TIMEOUT;
             ENDIF
-            ! Silence counts from the end of what was under way.
-            IF received <> 0 OR (busy AND (NOT ROS_active())) quiet := 0;
+            ! The silence is measured from the end of an active trajectory.
+            IF received <> 0 OR (was_active AND (NOT ROS_is_active())) silence := 0;
             IF received > 0 THEN
-                take_chunk client, received;
+                handle_chunk client, received;
             ELSEIF received < 0 THEN
-                linked := FALSE;
+                is_connected := FALSE;
             ENDIF
-            IF linked AND ROS_elapsed(since_look) >= NEWCOMER_PERIOD look_at newcomer, quiet;
+            IF is_connected AND ROS_elapsed_seconds(clock_accept) >= ACCEPT_PERIOD check_newcomer newcomer, silence;
         ENDWHILE
     ERROR
-        ! Nothing that a client sends may end this task.
+        ! No data that a client sends may end this task.
         ErrWrite \W, "ROS: a client was dropped", "Error " + ValToStr(ERRNO) + " while serving it.";
         RETURN;
     ENDPROC
 
-    ! TRUE if a client has come on `client` within `seconds`.
-    LOCAL FUNC bool has_come(VAR socketdev client, num seconds)
+    ! Return TRUE if a client has connected on `client` within `seconds`.
+    LOCAL FUNC bool accept_client(VAR socketdev client, num seconds)
         VAR ROS_stop_counts stops;
 
-        stops := ROS_stops_now();
+        stops := ROS_current_stops();
         IF ROS_accept(server, PORT, client, seconds) THEN
             stops_before_newcomer := stops_before_others;
             RETURN TRUE;
         ENDIF
-        ! Who comes now has sent nothing before these stops.
-        IF ROS_nobody stops_before_others := stops;
+        ! A client that connects from now on has sent nothing before these stops.
+        IF ROS_no_client stops_before_others := stops;
         RETURN FALSE;
     ENDFUNC
 
-    ! What has been received before a stop must not move the robot: stops are known when nothing is left
-    ! to read. They are shown as seen when they are known of every client.
-    LOCAL PROC note_stops(VAR socketdev client, VAR socketdev newcomer)
+    ! What was received before a stop must not move the robot. Bytes are known to be newer than a stop
+    ! if the socket was empty after it. The stops are published as seen when this is known for every
+    ! client.
+    LOCAL PROC update_stops(VAR socketdev client, VAR socketdev newcomer)
         VAR ROS_stop_counts stops;
 
-        stops := ROS_stops_now();
-        IF stops = ROS_stops_before OR ROS_part_bytes > 0 RETURN;
+        stops := ROS_current_stops();
+        IF stops = ROS_stops_before OR ROS_partial_bytes > 0 RETURN;
         IF ROS_peek(client) = 0 ROS_stops_before := stops;
         IF ROS_stops_before <> stops RETURN;
-        IF NOT waiting waiting := has_come(newcomer, 0.001);
-        ROS_show_stops_seen stops;
+        IF NOT has_newcomer has_newcomer := accept_client(newcomer, 0.001);
+        ROS_publish_stops_seen stops;
     ENDPROC
 
-    ! A newer client is served when this one has been silent for a while: it may be the same
-    ! one, whose old link is dead without a word. While a trajectory is under way that its client
-    ! is silent means nothing, and to connect is no reason to stop the robot.
-    LOCAL PROC look_at(VAR socketdev newcomer, num quiet)
-        VAR num wish;
+    ! Serve a newer client after the present one has been silent for a while: it may be the same client,
+    ! whose old connection is broken without notice. During a trajectory the silence of its client means
+    ! nothing, and a new connection is no reason to stop the robot.
+    LOCAL PROC check_newcomer(VAR socketdev newcomer, num silence)
+        VAR num reason;
         VAR ROS_stop_counts stops;
 
-        ROS_start_clock since_look;
-        IF NOT waiting waiting := has_come(newcomer, 0.001);
-        IF NOT waiting RETURN;
-        stops := ROS_stops_now();
-        IF early_bytes = 0 THEN
+        ROS_start_clock clock_accept;
+        IF NOT has_newcomer has_newcomer := accept_client(newcomer, 0.001);
+        IF NOT has_newcomer RETURN;
+        stops := ROS_current_stops();
+        IF newcomer_bytes = 0 THEN
             IF ROS_peek(newcomer) = 0 stops_before_newcomer := stops;
         ENDIF
-        IF NOT ROS_active() THEN
-            taken_over := (quiet >= PATIENCE);
+        IF NOT ROS_is_active() THEN
+            is_taken_over := (silence >= TAKEOVER_DELAY);
             RETURN;
         ENDIF
-        wish := heard(newcomer);
-        IF wish = ROS_REASON_FRAMING THEN
+        reason := newcomer_request(newcomer);
+        IF reason = ROS_REASON_FRAMING THEN
             SocketClose newcomer;
-            waiting := FALSE;
-            early_bytes := 0;
-        ELSEIF wish <> ROS_REASON_NONE THEN
-            ROS_end_session wish;
-            taken_over := TRUE;
+            has_newcomer := FALSE;
+            newcomer_bytes := 0;
+        ELSEIF reason <> ROS_REASON_NONE THEN
+            ROS_end_trajectory reason;
+            is_taken_over := TRUE;
         ENDIF
     ENDPROC
 
-    ! Who waits may stop what is under way, and begin something else; nothing else counts yet. What its
-    ! first message that says STOP or brings points is for the trajectory under way: STOPPED or
-    ! SUPERSEDED; FRAMING: it is none, or too much came before it, or the link is lost; 0: there is none yet.
-    LOCAL FUNC num heard(VAR socketdev newcomer)
-        VAR rawbytes more;
+    ! Check what the waiting client requests. It may stop the active trajectory or start another one;
+    ! all other messages wait. Return ROS_REASON_STOPPED or ROS_REASON_SUPERSEDED for the active
+    ! trajectory, ROS_REASON_FRAMING if the client must be disconnected, or 0 if no such message has
+    ! arrived yet.
+    LOCAL FUNC num newcomer_request(VAR socketdev newcomer)
+        VAR rawbytes received_data;
         VAR num bytes;
         VAR num at := 1;
         VAR num length;
-        VAR num kind;
-        VAR num number;
+        VAR num msg_type;
+        VAR num point_number;
 
         bytes := ROS_peek(newcomer);
-        IF bytes > 0 bytes := ROS_receive(newcomer, more, 0.01);
+        IF bytes > 0 bytes := ROS_receive(newcomer, received_data, 0.01);
         IF bytes = 0 RETURN ROS_REASON_NONE;
         IF bytes < 0 RETURN ROS_REASON_FRAMING;
-        CopyRawBytes more, 1, early, early_bytes + 1 \NoOfBytes:=bytes;
-        early_bytes := early_bytes + bytes;
-        WHILE at + ROS_HEADER_BYTES + 7 <= early_bytes DO
-            UnpackRawBytes early, at, length \IntX:=DINT;
-            UnpackRawBytes early, at + 4, kind \IntX:=DINT;
+        CopyRawBytes received_data, 1, newcomer_data, newcomer_bytes + 1 \NoOfBytes:=bytes;
+        newcomer_bytes := newcomer_bytes + bytes;
+        WHILE at + ROS_HEADER_BYTES + 7 <= newcomer_bytes DO
+            UnpackRawBytes newcomer_data, at, length \IntX:=DINT;
+            UnpackRawBytes newcomer_data, at + 4, msg_type \IntX:=DINT;
             IF NOT (ROS_HEADER_BYTES <= length AND length <= ROS_MAX_LENGTH) RETURN ROS_REASON_FRAMING;
-            IF at + length + 3 > early_bytes RETURN ROS_REASON_NONE;
-            IF kind = ROS_MSG_POINTS OR kind = ROS_MSG_PROGRAM RETURN ROS_REASON_SUPERSEDED;
-            IF kind = ROS_MSG_JOINT_TRAJ_PT THEN
-                UnpackRawBytes early, at + 16, number \IntX:=DINT;
-                IF number = ROS_SEQ_STOP RETURN ROS_REASON_STOPPED;
+            IF at + length + 3 > newcomer_bytes RETURN ROS_REASON_NONE;
+            IF msg_type = ROS_MSG_POINTS OR msg_type = ROS_MSG_PROGRAM RETURN ROS_REASON_SUPERSEDED;
+            IF msg_type = ROS_MSG_JOINT_TRAJ_PT THEN
+                UnpackRawBytes newcomer_data, at + 16, point_number \IntX:=DINT;
+                IF point_number = ROS_SEQ_STOP RETURN ROS_REASON_STOPPED;
                 RETURN ROS_REASON_SUPERSEDED;
             ENDIF
             at := at + length + 4;
@@ -209,38 +217,39 @@ MODULE ROS_motionServer
         RETURN ROS_REASON_FRAMING;
     ENDFUNC
 
-    ! The robot does not go on for a client that is gone, and half a trajectory is none. Whoever waits
-    ! is served next; who has taken over has ended what was under way, and said why.
-    LOCAL PROC lose(VAR socketdev client)
+    ! Disconnect the client. The robot does not continue for a lost client, and a part of a trajectory
+    ! is discarded. A waiting client is served next. If it has taken over, it has already ended the
+    ! active trajectory with its own reason.
+    LOCAL PROC drop_client(VAR socketdev client)
         SocketClose client;
-        ROS_lose_download;
-        ROS_lose_stream;
-        IF NOT (taken_over AND ROS_active()) ROS_end_session ROS_REASON_CLIENT_LOST;
-        taken_over := waiting;
-        waiting := FALSE;
-        ROS_await_halt;
+        ROS_drop_download;
+        ROS_drop_stream;
+        IF NOT (is_taken_over AND ROS_is_active()) ROS_end_trajectory ROS_REASON_CLIENT_LOST;
+        is_taken_over := has_newcomer;
+        has_newcomer := FALSE;
+        ROS_wait_halted;
     ENDPROC
 
-    ! While the ring is being fed, look for bytes without waiting for them.
-    LOCAL FUNC num short_look(VAR socketdev client)
-        VAR num here;
+    ! Check for bytes without waiting for them, because the ring buffer is being fed.
+    LOCAL FUNC num poll_client(VAR socketdev client)
+        VAR num available;
 
-        here := ROS_peek(client);
-        IF here > 0 RETURN ROS_receive(client, ROS_chunk, PATIENCE);
-        IF here = 0 WaitTime LOOK_PERIOD;
-        RETURN here;
+        available := ROS_peek(client);
+        IF available > 0 RETURN ROS_receive(client, ROS_chunk, TAKEOVER_DELAY);
+        IF available = 0 WaitTime POLL_PERIOD;
+        RETURN available;
     ENDFUNC
 
-    LOCAL PROC take_chunk(VAR socketdev client, num received)
-        ROS_take_bytes received;
-        WHILE linked DO
+    LOCAL PROC handle_chunk(VAR socketdev client, num received)
+        ROS_start_chunk received;
+        WHILE is_connected DO
             TEST ROS_next_frame()
             CASE ROS_FRAME_IN_CHUNK:
-                take_message client, ROS_chunk, ROS_frame_at;
-            CASE ROS_FRAME_IN_PART:
-                take_message client, ROS_part, 1;
+                handle_message client, ROS_chunk, ROS_frame_at;
+            CASE ROS_FRAME_IN_PARTIAL:
+                handle_message client, ROS_partial, 1;
             CASE ROS_FRAME_BROKEN:
-                broken_framing;
+                reject_framing;
             DEFAULT:
                 RETURN;
             ENDTEST
@@ -249,113 +258,113 @@ MODULE ROS_motionServer
         RAISE;
     ENDPROC
 
-    ! The message that begins at byte `at` of `data`.
-    LOCAL PROC take_message(VAR socketdev client, VAR rawbytes data, num at)
+    ! Handle the message that begins at byte `at` of `data`.
+    LOCAL PROC handle_message(VAR socketdev client, VAR rawbytes data, num at)
         UnpackRawBytes data, at + 8, comm_type \IntX:=DINT;
         UnpackRawBytes data, at + 12, reply_code \IntX:=DINT;
         IF ROS_frame_type = ROS_MSG_JOINT_TRAJ_PT AND ROS_frame_length = ROS_LEN_JOINT_TRAJ_PT THEN
             UnpackRawBytes data, at + 16, sequence \IntX:=DINT;
-            IF ROS_receiving AND sequence = ROS_count AND comm_type = ROS_COMM_TOPIC
+            IF ROS_receiving AND sequence = ROS_point_count AND comm_type = ROS_COMM_TOPIC
                 AND reply_code = ROS_REPLY_NONE THEN
-                ! The usual case first.
+                ! This is the most frequent case, so it is tested first.
                 ROS_add_point data, at, sequence;
-            ELSEIF NOT knows_kind() THEN
-                broken_framing;
+            ELSEIF NOT is_valid_comm() THEN
+                reject_framing;
             ELSEIF sequence = ROS_SEQ_STOP THEN
-                stop_now client;
+                handle_stop client;
             ELSE
-                ROS_take_point data, at, sequence;
-                IF requested answer_point client;
+                ROS_handle_point data, at, sequence;
+                IF is_request reply_point client;
             ENDIF
         ELSEIF ROS_frame_type = ROS_MSG_POINTS OR ROS_frame_type = ROS_MSG_PROGRAM THEN
-            IF NOT knows_kind() THEN
-                broken_framing;
+            IF NOT is_valid_comm() THEN
+                reject_framing;
                 RETURN;
             ENDIF
-            ROS_take_batch data, at;
-            IF requested answer_batch client;
+            ROS_handle_batch data, at;
+            IF is_request reply_batch client;
         ELSE
-            take_other client;
+            handle_other client;
         ENDIF
     ERROR
         RAISE;
     ENDPROC
 
-    ! TRUE for a topic or a request without a reply code. Anything else breaks the framing.
-    LOCAL FUNC bool knows_kind()
-        requested := (comm_type = ROS_COMM_REQUEST);
-        RETURN reply_code = ROS_REPLY_NONE AND (requested OR comm_type = ROS_COMM_TOPIC);
+    ! Return TRUE for a topic or a request without a reply code. Anything else breaks the framing.
+    LOCAL FUNC bool is_valid_comm()
+        is_request := (comm_type = ROS_COMM_REQUEST);
+        RETURN reply_code = ROS_REPLY_NONE AND (is_request OR comm_type = ROS_COMM_TOPIC);
     ENDFUNC
 
-    ! Where the next message begins is not known any more, so nothing behind it can be trusted.
-    LOCAL PROC broken_framing()
+    ! The beginning of the next message is unknown, so nothing that follows can be trusted.
+    LOCAL PROC reject_framing()
         IF ROS_receiving THEN
-            ROS_refuse_download ROS_REASON_FRAMING, ROS_count, FALSE;
+            ROS_refuse_download ROS_REASON_FRAMING, ROS_point_count, FALSE;
         ELSE
-            ROS_report ROS_REASON_FRAMING, -1;
+            ROS_report_refusal ROS_REASON_FRAMING, -1;
         ENDIF
-        linked := FALSE;
+        is_connected := FALSE;
     ENDPROC
 
-    ! A message that brings no points.
-    LOCAL PROC take_other(VAR socketdev client)
+    ! Handle a message without points.
+    LOCAL PROC handle_other(VAR socketdev client)
         IF ROS_frame_type = ROS_MSG_JOINT_TRAJ_PT THEN
-            ! A point of another size: what else would be wrong?
-            broken_framing;
+            ! A point of another size means that the framing is wrong.
+            reject_framing;
         ELSEIF ROS_frame_type = ROS_MSG_PING THEN
-            IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_SUCCESS;
+            IF comm_type = ROS_COMM_REQUEST send_reply client, ROS_frame_type, ROS_REPLY_SUCCESS;
         ELSE
-            ROS_report ROS_REASON_UNKNOWN_MESSAGE, -1;
-            IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_FAILURE;
+            ROS_report_refusal ROS_REASON_UNKNOWN_MESSAGE, -1;
+            IF comm_type = ROS_COMM_REQUEST send_reply client, ROS_frame_type, ROS_REPLY_FAILURE;
         ENDIF
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC reply(VAR socketdev client, num kind, num code)
-        ROS_pack_reply answer, kind, code;
-        linked := ROS_send(client, answer);
+    LOCAL PROC send_reply(VAR socketdev client, num msg_type, num code)
+        ROS_pack_reply answer, msg_type, code;
+        is_connected := ROS_send(client, answer);
     ERROR
         RAISE;
     ENDPROC
 
-    ! A request is answered by what has become of the trajectory so far.
-    LOCAL PROC answer_point(VAR socketdev client)
+    ! Reply to a point that is a request with the present state of the trajectory.
+    LOCAL PROC reply_point(VAR socketdev client)
         IF ROS_phase = ROS_TRAJ_REFUSED THEN
-            ROS_pack_refused answer, ROS_refusal, ROS_refused_at;
+            ROS_pack_refused answer, ROS_refusal_code, ROS_refused_point;
         ELSEIF ROS_phase = ROS_TRAJ_MOVING AND sequence = ROS_SEQ_END THEN
             ROS_pack_accepted answer, ROS_trajectory;
         ELSE
             ROS_pack_reply answer, ROS_MSG_JOINT_TRAJ_PT, ROS_REPLY_SUCCESS;
         ENDIF
-        linked := ROS_send(client, answer);
+        is_connected := ROS_send(client, answer);
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC answer_batch(VAR socketdev client)
+    LOCAL PROC reply_batch(VAR socketdev client)
         ROS_pack_batch_reply answer;
-        linked := ROS_send(client, answer);
+        is_connected := ROS_send(client, answer);
     ERROR
         RAISE;
     ENDPROC
 
-    ! STOP: the reply comes when the robot has been told to stop, not when it stands. Points
-    ! of this trajectory that are still under way count as sent without a start.
-    LOCAL PROC stop_now(VAR socketdev client)
+    ! Handle STOP. The reply is sent when the robot was ordered to stop, not when it stands. Points of
+    ! this trajectory that arrive later count as points without a beginning.
+    LOCAL PROC handle_stop(VAR socketdev client)
         VAR num code := ROS_REPLY_SUCCESS;
 
-        ROS_forget_download;
-        ROS_forget_trajectory;
-        ROS_end_session ROS_REASON_STOPPED;
-        IF ROS_service = ROS_OUTSIDE THEN
-            ! The supervisor tells that the program's own moves go on.
+        ROS_discard_download;
+        ROS_discard_trajectory;
+        ROS_end_trajectory ROS_REASON_STOPPED;
+        IF ROS_run_state = ROS_RUN_OUTSIDE THEN
+            ! The supervisor reports that the moves of the program itself continue.
             ROS_stop_reason := ROS_REASON_STOPPED;
-            ROS_stop_asked := ROS_next(ROS_stop_asked);
+            ROS_stop_asked := ROS_next_count(ROS_stop_asked);
         ENDIF
-        ROS_await_halt;
-        IF NOT ROS_answered(ROS_LATE - ROS_SOON) code := ROS_REPLY_FAILURE;
-        IF requested reply client, ROS_MSG_JOINT_TRAJ_PT, code;
+        ROS_wait_halted;
+        IF NOT ROS_wait_answered(ROS_REPLY_TIMEOUT - ROS_STOP_TIMEOUT) code := ROS_REPLY_FAILURE;
+        IF is_request send_reply client, ROS_MSG_JOINT_TRAJ_PT, code;
     ERROR
         RAISE;
     ENDPROC

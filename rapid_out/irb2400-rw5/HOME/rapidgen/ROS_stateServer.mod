@@ -1,110 +1,114 @@
 MODULE ROS_stateServer
-    ! The state server: JOINT and STATUS at a steady rate.
+    ! The state server: JOINT and STATUS at a fixed rate.
     !
     ! Robot "irb2400-rw5", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! Some clients at once: a program and those who watch it. All get what was measured at one
-    ! moment. Nobody waits for this task. A client that does not read would hold up the others
-    ! in a send, so a send that takes too long is broken off, and its client dropped.
+    ! This task serves several clients at once: a program and its observers. All clients get the values
+    ! of one moment, and no other task waits for this one. A client that does not read would block the
+    ! sends to the other clients, so a send that takes too long is ended and its client is disconnected.
 
-    CONST string ROS_BUILD_STATE_SERVER := "8a237425283c";
+    CONST string ROS_BUILD_STATE_SERVER := "84947c65be85";
 
     LOCAL CONST num PORT := 11002;
-    LOCAL CONST num PERIOD := 0.1;
-    LOCAL CONST num RATE := 10;
-    ! A num of this many seconds still tells a tenth of a millisecond from the next.
+    LOCAL CONST num SEND_PERIOD := 0.1;
+    LOCAL CONST num SEND_RATE := 10;
+    ! Limit of a clock, s: a num (a 32-bit float) up to this value still resolves 0.1 ms.
     LOCAL CONST num CLOCK_LIMIT := 1000;
-    ! Sockets for clients: one more than are served, so that the newest has a place to come to.
+    ! Number of sockets: one more than clients served, so that a new client can always connect.
     LOCAL CONST num SLOTS := 4;
-    ! s between two looks at what clients say; each second look is for new clients, too.
-    LOCAL CONST num LOOK_PERIOD := 0.1;
-    ! s: a send is broken off when it has lasted from one alarm to the next.
-    LOCAL CONST num PATIENCE := 0.1;
-    ! deg or mm: an axis that has moved by less since the last message stands.
-    LOCAL CONST num NOISE := 0.05;
-    ! s: the controller's word that the robot moves counts for so long while no axis leaves its
-    ! place. A signal that nothing drives any more would say so for ever.
-    LOCAL CONST num BELIEF_MAX := 10;
-    ! Events of the controller that wait to be told.
-    LOCAL CONST num EVENTS := 16;
+    ! Time between two checks of the clients' requests, s. Every second check also looks for new
+    ! clients.
+    LOCAL CONST num POLL_PERIOD := 0.1;
+    ! Period of the alarm, s. A send that lasts from one alarm to the next is ended.
+    LOCAL CONST num SEND_TIMEOUT := 0.1;
+    ! An axis that has moved by less than this since the last message stands still, deg or mm. It is
+    ! larger than the noise of a sensor.
+    LOCAL CONST num STANDSTILL_TOL := 0.05;
+    ! Time for which the controller's signal for motion counts while no axis moves, s. A signal that is
+    ! no longer driven would otherwise report motion for ever.
+    LOCAL CONST num HOLD_TIME := 10;
+    ! Largest number of controller events that wait to be sent.
+    LOCAL CONST num MAX_EVENTS := 16;
 
     LOCAL VAR socketdev server;
     LOCAL VAR socketdev client{SLOTS};
-    ! Of each slot: whether it serves a client, and what that has asked for (bits of
-    ! ROS_FEATURE).
-    LOCAL VAR bool served{SLOTS};
-    LOCAL VAR num wants{SLOTS};
+    ! For each socket: TRUE if it serves a client, and the features of that client (bits
+    ! ROS_FEATURE_...).
+    LOCAL VAR bool is_served{SLOTS};
+    LOCAL VAR num features{SLOTS};
     LOCAL VAR num clients := 0;
-    ! Slot of the client that came last.
-    LOCAL VAR num latest := 1;
-    LOCAL VAR bool progress_wanted := FALSE;
-    LOCAL VAR bool feedback_wanted := FALSE;
-    LOCAL VAR bool look_for_clients := FALSE;
-    LOCAL VAR clock since_look;
+    ! Socket of the client that connected last.
+    LOCAL VAR num newest_slot := 1;
+    LOCAL VAR bool progress_enabled := FALSE;
+    LOCAL VAR bool feedback_enabled := FALSE;
+    LOCAL VAR bool accept_due := FALSE;
+    LOCAL VAR clock clock_poll;
 
-    ! JOINT and STATUS; what may come behind them; and all of that for one client.
+    ! JOINT and STATUS; optional messages; and all of them for one client.
     LOCAL VAR rawbytes state;
     LOCAL VAR rawbytes progress;
     LOCAL VAR rawbytes feedback;
     LOCAL VAR rawbytes message;
-    LOCAL VAR num message_wants := 0;
+    LOCAL VAR num message_features := 0;
     LOCAL VAR num message_bytes := 0;
 
-    ! Messages are due at ticks / RATE + offset on the clock that runs: adding up periods in a
-    ! 32-bit float would drift. The other clock is the next one.
+    ! A message is due at ticks / SEND_RATE + offset on the active clock. Adding up periods in a 32-bit
+    ! float would drift. The other clock is started when this one reaches its limit.
     LOCAL VAR clock schedule{2};
-    LOCAL VAR num running := 1;
+    LOCAL VAR num active_clock := 1;
     LOCAL VAR num ticks := 0;
     LOCAL VAR num offset := 0;
-    ! The time stamp of feedback counts CLOCK_LIMIT exactly: by what the clock had run over.
+    ! Time by which the clock had exceeded CLOCK_LIMIT when it was replaced, s. The time stamps of
+    ! feedback thus restart exactly at CLOCK_LIMIT.
     LOCAL VAR num overrun := 0;
     LOCAL VAR num stamp := 0;
-    LOCAL VAR num told_stamp := 0;
+    LOCAL VAR num last_sent_stamp := 0;
 
     LOCAL VAR ROS_progress newest;
-    ! What was told last, so that a movement between two messages is told too.
-    LOCAL VAR num told_started := 0;
-    LOCAL VAR jointtarget told_joints;
-    ! s that the controller's word is still believed; 0 until it has said that the robot stands.
-    LOCAL VAR num belief := 0;
+    ! Values of the last message, so that a movement between two messages is also reported.
+    LOCAL VAR num last_sent_started := 0;
+    LOCAL VAR jointtarget last_sent_joints;
+    ! Remaining time for which the signal for motion counts, s; 0 until the signal has reported a
+    ! standstill.
+    LOCAL VAR num hold_seconds := 0;
 
-    ! A send under way: its slot (0: none) and its number; and the one that the alarm found.
-    LOCAL VAR intnum alarm;
-    LOCAL VAR num sending := 0;
-    LOCAL VAR num sends := 0;
-    LOCAL VAR num suspect := -1;
+    ! Send in progress: its socket (0: none) and its number; and the send that the last alarm has found.
+    LOCAL VAR intnum int_alarm;
+    LOCAL VAR num sending_slot := 0;
+    LOCAL VAR num send_count := 0;
+    LOCAL VAR num suspect_send := -1;
 
-    ! Events between the trap, which puts them in, and main, which takes them out.
-    LOCAL VAR intnum event;
-    LOCAL VAR bool events_wanted := FALSE;
-    LOCAL VAR num domains{EVENTS};
-    LOCAL VAR num numbers{EVENTS};
-    LOCAL VAR num types{EVENTS};
-    LOCAL VAR string titles{EVENTS};
-    LOCAL VAR string upper_texts{EVENTS};
-    LOCAL VAR string lower_texts{EVENTS};
-    LOCAL VAR num events_put := 0;
-    LOCAL VAR num events_taken := 0;
+    ! Events between the trap, which writes them, and main, which reads them.
+    LOCAL VAR intnum int_event;
+    LOCAL VAR bool events_enabled := FALSE;
+    LOCAL VAR num domains{MAX_EVENTS};
+    LOCAL VAR num numbers{MAX_EVENTS};
+    LOCAL VAR num types{MAX_EVENTS};
+    LOCAL VAR string titles{MAX_EVENTS};
+    LOCAL VAR string upper_texts{MAX_EVENTS};
+    LOCAL VAR string lower_texts{MAX_EVENTS};
+    LOCAL VAR num events_written := 0;
+    LOCAL VAR num events_read := 0;
     LOCAL VAR num events_lost := 0;
 
     PROC main()
-        ROS_start_task ROS_shown_state,
+        ROS_start_task ROS_task_build_state,
             ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
-        ROS_begin_pulse 3;
+        ROS_start_alive_count 3;
         ROS_read_limits;
-        ROS_form_state state;
+        ROS_init_state state;
         ROS_pack_topic progress, ROS_LEN_PROGRESS, ROS_MSG_PROGRESS;
-        ROS_form_feedback feedback;
+        ROS_init_feedback feedback;
         ROS_listen server, PORT;
         WHILE TRUE DO
             IF clients = 0 wait_for_client;
-            tell;
-            ! In the round that is nearest.
-            IF ClkRead(since_look) > LOOK_PERIOD - PERIOD / 2 look_after_clients;
-            wait_for_turn;
+            send_state;
+            ! Serve the clients in the nearest period.
+            IF ClkRead(clock_poll) > POLL_PERIOD - SEND_PERIOD / 2 serve_clients;
+            wait_for_period;
         ENDWHILE
     ERROR
         SkipWarn;
@@ -113,47 +117,48 @@ MODULE ROS_stateServer
 
     LOCAL PROC wait_for_client()
         WHILE clients = 0 DO
-            IF ROS_standing() = ROS_TRI_TRUE belief := BELIEF_MAX;
-            welcome ROS_WAIT;
+            IF ROS_standing() = ROS_TRI_TRUE hold_seconds := HOLD_TIME;
+            accept_client ROS_WAIT_TIMEOUT;
         ENDWHILE
         ticks := 0;
         offset := 0;
-        ROS_start_clock schedule{running};
-        ROS_start_clock since_look;
-        told_started := ROS_started;
-        told_joints := CJointT();
+        ROS_start_clock schedule{active_clock};
+        ROS_start_clock clock_poll;
+        last_sent_started := ROS_started_trajectory;
+        last_sent_joints := CJointT();
     ENDPROC
 
-    ! Take a new client, if there is one within `seconds`.
-    LOCAL PROC welcome(num seconds)
+    ! Accept a new client, if one connects within `seconds`.
+    LOCAL PROC accept_client(num seconds)
         VAR num slot;
 
         slot := free_slot();
         IF NOT ROS_accept(server, PORT, client{slot}, seconds) RETURN;
-        served{slot} := TRUE;
+        is_served{slot} := TRUE;
         clients := clients + 1;
-        ! The newest is served, and those who came first are not disturbed.
-        IF clients = SLOTS drop latest;
-        latest := slot;
+        ! The newest client is served in place of the one before it. The first clients are not
+        ! disturbed.
+        IF clients = SLOTS drop_client newest_slot;
+        newest_slot := slot;
     ENDPROC
 
     LOCAL FUNC num free_slot()
         FOR slot FROM 1 TO SLOTS - 1 DO
-            IF NOT served{slot} RETURN slot;
+            IF NOT is_served{slot} RETURN slot;
         ENDFOR
         RETURN SLOTS;
     ENDFUNC
 
-    LOCAL PROC drop(num slot)
+    LOCAL PROC drop_client(num slot)
         SocketClose client{slot};
-        served{slot} := FALSE;
-        wants{slot} := 0;
+        is_served{slot} := FALSE;
+        features{slot} := 0;
         clients := clients - 1;
-        note_wishes;
+        update_subscriptions;
     ENDPROC
 
-    ! Send each client one JOINT, one STATUS and what it has asked for.
-    LOCAL PROC tell()
+    ! Send one JOINT, one STATUS and the requested features to each client.
+    LOCAL PROC send_state()
         VAR jointtarget joints;
         VAR num code := 0;
         VAR num in_error := ROS_TRI_FALSE;
@@ -161,249 +166,252 @@ MODULE ROS_stateServer
         VAR num possible := ROS_TRI_FALSE;
 
         joints := CJointT();
-        stamp := ClkRead(schedule{running}) + overrun;
+        stamp := ClkRead(schedule{active_clock}) + overrun;
         IF stamp >= CLOCK_LIMIT stamp := stamp - CLOCK_LIMIT;
         ROS_pack_joints state, joints;
 
-        ROS_look newest;
+        ROS_read_progress newest;
         IF newest.state = ROS_TRAJ_REFUSED OR newest.state = ROS_TRAJ_FAILED in_error := ROS_TRI_TRUE;
         IF ROS_controller_error() = ROS_TRI_TRUE in_error := ROS_TRI_TRUE;
-        IF feedback_wanted measure joints;
-        IF moving(joints) in_motion := ROS_TRI_TRUE;
+        IF feedback_enabled pack_feedback joints;
+        IF is_moving(joints) in_motion := ROS_TRI_TRUE;
         IF is_possible() possible := ROS_TRI_TRUE;
         IF in_error = ROS_TRI_TRUE code := newest.code;
-        IF ROS_unsupervised OR ROS_not_ready = ROS_REASON_TASK_ENDED THEN
+        IF ROS_supervisor_missing OR ROS_not_ready = ROS_REASON_TASK_ENDED THEN
             in_error := ROS_TRI_TRUE;
             code := ROS_REASON_TASK_ENDED;
         ENDIF
         ROS_pack_status state, code, in_error, in_motion, possible;
 
-        IF progress_wanted ROS_pack_progress progress, newest;
-        message_wants := 0;
+        IF progress_enabled ROS_pack_progress progress, newest;
+        message_features := 0;
         set_alarm TRUE;
         FOR slot FROM 1 TO SLOTS DO
-            IF served{slot} tell_client slot;
+            IF is_served{slot} send_to_client slot;
         ENDFOR
         set_alarm FALSE;
-        told_stamp := stamp;
+        last_sent_stamp := stamp;
     ERROR
-        ! A value that no message can hold stays what it was in the message before.
+        ! A value that does not fit into the message keeps its old value.
         SkipWarn;
         TRYNEXT;
     ENDPROC
 
-    ! TRUE if a trajectory would be taken now: so says a supervisor whose pulse is seen.
+    ! Return TRUE if a trajectory would be accepted now and the supervisor is running.
     LOCAL FUNC bool is_possible()
-        RETURN (NOT ROS_unsupervised) AND ROS_not_ready = ROS_REASON_NONE;
+        RETURN (NOT ROS_supervisor_missing) AND ROS_not_ready = ROS_REASON_NONE;
     ENDFUNC
 
-    ! All of one period leaves in one send: a socket call costs more than all the rest.
-    LOCAL PROC tell_client(num slot)
-        VAR bool linked;
+    ! Send all messages of one period in one call, because a socket call takes longer than everything
+    ! else.
+    LOCAL PROC send_to_client(num slot)
+        VAR bool is_connected;
 
-        IF has(slot, ROS_FEATURE_PROGRESS) OR has(slot, ROS_FEATURE_FEEDBACK) THEN
-            IF wants{slot} <> message_wants compose slot;
-            linked := sent(slot, message);
+        IF has_feature(slot, ROS_FEATURE_PROGRESS) OR has_feature(slot, ROS_FEATURE_FEEDBACK) THEN
+            IF features{slot} <> message_features build_message slot;
+            is_connected := send_message(slot, message);
         ELSE
-            linked := sent(slot, state);
+            is_connected := send_message(slot, state);
         ENDIF
-        IF NOT linked drop slot;
+        IF NOT is_connected drop_client slot;
     ENDPROC
 
-    LOCAL PROC compose(num slot)
-        message_wants := wants{slot};
+    LOCAL PROC build_message(num slot)
+        message_features := features{slot};
         ClearRawBytes message;
         message_bytes := 0;
-        append state, ROS_LEN_JOINT_POSITION + ROS_LEN_STATUS + 8;
-        IF has(slot, ROS_FEATURE_PROGRESS) append progress, ROS_LEN_PROGRESS + 4;
-        IF has(slot, ROS_FEATURE_FEEDBACK) append feedback, ROS_LEN_JOINT_FEEDBACK + 4;
+        append_data state, ROS_LEN_JOINT_POSITION + ROS_LEN_STATUS + 8;
+        IF has_feature(slot, ROS_FEATURE_PROGRESS) append_data progress, ROS_LEN_PROGRESS + 4;
+        IF has_feature(slot, ROS_FEATURE_FEEDBACK) append_data feedback, ROS_LEN_JOINT_FEEDBACK + 4;
     ENDPROC
 
-    LOCAL PROC append(VAR rawbytes data, num bytes)
+    LOCAL PROC append_data(VAR rawbytes data, num bytes)
         CopyRawBytes data, 1, message, message_bytes + 1 \NoOfBytes:=bytes;
         message_bytes := message_bytes + bytes;
     ENDPROC
 
-    ! JOINT_FEEDBACK: nobody can ask for it before there is something to compare with.
-    LOCAL PROC measure(jointtarget joints)
+    ! Pack JOINT_FEEDBACK. A client can request it only after at least one message was sent, so previous
+    ! values exist.
+    LOCAL PROC pack_feedback(jointtarget joints)
         VAR num seconds;
 
-        seconds := stamp - told_stamp;
+        seconds := stamp - last_sent_stamp;
         IF seconds <= 0 seconds := seconds + CLOCK_LIMIT;
-        ROS_pack_velocities feedback, joints, told_joints, seconds;
+        ROS_pack_velocities feedback, joints, last_sent_joints, seconds;
         ROS_pack_feedback feedback, state, stamp;
     ERROR
         RAISE;
     ENDPROC
 
-    ! TRUE if a client has asked for a feature.
-    LOCAL FUNC bool wanted(num feature)
+    ! Return TRUE if a client has requested a feature.
+    LOCAL FUNC bool is_enabled(num feature)
         FOR slot FROM 1 TO SLOTS DO
-            IF has(slot, feature) RETURN TRUE;
+            IF has_feature(slot, feature) RETURN TRUE;
         ENDFOR
         RETURN FALSE;
     ENDFUNC
 
-    LOCAL FUNC bool has(num slot, num feature)
-        RETURN (wants{slot} DIV feature) MOD 2 = 1;
+    LOCAL FUNC bool has_feature(num slot, num feature)
+        RETURN (features{slot} DIV feature) MOD 2 = 1;
     ENDFUNC
 
-    LOCAL FUNC bool sent(num slot, VAR rawbytes data)
-        VAR bool linked;
+    LOCAL FUNC bool send_message(num slot, VAR rawbytes data)
+        VAR bool is_connected;
 
-        sends := ROS_next(sends);
-        sending := slot;
-        linked := ROS_send(client{slot}, data);
-        sending := 0;
-        RETURN linked;
+        send_count := ROS_next_count(send_count);
+        sending_slot := slot;
+        is_connected := ROS_send(client{slot}, data);
+        sending_slot := 0;
+        RETURN is_connected;
     ENDFUNC
 
-    ! Around the sends of a period. SocketSend has no time-out of its own to be set.
+    ! Start or stop the alarm around the sends of a period. SocketSend has no time-out argument.
     LOCAL PROC set_alarm(bool on)
-        IDelete alarm;
+        IDelete int_alarm;
         IF NOT on RETURN;
-        CONNECT alarm WITH on_alarm;
-        ITimer \Single, PATIENCE, alarm;
+        CONNECT int_alarm WITH on_alarm;
+        ITimer \Single, SEND_TIMEOUT, int_alarm;
     ENDPROC
 
-    ! Here again in the same send: its client does not read. Without its socket the send ends.
+    ! The same send is still in progress at the next alarm: its client does not read. Closing its socket
+    ! ends the send.
     LOCAL TRAP on_alarm
-        IF sending > 0 AND sends = suspect SocketClose client{sending};
-        suspect := sends;
+        IF sending_slot > 0 AND send_count = suspect_send SocketClose client{sending_slot};
+        suspect_send := send_count;
         set_alarm TRUE;
     ENDTRAP
 
-    ! TRUE while a trajectory is under way that was not halted and does not wait, while an axis
-    ! turns, and once after any movement that fell between two messages.
-    LOCAL FUNC bool moving(jointtarget joints)
+    ! Return TRUE while a trajectory is active that neither is halted nor waits, while an axis moves,
+    ! and once after any movement between two messages.
+    LOCAL FUNC bool is_moving(jointtarget joints)
         VAR num started;
-        VAR bool moved;
+        VAR bool has_moved;
 
-        started := ROS_started;
-        moved := started <> told_started OR (NOT near(joints));
-        IF turning(moved) moved := TRUE;
-        IF ROS_active() AND (NOT held()) moved := TRUE;
-        told_started := started;
-        told_joints := joints;
-        RETURN moved;
+        started := ROS_started_trajectory;
+        has_moved := started <> last_sent_started OR (NOT is_unmoved(joints));
+        IF reports_motion(has_moved) has_moved := TRUE;
+        IF ROS_is_active() AND (NOT is_held()) has_moved := TRUE;
+        last_sent_started := started;
+        last_sent_joints := joints;
+        RETURN has_moved;
     ENDFUNC
 
-    ! TRUE if the controller says that the robot moves, and is to be believed.
-    LOCAL FUNC bool turning(bool seen)
+    ! Return TRUE if the controller's signal reports motion and is plausible.
+    LOCAL FUNC bool reports_motion(bool axis_moved)
         VAR num standing;
 
         standing := ROS_standing();
-        IF standing = ROS_TRI_TRUE OR (seen AND belief > 0) belief := BELIEF_MAX;
-        IF standing <> ROS_TRI_FALSE OR belief <= 0 RETURN FALSE;
-        belief := belief - PERIOD;
+        IF standing = ROS_TRI_TRUE OR (axis_moved AND hold_seconds > 0) hold_seconds := HOLD_TIME;
+        IF standing <> ROS_TRI_FALSE OR hold_seconds <= 0 RETURN FALSE;
+        hold_seconds := hold_seconds - SEND_PERIOD;
         RETURN TRUE;
     ENDFUNC
 
-    ! TRUE if the trajectory under way stands: halted, paused or without a next point.
-    LOCAL FUNC bool held()
-        IF ROS_paused = ROS_session RETURN TRUE;
-        RETURN ROS_halted = ROS_session OR ROS_starved = ROS_session;
+    ! Return TRUE if the active trajectory stands: halted, paused or without a next point.
+    LOCAL FUNC bool is_held()
+        IF ROS_paused_trajectory = ROS_active_trajectory RETURN TRUE;
+        RETURN ROS_halted_trajectory = ROS_active_trajectory OR ROS_starved_trajectory = ROS_active_trajectory;
     ENDFUNC
 
-    ! TRUE if no axis has moved since the last message by more than a sensor's noise.
-    LOCAL FUNC bool near(jointtarget joints)
-        IF Abs(joints.robax.rax_1 - told_joints.robax.rax_1) > NOISE RETURN FALSE;
-        IF Abs(joints.robax.rax_2 - told_joints.robax.rax_2) > NOISE RETURN FALSE;
-        IF Abs(joints.robax.rax_3 - told_joints.robax.rax_3) > NOISE RETURN FALSE;
-        IF Abs(joints.robax.rax_4 - told_joints.robax.rax_4) > NOISE RETURN FALSE;
-        IF Abs(joints.robax.rax_5 - told_joints.robax.rax_5) > NOISE RETURN FALSE;
-        IF Abs(joints.robax.rax_6 - told_joints.robax.rax_6) > NOISE RETURN FALSE;
+    ! Return TRUE if no axis has moved since the last message by more than STANDSTILL_TOL.
+    LOCAL FUNC bool is_unmoved(jointtarget joints)
+        IF Abs(joints.robax.rax_1 - last_sent_joints.robax.rax_1) > STANDSTILL_TOL RETURN FALSE;
+        IF Abs(joints.robax.rax_2 - last_sent_joints.robax.rax_2) > STANDSTILL_TOL RETURN FALSE;
+        IF Abs(joints.robax.rax_3 - last_sent_joints.robax.rax_3) > STANDSTILL_TOL RETURN FALSE;
+        IF Abs(joints.robax.rax_4 - last_sent_joints.robax.rax_4) > STANDSTILL_TOL RETURN FALSE;
+        IF Abs(joints.robax.rax_5 - last_sent_joints.robax.rax_5) > STANDSTILL_TOL RETURN FALSE;
+        IF Abs(joints.robax.rax_6 - last_sent_joints.robax.rax_6) > STANDSTILL_TOL RETURN FALSE;
         RETURN TRUE;
     ENDFUNC
 
-    ! Hear what clients say, tell them of events, and see whether new ones have come.
-    LOCAL PROC look_after_clients()
-        ROS_start_clock since_look;
+    ! Read the clients' requests, send events, and look for new clients.
+    LOCAL PROC serve_clients()
+        ROS_start_clock clock_poll;
         set_alarm TRUE;
         FOR slot FROM 1 TO SLOTS DO
-            IF served{slot} THEN
-                IF NOT listened(slot) drop slot;
+            IF is_served{slot} THEN
+                IF NOT read_client(slot) drop_client slot;
             ENDIF
         ENDFOR
-        IF events_wanted tell_event;
+        IF events_enabled send_event;
         set_alarm FALSE;
-        look_for_clients := NOT look_for_clients;
-        IF look_for_clients AND clients > 0 welcome 0.001;
+        accept_due := NOT accept_due;
+        IF accept_due AND clients > 0 accept_client 0.001;
     ERROR
         SkipWarn;
         TRYNEXT;
     ENDPROC
 
-    ! Take what a client says: HELLO, or nothing. Anything else breaks the link.
-    LOCAL FUNC bool listened(num slot)
-        VAR rawbytes heard;
-        VAR num waiting;
+    ! Read the requests of a client. Anything but HELLO closes the connection.
+    LOCAL FUNC bool read_client(num slot)
+        VAR rawbytes request;
+        VAR num available;
         VAR num received;
 
-        waiting := ROS_peek(client{slot});
-        IF waiting < 0 RETURN FALSE;
-        ! A part of a message is left where it is until the rest has come.
-        IF waiting < ROS_LEN_HELLO + 4 RETURN TRUE;
-        received := ROS_receive(client{slot}, heard, 1);
-        IF NOT ROS_take_hello(heard, received, message, wants{slot}) RETURN FALSE;
-        note_wishes;
-        RETURN sent(slot, message);
+        available := ROS_peek(client{slot});
+        IF available < 0 RETURN FALSE;
+        ! An incomplete message stays in the socket until the rest has arrived.
+        IF available < ROS_LEN_HELLO + 4 RETURN TRUE;
+        received := ROS_receive(client{slot}, request, 1);
+        IF NOT ROS_handle_hello(request, received, message, features{slot}) RETURN FALSE;
+        update_subscriptions;
+        RETURN send_message(slot, message);
     ENDFUNC
 
-    ! See what all clients together want. Interrupts for events are ordered only while someone
-    ! does: a controller that has many to tell stops a task that does not take them.
-    LOCAL PROC note_wishes()
-        progress_wanted := wanted(ROS_FEATURE_PROGRESS);
-        feedback_wanted := wanted(ROS_FEATURE_FEEDBACK);
-        IF wanted(ROS_FEATURE_EVENTS) = events_wanted RETURN;
-        events_wanted := NOT events_wanted;
-        IDelete event;
-        events_taken := events_put;
+    ! Update what all clients together have requested. The event interrupt is connected only while a
+    ! client wants events, because too many pending interrupts would stop this task.
+    LOCAL PROC update_subscriptions()
+        progress_enabled := is_enabled(ROS_FEATURE_PROGRESS);
+        feedback_enabled := is_enabled(ROS_FEATURE_FEEDBACK);
+        IF is_enabled(ROS_FEATURE_EVENTS) = events_enabled RETURN;
+        events_enabled := NOT events_enabled;
+        IDelete int_event;
+        events_read := events_written;
         events_lost := 0;
-        IF NOT events_wanted RETURN;
-        CONNECT event WITH on_event;
-        IError COMMON_ERR, TYPE_ALL, event;
+        IF NOT events_enabled RETURN;
+        CONNECT int_event WITH on_event;
+        IError COMMON_ERR, TYPE_ALL, int_event;
     ENDPROC
 
     LOCAL TRAP on_event
-        VAR trapdata found;
+        VAR trapdata trap_info;
         VAR errdomain domain;
         VAR num number;
-        VAR errtype kind;
+        VAR errtype err_type;
         VAR string title;
-        VAR string first;
-        VAR string second;
+        VAR string first_text;
+        VAR string second_text;
         VAR num place;
 
-        IF (events_put - events_taken + ROS_WRAP) MOD ROS_WRAP >= EVENTS THEN
+        IF (events_written - events_read + ROS_WRAP) MOD ROS_WRAP >= MAX_EVENTS THEN
             events_lost := events_lost + 1;
             RETURN;
         ENDIF
-        GetTrapData found;
-        ReadErrData found, domain, number, kind \Title:=title \Str1:=first \Str2:=second;
-        place := events_put MOD EVENTS + 1;
+        GetTrapData trap_info;
+        ReadErrData trap_info, domain, number, err_type \Title:=title \Str1:=first_text \Str2:=second_text;
+        place := events_written MOD MAX_EVENTS + 1;
         domains{place} := domain;
         numbers{place} := number;
-        types{place} := kind;
+        types{place} := err_type;
         titles{place} := title;
-        upper_texts{place} := first;
-        lower_texts{place} := second;
-        events_put := ROS_next(events_put);
+        upper_texts{place} := first_text;
+        lower_texts{place} := second_text;
+        events_written := ROS_next_count(events_written);
     ERROR
         SkipWarn;
         RETURN;
     ENDTRAP
 
-    ! Tell those who want it the oldest event that waits: ten a second at most. Those that did
-    ! not fit are told as a number of the domain 0.
-    LOCAL PROC tell_event()
+    ! Send the oldest waiting event to the clients that want events, at most ten per second. The number
+    ! of events that did not fit into the buffer is sent as an event of domain 0.
+    LOCAL PROC send_event()
         VAR num place;
 
-        IF events_taken <> events_put THEN
-            place := events_taken MOD EVENTS + 1;
+        IF events_read <> events_written THEN
+            place := events_read MOD MAX_EVENTS + 1;
             ROS_pack_event message, domains{place}, numbers{place}, types{place};
             ROS_pack_texts message, titles{place}, upper_texts{place}, lower_texts{place};
-            events_taken := ROS_next(events_taken);
+            events_read := ROS_next_count(events_read);
         ELSEIF events_lost > 0 THEN
             ROS_pack_event message, 0, events_lost, ROS_EVENT_WARNING;
             ROS_pack_texts message, "Events that were not told", "", "";
@@ -412,38 +420,38 @@ MODULE ROS_stateServer
             RETURN;
         ENDIF
         FOR slot FROM 1 TO SLOTS DO
-            IF has(slot, ROS_FEATURE_EVENTS) THEN
-                IF NOT sent(slot, message) drop slot;
+            IF has_feature(slot, ROS_FEATURE_EVENTS) THEN
+                IF NOT send_message(slot, message) drop_client slot;
             ENDIF
         ENDFOR
     ERROR
         RAISE;
     ENDPROC
 
-    ! Wait until the next message is due: by a schedule, so that the work of one round does not
-    ! delay the next.
-    LOCAL PROC wait_for_turn()
+    ! Wait until the next message is due. The schedule is fixed, so the work of one period does not
+    ! delay the next one.
+    LOCAL PROC wait_for_period()
         VAR num now;
         VAR num due;
 
         ticks := ticks + 1;
-        due := ticks / RATE + offset;
-        now := ClkRead(schedule{running});
+        due := ticks / SEND_RATE + offset;
+        now := ClkRead(schedule{active_clock});
         IF clients = 0 RETURN;
         IF now < due THEN
             WaitTime due - now;
-        ELSEIF now > due + PERIOD THEN
-            ! A send was held up: do not catch up by a burst.
+        ELSEIF now > due + SEND_PERIOD THEN
+            ! A send was delayed. Move the schedule instead of sending a burst.
             offset := offset + now - due;
             due := now;
         ENDIF
         IF due < CLOCK_LIMIT RETURN;
-        ! The next clock begins between two looks at this one: nothing is lost from one to the other.
-        ClkReset schedule{3 - running};
-        now := ClkRead(schedule{running});
-        ClkStart schedule{3 - running};
-        now := (now + ClkRead(schedule{running})) / 2;
-        running := 3 - running;
+        ! Start the next clock between two readings of this one, so that no time is lost in the change.
+        ClkReset schedule{3 - active_clock};
+        now := ClkRead(schedule{active_clock});
+        ClkStart schedule{3 - active_clock};
+        now := (now + ClkRead(schedule{active_clock})) / 2;
+        active_clock := 3 - active_clock;
         offset := due - now;
         overrun := overrun + now - CLOCK_LIMIT;
         IF overrun >= CLOCK_LIMIT overrun := overrun - CLOCK_LIMIT;

@@ -1,252 +1,256 @@
 MODULE ROS_acceptance
-    ! The newest trajectory: its checks, its hand-over, its refusal.
+    ! Acceptance of the newest trajectory: its checks, its start and its refusal.
     !
     ! Robot "two_arms_track-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! What a trajectory that comes whole and one that comes in batches have in common. The one
-    ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
+    ! This module is shared by trajectories that are sent as a whole (ROS_download) and in batches
+    ! (ROS_stream). The caller unpacks a point, lets this module check it, and then reads
+    ! ROS_point_fault.
 
-    ! Stops and starts of the program, and stops that the control server asked for.
+    ! Counts of stops and starts of the
+    ! program, and of stops that the control server asked for.
     RECORD ROS_stop_counts
         num program;
         num control;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "88e807c4be29";
+    CONST string ROS_BUILD_ACCEPTANCE := "529e47b72f7b";
 
-    ! s: longest duration of a point
-    CONST num ROS_LONGEST := 3600;
-    ! s: shortest duration that the path planner follows through a corner
-    CONST num ROS_SHORTEST := 0.1;
-    ! Of each joint the speed that a segment may ask for (deg/s, mm/s).
-    CONST num ROS_SPEED{8} := [250.25,250.25,250.25,320.32,320.32,420.42,1001,180.18];
+    ! Longest duration of a point, s.
+    CONST num ROS_MAX_DURATION := 3600;
+    ! Shortest duration that the path planner follows through a corner, s (`min_segment`).
+    CONST num ROS_MIN_SEGMENT := 0.1;
+    ! Highest speed of each joint in a segment, deg/s or mm/s.
+    CONST num ROS_MAX_SPEED{8} := [250.25,250.25,250.25,320.32,320.32,420.42,1001,180.18];
 
-    ! Fraction of an axis' speed on the way to the first point
-    LOCAL CONST num APPROACH := 0.1;
-    ! The robot stands at a point if no axis is farther from it than this (deg, mm).
-    LOCAL CONST num THERE := 0.01;
-    ! A value this near outside a limit is the limit, rounded on its way (deg, mm).
-    LOCAL CONST num ROUNDING := 0.0005;
-    ! Of each joint how far from the first point the robot may stand (deg, mm).
-    LOCAL CONST num NEAR{8} := [0.5,0.5,0.5,0.5,0.5,0.5,5,0.5];
-    ! As in the motion task, which has its own.
+    ! Fraction of each axis' highest speed that is used to approach the first point.
+    LOCAL CONST num APPROACH_FACTOR := 0.1;
+    ! The robot stands at a point if no axis is farther away than this, deg or mm.
+    LOCAL CONST num AT_TARGET_TOL := 0.01;
+    ! A value that exceeds a limit by no more than this was rounded on its way and is replaced by the
+    ! limit, deg or mm.
+    LOCAL CONST num ROUNDING_TOL := 0.0005;
+    ! Largest distance of each joint from the first point when the trajectory starts, deg or mm.
+    LOCAL CONST num START_TOL{8} := [0.5,0.5,0.5,0.5,0.5,0.5,5,0.5];
+    ! These data are copies of this task. The motion task has its own.
     TASK PERS tooldata torch := [TRUE,[[0,0,120],[1,0,0,0]],[1.2,[0,0,60],[1,0,0,0],0,0,0]];
 
-    ! The point at hand, its duration, and the place of the one before.
-    VAR ROS_point ROS_taken;
-    VAR num ROS_seconds := 0;
-    VAR jointtarget ROS_before;
-    ! The point at hand is the first.
-    VAR bool ROS_first := TRUE;
-    ! Points of the trajectory that were accepted, and what is wrong with the one at hand: the
-    ! first fault counts (reason + 100 x joint).
-    VAR num ROS_count := 0;
-    VAR num ROS_fault := 0;
-    ! Points of a trajectory that was handed over whole, and how many of them are in the ring.
-    VAR num ROS_to_feed := 0;
-    VAR num ROS_fed := 0;
+    ! The point that is being checked, its duration (s), and the target of the previous point.
+    VAR ROS_point ROS_new_point;
+    VAR num ROS_duration := 0;
+    VAR jointtarget ROS_previous;
+    ! TRUE while this point is the first one.
+    VAR bool ROS_is_first := TRUE;
+    ! Number of accepted points of the trajectory, and the code (reason + 100 * joint) of the first
+    ! fault of this point.
+    VAR num ROS_point_count := 0;
+    VAR num ROS_point_fault := 0;
+    ! Number of points of a trajectory that was sent as a whole, and number of those already in the ring
+    ! buffer.
+    VAR num ROS_feed_total := 0;
+    VAR num ROS_feed_count := 0;
 
-    ! Stops that came before all that is being taken, ...
+    ! Stops that occurred before everything that is being read now was received.
     VAR ROS_stop_counts ROS_stops_before;
-    ! ... and before the first point of the trajectory.
-    LOCAL VAR ROS_stop_counts stops_seen;
-    ! Warnings are rationed.
-    LOCAL VAR clock since_line;
-    LOCAL VAR num silent_lines := 0;
-    LOCAL VAR bool clock_runs := FALSE;
+    ! Stops that occurred before the first point of the trajectory was received.
+    LOCAL VAR ROS_stop_counts stops_at_start;
+    ! At most one warning per second is written. The others are counted.
+    LOCAL VAR clock clock_report;
+    LOCAL VAR num unreported := 0;
+    LOCAL VAR bool clock_running := FALSE;
 
-    ! A new trajectory ends the one under way: where the robot then stands is where the new one
-    ! has to begin.
+    ! A new trajectory ends the active one. The new one must begin where the robot then stands.
     PROC ROS_begin_trajectory()
-        ROS_end_session ROS_REASON_SUPERSEDED;
+        ROS_end_trajectory ROS_REASON_SUPERSEDED;
         ROS_new_trajectory;
-        ! What modules of different builds would make of it, nobody has tried.
-        IF ROS_build_fault() = ROS_REASON_BUILD_MISMATCH ROS_refuse ROS_REASON_BUILD_MISMATCH, -1;
+        ! Tasks with modules of different builds may interpret a trajectory differently.
+        IF ROS_get_build_fault() = ROS_REASON_BUILD_MISMATCH ROS_refuse ROS_REASON_BUILD_MISMATCH, -1;
     ENDPROC
 
-    ! Stops so far.
-    FUNC ROS_stop_counts ROS_stops_now()
+    ! Return the present counts of stops.
+    FUNC ROS_stop_counts ROS_current_stops()
         RETURN [ROS_program_stops_1,ROS_control_asked_1];
     ENDFUNC
 
-    ! What is received from now on came after these stops, whoever sends it.
-    PROC ROS_show_stops_seen(ROS_stop_counts stops)
-        ROS_stops_seen_1 := stops.program;
-        ROS_control_seen_1 := stops.control;
+    ! Publish that everything that is received from now on, from any client, is newer than these stops.
+    PROC ROS_publish_stops_seen(ROS_stop_counts stops)
+        ROS_program_stops_seen_1 := stops.program;
+        ROS_control_stops_seen_1 := stops.control;
     ENDPROC
 
     PROC ROS_new_trajectory()
-        ROS_first := TRUE;
-        ROS_count := 0;
-        ROS_fault := ROS_REASON_NONE;
-        stops_seen := ROS_stops_before;
-        ! The number first and its repetition last: see ROS_common.
-        ROS_trajectory_1 := ROS_next(ROS_trajectory_1);
-        IF ROS_program_1 = ROS_trajectory_1 ROS_program_1 := -1;
+        ROS_is_first := TRUE;
+        ROS_point_count := 0;
+        ROS_point_fault := ROS_REASON_NONE;
+        stops_at_start := ROS_stops_before;
+        ! Write the number first and repeat it last (see ROS_trajectory in ROS_common).
+        ROS_trajectory_1 := ROS_next_count(ROS_trajectory_1);
+        IF ROS_program_number_1 = ROS_trajectory_1 ROS_program_number_1 := -1;
         ROS_received_1 := 0;
-        ROS_refusal_1 := ROS_REASON_NONE;
-        ROS_refused_at_1 := -1;
+        ROS_refusal_code_1 := ROS_REASON_NONE;
+        ROS_refused_point_1 := -1;
         ROS_phase_1 := ROS_TRAJ_RECEIVING;
-        ROS_phase_of_1 := ROS_trajectory_1;
-        ROS_taken.session := ROS_trajectory_1;
-        ROS_taken.dwell := FALSE;
+        ROS_phase_trajectory_1 := ROS_trajectory_1;
+        ROS_new_point.trajectory := ROS_trajectory_1;
+        ROS_new_point.dwell := FALSE;
     ENDPROC
 
-    ! From here on the motion task takes points of this trajectory and no other.
-    PROC ROS_hand_over()
+    ! From now on the motion task executes the points of this trajectory and of no other.
+    PROC ROS_start_motion()
         ROS_phase_1 := ROS_TRAJ_MOVING;
-        ROS_session_1 := ROS_trajectory_1;
-        ! A stop that comes from here on finds it under way; one that came before did not.
-        IF ROS_control_asked_1 <> stops_seen.control ROS_end_session ROS_control_reason_1;
-        IF ROS_program_stops_1 <> stops_seen.program THEN
-            ROS_end_session ROS_cause(ROS_REASON_PROGRAM_STOPPED);
-            ! Its points are announced only when the robot has been stopped.
-            ROS_await_halt;
+        ROS_active_trajectory_1 := ROS_trajectory_1;
+        ! A later stop finds the trajectory active and halts it. A stop that came before this is handled
+        ! here.
+        IF ROS_control_asked_1 <> stops_at_start.control ROS_end_trajectory ROS_control_reason_1;
+        IF ROS_program_stops_1 <> stops_at_start.program THEN
+            ROS_end_trajectory ROS_stop_cause(ROS_REASON_PROGRAM_STOPPED);
+            ! The points are put into the ring buffer only after the robot has been stopped.
+            ROS_wait_halted;
         ENDIF
     ENDPROC
 
-    ! -- checks of a point: values are accepted for being inside a range, so that one that is no
-    ! number is refused ---------------------------------------------------------------------------
+    ! Checks of a point. Each check accepts values inside a range, so NaN is rejected.
 
-    PROC ROS_object(num code)
-        IF ROS_fault = ROS_REASON_NONE ROS_fault := code;
+    PROC ROS_set_fault(num code)
+        IF ROS_point_fault = ROS_REASON_NONE ROS_point_fault := code;
     ENDPROC
 
-    ! The first point's duration may be zero, no other's; and it must be a number.
+    ! Only the first point may have a duration of zero. Every duration must be a number.
     PROC ROS_check_duration()
-        IF ROS_seconds = 0 AND ROS_first RETURN;
-        ROS_object not_a_number(ROS_seconds, ROS_REASON_BAD_DURATION);
-        ! What is computed with it below must fit a num.
-        ROS_seconds := ROS_LONGEST;
+        IF ROS_duration = 0 AND ROS_is_first RETURN;
+        ROS_set_fault value_fault(ROS_duration, ROS_REASON_BAD_DURATION);
+        ! Continue with a value with which the following checks can compute.
+        ROS_duration := ROS_MAX_DURATION;
     ENDPROC
 
-    ! A joint is outside its limits, or faster than its axis. Gives what is taken in its place:
-    ! the limit, if it is outside only by rounding.
-    FUNC num ROS_judged(num wanted, num before, num joint)
+    ! Check a joint that is outside its limits or faster than its axis. Return the value to use: the
+    ! limit, if the joint exceeds it only by rounding.
+    FUNC num ROS_check_joint(num value, num previous, num joint)
         VAR num lowest;
         VAR num highest;
-        VAR num taken;
+        VAR num accepted;
 
         lowest := ROS_low{joint};
         highest := ROS_high{joint};
-        taken := wanted;
-        IF lowest - ROUNDING <= wanted AND wanted < lowest taken := lowest;
-        IF highest < wanted AND wanted <= highest + ROUNDING taken := highest;
-        IF NOT (lowest <= taken AND taken <= highest)
-            ROS_object 100 * joint + not_a_number(wanted, ROS_REASON_JOINT_LIMIT);
-        ! How the robot gets to the first point is not the client's business.
-        IF ROS_first OR Abs(taken - before) <= ROS_SPEED{joint} * ROS_seconds RETURN taken;
-        ROS_object 100 * joint + ROS_REASON_TOO_FAST;
-        RETURN taken;
+        accepted := value;
+        IF lowest - ROUNDING_TOL <= value AND value < lowest accepted := lowest;
+        IF highest < value AND value <= highest + ROUNDING_TOL accepted := highest;
+        IF NOT (lowest <= accepted AND accepted <= highest)
+            ROS_set_fault 100 * joint + value_fault(value, ROS_REASON_JOINT_LIMIT);
+        ! The driver itself chooses the speed to the first point.
+        IF ROS_is_first OR Abs(accepted - previous) <= ROS_MAX_SPEED{joint} * ROS_duration RETURN accepted;
+        ROS_set_fault 100 * joint + ROS_REASON_TOO_FAST;
+        RETURN accepted;
     ENDFUNC
 
-    ! The reason for refusing a value: `reason`, or that it is none.
-    LOCAL FUNC num not_a_number(num wanted, num reason)
-        IF -ROS_FINITE <= wanted AND wanted <= ROS_FINITE RETURN reason;
+    ! Return the reason to reject a value: `reason`, or that the value is not finite.
+    LOCAL FUNC num value_fault(num value, num reason)
+        IF -ROS_MAX_FINITE <= value AND value <= ROS_MAX_FINITE RETURN reason;
         RETURN ROS_REASON_NOT_FINITE;
     ENDFUNC
 
-    ! Seconds `needed` to the first point, 0 if it stands there; `joint`,
-    ! which has to be 0, becomes the first one that is too far from it.
-    PROC ROS_reach_start(jointtarget here, jointtarget start, INOUT num needed, INOUT num joint)
-        needed := 0;
-        reach_start Abs(start.robax.rax_1 - here.robax.rax_1), 1, needed, joint;
-        reach_start Abs(start.robax.rax_2 - here.robax.rax_2), 2, needed, joint;
-        reach_start Abs(start.robax.rax_3 - here.robax.rax_3), 3, needed, joint;
-        reach_start Abs(start.robax.rax_4 - here.robax.rax_4), 4, needed, joint;
-        reach_start Abs(start.robax.rax_5 - here.robax.rax_5), 5, needed, joint;
-        reach_start Abs(start.robax.rax_6 - here.robax.rax_6), 6, needed, joint;
-        reach_start Abs(start.extax.eax_a - here.extax.eax_a), 7, needed, joint;
-        reach_start Abs(start.extax.eax_b - here.extax.eax_b), 8, needed, joint;
+    ! Compute the time to the first point (`approach_time`, s), 0 if the robot stands there. `joint`
+    ! must be 0; it becomes the first joint that is too far from the first point.
+    PROC ROS_check_start(jointtarget current, jointtarget start, INOUT num approach_time, INOUT num joint)
+        approach_time := 0;
+        check_start_axis Abs(start.robax.rax_1 - current.robax.rax_1), 1, approach_time, joint;
+        check_start_axis Abs(start.robax.rax_2 - current.robax.rax_2), 2, approach_time, joint;
+        check_start_axis Abs(start.robax.rax_3 - current.robax.rax_3), 3, approach_time, joint;
+        check_start_axis Abs(start.robax.rax_4 - current.robax.rax_4), 4, approach_time, joint;
+        check_start_axis Abs(start.robax.rax_5 - current.robax.rax_5), 5, approach_time, joint;
+        check_start_axis Abs(start.robax.rax_6 - current.robax.rax_6), 6, approach_time, joint;
+        check_start_axis Abs(start.extax.eax_a - current.extax.eax_a), 7, approach_time, joint;
+        check_start_axis Abs(start.extax.eax_b - current.extax.eax_b), 8, approach_time, joint;
     ENDPROC
 
-    LOCAL PROC reach_start(num way, num n, INOUT num needed, INOUT num joint)
-        IF joint = 0 AND way > NEAR{n} joint := n;
-        IF way <= THERE RETURN;
-        IF needed < ROS_SHORTEST needed := ROS_SHORTEST;
-        IF needed < way / (ROS_SPEED{n} * APPROACH) needed := way / (ROS_SPEED{n} * APPROACH);
+    LOCAL PROC check_start_axis(num travel, num n, INOUT num approach_time, INOUT num joint)
+        IF joint = 0 AND travel > START_TOL{n} joint := n;
+        IF travel <= AT_TARGET_TOL RETURN;
+        IF approach_time < ROS_MIN_SEGMENT approach_time := ROS_MIN_SEGMENT;
+        IF approach_time < travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR) approach_time := travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR);
     ENDPROC
 
-    ! Ask the supervisor whether the trajectory may start. A halt that is still under way is
-    ! waited for.
-    FUNC num ROS_what_hinders()
+    ! Ask the supervisor whether the trajectory may start, and wait for a halt in progress (3 s at
+    ! most). Return 0 or the reason against a start.
+    FUNC num ROS_blocker()
         FOR try FROM 1 TO 30 DO
-            ! A stop that came behind its first byte is for this trajectory, too.
-            IF ROS_control_asked_1 <> stops_seen.control RETURN ROS_control_reason_1;
-            ! So is what forbade motion meanwhile, even if it is over.
-            ROS_look_asked_1 := ROS_next(ROS_look_asked_1);
-            IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
-            IF NOT ROS_answered(ROS_LATE) THEN
-                IF ROS_unsupervised RETURN ROS_REASON_TASK_ENDED;
+            ! A stop after the first byte of the trajectory also applies to this trajectory.
+            IF ROS_control_asked_1 <> stops_at_start.control RETURN ROS_control_reason_1;
+            ! The same holds for a condition that has forbidden motion meanwhile, even if it is over.
+            ROS_check_asked_1 := ROS_next_count(ROS_check_asked_1);
+            IF ROS_supervisor_missing RETURN ROS_REASON_TASK_ENDED;
+            IF NOT ROS_wait_answered(ROS_REPLY_TIMEOUT) THEN
+                IF ROS_supervisor_missing RETURN ROS_REASON_TASK_ENDED;
                 RETURN ROS_REASON_INTERNAL;
             ENDIF
             IF ROS_not_ready_1 > ROS_REASON_NONE RETURN ROS_not_ready_1;
-            IF ROS_hindered_1 = ROS_trajectory_1 RETURN ROS_hindrance_1;
-            ! Or if it is over before the supervisor has looked.
-            IF ROS_program_stops_1 <> stops_seen.program RETURN ROS_cause(ROS_REASON_PROGRAM_STOPPED);
+            IF ROS_blocked_1 = ROS_trajectory_1 RETURN ROS_blocker_code_1;
+            ! The same holds for a stop that was over before the supervisor could notice it.
+            IF ROS_program_stops_1 <> stops_at_start.program RETURN ROS_stop_cause(ROS_REASON_PROGRAM_STOPPED);
             IF ROS_not_ready_1 = ROS_REASON_NONE RETURN ROS_REASON_NONE;
             WaitTime 0.1;
         ENDFOR
         RETURN ROS_REASON_NOT_EXECUTING;
     ENDFUNC
 
-    ! TRUE when the supervisor has answered all that it was asked, FALSE if it does not in time.
-    FUNC bool ROS_answered(num seconds)
+    ! Wait until the supervisor has answered all requests. Return FALSE if this takes longer than
+    ! `seconds`.
+    FUNC bool ROS_wait_answered(num seconds)
         FOR try FROM 1 TO 250 * seconds DO
-            IF ROS_stop_done_1 = ROS_stop_asked_1 AND ROS_look_done_1 = ROS_look_asked_1 RETURN TRUE;
+            IF ROS_stop_done_1 = ROS_stop_asked_1 AND ROS_check_done_1 = ROS_check_asked_1 RETURN TRUE;
             WaitTime 0.004;
         ENDFOR
         RETURN FALSE;
     ENDFUNC
 
-    ! Ask for a halt if a trajectory is under way.
-    PROC ROS_end_session(num reason)
-        ROS_to_feed := ROS_fed;
-        IF NOT ROS_active() RETURN;
+    ! Request a halt if a trajectory is active.
+    PROC ROS_end_trajectory(num reason)
+        ROS_feed_total := ROS_feed_count;
+        IF NOT ROS_is_active() RETURN;
         ROS_stop_reason_1 := reason;
-        ROS_stop_asked_1 := ROS_next(ROS_stop_asked_1);
+        ROS_stop_asked_1 := ROS_next_count(ROS_stop_asked_1);
     ENDPROC
 
-    ! Wait for the halt that was asked for. Without an answer this task stops the robot, and asks
-    ! again: the supervisor may have just answered what came before.
-    PROC ROS_await_halt()
-        IF ROS_answered(ROS_SOON) RETURN;
-        IF ROS_stopped_alone() ROS_stop_asked_1 := ROS_next(ROS_stop_asked_1);
+    ! Wait for the requested halt. Without an answer this task stops the robot and repeats the request,
+    ! because the supervisor may have answered just an earlier one.
+    PROC ROS_wait_halted()
+        IF ROS_wait_answered(ROS_STOP_TIMEOUT) RETURN;
+        IF ROS_fallback_stop() ROS_stop_asked_1 := ROS_next_count(ROS_stop_asked_1);
     ENDPROC
 
-    ! STOP: what has not begun to move never will, and a refusal is no fault any more.
-    PROC ROS_forget_trajectory()
+    ! STOP discards a trajectory that has not started, and also resets the error of a refused one.
+    PROC ROS_discard_trajectory()
         IF ROS_phase_1 <> ROS_TRAJ_RECEIVING AND ROS_phase_1 <> ROS_TRAJ_REFUSED RETURN;
-        ROS_refusal_1 := ROS_REASON_STOPPED;
+        ROS_refusal_code_1 := ROS_REASON_STOPPED;
         ROS_phase_1 := ROS_TRAJ_STOPPED;
     ENDPROC
 
-    ! Refuse the whole trajectory. `code` is reason + 100 x joint, `index` the point at fault
-    ! from 0, -1: none.
+    ! Refuse the whole trajectory. `code` is reason + 100 * joint; `index` is the faulty point from 0,
+    ! or -1.
     PROC ROS_refuse(num code, num index)
-        ROS_refused_at_1 := index;
-        ROS_refusal_1 := code;
+        ROS_refused_point_1 := index;
+        ROS_refusal_code_1 := code;
         ROS_phase_1 := ROS_TRAJ_REFUSED;
-        ROS_report code, index;
+        ROS_report_refusal code, index;
     ENDPROC
 
-    ! One warning in the event log a second, at most. No line on the pendant: one that comes at a bad
-    ! moment holds up its task, and this one reads STOP.
-    PROC ROS_report(num code, num index)
-        VAR string place := "";
+    ! Write at most one warning per second to the event log. Nothing is written on the pendant, because
+    ! that may delay this task, which also receives STOP.
+    PROC ROS_report_refusal(num code, num index)
+        VAR string text := "";
 
-        IF clock_runs AND ROS_elapsed(since_line) < 1 THEN
-            silent_lines := silent_lines + 1;
+        IF clock_running AND ROS_elapsed_seconds(clock_report) < 1 THEN
+            unreported := unreported + 1;
             RETURN;
         ENDIF
-        IF index >= 0 place := "Point " + ValToStr(index) + ". ";
-        IF code DIV 100 > 0 place := place + "Joint " + ValToStr(code DIV 100) + ". ";
-        IF silent_lines > 0 place := place + ValToStr(silent_lines) + " more like it.";
-        silent_lines := 0;
-        ErrWrite \W, "ROS: trajectory refused", ROS_reason_text(code MOD 100) \RL2:=place;
-        ROS_start_clock since_line;
-        clock_runs := TRUE;
+        IF index >= 0 text := "Point " + ValToStr(index) + ". ";
+        IF code DIV 100 > 0 text := text + "Joint " + ValToStr(code DIV 100) + ". ";
+        IF unreported > 0 text := text + ValToStr(unreported) + " more like it.";
+        unreported := 0;
+        ErrWrite \W, "ROS: trajectory refused", ROS_reason_text(code MOD 100) \RL2:=text;
+        ROS_start_clock clock_report;
+        clock_running := TRUE;
     ENDPROC
 ENDMODULE

@@ -1,35 +1,37 @@
 MODULE ROS_execution
-    ! Programs: their instructions, executed one after the other.
+    ! Programs: execution of their instructions.
     !
     ! Robot "two_arms_track-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! In the motion task. All was checked before it came into the ring; ROS_motion takes it out there, and
-    ! leaves an instruction that is under way when the robot was stopped.
+    ! This module belongs to the motion task. All checks were made before an instruction was put into
+    ! the ring buffer. ROS_motion takes it out, and leaves it by a long jump if the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "88e807c4be29";
+    CONST string ROS_BUILD_EXECUTION := "529e47b72f7b";
 
-    ! The instruction at hand, and why it could not be carried out, 0: it could.
-    VAR ROS_order ROS_ordered;
-    VAR num ROS_order_fault := 0;
+    ! Present instruction, and the reason why it failed (0: it did not).
+    VAR ROS_instr ROS_current_instr;
+    VAR num ROS_instr_fault := 0;
     LOCAL VAR zonedata zone;
     LOCAL VAR speeddata speed;
-    ! What is other than usual on lines.
-    LOCAL VAR num ways := 0;
-    ! The customer's program displaces poses (PDispOn, EOffsOn): they would be others than those checked.
-    LOCAL VAR bool displaced := FALSE;
-    LOCAL CONST extjoint UNMOVED := [0,0,0,0,0,0];
-    ! mm, and of a quaternion at 1 m: as much as rounding may be.
-    LOCAL CONST num STILL := 0.01;
+    ! Present bits of set_path_mode.
+    LOCAL VAR num path_mode := 0;
+    ! TRUE if the user's program displaces poses (PDispOn, EOffsOn), so that they differ from the
+    ! checked ones.
+    LOCAL VAR bool is_displaced := FALSE;
+    LOCAL CONST extjoint ZERO_EXTAX := [0,0,0,0,0,0];
+    ! Displacements below this are rounding errors: mm, and 0.001 of it for a quaternion.
+    LOCAL CONST num DISPLACEMENT_TOL := 0.01;
     TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
     TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
-    ! Signals on its way, and triggers for four moves: those of the moves before may be under way.
+    ! Signals of the present instruction, and triggers for four moves, because earlier moves may not be
+    ! finished.
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR triggdata trigger{4, 8};
-    LOCAL VAR num rank := 0;
+    LOCAL VAR num trigger_set := 0;
 
-    ! As in ROS_control: tied to their names when a program begins.
+    ! As in ROS_control, these signals are connected to their names, here at the start of a program.
     LOCAL CONST string NAME_1 := "clamp_close";
     LOCAL VAR signaldo signal_1;
     LOCAL VAR bool has_1 := FALSE;
@@ -38,31 +40,32 @@ MODULE ROS_execution
     LOCAL VAR bool has_2 := FALSE;
     LOCAL VAR bool link_ok := FALSE;
 
-    ! What holds at the beginning of each program: the path is the one that was checked, or none.
+    ! Initialise the settings of a program, so that the robot follows the checked path or does not move.
     PROC ROS_prepare_program()
         ConfJ \On;
-        set_ways 0;
-        look_for_displacement;
+        set_path_mode 0;
+        check_displacement;
         link_signals;
     ENDPROC
 
-    ! What is asked of a displacement is where it leaves a pose that is nowhere.
-    LOCAL PROC look_for_displacement()
-        VAR robtarget zero := [[0,0,0],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];
+    ! A displacement is detected by applying it to the zero pose.
+    LOCAL PROC check_displacement()
+        VAR robtarget displacement := [[0,0,0],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];
 
-        zero := ORobT(zero);
-        displaced := VectMagn(zero.trans) > STILL OR zero.extax <> UNMOVED
-            OR Abs(zero.rot.q2) + Abs(zero.rot.q3) + Abs(zero.rot.q4) > STILL / 1000;
+        displacement := ORobT(displacement);
+        is_displaced := VectMagn(displacement.trans) > DISPLACEMENT_TOL OR displacement.extax <> ZERO_EXTAX
+            OR Abs(displacement.rot.q2) + Abs(displacement.rot.q3) + Abs(displacement.rot.q4) > DISPLACEMENT_TOL / 1000;
     ENDPROC
 
-    ! A program that asked for other ways is over.
-    PROC ROS_plain_ways()
-        IF ways <> 0 set_ways 0;
+    ! Restore the default path mode after a program that has changed it.
+    PROC ROS_reset_path_mode()
+        IF path_mode <> 0 set_path_mode 0;
     ENDPROC
 
-    ! 1: the wrist may turn on lines as it likes, 2: any configuration; both, or none.
-    LOCAL PROC set_ways(num bits)
-        ways := bits;
+    ! Set the path mode for linear moves. Bit 1: the wrist may turn freely (SingArea \Wrist). Bit 2: any
+    ! configuration is allowed (ConfL \Off).
+    LOCAL PROC set_path_mode(num bits)
+        path_mode := bits;
         IF bits MOD 2 = 1 THEN
             SingArea \Wrist;
         ELSE
@@ -75,47 +78,48 @@ MODULE ROS_execution
         ENDIF
     ENDPROC
 
-    ! Take the instruction at a place of the ring to hand.
-    PROC ROS_fetch_order(num place)
-        ROS_ordered := ROS_orders_1{place};
+    ! Fetch the instruction at a place of the ring buffer.
+    PROC ROS_fetch_instr(num place)
+        ROS_current_instr := ROS_instr_ring_1{place};
         FOR n FROM 1 TO 8 DO
-            IF n <= ROS_ordered.marks mark{n} := ROS_marks_1{place, n};
+            IF n <= ROS_current_instr.marks mark{n} := ROS_marks_1{place, n};
         ENDFOR
     ENDPROC
 
-    ! TRUE if the robot stands at the end of the instruction at hand; `next` is the number of the one
-    ! behind it. Without one it does, where one of the two does not move, and before another tool.
-    FUNC bool ROS_order_stops(num next)
+    ! Return TRUE if the robot stops at the end of the present instruction. `next` is the count of the
+    ! following one. The robot stops if there is none yet, if one of the two does not move, and before a
+    ! change of tool or work object.
+    FUNC bool ROS_instr_stops(num next)
         VAR num place;
 
-        IF ROS_ordered.kind > ROS_DO_MOVE_C OR ROS_ordered.zone.finep OR next = ROS_head_1 RETURN TRUE;
+        IF ROS_current_instr.kind > ROS_DO_MOVE_C OR ROS_current_instr.zone.finep OR next = ROS_head_1 RETURN TRUE;
         place := next MOD ROS_RING_SIZE + 1;
-        IF ROS_orders_1{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
-        RETURN ROS_orders_1{place}.tool <> ROS_ordered.tool OR ROS_orders_1{place}.wobj <> ROS_ordered.wobj;
+        IF ROS_instr_ring_1{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
+        RETURN ROS_instr_ring_1{place}.tool <> ROS_current_instr.tool OR ROS_instr_ring_1{place}.wobj <> ROS_current_instr.wobj;
     ENDFUNC
 
-    ! What is left of the move at hand: a stop where it ends, without its signals.
-    PROC ROS_end_way()
-        IF ROS_ordered.kind = ROS_DO_MOVE_C ROS_ordered.kind := ROS_DO_MOVE_L;
-        ROS_ordered.marks := 0;
+    ! Change the present move into its remainder: a stop at its target, without its signals.
+    PROC ROS_end_at_target()
+        IF ROS_current_instr.kind = ROS_DO_MOVE_C ROS_current_instr.kind := ROS_DO_MOVE_L;
+        ROS_current_instr.marks := 0;
     ENDPROC
 
     PROC ROS_execute(bool stops, num percent)
-        ROS_order_fault := ROS_REASON_NONE;
-        TEST ROS_ordered.kind
+        ROS_instr_fault := ROS_REASON_NONE;
+        TEST ROS_current_instr.kind
         CASE ROS_DO_SETTINGS:
-            set_ways ROS_ordered.value;
+            set_path_mode ROS_current_instr.value;
             RETURN;
         CASE ROS_DO_TOOL:
-            ! The robot stands: no move is under way with what it was.
-            ROS_own_tool := [TRUE,[ROS_ordered.target.trans,ROS_ordered.target.rot],ROS_ordered.load];
+            ! The robot stands, so no move uses the old values.
+            ROS_own_tool := [TRUE,[ROS_current_instr.target.trans,ROS_current_instr.target.rot],ROS_current_instr.load];
             RETURN;
         CASE ROS_DO_WORK_OBJECT:
-            ROS_own_wobj := [FALSE,TRUE,"",[ROS_ordered.target.trans,ROS_ordered.target.rot],
-                [ROS_ordered.via.trans,ROS_ordered.via.rot]];
+            ROS_own_wobj := [FALSE,TRUE,"",[ROS_current_instr.target.trans,ROS_current_instr.target.rot],
+                [ROS_current_instr.via.trans,ROS_current_instr.via.rot]];
             RETURN;
         CASE ROS_DO_WAIT:
-            WaitTime ROS_ordered.seconds;
+            WaitTime ROS_current_instr.seconds;
             RETURN;
         CASE ROS_DO_WAIT_SIGNAL:
             wait_for_signal;
@@ -124,33 +128,33 @@ MODULE ROS_execution
             set_signal;
             RETURN;
         ENDTEST
-        IF displaced AND ROS_ordered.kind <> ROS_DO_MOVE_ABSJ THEN
-            ROS_order_fault := ROS_REASON_POSE_MISMATCH;
+        IF is_displaced AND ROS_current_instr.kind <> ROS_DO_MOVE_ABSJ THEN
+            ROS_instr_fault := ROS_REASON_POSE_MISMATCH;
             ErrWrite "ROS: poses are displaced", "A program displacement or offset is in force, and nobody has checked"
                 \RL2:="where it takes the robot." \RL3:="PDispOff, EOffsOff";
             RETURN;
         ENDIF
-        zone := ROS_ordered.zone;
+        zone := ROS_current_instr.zone;
         IF stops zone := fine;
-        speed := ROS_ordered.speed;
+        speed := ROS_current_instr.speed;
         speed.v_tcp := speed.v_tcp * percent / 100;
         speed.v_ori := speed.v_ori * percent / 100;
         speed.v_leax := speed.v_leax * percent / 100;
         speed.v_reax := speed.v_reax * percent / 100;
-        IF ROS_ordered.marks > 0 set_triggers;
-        IF ROS_order_fault <> ROS_REASON_NONE RETURN;
-        TEST ROS_ordered.tool
+        IF ROS_current_instr.marks > 0 set_triggers;
+        IF ROS_instr_fault <> ROS_REASON_NONE RETURN;
+        TEST ROS_current_instr.tool
         CASE 0:
-            move_with torch;
+            move_with_tool torch;
         CASE 1:
-            move_with ROS_own_tool;
+            move_with_tool ROS_own_tool;
         ENDTEST
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC move_with(PERS tooldata tool)
-        TEST ROS_ordered.wobj
+    LOCAL PROC move_with_tool(PERS tooldata tool)
+        TEST ROS_current_instr.wobj
         CASE 0:
             move tool, wobj0;
         CASE 1:
@@ -161,112 +165,112 @@ MODULE ROS_execution
     ENDPROC
 
     LOCAL PROC move(PERS tooldata tool, PERS wobjdata wobj)
-        IF ROS_ordered.marks > 0 THEN
-            move_and_set tool, wobj;
+        IF ROS_current_instr.marks > 0 THEN
+            move_with_signals tool, wobj;
             RETURN;
         ENDIF
-        TEST ROS_ordered.kind
+        TEST ROS_current_instr.kind
         CASE ROS_DO_MOVE_ABSJ:
-            MoveAbsJ ROS_ordered.joints \NoEOffs, speed, zone, tool \WObj:=wobj;
+            MoveAbsJ ROS_current_instr.joints \NoEOffs, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_J:
-            MoveJ ROS_ordered.target, speed, zone, tool \WObj:=wobj;
+            MoveJ ROS_current_instr.target, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            MoveL ROS_ordered.target, speed, zone, tool \WObj:=wobj;
+            MoveL ROS_current_instr.target, speed, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            MoveC ROS_ordered.via, ROS_ordered.target, speed, zone, tool \WObj:=wobj;
+            MoveC ROS_current_instr.via, ROS_current_instr.target, speed, zone, tool \WObj:=wobj;
         ENDTEST
     ERROR
         RAISE;
     ENDPROC
 
-    ! With signals on the way: all eight triggers, of which those too many do what the last one does.
-    LOCAL PROC move_and_set(PERS tooldata tool, PERS wobjdata wobj)
-        TEST ROS_ordered.kind
+    ! Move with signals on the way. Always use all eight triggers; surplus ones repeat the last one.
+    LOCAL PROC move_with_signals(PERS tooldata tool, PERS wobjdata wobj)
+        TEST ROS_current_instr.kind
         CASE ROS_DO_MOVE_J:
-            TriggJ ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
-                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
-                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
+            TriggJ ROS_current_instr.target, speed, trigger{trigger_set, 1} \T2:=trigger{trigger_set, 2}
+                \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4} \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
+                \T7:=trigger{trigger_set, 7} \T8:=trigger{trigger_set, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            TriggL ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
-                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
-                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
+            TriggL ROS_current_instr.target, speed, trigger{trigger_set, 1} \T2:=trigger{trigger_set, 2}
+                \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4} \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
+                \T7:=trigger{trigger_set, 7} \T8:=trigger{trigger_set, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            TriggC ROS_ordered.via, ROS_ordered.target, speed, trigger{rank, 1} \T2:=trigger{rank, 2}
-                \T3:=trigger{rank, 3} \T4:=trigger{rank, 4} \T5:=trigger{rank, 5} \T6:=trigger{rank, 6}
-                \T7:=trigger{rank, 7} \T8:=trigger{rank, 8}, zone, tool \WObj:=wobj;
+            TriggC ROS_current_instr.via, ROS_current_instr.target, speed, trigger{trigger_set, 1} \T2:=trigger{trigger_set, 2}
+                \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4} \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
+                \T7:=trigger{trigger_set, 7} \T8:=trigger{trigger_set, 8}, zone, tool \WObj:=wobj;
         ENDTEST
     ERROR
         RAISE;
     ENDPROC
 
     LOCAL PROC set_triggers()
-        VAR num last;
+        VAR num source;
 
-        rank := rank MOD 4 + 1;
+        trigger_set := trigger_set MOD 4 + 1;
         FOR n FROM 1 TO 8 DO
-            last := n;
-            IF n > ROS_ordered.marks last := ROS_ordered.marks;
-            set_trigger n, mark{last};
+            source := n;
+            IF n > ROS_current_instr.marks source := ROS_current_instr.marks;
+            set_trigger n, mark{source};
         ENDFOR
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC set_trigger(num n, ROS_mark one)
-        TEST one.signal
+    LOCAL PROC set_trigger(num n, ROS_mark entry)
+        TEST entry.signal
         CASE 0:
             IF NOT has_1 THEN
-                ROS_order_fault := ROS_REASON_NO_SIGNAL;
-            ELSEIF one.kind = ROS_MARK_START THEN
-                TriggIO trigger{rank, n}, one.place \Start \DOp:=signal_1, one.value;
-            ELSEIF one.kind = ROS_MARK_END THEN
-                TriggIO trigger{rank, n}, one.place \DOp:=signal_1, one.value;
+                ROS_instr_fault := ROS_REASON_NO_SIGNAL;
+            ELSEIF entry.kind = ROS_MARK_START THEN
+                TriggIO trigger{trigger_set, n}, entry.place \Start \DOp:=signal_1, entry.value;
+            ELSEIF entry.kind = ROS_MARK_END THEN
+                TriggIO trigger{trigger_set, n}, entry.place \DOp:=signal_1, entry.value;
             ELSE
-                TriggIO trigger{rank, n}, one.place \Time \DOp:=signal_1, one.value;
+                TriggIO trigger{trigger_set, n}, entry.place \Time \DOp:=signal_1, entry.value;
             ENDIF
         ENDTEST
     ERROR
-        ! Its unit is not there, or the value is too large for it.
+        ! Its I/O unit does not exist or the value is too large for it.
         SkipWarn;
-        ROS_order_fault := ROS_REASON_BAD_VALUE;
+        ROS_instr_fault := ROS_REASON_BAD_VALUE;
         RETURN;
     ENDPROC
 
     LOCAL PROC set_signal()
-        TEST ROS_ordered.signal
+        TEST ROS_current_instr.signal
         CASE 0:
             IF NOT has_1 THEN
-                ROS_order_fault := ROS_REASON_NO_SIGNAL;
+                ROS_instr_fault := ROS_REASON_NO_SIGNAL;
             ELSE
-                SetDO signal_1, ROS_ordered.value;
+                SetDO signal_1, ROS_current_instr.value;
             ENDIF
         ENDTEST
     ERROR
         SkipWarn;
-        ROS_order_fault := ROS_REASON_BAD_VALUE;
+        ROS_instr_fault := ROS_REASON_BAD_VALUE;
         RETURN;
     ENDPROC
 
-    ! A signal that does not come ends the program.
+    ! Wait for a signal. A time-out ends the program.
     LOCAL PROC wait_for_signal()
-        TEST ROS_ordered.signal
+        TEST ROS_current_instr.signal
         CASE 0:
             IF NOT has_1 THEN
-                ROS_order_fault := ROS_REASON_NO_SIGNAL;
+                ROS_instr_fault := ROS_REASON_NO_SIGNAL;
             ELSE
-                WaitDO signal_1, ROS_ordered.value \MaxTime:=ROS_ordered.seconds;
+                WaitDO signal_1, ROS_current_instr.value \MaxTime:=ROS_current_instr.seconds;
             ENDIF
         CASE 1:
             IF NOT has_2 THEN
-                ROS_order_fault := ROS_REASON_NO_SIGNAL;
+                ROS_instr_fault := ROS_REASON_NO_SIGNAL;
             ELSE
-                WaitDI signal_2, ROS_ordered.value \MaxTime:=ROS_ordered.seconds;
+                WaitDI signal_2, ROS_current_instr.value \MaxTime:=ROS_current_instr.seconds;
             ENDIF
         ENDTEST
     ERROR
         SkipWarn;
-        ROS_order_fault := ROS_REASON_NO_SIGNAL;
-        IF ERRNO = ERR_WAIT_MAXTIME ROS_order_fault := ROS_REASON_WAITED;
+        ROS_instr_fault := ROS_REASON_NO_SIGNAL;
+        IF ERRNO = ERR_WAIT_MAXTIME ROS_instr_fault := ROS_REASON_WAITED;
         RETURN;
     ENDPROC
 
@@ -278,7 +282,7 @@ MODULE ROS_execution
         AliasIO NAME_2, signal_2;
         has_2 := link_ok;
     ERROR
-        ! No such signal on this controller.
+        ! The controller has no such signal.
         SkipWarn;
         link_ok := FALSE;
         TRYNEXT;

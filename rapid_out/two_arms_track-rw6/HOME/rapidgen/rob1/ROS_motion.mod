@@ -1,141 +1,143 @@
 MODULE ROS_motion
-    ! The motion task: the only one that moves.
+    ! The motion task: the only task that moves the robot.
     !
     ! Robot "two_arms_track-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! It takes points out of the ring and gives them to the path planner, nothing else: every
-    ! check was made before a point was put in. A point whose successor is there is passed
-    ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
+    ! This task only takes points out of the ring buffer and gives them to the path planner. All checks
+    ! were made before a point was put in. A point whose successor has arrived is passed through its
+    ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
+    ! corner.
 
-    CONST string ROS_BUILD_MOTION := "88e807c4be29";
+    CONST string ROS_BUILD_MOTION := "529e47b72f7b";
 
-    ! With \T in the move the speed is only formal.
-    LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
-    LOCAL CONST zonedata CORNER := z50;
-    ! What an axis does of its acceleration without doubt (deg/s^2, mm/s^2).
-    LOCAL CONST num TURN_1 := 300;
-    LOCAL CONST num TURN_2 := 300;
-    LOCAL CONST num TURN_3 := 300;
-    LOCAL CONST num TURN_4 := 384;
-    LOCAL CONST num TURN_5 := 384;
-    LOCAL CONST num TURN_6 := 504;
-    LOCAL CONST num TURN_7 := 1200;
-    LOCAL CONST num TURN_8 := 216;
-    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
-    ! that, lasts this long at least (s), and is not smaller than this (mm, deg).
-    LOCAL CONST num SHORTEST_CORNER := 0.025;
-    LOCAL CONST num SMALLEST_CORNER := 0.3;
-    LOCAL CONST num SMALLEST_TURN := 0.03;
-    ! mm/s of a TCP that moves no more than its place is known.
-    LOCAL CONST num RESTING := 0.1;
-    ! TASK: another group may have one of the same name.
+    ! The moves have a programmed time (\T), so this speed is only formal.
+    LOCAL CONST speeddata FORMAL_SPEED := [5000,500,5000,1000];
+    LOCAL CONST zonedata CONFIG_ZONE := z50;
+    ! Acceleration that each axis certainly reaches, deg/s^2 or mm/s^2 (30 % of its estimated value).
+    LOCAL CONST num ACCELERATION_1 := 300;
+    LOCAL CONST num ACCELERATION_2 := 300;
+    LOCAL CONST num ACCELERATION_3 := 300;
+    LOCAL CONST num ACCELERATION_4 := 384;
+    LOCAL CONST num ACCELERATION_5 := 384;
+    LOCAL CONST num ACCELERATION_6 := 504;
+    LOCAL CONST num ACCELERATION_7 := 1200;
+    LOCAL CONST num ACCELERATION_8 := 216;
+    ! A corner zone is as small as the axes can follow without slowing down, and at most CONFIG_ZONE.
+    ! The corner is planned for at least MIN_CORNER_TIME (s; an estimate, ABB publishes no value). The
+    ! zone is not smaller than MIN_ZONE_MM (mm) and MIN_ZONE_DEG (deg).
+    LOCAL CONST num MIN_CORNER_TIME := 0.025;
+    LOCAL CONST num MIN_ZONE_MM := 0.3;
+    LOCAL CONST num MIN_ZONE_DEG := 0.03;
+    ! A TCP below this speed is at rest, mm/s: its computed position is not more accurate.
+    LOCAL CONST num REST_TCP_SPEED := 0.1;
+    ! These data are TASK PERS, because another motion group may have data of the same names.
     TASK PERS tooldata torch := [TRUE,[[0,0,120],[1,0,0,0]],[1.2,[0,0,60],[1,0,0,0],0,0,0]];
 
-    ! The corner at it: TCP speed on its faster side (mm/s), time that the axes need to turn there (s).
-    LOCAL VAR num rate := 0;
-    LOCAL VAR num needed := 0;
-    ! Speeds of all axes of a kind together.
-    LOCAL VAR num turning := 0;
-    LOCAL VAR num swinging := 0;
-    LOCAL VAR num sliding := 0;
+    ! Corner at the present point: TCP speed on its faster side (mm/s), and time that the axes need for
+    ! it (s).
+    LOCAL VAR num corner_speed := 0;
+    LOCAL VAR num corner_time := 0;
+    ! Sums of the speeds of all axes of one kind, deg/s or mm/s.
+    LOCAL VAR num robot_speed_sum := 0;
+    LOCAL VAR num axis_speed_sum := 0;
+    LOCAL VAR num linear_speed_sum := 0;
 
-    LOCAL VAR intnum bell;
-    LOCAL VAR intnum look;
-    LOCAL VAR intnum speed_bell;
-    LOCAL VAR intnum tick;
-    ! Percent of the programmed speed that is wanted, for which the point at hand has its time, and
-    ! the newest move of the trajectory (0: it is short); percent by SpeedRefresh.
-    LOCAL VAR num pace := 100;
-    LOCAL VAR num taken := 100;
-    LOCAL VAR num latest := 0;
-    LOCAL VAR num share := 100;
-    LOCAL VAR num repeats := 0;
-    ! Percent by the SpeedRefresh of the program itself, to which the driver returns.
-    LOCAL VAR num program_share := 100;
-    ! Leaves a move whose path is gone, by a long jump out of the trap.
-    LOCAL VAR errnum path_gone := -1;
-    ! Main moves, or is about to: there the trap may end what it does.
+    LOCAL VAR intnum int_wakeup;
+    LOCAL VAR intnum int_supervision;
+    LOCAL VAR intnum int_speed;
+    LOCAL VAR intnum int_timer;
+    ! Requested speed, speed for which the time of the present point was computed, speed of the newest
+    ! move (0: it is too short to be slowed down), and speed that SpeedRefresh has set. All are percent.
+    LOCAL VAR num speed_percent := 100;
+    LOCAL VAR num point_percent := 100;
+    LOCAL VAR num move_percent := 0;
+    LOCAL VAR num refresh_percent := 100;
+    LOCAL VAR num refresh_repeats := 0;
+    ! SpeedRefresh value of the program itself, to which the driver returns, percent.
+    LOCAL VAR num program_percent := 100;
+    ! Error number of the long jump by which a trap leaves a move whose path was cleared.
+    LOCAL VAR errnum err_path_cleared := -1;
+    ! TRUE while main executes a move. The trap may abort main only then.
     LOCAL VAR bool in_move := FALSE;
     LOCAL VAR ROS_point point;
-    ! The place of the point before it.
-    LOCAL VAR jointtarget before;
-    ! The corner at it.
-    LOCAL VAR zonedata bend;
-    ! Trajectory under way here, and the point of it that comes next.
-    LOCAL VAR num session := -1;
-    LOCAL VAR num expected := 1;
-    ! The newest trajectory that gets no more points, as main saw it last.
-    LOCAL VAR num closed := 0;
-    ! Why a move failed.
+    ! Target of the previous point.
+    LOCAL VAR jointtarget previous;
+    ! Zone at the present point.
+    LOCAL VAR zonedata corner_zone;
+    ! Number of the trajectory that this task executes, and index of its next point.
+    LOCAL VAR num trajectory := -1;
+    LOCAL VAR num expected_index := 1;
+    ! Newest trajectory that gets no more points, as main has last read it.
+    LOCAL VAR num closed_seen := 0;
+    ! Reason why a move failed (ROS_REASON_...).
     LOCAL VAR num fault := 0;
 
     PROC main()
         ROS_run;
     ENDPROC
 
-    ! Serve the ring, for ever.
+    ! Execute trajectories. This routine does not return.
     PROC ROS_run()
-        ROS_start_task ROS_shown_motion_1,
+        ROS_start_task ROS_task_build_motion_1,
             ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
             ROS_BUILD_EXECUTION = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
-        ROS_service_1 := ROS_OUTSIDE;
+        ROS_run_state_1 := ROS_RUN_OUTSIDE;
         in_move := FALSE;
-        IF path_gone = -1 BookErrNo path_gone;
-        answer ROS_REASON_PROGRAM_STOPPED;
+        IF err_path_cleared = -1 BookErrNo err_path_cleared;
+        answer_supervisor ROS_REASON_PROGRAM_STOPPED;
         ROS_stopped_1 := FALSE;
-        ! After PP to main no order is left, after a return of main there is one.
-        IDelete bell;
-        CONNECT bell WITH on_bell;
-        IPers ROS_bell_1, bell;
-        order_look;
-        IDelete speed_bell;
-        CONNECT speed_bell WITH on_bell;
-        IPers ROS_speed_asked_1, speed_bell;
-        IF repeats > 0 say_again;
+        ! After PP to main no interrupt is connected; after a return of main there is one.
+        IDelete int_wakeup;
+        CONNECT int_wakeup WITH on_wakeup;
+        IPers ROS_wakeup_1, int_wakeup;
+        start_supervision_timer;
+        IDelete int_speed;
+        CONNECT int_speed WITH on_wakeup;
+        IPers ROS_speed_asked_1, int_speed;
+        IF refresh_repeats > 0 resend;
         set_speed;
         WHILE TRUE DO
-            ROS_service_1 := ROS_SERVING;
+            ROS_run_state_1 := ROS_RUN_SERVING;
             serve_ring;
         ENDWHILE
     ENDPROC
 
     LOCAL PROC serve_ring()
-        ! Read before the head of the ring: no point comes after this.
-        closed := ROS_closed_1;
+        ! Read this before the head of the ring buffer: then no point is added after it.
+        closed_seen := ROS_closed_trajectory_1;
         IF ROS_abort_1 <> ROS_abort_done_1 THEN
-            answer ROS_halt_reason_1;
+            answer_supervisor ROS_halt_reason_1;
         ELSEIF fault <> ROS_REASON_NONE THEN
-            give_up;
+            abort_trajectory;
         ELSEIF ROS_head_1 <> ROS_tail_1 THEN
-            IF ROS_program_1 = ROS_session_1 THEN
-                next_order;
+            IF ROS_program_number_1 = ROS_active_trajectory_1 THEN
+                next_instruction;
             ELSE
                 next_point;
             ENDIF
-        ELSEIF closed = ROS_session_1 AND ROS_active() THEN
-            finish;
+        ELSEIF closed_seen = ROS_active_trajectory_1 AND ROS_is_active() THEN
+            finish_trajectory;
         ELSE
             wait_for_points;
         ENDIF
     ENDPROC
 
-    ! Drop the path, and answer the supervisor who may have asked for it. Only main does: it is in no
-    ! move then.
-    LOCAL PROC answer(num reason)
-        VAR num asked;
+    ! Drop the path and answer a request of the supervisor. Only main does this, outside of any move.
+    LOCAL PROC answer_supervisor(num reason)
+        VAR num request;
 
-        ! Read first: a request that comes meanwhile is not answered by this.
-        asked := ROS_abort_1;
+        ! Read the request first: a later one is not answered by this.
+        request := ROS_abort_1;
         clear_path;
-        IF NOT ROS_cleared THEN
-            ! Unanswered: while there may be a path, nobody lets the robot move.
+        IF NOT ROS_path_cleared THEN
+            ! Do not answer: while a path may exist, the robot must stay stopped.
             WaitTime 0.1;
             RETURN;
         ENDIF
-        ROS_drop_points reason;
-        ROS_plain_ways;
+        ROS_drop_trajectory reason;
+        ROS_reset_path_mode;
         ROS_start_robot IsStopMoveAct(\FromMoveTask);
         IF IsStopMoveAct(\FromMoveTask) THEN
             WaitTime 0.1;
@@ -143,113 +145,115 @@ MODULE ROS_motion
         ENDIF
         ! A fault of the trajectory that ends here must not end the next one.
         fault := ROS_REASON_NONE;
-        ROS_abort_done_1 := asked;
+        ROS_abort_done_1 := request;
     ENDPROC
 
-    ! The ring is empty. In the middle of a trajectory the robot stands at the last point that
-    ! came, since that had no successor.
+    ! The ring buffer is empty. During a trajectory the robot stands at the last point that arrived,
+    ! because that point had no successor.
     LOCAL PROC wait_for_points()
-        VAR bool waited;
+        VAR bool timed_out;
 
-        IF ROS_active() AND session = ROS_session_1 ROS_starved_1 := session;
-        IF ROS_active() OR ROS_phase_1 = ROS_TRAJ_RECEIVING THEN
-            ! Points will be here soon.
+        IF ROS_is_active() AND trajectory = ROS_active_trajectory_1 ROS_starved_trajectory_1 := trajectory;
+        IF ROS_is_active() OR ROS_phase_1 = ROS_TRAJ_RECEIVING THEN
+            ! The next points will arrive soon.
             WaitTime 0.008;
         ELSE
             WaitUntil ROS_phase_1 = ROS_TRAJ_RECEIVING OR ROS_head_1 <> ROS_tail_1
-                OR ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=0.2 \TimeFlag:=waited \PollRate:=0.04;
+                OR ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=0.2 \TimeFlag:=timed_out \PollRate:=0.04;
         ENDIF
     ENDPROC
 
-    ! All points of the trajectory were executed: it is done, or it was cut behind them.
-    LOCAL PROC finish()
-        ROS_plain_ways;
+    ! All points of the trajectory were executed. It is complete or was cut after them.
+    LOCAL PROC finish_trajectory()
+        ROS_reset_path_mode;
         IF ROS_closed_code_1 = ROS_REASON_NONE THEN
-            ROS_done_1 := closed;
+            ROS_done_trajectory_1 := closed_seen;
         ELSE
-            ROS_dead_reason_1 := ROS_closed_code_1;
-            ROS_dead_1 := closed;
+            ROS_ended_early_reason_1 := ROS_closed_code_1;
+            ROS_ended_early_1 := closed_seen;
         ENDIF
     ENDPROC
 
     LOCAL PROC next_point()
-        VAR num next;
-        VAR num arrived;
-        VAR num passed;
+        VAR num next_tail;
+        VAR num reached_index;
+        VAR num passed_index;
         VAR bool first;
         VAR bool stops;
-        VAR bool waited;
+        VAR bool timed_out;
 
-        taken := pace;
-        IF share < 100 AND session = ROS_session_1 THEN
-            ! SpeedRefresh may hold for one move or for all: its move ends before another is ordered.
-            ! One of another trajectory is over: the robot may stand elsewhere by now.
+        point_percent := speed_percent;
+        IF refresh_percent < 100 AND trajectory = ROS_active_trajectory_1 THEN
+            ! SpeedRefresh may hold for one move or for all moves. The slowed move therefore ends before
+            ! the next one is ordered. A move of an earlier trajectory is over, and the robot may be
+            ! elsewhere.
             point.duration := 0.1;
             move fine;
             IF fault = ROS_REASON_NONE AND ROS_abort_1 = ROS_abort_done_1 ROS_reached_1 := ROS_planned_1;
             RETURN;
         ENDIF
-        before := point.target;
+        previous := point.target;
         point := ROS_ring_1{ROS_tail_1 MOD ROS_RING_SIZE + 1};
-        next := ROS_next(ROS_tail_1);
-        IF point.session <> ROS_session_1 OR point.session = ROS_dead_1 THEN
-            ! Left over from a trajectory that was halted.
-            ROS_tail_1 := next;
+        next_tail := ROS_next_count(ROS_tail_1);
+        IF point.trajectory <> ROS_active_trajectory_1 OR point.trajectory = ROS_ended_early_1 THEN
+            ! This point belongs to a trajectory that was halted.
+            ROS_tail_1 := next_tail;
             RETURN;
         ENDIF
-        first := (point.session <> session);
-        IF first begin_session point.session;
-        IF point.index <> expected THEN
+        first := (point.trajectory <> trajectory);
+        IF first begin_trajectory point.trajectory;
+        IF point.index <> expected_index THEN
             fault := ROS_REASON_INTERNAL;
             RETURN;
         ENDIF
-        passed := ROS_planned_1;
-        arrived := expected;
-        expected := (expected + 1) MOD ROS_INDEX_WRAP;
-        ROS_starved_1 := -1;
-        ROS_tail_1 := next;
-        ROS_planned_1 := arrived;
-        IF NOT point.dwell point.duration := point.duration * 100 / taken;
-        ! The robot stands at the first point, and at one whose successor is not here yet, or is a dwell.
-        stops := first OR next = ROS_head_1 OR ROS_ring_1{next MOD ROS_RING_SIZE + 1}.dwell;
+        passed_index := ROS_planned_1;
+        reached_index := expected_index;
+        expected_index := (expected_index + 1) MOD ROS_INDEX_WRAP;
+        ROS_starved_trajectory_1 := -1;
+        ROS_tail_1 := next_tail;
+        ROS_planned_1 := reached_index;
+        IF NOT point.dwell point.duration := point.duration * 100 / point_percent;
+        ! The robot stops at the first point, at a point without a successor, and before a dwell.
+        stops := first OR next_tail = ROS_head_1 OR ROS_ring_1{next_tail MOD ROS_RING_SIZE + 1}.dwell;
         IF point.duration = 0 THEN
-            ! The robot stands there already.
+            ! The robot stands at this point already.
         ELSEIF point.dwell THEN
-            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
+            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=timed_out \PollRate:=0.04;
         ELSEIF stops THEN
             move fine;
         ELSE
-            look_at_corner next;
+            check_corner next_tail;
             shape_corner;
-            move bend;
-            ! The robot is now somewhere before this point, and has passed the one before.
-            arrived := passed;
+            move corner_zone;
+            ! The robot has passed the previous point, but has not reached this one.
+            reached_index := passed_index;
         ENDIF
         IF fault <> ROS_REASON_NONE OR ROS_abort_1 <> ROS_abort_done_1 RETURN;
-        ROS_reached_1 := arrived;
-    ERROR (path_gone)
-        ! The trap comes here: nothing was reached.
+        ROS_reached_1 := reached_index;
+    ERROR (err_path_cleared)
+        ! The trap jumps here. No point was reached.
         SkipWarn;
         RETURN;
     ENDPROC
 
-    ! A move whose path was cleared never returns on some controllers; so the trap leaves it. A
-    ! request that comes before `in_move` is seen here, one that comes later by the trap.
+    ! Execute one move. On some controllers a move whose path was cleared never returns, so the trap
+    ! leaves it by a long jump. A request before `in_move` is TRUE is noticed here, a later one by the
+    ! trap.
     LOCAL PROC move(zonedata zone)
-        ! A speed may have been asked for since the point was taken.
+        ! The requested speed may have changed since the point was taken.
         IDisable;
-        IF share >= 100 latest := 0;
-        IF point.duration > 0.25 AND taken > latest latest := taken;
-        IF pace < latest set_speed;
+        IF refresh_percent >= 100 move_percent := 0;
+        IF point.duration > 0.25 AND point_percent > move_percent move_percent := point_percent;
+        IF speed_percent < move_percent set_speed;
         IEnable;
         in_move := TRUE;
         IF ROS_abort_1 = ROS_abort_done_1
-            MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=wobj0;
+            MoveAbsJ point.target \NoEOffs, FORMAL_SPEED \T:=point.duration, zone, torch \WObj:=wobj0;
         in_move := FALSE;
         IF zone.finep THEN
-            ! The robot stands: nothing is left that SpeedRefresh could slow down.
-            share := 100;
-            latest := 0;
+            ! The robot stands, so SpeedRefresh affects no move any more.
+            refresh_percent := 100;
+            move_percent := 0;
         ENDIF
     ERROR
         in_move := FALSE;
@@ -258,67 +262,67 @@ MODULE ROS_motion
         RETURN;
     ENDPROC
 
-    ! The next instruction of a program. As for points: one that is left over counts for nothing, and the one
-    ! that is passed through its zone has not been reached.
-    LOCAL PROC next_order()
-        VAR num next;
-        VAR num arrived;
+    ! Execute the next instruction of a program. As for points, instructions of a halted program are
+    ! skipped, and an instruction that is passed through its zone has not been reached.
+    LOCAL PROC next_instruction()
+        VAR num next_tail;
+        VAR num reached_index;
         VAR bool stops;
 
-        IF share < 100 AND session = ROS_session_1 THEN
-            ! As for points: the move that was slowed down ends before another is ordered.
-            ROS_end_way;
-            carry_out TRUE;
+        IF refresh_percent < 100 AND trajectory = ROS_active_trajectory_1 THEN
+            ! As for points, the slowed move ends before the next one is ordered.
+            ROS_end_at_target;
+            execute_instruction TRUE;
             IF fault = ROS_REASON_NONE AND ROS_abort_1 = ROS_abort_done_1 ROS_reached_1 := ROS_planned_1;
             RETURN;
         ENDIF
-        ROS_fetch_order ROS_tail_1 MOD ROS_RING_SIZE + 1;
-        next := ROS_next(ROS_tail_1);
-        IF ROS_ordered.session <> ROS_session_1 OR ROS_ordered.session = ROS_dead_1 THEN
-            ROS_tail_1 := next;
+        ROS_fetch_instr ROS_tail_1 MOD ROS_RING_SIZE + 1;
+        next_tail := ROS_next_count(ROS_tail_1);
+        IF ROS_current_instr.trajectory <> ROS_active_trajectory_1 OR ROS_current_instr.trajectory = ROS_ended_early_1 THEN
+            ROS_tail_1 := next_tail;
             RETURN;
         ENDIF
-        IF ROS_ordered.session <> session THEN
-            begin_session ROS_ordered.session;
+        IF ROS_current_instr.trajectory <> trajectory THEN
+            begin_trajectory ROS_current_instr.trajectory;
             ROS_prepare_program;
         ENDIF
-        IF ROS_ordered.index <> expected THEN
+        IF ROS_current_instr.index <> expected_index THEN
             fault := ROS_REASON_INTERNAL;
             RETURN;
         ENDIF
-        arrived := expected;
-        expected := (expected + 1) MOD ROS_INDEX_WRAP;
-        ROS_starved_1 := -1;
-        stops := ROS_order_stops(next);
-        IF NOT stops arrived := ROS_planned_1;
-        ROS_tail_1 := next;
-        ROS_planned_1 := ROS_ordered.index;
-        carry_out stops;
+        reached_index := expected_index;
+        expected_index := (expected_index + 1) MOD ROS_INDEX_WRAP;
+        ROS_starved_trajectory_1 := -1;
+        stops := ROS_instr_stops(next_tail);
+        IF NOT stops reached_index := ROS_planned_1;
+        ROS_tail_1 := next_tail;
+        ROS_planned_1 := ROS_current_instr.index;
+        execute_instruction stops;
         IF fault <> ROS_REASON_NONE OR ROS_abort_1 <> ROS_abort_done_1 RETURN;
-        ROS_reached_1 := arrived;
-    ERROR (path_gone)
-        ! The trap comes here: nothing was reached.
+        ROS_reached_1 := reached_index;
+    ERROR (err_path_cleared)
+        ! The trap jumps here. No instruction was reached.
         SkipWarn;
         RETURN;
     ENDPROC
 
-    ! As `move`: the trap leaves it.
-    LOCAL PROC carry_out(bool stops)
-        ! The speed that is wanted now is this one's; a move behind which the robot goes on is slowed down by
-        ! SpeedRefresh, too.
+    ! Execute one instruction. The trap leaves it as it leaves `move`.
+    LOCAL PROC execute_instruction(bool stops)
+        ! This move has the speed that is requested now. SpeedRefresh also slows down a move after which
+        ! the robot does not stop.
         IDisable;
-        taken := pace;
-        IF share >= 100 latest := 0;
-        IF ROS_ordered.kind <= ROS_DO_MOVE_C AND taken > latest latest := taken;
-        IF pace < latest set_speed;
+        point_percent := speed_percent;
+        IF refresh_percent >= 100 move_percent := 0;
+        IF ROS_current_instr.kind <= ROS_DO_MOVE_C AND point_percent > move_percent move_percent := point_percent;
+        IF speed_percent < move_percent set_speed;
         IEnable;
         in_move := TRUE;
-        IF ROS_abort_1 = ROS_abort_done_1 ROS_execute stops, taken;
+        IF ROS_abort_1 = ROS_abort_done_1 ROS_execute stops, point_percent;
         in_move := FALSE;
-        fault := ROS_order_fault;
+        fault := ROS_instr_fault;
         IF stops THEN
-            share := 100;
-            latest := 0;
+            refresh_percent := 100;
+            move_percent := 0;
         ENDIF
     ERROR
         in_move := FALSE;
@@ -327,136 +331,139 @@ MODULE ROS_motion
         RETURN;
     ENDPROC
 
-    LOCAL PROC begin_session(num its)
-        session := its;
-        expected := 1;
+    LOCAL PROC begin_trajectory(num number)
+        trajectory := number;
+        expected_index := 1;
         ROS_planned_1 := 0;
         ROS_reached_1 := 0;
-        ROS_started_1 := session;
+        ROS_started_trajectory_1 := trajectory;
         IDisable;
-        latest := 0;
+        move_percent := 0;
         set_speed;
-        taken := pace;
+        point_percent := speed_percent;
         IEnable;
     ENDPROC
 
-    ! How the axes change their speeds from those of the way to the point to those of the way to its
-    ! successor: `rate`, `needed`, and the speeds of all axes of a kind together.
-    LOCAL PROC look_at_corner(num next)
-        VAR ROS_point after;
-        VAR num leaving;
-        ! 0: as fast on both sides, 1: at rest on one.
-        VAR num uneven := 0;
+    ! Compute how the axes change their speeds in the corner at the present point: `corner_speed`,
+    ! `corner_time`, and the sums of the speeds.
+    LOCAL PROC check_corner(num next_tail)
+        VAR ROS_point following;
+        VAR num speed_out;
+        ! 0: equal speeds on both sides of the corner; 1: at rest on one side.
+        VAR num unevenness := 0;
 
-        rate := 9E9;
-        needed := 0;
-        turning := 0;
-        swinging := 0;
-        sliding := 0;
-        after := ROS_ring_1{next MOD ROS_RING_SIZE + 1};
-        ! It may be a first point, of another trajectory, at which the robot stands.
-        IF after.duration <= 0 OR point.duration <= 0 RETURN;
-        after.duration := after.duration * 100 / taken;
-        rate := tcp_speed(before, point.target, point.duration);
-        leaving := tcp_speed(point.target, after.target, after.duration);
-        IF rate + leaving > RESTING uneven := Abs(leaving - rate) / (rate + leaving);
-        IF rate < leaving rate := leaving;
-        turn (after.target.robax.rax_1 - point.target.robax.rax_1) / after.duration,
-            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, uneven, turning;
-        turn (after.target.robax.rax_2 - point.target.robax.rax_2) / after.duration,
-            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, uneven, turning;
-        turn (after.target.robax.rax_3 - point.target.robax.rax_3) / after.duration,
-            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, uneven, turning;
-        turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
-            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, turning;
-        turn (after.target.robax.rax_5 - point.target.robax.rax_5) / after.duration,
-            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, uneven, turning;
-        turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
-            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, turning;
-        turn (after.target.extax.eax_a - point.target.extax.eax_a) / after.duration,
-            (point.target.extax.eax_a - before.extax.eax_a) / point.duration, TURN_7, uneven, sliding;
-        turn (after.target.extax.eax_b - point.target.extax.eax_b) / after.duration,
-            (point.target.extax.eax_b - before.extax.eax_b) / point.duration, TURN_8, uneven, swinging;
+        corner_speed := 9E9;
+        corner_time := 0;
+        robot_speed_sum := 0;
+        axis_speed_sum := 0;
+        linear_speed_sum := 0;
+        following := ROS_ring_1{next_tail MOD ROS_RING_SIZE + 1};
+        ! The next point may be the first one of another trajectory, at which the robot stands.
+        IF following.duration <= 0 OR point.duration <= 0 RETURN;
+        following.duration := following.duration * 100 / point_percent;
+        corner_speed := tcp_speed(previous, point.target, point.duration);
+        speed_out := tcp_speed(point.target, following.target, following.duration);
+        IF corner_speed + speed_out > REST_TCP_SPEED unevenness := Abs(speed_out - corner_speed) / (corner_speed + speed_out);
+        IF corner_speed < speed_out corner_speed := speed_out;
+        add_axis (following.target.robax.rax_1 - point.target.robax.rax_1) / following.duration,
+            (point.target.robax.rax_1 - previous.robax.rax_1) / point.duration, ACCELERATION_1, unevenness, robot_speed_sum;
+        add_axis (following.target.robax.rax_2 - point.target.robax.rax_2) / following.duration,
+            (point.target.robax.rax_2 - previous.robax.rax_2) / point.duration, ACCELERATION_2, unevenness, robot_speed_sum;
+        add_axis (following.target.robax.rax_3 - point.target.robax.rax_3) / following.duration,
+            (point.target.robax.rax_3 - previous.robax.rax_3) / point.duration, ACCELERATION_3, unevenness, robot_speed_sum;
+        add_axis (following.target.robax.rax_4 - point.target.robax.rax_4) / following.duration,
+            (point.target.robax.rax_4 - previous.robax.rax_4) / point.duration, ACCELERATION_4, unevenness, robot_speed_sum;
+        add_axis (following.target.robax.rax_5 - point.target.robax.rax_5) / following.duration,
+            (point.target.robax.rax_5 - previous.robax.rax_5) / point.duration, ACCELERATION_5, unevenness, robot_speed_sum;
+        add_axis (following.target.robax.rax_6 - point.target.robax.rax_6) / following.duration,
+            (point.target.robax.rax_6 - previous.robax.rax_6) / point.duration, ACCELERATION_6, unevenness, robot_speed_sum;
+        add_axis (following.target.extax.eax_a - point.target.extax.eax_a) / following.duration,
+            (point.target.extax.eax_a - previous.extax.eax_a) / point.duration, ACCELERATION_7, unevenness, linear_speed_sum;
+        add_axis (following.target.extax.eax_b - point.target.extax.eax_b) / following.duration,
+            (point.target.extax.eax_b - previous.extax.eax_b) / point.duration, ACCELERATION_8, unevenness, axis_speed_sum;
     ENDPROC
 
-    ! The time `needed` for a corner is long enough for one axis, and `sum` has its speed, too. In
-    ! an uneven corner, as wide on both sides but longer on one, it has to change more.
-    LOCAL PROC turn(num leaving, num arriving, num acceleration, num uneven, INOUT num sum)
+    ! Increase `corner_time` until it is long enough for this
+    ! axis, and add its speed to `sum`. In an uneven corner, which is equally wide on
+    ! both sides but takes longer on one, its speed changes more.
+    LOCAL PROC add_axis(num speed_out, num speed_in, num acceleration, num unevenness, INOUT num sum)
         VAR num faster;
         VAR num change;
 
-        faster := Abs(arriving);
-        IF faster < Abs(leaving) faster := Abs(leaving);
-        change := Abs(leaving - arriving) + uneven * faster;
-        IF change > acceleration * needed needed := change / acceleration;
+        faster := Abs(speed_in);
+        IF faster < Abs(speed_out) faster := Abs(speed_out);
+        change := Abs(speed_out - speed_in) + unevenness * faster;
+        IF change > acceleration * corner_time corner_time := change / acceleration;
         sum := sum + faster;
     ENDPROC
 
-    ! The zone in which the axes do that. On its faster side the TCP is in it for half of the time that
-    ! this takes, on the other for longer. Angles and external axes count where the TCP rests; where
-    ! it moves they must not shrink its zone.
+    ! Compute the zone in which the axes can follow the corner. On the faster side the TCP is in the
+    ! zone for half of corner_time. Angles and external axes determine the zone only where the TCP
+    ! rests; elsewhere they must not make it smaller.
     LOCAL PROC shape_corner()
-        bend := CORNER;
-        IF needed < SHORTEST_CORNER needed := SHORTEST_CORNER;
-        bend.pzone_tcp := between(SMALLEST_CORNER, rate * needed / 2, CORNER.pzone_tcp);
-        ! To each other as in the zone.
-        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
-        bend.pzone_eax := bend.pzone_ori;
-        IF rate > RESTING RETURN;
-        bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
-        bend.zone_reax := between(SMALLEST_TURN, swinging * needed / 2, CORNER.zone_reax);
-        bend.zone_leax := between(SMALLEST_CORNER, sliding * needed / 2, CORNER.zone_leax);
+        corner_zone := CONFIG_ZONE;
+        IF corner_time < MIN_CORNER_TIME corner_time := MIN_CORNER_TIME;
+        corner_zone.pzone_tcp := limit_value(MIN_ZONE_MM, corner_speed * corner_time / 2, CONFIG_ZONE.pzone_tcp);
+        ! The sizes have the same ratio as those of the configured zone.
+        corner_zone.pzone_ori := corner_zone.pzone_tcp * CONFIG_ZONE.pzone_ori / CONFIG_ZONE.pzone_tcp;
+        corner_zone.pzone_eax := corner_zone.pzone_ori;
+        IF corner_speed > REST_TCP_SPEED RETURN;
+        corner_zone.zone_ori := limit_value(MIN_ZONE_DEG, robot_speed_sum * corner_time / 2, CONFIG_ZONE.zone_ori);
+        corner_zone.zone_reax := limit_value(MIN_ZONE_DEG, axis_speed_sum * corner_time / 2, CONFIG_ZONE.zone_reax);
+        corner_zone.zone_leax := limit_value(MIN_ZONE_MM, linear_speed_sum * corner_time / 2, CONFIG_ZONE.zone_leax);
     ENDPROC
 
-    LOCAL FUNC num between(num least, num wanted, num most)
-        IF wanted < least RETURN least;
-        IF wanted < most RETURN wanted;
-        RETURN most;
+    LOCAL FUNC num limit_value(num min_duration, num value, num maximum)
+        IF value < min_duration RETURN min_duration;
+        IF value < maximum RETURN value;
+        RETURN maximum;
     ENDFUNC
 
-    ! mm/s of the TCP on the way from one point to the next. Where that cannot be told a corner is as
-    ! large as it may be.
+    ! Return the TCP speed between two points, mm/s. If CalcRobT fails, the result makes the corner as
+    ! large as the configured zone.
     LOCAL FUNC num tcp_speed(jointtarget from_point, jointtarget to_point, num seconds)
         VAR robtarget start;
         VAR robtarget end_point;
 
         start := CalcRobT(from_point, torch \WObj:=wobj0);
         end_point := CalcRobT(to_point, torch \WObj:=wobj0);
-        ! Not Distance: programs have a global of that name, which would hide it.
+        ! Distance is not used here, because a program may declare a global of that name, which would
+        ! hide it.
         RETURN VectMagn(end_point.trans - start.trans) / seconds;
     ERROR
         SkipWarn;
         RETURN 9E9;
     ENDFUNC
 
-    ! Find the speed that is wanted for the trajectory under way: points get their time for it. A long
-    ! move that has its time already is slowed down by SpeedRefresh.
+    ! Set the requested speed of the active trajectory. New points get their time for it. A long move
+    ! that already has its time is slowed down by SpeedRefresh.
     LOCAL PROC set_speed()
-        VAR num asked;
+        VAR num request;
         VAR num percent := 100;
-        VAR num due := 100;
+        VAR num target_percent := 100;
 
-        asked := ROS_speed_asked_1;
-        IF ROS_speed_of_1 = ROS_session_1 AND ROS_active() percent := ROS_speed_wanted_1;
-        IF percent < latest due := 100 * percent / latest;
-        IF due <> share THEN
-            ! Only when nothing of the driver's own is in effect, or may be.
-            IF share >= 100 AND repeats = 0 program_share := refreshed();
-            SpeedRefresh due * program_share / 100;
-            share := due;
-            repeats := 5;
-            say_again;
+        request := ROS_speed_asked_1;
+        IF ROS_speed_trajectory_1 = ROS_active_trajectory_1 AND ROS_is_active() percent := ROS_speed_percent_1;
+        IF percent < move_percent target_percent := 100 * percent / move_percent;
+        IF target_percent <> refresh_percent THEN
+            ! Read the program's value only while no SpeedRefresh of the driver is, or may be, in
+            ! effect.
+            IF refresh_percent >= 100 AND refresh_repeats = 0 program_percent := program_refresh();
+            SpeedRefresh target_percent * program_percent / 100;
+            refresh_percent := target_percent;
+            refresh_repeats := 5;
+            resend;
         ENDIF
-        pace := percent;
-        ROS_speed_done_1 := asked;
+        speed_percent := percent;
+        ROS_speed_done_1 := request;
     ERROR
-        ! Not answered: whoever asked is told that it was not done.
+        ! The request stays unanswered, so the client is informed that the speed was not set.
         SkipWarn;
         RETURN;
     ENDPROC
 
-    ! Percent by SpeedRefresh: what the task has, of what the operator has set.
-    LOCAL FUNC num refreshed()
+    ! Return the SpeedRefresh value of the program itself, percent.
+    LOCAL FUNC num program_refresh()
         VAR num percent;
 
         IF CSpeedOverride() <= 0 RETURN 100;
@@ -465,75 +472,78 @@ MODULE ROS_motion
         RETURN 100;
     ENDFUNC
 
-    ! It may hold for one move only, and do nothing at a standstill. One bell at a time may wait.
-    LOCAL PROC say_again()
-        IDelete tick;
-        CONNECT tick WITH on_tick;
-        ITimer \Single, 0.1, tick;
+    ! Repeat SpeedRefresh every 0.1 s, because it may hold for one move only and have no effect at a
+    ! standstill. Only one interrupt may be pending.
+    LOCAL PROC resend()
+        IDelete int_timer;
+        CONNECT int_timer WITH on_timer;
+        ITimer \Single, 0.1, int_timer;
     ENDPROC
 
-    LOCAL TRAP on_tick
-        IF share < 100 OR (NOT in_move) OR IsStopMoveAct() repeats := 5;
-        repeats := repeats - 1;
-        IF repeats > 0 say_again;
-        SpeedRefresh share * program_share / 100;
+    LOCAL TRAP on_timer
+        IF refresh_percent < 100 OR (NOT in_move) OR IsStopMoveAct() refresh_repeats := 5;
+        refresh_repeats := refresh_repeats - 1;
+        IF refresh_repeats > 0 resend;
+        SpeedRefresh refresh_percent * program_percent / 100;
     ERROR
         SkipWarn;
         RETURN;
     ENDTRAP
 
-    ! This task itself ends the trajectory.
-    LOCAL PROC give_up()
-        IF ROS_active() ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
+    ! End the trajectory because of a fault that this task has detected.
+    LOCAL PROC abort_trajectory()
+        IF ROS_is_active() ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
             \RL2:="At point " + ValToStr(ROS_planned_1 - 1) + ".";
         ROS_stop_robot;
-        answer fault;
+        answer_supervisor fault;
     ENDPROC
 
-    ! ROS_cleared: the robot stands, and nothing is left of its path.
+    ! Clear the path when the robot stands. ROS_path_cleared reports the success.
     LOCAL PROC clear_path()
-        ROS_cleared := FALSE;
+        ROS_path_cleared := FALSE;
         WaitRob \ZeroSpeed;
         ROS_clear_path;
-        IF ROS_cleared share := 100;
+        IF ROS_path_cleared refresh_percent := 100;
     ERROR
         SkipWarn;
         RETURN;
     ENDPROC
 
-    ! Without the supervisor nothing can stop the robot: what is under way ends. Main gives it up.
-    LOCAL TRAP on_look
-        order_look;
+    ! The supervisor has ended, so nothing else can stop the robot. End the trajectory; main then aborts
+    ! it.
+    LOCAL TRAP on_supervision
+        start_supervision_timer;
         ROS_watch_supervisor;
-        IF (NOT ROS_unsupervised) OR (NOT ROS_active()) OR fault <> ROS_REASON_NONE RETURN;
+        IF (NOT ROS_supervisor_missing) OR (NOT ROS_is_active()) OR fault <> ROS_REASON_NONE RETURN;
         fault := ROS_REASON_TASK_ENDED;
         ROS_stop_robot;
         clear_path;
         IF NOT in_move RETURN;
         in_move := FALSE;
-        RAISE path_gone;
+        RAISE err_path_cleared;
     ERROR
         SkipWarn;
         RAISE;
     ENDTRAP
 
-    ! One at a time may wait, also while the program is stopped.
-    LOCAL PROC order_look()
-        IDelete look;
-        CONNECT look WITH on_look;
-        ITimer \SingleSafe, 0.1, look;
+    ! Only one interrupt may be pending, also while the program is stopped.
+    LOCAL PROC start_supervision_timer()
+        IDelete int_supervision;
+        CONNECT int_supervision WITH on_supervision;
+        ITimer \SingleSafe, 0.1, int_supervision;
     ENDPROC
 
-    ! The supervisor has stopped the robot and wants the path to be dropped. Main may be waiting
-    ! in a move, which may never return when its path is gone: it is left. Main then answers.
-    LOCAL TRAP on_bell
+    ! The supervisor has stopped the robot and requests that the path be dropped. Main may be waiting in
+    ! a move, which may never return once its path is cleared. This trap leaves it, and main then
+    ! answers.
+    LOCAL TRAP on_wakeup
         IF ROS_speed_asked_1 <> ROS_speed_done_1 set_speed;
         IF ROS_abort_1 = ROS_abort_done_1 RETURN;
         clear_path;
         IF NOT in_move RETURN;
-        ! Now: a bell may ring again before main does anything.
+        ! Reset it now, because the next wake-up may come before main continues.
         in_move := FALSE;
-        RAISE path_gone;
+        RAISE err_path_cleared;
     ERROR
         SkipWarn;
         RAISE;

@@ -1,352 +1,354 @@
 MODULE ROS_programs
-    ! Programs: instructions as they come, and what is checked of them.
+    ! Programs: reading and checking of their instructions.
     !
     ! Robot "two_arms_track-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! Batches of them come as batches of points do (ROS_stream). An instruction that moves brings the
-    ! joints at its end, also one to a pose: what these reach is asked of the controller, and has to be that
-    ! pose. So the limits are those of the joints, the configuration is the one that the controller
-    ! gives, and a client whose robot is another one is refused before anything moves.
+    ! The batches of a program have the same form as batches of points (ROS_stream). Each instruction
+    ! that moves contains the joints at its end, also if its target is a pose: CalcRobT of these joints
+    ! must give that pose. So the limits of the joints can be checked, the configuration (robconf) is
+    ! the controller's own, and a client with a wrong robot model is rejected before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "88e807c4be29";
+    CONST string ROS_BUILD_PROGRAMS := "529e47b72f7b";
 
-    ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
-    LOCAL CONST num TCP_SPEED := 5000;
-    LOCAL CONST num FASTEST := 10000;
-    LOCAL CONST num WIDEST := 1000;
-    ! Numbers of the wire are steps: so many to 1, and what one is.
-    LOCAL CONST dnum STEPS := 1000000;
-    LOCAL CONST dnum DEG := 5.729577951308232E-05;
-    LOCAL CONST dnum MM := 0.001;
-    ! s of a wait, at most.
-    LOCAL CONST num LONGEST := 2000;
-    ! A pose is reached when it is no farther away than this (mm), and no more turned than this cosine of
-    ! half an angle: 0.2 degrees for each mm.
-    LOCAL CONST num NEAR := 1;
-    LOCAL CONST num UNTURNED := 0.999998;
-    ! mm between two of the three points of a circle, at least, and the sine of 1 degree, by which the
-    ! first one sees the others apart, at least: limits of MoveC.
-    LOCAL CONST num APART := 0.1;
-    LOCAL CONST num ASIDE := 0.017452;
-    ! mm, kg and kg m2 of a tool or work object whose values the client sends, at most.
-    LOCAL CONST num FARTHEST := 100000;
-    LOCAL CONST num HEAVIEST := 2000;
-    LOCAL CONST num MOST_INERTIA := 2000;
+    ! Upper limits: speeds in mm/s and deg/s, sizes of a zone in mm and deg.
+    LOCAL CONST num MAX_TCP_SPEED := 5000;
+    LOCAL CONST num MAX_SPEED := 10000;
+    LOCAL CONST num MAX_ZONE_SIZE := 1000;
+    ! Values on the wire are integer steps: steps per unit, and size of one step.
+    LOCAL CONST dnum STEPS_PER_UNIT := 1000000;
+    LOCAL CONST dnum DEG_PER_STEP := 5.729577951308232E-05;
+    LOCAL CONST dnum MM_PER_STEP := 0.001;
+    ! Longest wait and longest routine call, s.
+    LOCAL CONST num MAX_WAIT := 2000;
+    ! The joints reach a pose if its position differs by no more than this (mm), and the cosine of half
+    ! the angle between the orientations is not below this (0.2 degrees for each mm).
+    LOCAL CONST num POSE_TOL_MM := 1;
+    LOCAL CONST num POSE_TOL_COS := 0.999998;
+    ! Limits of MoveC: smallest distance between two of the three points (mm), and sine of 1 degree, the
+    ! smallest angle between the other two points as seen from the first one.
+    LOCAL CONST num MIN_CIRCLE_MM := 0.1;
+    LOCAL CONST num MIN_CIRCLE_SINE := 0.017452;
+    ! Upper limits for a tool or work object that the client defines: mm, kg and kg m2.
+    LOCAL CONST num MAX_FRAME_MM := 100000;
+    LOCAL CONST num MAX_MASS := 2000;
+    LOCAL CONST num MAX_INERTIA := 2000;
     TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
     TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
 
-    ! The instruction at hand, and what of it was ever given.
-    LOCAL VAR ROS_order order;
+    ! Present instruction, and which of its settings were given so far.
+    LOCAL VAR ROS_instr instr;
     LOCAL VAR ROS_mark mark{8};
     LOCAL VAR bool has_speed := FALSE;
     LOCAL VAR bool has_zone := FALSE;
     LOCAL VAR bool has_own_tool := FALSE;
     LOCAL VAR bool has_own_wobj := FALSE;
-    ! Where the robot has to stand when the program begins.
-    LOCAL VAR jointtarget start;
-    ! Where the move before ends: its joints, and its pose if it has one in the frames that are in use.
-    LOCAL VAR jointtarget here;
-    LOCAL VAR robtarget before;
-    LOCAL VAR bool at_pose := FALSE;
-    ! Of the batch at hand: the byte that is read next, the one behind its words, its checksum, and the
-    ! word that was read last.
-    LOCAL VAR num at := 0;
-    LOCAL VAR num behind := 0;
-    LOCAL VAR dnum sum := 0;
+    ! Position at which the robot must stand when the program starts.
+    LOCAL VAR jointtarget start_joints;
+    ! End of the previous move: its joints, and its pose if it has one in the present frames.
+    LOCAL VAR jointtarget last_joints;
+    LOCAL VAR robtarget last_pose;
+    LOCAL VAR bool has_last_pose := FALSE;
+    ! Present batch: next byte to read, first byte after its words, its checksum, and the last word
+    ! read.
+    LOCAL VAR num next_byte := 0;
+    LOCAL VAR num end_byte := 0;
+    LOCAL VAR dnum checksum := 0;
     LOCAL VAR dnum word := 0;
 
-    PROC ROS_begin_program()
+    PROC ROS_init_program()
         has_speed := FALSE;
         has_zone := FALSE;
         has_own_tool := FALSE;
         has_own_wobj := FALSE;
-        order.tool := 0;
-        order.wobj := 0;
+        instr.tool := 0;
+        instr.wobj := 0;
     ENDPROC
 
-    ! Take `count` instructions, which fill `data` from byte `first` up to byte `last`. Those before one
-    ! that is wrong are written into the ring at `written`; `check` goes on over all words.
-    PROC ROS_take_instructions(VAR rawbytes data, num first, num last, num count, INOUT dnum check,
-        INOUT num written)
-        at := first;
-        behind := last;
-        sum := check;
-        IF ROS_count = 0 AND at < behind THEN
-            take_joints data;
-            start := order.joints;
-            here := start;
-            at_pose := FALSE;
-            ROS_object ROS_start_fault();
+    ! Read `count` instructions, which occupy `data` from `first_byte` to `last_byte`. Instructions
+    ! before a wrong one are written into the ring buffer at `next_head`. `batch_checksum` includes all
+    ! words.
+    PROC ROS_read_instructions(VAR rawbytes data, num first_byte, num last_byte, num count, INOUT dnum batch_checksum,
+        INOUT num next_head)
+        next_byte := first_byte;
+        end_byte := last_byte;
+        checksum := batch_checksum;
+        IF ROS_point_count = 0 AND next_byte < end_byte THEN
+            read_joints data;
+            start_joints := instr.joints;
+            last_joints := start_joints;
+            has_last_pose := FALSE;
+            ROS_set_fault ROS_check_program_start();
         ENDIF
-        WHILE count > 0 AND ROS_fault = ROS_REASON_NONE DO
+        WHILE count > 0 AND ROS_point_fault = ROS_REASON_NONE DO
             count := count - 1;
-            take_instruction data;
-            IF ROS_fault = ROS_REASON_NONE THEN
-                put written;
-                written := ROS_next(written);
+            read_instruction data;
+            IF ROS_point_fault = ROS_REASON_NONE THEN
+                write_instr next_head;
+                next_head := ROS_next_count(next_head);
             ENDIF
         ENDWHILE
-        IF at < behind ROS_object ROS_REASON_FRAMING;
-        WHILE at < behind DO
-            next_word data;
+        IF next_byte < end_byte ROS_set_fault ROS_REASON_FRAMING;
+        WHILE next_byte < end_byte DO
+            read_word data;
         ENDWHILE
-        check := sum;
+        batch_checksum := checksum;
     ERROR
         RAISE;
     ENDPROC
 
-    ! Why the program may not begin where the robot stands, 0: it may.
-    FUNC num ROS_start_fault()
-        VAR num needed;
+    ! Return 0 if the program may start where the robot stands, else the reason against it.
+    FUNC num ROS_check_program_start()
+        VAR num approach_time;
         VAR num joint := 0;
 
-        ROS_reach_start CJointT(), start, needed, joint;
+        ROS_check_start CJointT(), start_joints, approach_time, joint;
         IF joint > 0 RETURN 100 * joint + ROS_REASON_START_TOO_FAR;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
-    LOCAL PROC put(num place)
-        ROS_count := ROS_count + 1;
-        IF ROS_count = ROS_INDEX_WRAP ROS_count := 0;
-        order.session := ROS_trajectory_1;
-        order.index := ROS_count;
-        ROS_orders_1{place MOD ROS_RING_SIZE + 1} := order;
+    LOCAL PROC write_instr(num position)
+        ROS_point_count := ROS_point_count + 1;
+        IF ROS_point_count = ROS_INDEX_WRAP ROS_point_count := 0;
+        instr.trajectory := ROS_trajectory_1;
+        instr.index := ROS_point_count;
+        ROS_instr_ring_1{position MOD ROS_RING_SIZE + 1} := instr;
         FOR n FROM 1 TO 8 DO
-            IF n <= order.marks ROS_marks_1{place MOD ROS_RING_SIZE + 1, n} := mark{n};
+            IF n <= instr.marks ROS_marks_1{position MOD ROS_RING_SIZE + 1, n} := mark{n};
         ENDFOR
     ENDPROC
 
-    ! -- reading -------------------------------------------------------------------------------------
+    ! Reading of words and instructions.
 
-    ! The next word, which enters the checksum.
-    LOCAL PROC next_word(VAR rawbytes data)
-        IF at >= behind THEN
-            ROS_object ROS_REASON_FRAMING;
+    ! Read the next word and add it to the checksum.
+    LOCAL PROC read_word(VAR rawbytes data)
+        IF next_byte >= end_byte THEN
+            ROS_set_fault ROS_REASON_FRAMING;
             word := 0;
             RETURN;
         ENDIF
-        UnpackRawBytes data, at, word \IntX:=DINT;
-        at := at + 4;
-        sum := (2 * sum + word + ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
+        UnpackRawBytes data, next_byte, word \IntX:=DINT;
+        next_byte := next_byte + 4;
+        checksum := (2 * checksum + word + ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL FUNC num plain(VAR rawbytes data)
-        next_word data;
-        RETURN DnumToNum(word / STEPS);
+    LOCAL FUNC num read_value(VAR rawbytes data)
+        read_word data;
+        RETURN DnumToNum(word / STEPS_PER_UNIT);
     ERROR
         RAISE;
     ENDFUNC
 
-    LOCAL FUNC num in_mm(VAR rawbytes data)
-        next_word data;
-        RETURN DnumToNum(word * MM);
+    LOCAL FUNC num read_mm(VAR rawbytes data)
+        read_word data;
+        RETURN DnumToNum(word * MM_PER_STEP);
     ERROR
         RAISE;
     ENDFUNC
 
-    LOCAL FUNC num in_deg(VAR rawbytes data)
-        next_word data;
-        RETURN DnumToNum(word * DEG);
+    LOCAL FUNC num read_deg(VAR rawbytes data)
+        read_word data;
+        RETURN DnumToNum(word * DEG_PER_STEP);
     ERROR
         RAISE;
     ENDFUNC
 
-    LOCAL PROC take_instruction(VAR rawbytes data)
-        VAR num first;
+    LOCAL PROC read_instruction(VAR rawbytes data)
+        VAR num header;
 
-        next_word data;
-        first := DnumToNum(word);
-        IF NOT (0 < first AND first < 2 * ROS_SET_SIGNALS) THEN
-            ROS_object ROS_REASON_NO_INSTRUCTION;
+        read_word data;
+        header := DnumToNum(word);
+        IF NOT (0 < header AND header < 2 * ROS_SET_SIGNALS) THEN
+            ROS_set_fault ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDIF
-        IF (first DIV ROS_SET_SPEED) MOD 2 = 1 take_speed data;
-        IF (first DIV ROS_SET_ZONE) MOD 2 = 1 take_zone data;
-        IF (first DIV ROS_SET_FRAMES) MOD 2 = 1 take_frames data;
-        order.kind := first MOD ROS_SET_SPEED;
-        order.marks := 0;
-        IF (first DIV ROS_SET_SIGNALS) MOD 2 = 1 take_marks data;
-        TEST order.kind
+        IF (header DIV ROS_SET_SPEED) MOD 2 = 1 read_speed data;
+        IF (header DIV ROS_SET_ZONE) MOD 2 = 1 read_zone data;
+        IF (header DIV ROS_SET_FRAMES) MOD 2 = 1 read_frame_numbers data;
+        instr.kind := header MOD ROS_SET_SPEED;
+        instr.marks := 0;
+        IF (header DIV ROS_SET_SIGNALS) MOD 2 = 1 read_marks data;
+        TEST instr.kind
         CASE ROS_DO_MOVE_ABSJ:
-            take_joints data;
-            ! Signals are set on the way to a pose: to the one that these joints have.
-            IF order.marks > 0 meet_joints;
+            read_joints data;
+            ! Signals can be set only on the way to a pose: it is computed from these joints.
+            IF instr.marks > 0 resolve_joints;
         CASE ROS_DO_SETTINGS:
-            order.value := plain(data);
-            IF NOT (0 <= order.value AND order.value <= 3 AND order.value = Trunc(order.value))
-                ROS_object ROS_REASON_BAD_VALUE;
+            instr.value := read_value(data);
+            IF NOT (0 <= instr.value AND instr.value <= 3 AND instr.value = Trunc(instr.value))
+                ROS_set_fault ROS_REASON_BAD_VALUE;
         CASE ROS_DO_TOOL:
-            take_tool data;
+            read_tool data;
         CASE ROS_DO_WORK_OBJECT:
-            take_wobj data;
+            read_wobj data;
         CASE ROS_DO_MOVE_J, ROS_DO_MOVE_L:
-            take_pose data, order.target;
-            take_joints data;
-            meet_pose;
+            read_pose data, instr.target;
+            read_joints data;
+            resolve_pose;
         CASE ROS_DO_MOVE_C:
-            take_pose data, order.via;
-            take_pose data, order.target;
-            take_joints data;
-            meet_pose;
-            meet_circle;
-            order.via.robconf := order.target.robconf;
-            order.via.extax := order.target.extax;
+            read_pose data, instr.via;
+            read_pose data, instr.target;
+            read_joints data;
+            resolve_pose;
+            resolve_circle;
+            instr.via.robconf := instr.target.robconf;
+            instr.via.extax := instr.target.extax;
         CASE ROS_DO_WAIT:
-            order.seconds := plain(data);
-            IF NOT (0 <= order.seconds AND order.seconds <= LONGEST) ROS_object ROS_REASON_BAD_VALUE;
+            instr.seconds := read_value(data);
+            IF NOT (0 <= instr.seconds AND instr.seconds <= MAX_WAIT) ROS_set_fault ROS_REASON_BAD_VALUE;
         CASE ROS_DO_WAIT_SIGNAL:
-            order.signal := plain(data);
-            order.value := plain(data);
-            order.seconds := plain(data);
-            IF NOT (0 <= order.seconds AND order.seconds <= LONGEST) ROS_object ROS_REASON_BAD_VALUE;
-            ROS_object wait_fault(order.signal, order.value);
+            instr.signal := read_value(data);
+            instr.value := read_value(data);
+            instr.seconds := read_value(data);
+            IF NOT (0 <= instr.seconds AND instr.seconds <= MAX_WAIT) ROS_set_fault ROS_REASON_BAD_VALUE;
+            ROS_set_fault check_wait_value(instr.signal, instr.value);
         CASE ROS_DO_SET:
-            order.signal := plain(data);
-            order.value := plain(data);
-            ROS_object set_fault(order.signal, order.value);
+            instr.signal := read_value(data);
+            instr.value := read_value(data);
+            ROS_set_fault check_signal_value(instr.signal, instr.value);
         DEFAULT:
-            ROS_object ROS_REASON_NO_INSTRUCTION;
+            ROS_set_fault ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDTEST
-        ! A signal on the way needs a way of the TCP.
-        IF order.marks > 0 AND (order.kind < ROS_DO_MOVE_J OR order.kind > ROS_DO_MOVE_C)
-            ROS_object ROS_REASON_NO_INSTRUCTION;
-        IF order.kind > ROS_DO_MOVE_C RETURN;
-        IF NOT has_speed ROS_object ROS_REASON_BAD_SPEED;
-        IF NOT has_zone ROS_object ROS_REASON_BAD_ZONE;
-        here := order.joints;
-        at_pose := order.kind > ROS_DO_MOVE_ABSJ;
-        IF at_pose before := order.target;
+        ! A signal on the way needs a path of the
+        ! TCP.
+        IF instr.marks > 0 AND (instr.kind < ROS_DO_MOVE_J OR instr.kind > ROS_DO_MOVE_C)
+            ROS_set_fault ROS_REASON_NO_INSTRUCTION;
+        IF instr.kind > ROS_DO_MOVE_C RETURN;
+        IF NOT has_speed ROS_set_fault ROS_REASON_BAD_SPEED;
+        IF NOT has_zone ROS_set_fault ROS_REASON_BAD_ZONE;
+        last_joints := instr.joints;
+        has_last_pose := instr.kind > ROS_DO_MOVE_ABSJ;
+        IF has_last_pose last_pose := instr.target;
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC take_speed(VAR rawbytes data)
-        order.speed.v_tcp := in_mm(data);
-        order.speed.v_ori := in_deg(data);
-        order.speed.v_leax := in_mm(data);
-        order.speed.v_reax := in_deg(data);
-        has_speed := is_speed(order.speed.v_tcp, TCP_SPEED) AND is_speed(order.speed.v_ori, FASTEST)
-            AND is_speed(order.speed.v_leax, FASTEST) AND is_speed(order.speed.v_reax, FASTEST);
+    LOCAL PROC read_speed(VAR rawbytes data)
+        instr.speed.v_tcp := read_mm(data);
+        instr.speed.v_ori := read_deg(data);
+        instr.speed.v_leax := read_mm(data);
+        instr.speed.v_reax := read_deg(data);
+        has_speed := is_valid_speed(instr.speed.v_tcp, MAX_TCP_SPEED) AND is_valid_speed(instr.speed.v_ori, MAX_SPEED)
+            AND is_valid_speed(instr.speed.v_leax, MAX_SPEED) AND is_valid_speed(instr.speed.v_reax, MAX_SPEED);
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL FUNC bool is_speed(num value, num most)
-        RETURN 0 < value AND value <= most;
+    LOCAL FUNC bool is_valid_speed(num value, num maximum)
+        RETURN 0 < value AND value <= maximum;
     ENDFUNC
 
-    LOCAL PROC take_zone(VAR rawbytes data)
-        VAR num stops;
+    LOCAL PROC read_zone(VAR rawbytes data)
+        VAR num stop_flag;
 
-        stops := plain(data);
-        order.zone.finep := (stops = 1);
-        order.zone.pzone_tcp := in_mm(data);
-        order.zone.pzone_ori := in_mm(data);
-        order.zone.pzone_eax := in_mm(data);
-        order.zone.zone_ori := in_deg(data);
-        order.zone.zone_leax := in_mm(data);
-        order.zone.zone_reax := in_deg(data);
-        has_zone := (stops = 0 OR stops = 1) AND is_radius(order.zone.pzone_tcp)
-            AND is_radius(order.zone.pzone_ori) AND is_radius(order.zone.pzone_eax) AND is_radius(order.zone.zone_ori)
-            AND is_radius(order.zone.zone_leax) AND is_radius(order.zone.zone_reax);
+        stop_flag := read_value(data);
+        instr.zone.finep := (stop_flag = 1);
+        instr.zone.pzone_tcp := read_mm(data);
+        instr.zone.pzone_ori := read_mm(data);
+        instr.zone.pzone_eax := read_mm(data);
+        instr.zone.zone_ori := read_deg(data);
+        instr.zone.zone_leax := read_mm(data);
+        instr.zone.zone_reax := read_deg(data);
+        has_zone := (stop_flag = 0 OR stop_flag = 1) AND is_valid_size(instr.zone.pzone_tcp)
+            AND is_valid_size(instr.zone.pzone_ori) AND is_valid_size(instr.zone.pzone_eax) AND is_valid_size(instr.zone.zone_ori)
+            AND is_valid_size(instr.zone.zone_leax) AND is_valid_size(instr.zone.zone_reax);
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL FUNC bool is_radius(num value)
-        RETURN 0 <= value AND value <= WIDEST;
+    LOCAL FUNC bool is_valid_size(num value)
+        RETURN 0 <= value AND value <= MAX_ZONE_SIZE;
     ENDFUNC
 
-    LOCAL PROC take_frames(VAR rawbytes data)
-        order.tool := plain(data);
-        order.wobj := plain(data);
-        IF NOT (0 <= order.tool AND order.tool < 2 AND order.tool = Trunc(order.tool)
-            AND 0 <= order.wobj AND order.wobj < 2 AND order.wobj = Trunc(order.wobj))
-            ROS_object ROS_REASON_NO_FRAME;
-        at_pose := FALSE;
-        IF (order.tool = 1 AND (NOT has_own_tool)) OR (order.wobj = 1 AND (NOT has_own_wobj))
-            ROS_object ROS_REASON_NO_FRAME;
+    LOCAL PROC read_frame_numbers(VAR rawbytes data)
+        instr.tool := read_value(data);
+        instr.wobj := read_value(data);
+        IF NOT (0 <= instr.tool AND instr.tool < 2 AND instr.tool = Trunc(instr.tool)
+            AND 0 <= instr.wobj AND instr.wobj < 2 AND instr.wobj = Trunc(instr.wobj))
+            ROS_set_fault ROS_REASON_NO_FRAME;
+        has_last_pose := FALSE;
+        IF (instr.tool = 1 AND (NOT has_own_tool)) OR (instr.wobj = 1 AND (NOT has_own_wobj))
+            ROS_set_fault ROS_REASON_NO_FRAME;
     ERROR
         RAISE;
     ENDPROC
 
-    ! The values of a tool: poses behind this are its own, here as in the motion task.
-    LOCAL PROC take_tool(VAR rawbytes data)
-        take_frame data, order.target;
-        ! Where it is heavy, and how the axes of inertia lie.
-        take_frame data, order.via;
-        order.load.cog := order.via.trans;
-        order.load.aom := order.via.rot;
-        order.load.mass := plain(data);
-        order.load.ix := plain(data);
-        order.load.iy := plain(data);
-        order.load.iz := plain(data);
-        IF NOT (0 < order.load.mass AND order.load.mass <= HEAVIEST AND is_inertia(order.load.ix)
-            AND is_inertia(order.load.iy) AND is_inertia(order.load.iz)) ROS_object ROS_REASON_BAD_VALUE;
-        IF ROS_fault <> ROS_REASON_NONE RETURN;
-        ROS_own_tool := [TRUE,[order.target.trans,order.target.rot],order.load];
+    ! Read the values of a tool. Later poses refer to this tool, here and in the motion task.
+    LOCAL PROC read_tool(VAR rawbytes data)
+        read_frame data, instr.target;
+        ! Centre of gravity and axes of inertia.
+        read_frame data, instr.via;
+        instr.load.cog := instr.via.trans;
+        instr.load.aom := instr.via.rot;
+        instr.load.mass := read_value(data);
+        instr.load.ix := read_value(data);
+        instr.load.iy := read_value(data);
+        instr.load.iz := read_value(data);
+        IF NOT (0 < instr.load.mass AND instr.load.mass <= MAX_MASS AND is_valid_inertia(instr.load.ix)
+            AND is_valid_inertia(instr.load.iy) AND is_valid_inertia(instr.load.iz)) ROS_set_fault ROS_REASON_BAD_VALUE;
+        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
+        ROS_own_tool := [TRUE,[instr.target.trans,instr.target.rot],instr.load];
         has_own_tool := TRUE;
-        at_pose := FALSE;
+        has_last_pose := FALSE;
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL FUNC bool is_inertia(num value)
-        RETURN 0 <= value AND value <= MOST_INERTIA;
+    LOCAL FUNC bool is_valid_inertia(num value)
+        RETURN 0 <= value AND value <= MAX_INERTIA;
     ENDFUNC
 
-    ! The same of a work object: its user frame and its object frame.
-    LOCAL PROC take_wobj(VAR rawbytes data)
-        take_frame data, order.target;
-        take_frame data, order.via;
-        IF ROS_fault <> ROS_REASON_NONE RETURN;
-        ROS_own_wobj := [FALSE,TRUE,"",[order.target.trans,order.target.rot],[order.via.trans,order.via.rot]];
+    ! Read the values of a work object: its user frame and its object frame.
+    LOCAL PROC read_wobj(VAR rawbytes data)
+        read_frame data, instr.target;
+        read_frame data, instr.via;
+        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
+        ROS_own_wobj := [FALSE,TRUE,"",[instr.target.trans,instr.target.rot],[instr.via.trans,instr.via.rot]];
         has_own_wobj := TRUE;
-        at_pose := FALSE;
+        has_last_pose := FALSE;
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC take_frame(VAR rawbytes data, INOUT robtarget target)
-        take_pose data, target;
-        IF NOT (VectMagn(target.trans) <= FARTHEST) ROS_object ROS_REASON_BAD_VALUE;
+    LOCAL PROC read_frame(VAR rawbytes data, INOUT robtarget target)
+        read_pose data, target;
+        IF NOT (VectMagn(target.trans) <= MAX_FRAME_MM) ROS_set_fault ROS_REASON_BAD_VALUE;
     ERROR
         RAISE;
     ENDPROC
 
-    ! Signals that are set on the way.
-    LOCAL PROC take_marks(VAR rawbytes data)
+    ! Read the signals that are set on the way.
+    LOCAL PROC read_marks(VAR rawbytes data)
         VAR num count;
 
-        count := plain(data);
+        count := read_value(data);
         IF NOT (1 <= count AND count <= 8) THEN
-            ROS_object ROS_REASON_BAD_VALUE;
+            ROS_set_fault ROS_REASON_BAD_VALUE;
             RETURN;
         ENDIF
         FOR n FROM 1 TO count DO
-            mark{n}.signal := plain(data);
-            mark{n}.value := plain(data);
-            mark{n}.kind := plain(data);
-            ! m to mm; s stay s.
-            mark{n}.place := plain(data);
+            mark{n}.signal := read_value(data);
+            mark{n}.value := read_value(data);
+            mark{n}.kind := read_value(data);
+            ! Convert m to mm; a time remains in s.
+            mark{n}.place := read_value(data);
             IF mark{n}.kind <> ROS_MARK_TIME mark{n}.place := 1000 * mark{n}.place;
-            ROS_object set_fault(mark{n}.signal, mark{n}.value);
-            IF NOT (0 <= mark{n}.place AND mark{n}.place <= 10000) ROS_object ROS_REASON_BAD_VALUE;
+            ROS_set_fault check_signal_value(mark{n}.signal, mark{n}.value);
+            IF NOT (0 <= mark{n}.place AND mark{n}.place <= 10000) ROS_set_fault ROS_REASON_BAD_VALUE;
             IF mark{n}.kind <> ROS_MARK_START AND mark{n}.kind <> ROS_MARK_END AND mark{n}.kind <> ROS_MARK_TIME
-                ROS_object ROS_REASON_BAD_VALUE;
+                ROS_set_fault ROS_REASON_BAD_VALUE;
         ENDFOR
-        order.marks := count;
+        instr.marks := count;
     ERROR
         RAISE;
     ENDPROC
 
-    ! Why a signal cannot be set to a value, 0: it can.
-    LOCAL FUNC num set_fault(num signal, num value)
+    ! Return 0 if a signal can be set to this value, else the reason against it.
+    LOCAL FUNC num check_signal_value(num signal, num value)
         TEST signal
         CASE 0:
             IF value <> 0 AND value <> 1 RETURN ROS_REASON_BAD_VALUE;
@@ -358,8 +360,8 @@ MODULE ROS_programs
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
-    ! Why nobody can wait for a value of a signal, 0: one can.
-    LOCAL FUNC num wait_fault(num signal, num value)
+    ! Return 0 if a program can wait for this value of a signal, else the reason against it.
+    LOCAL FUNC num check_wait_value(num signal, num value)
         TEST signal
         CASE 0:
             IF value <> 0 AND value <> 1 RETURN ROS_REASON_BAD_VALUE;
@@ -371,8 +373,8 @@ MODULE ROS_programs
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
-    ! The joints at the end, within their limits.
-    LOCAL PROC take_joints(VAR rawbytes data)
+    ! Read the joints at the end of an instruction and check their limits.
+    LOCAL PROC read_joints(VAR rawbytes data)
         VAR num joint_1;
         VAR num joint_2;
         VAR num joint_3;
@@ -382,76 +384,76 @@ MODULE ROS_programs
         VAR num joint_7;
         VAR num joint_8;
 
-        next_word data;
-        joint_1 := DnumToNum(word * DEG);
+        read_word data;
+        joint_1 := DnumToNum(word * DEG_PER_STEP);
         IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1})
-            joint_1 := ROS_judged(joint_1, 0, 1);
-        next_word data;
-        joint_2 := DnumToNum(word * DEG);
+            joint_1 := ROS_check_joint(joint_1, 0, 1);
+        read_word data;
+        joint_2 := DnumToNum(word * DEG_PER_STEP);
         IF NOT (ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2})
-            joint_2 := ROS_judged(joint_2, 0, 2);
-        next_word data;
-        joint_3 := DnumToNum(word * DEG);
+            joint_2 := ROS_check_joint(joint_2, 0, 2);
+        read_word data;
+        joint_3 := DnumToNum(word * DEG_PER_STEP);
         IF NOT (ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3})
-            joint_3 := ROS_judged(joint_3, 0, 3);
-        next_word data;
-        joint_4 := DnumToNum(word * DEG);
+            joint_3 := ROS_check_joint(joint_3, 0, 3);
+        read_word data;
+        joint_4 := DnumToNum(word * DEG_PER_STEP);
         IF NOT (ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4})
-            joint_4 := ROS_judged(joint_4, 0, 4);
-        next_word data;
-        joint_5 := DnumToNum(word * DEG);
+            joint_4 := ROS_check_joint(joint_4, 0, 4);
+        read_word data;
+        joint_5 := DnumToNum(word * DEG_PER_STEP);
         IF NOT (ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5})
-            joint_5 := ROS_judged(joint_5, 0, 5);
-        next_word data;
-        joint_6 := DnumToNum(word * DEG);
+            joint_5 := ROS_check_joint(joint_5, 0, 5);
+        read_word data;
+        joint_6 := DnumToNum(word * DEG_PER_STEP);
         IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6})
-            joint_6 := ROS_judged(joint_6, 0, 6);
-        next_word data;
-        joint_7 := DnumToNum(word * MM);
+            joint_6 := ROS_check_joint(joint_6, 0, 6);
+        read_word data;
+        joint_7 := DnumToNum(word * MM_PER_STEP);
         IF NOT (ROS_low{7} <= joint_7 AND joint_7 <= ROS_high{7})
-            joint_7 := ROS_judged(joint_7, 0, 7);
-        next_word data;
-        joint_8 := DnumToNum(word * DEG);
+            joint_7 := ROS_check_joint(joint_7, 0, 7);
+        read_word data;
+        joint_8 := DnumToNum(word * DEG_PER_STEP);
         IF NOT (ROS_low{8} <= joint_8 AND joint_8 <= ROS_high{8})
-            joint_8 := ROS_judged(joint_8, 0, 8);
-        order.joints := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[joint_7,joint_8,9E9,9E9,9E9,9E9]];
+            joint_8 := ROS_check_joint(joint_8, 0, 8);
+        instr.joints := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[joint_7,joint_8,9E9,9E9,9E9,9E9]];
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC take_pose(VAR rawbytes data, INOUT robtarget target)
-        VAR num size;
+    LOCAL PROC read_pose(VAR rawbytes data, INOUT robtarget target)
+        VAR num norm;
 
-        next_word data;
-        target.trans.x := DnumToNum(word * MM);
-        next_word data;
-        target.trans.y := DnumToNum(word * MM);
-        next_word data;
-        target.trans.z := DnumToNum(word * MM);
-        next_word data;
-        target.rot.q1 := DnumToNum(word / STEPS);
-        next_word data;
-        target.rot.q2 := DnumToNum(word / STEPS);
-        next_word data;
-        target.rot.q3 := DnumToNum(word / STEPS);
-        next_word data;
-        target.rot.q4 := DnumToNum(word / STEPS);
-        size := along(target.rot, target.rot);
-        IF 0.99 < size AND size < 1.01 THEN
+        read_word data;
+        target.trans.x := DnumToNum(word * MM_PER_STEP);
+        read_word data;
+        target.trans.y := DnumToNum(word * MM_PER_STEP);
+        read_word data;
+        target.trans.z := DnumToNum(word * MM_PER_STEP);
+        read_word data;
+        target.rot.q1 := DnumToNum(word / STEPS_PER_UNIT);
+        read_word data;
+        target.rot.q2 := DnumToNum(word / STEPS_PER_UNIT);
+        read_word data;
+        target.rot.q3 := DnumToNum(word / STEPS_PER_UNIT);
+        read_word data;
+        target.rot.q4 := DnumToNum(word / STEPS_PER_UNIT);
+        norm := quaternion_dot(target.rot, target.rot);
+        IF 0.99 < norm AND norm < 1.01 THEN
             target.rot := NOrient(target.rot);
         ELSE
-            ROS_object ROS_REASON_BAD_VALUE;
+            ROS_set_fault ROS_REASON_BAD_VALUE;
         ENDIF
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL FUNC num along(orient a, orient b)
+    LOCAL FUNC num quaternion_dot(orient a, orient b)
         RETURN a.q1 * b.q1 + a.q2 * b.q2 + a.q3 * b.q3 + a.q4 * b.q4;
     ENDFUNC
 
-    LOCAL FUNC robtarget pose_with(PERS tooldata tool, jointtarget joints)
-        TEST order.wobj
+    LOCAL FUNC robtarget pose_with_tool(PERS tooldata tool, jointtarget joints)
+        TEST instr.wobj
         CASE 1:
             RETURN CalcRobT(joints, tool \WObj:=ROS_own_wobj);
         DEFAULT:
@@ -461,65 +463,65 @@ MODULE ROS_programs
         RAISE;
     ENDFUNC
 
-    ! The pose that the joints reach.
+    ! Return the pose that the joints reach.
     LOCAL FUNC robtarget pose_of(jointtarget joints)
-        TEST order.tool
+        TEST instr.tool
         CASE 1:
-            RETURN pose_with(ROS_own_tool, joints);
+            RETURN pose_with_tool(ROS_own_tool, joints);
         DEFAULT:
-            RETURN pose_with(torch, joints);
+            RETURN pose_with_tool(torch, joints);
         ENDTEST
     ERROR
         RAISE;
     ENDFUNC
 
-    ! The joints have to reach the pose; then the target has the configuration that they have, and
-    ! their external axes.
-    LOCAL PROC meet_pose()
-        VAR robtarget reached;
+    ! Check that the joints reach the target. Then set configuration and external axes of the target to
+    ! those of the joints.
+    LOCAL PROC resolve_pose()
+        VAR robtarget actual;
 
-        IF ROS_fault <> ROS_REASON_NONE RETURN;
-        reached := pose_of(order.joints);
-        IF NOT (VectMagn(reached.trans - order.target.trans) <= NEAR
-            AND Abs(along(reached.rot, order.target.rot)) >= UNTURNED)
-            ROS_object ROS_REASON_POSE_MISMATCH;
-        order.target.robconf := reached.robconf;
-        order.target.extax := reached.extax;
+        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
+        actual := pose_of(instr.joints);
+        IF NOT (VectMagn(actual.trans - instr.target.trans) <= POSE_TOL_MM
+            AND Abs(quaternion_dot(actual.rot, instr.target.rot)) >= POSE_TOL_COS)
+            ROS_set_fault ROS_REASON_POSE_MISMATCH;
+        instr.target.robconf := actual.robconf;
+        instr.target.extax := actual.extax;
     ERROR
         SkipWarn;
-        ROS_object ROS_REASON_NO_GEOMETRY;
+        ROS_set_fault ROS_REASON_NO_GEOMETRY;
         RETURN;
     ENDPROC
 
-    ! A circle begins where the move before ends, and turns 240 degrees at most: then its ends are seen
-    ! from its point on the way 60 degrees apart and more.
-    LOCAL PROC meet_circle()
-        VAR pos back;
-        VAR pos on;
-        VAR pos across;
+    ! Check a circle from the end of the previous move. It may turn by 240 degrees at most. Then its two
+    ! ends are at least 60 degrees apart, as seen from its circle point.
+    LOCAL PROC resolve_circle()
+        VAR pos to_start;
+        VAR pos to_end;
+        VAR pos chord;
 
-        IF ROS_fault <> ROS_REASON_NONE RETURN;
-        IF NOT at_pose before := pose_of(here);
-        back := before.trans - order.via.trans;
-        on := order.target.trans - order.via.trans;
-        across := order.target.trans - before.trans;
-        IF VectMagn(back) < APART OR VectMagn(on) < APART
-            OR VectMagn(back * across) < ASIDE * VectMagn(back) * VectMagn(across)
-            OR DotProd(back, on) > 0.5 * VectMagn(back) * VectMagn(on)
-            ROS_object ROS_REASON_NO_CIRCLE;
+        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
+        IF NOT has_last_pose last_pose := pose_of(last_joints);
+        to_start := last_pose.trans - instr.via.trans;
+        to_end := instr.target.trans - instr.via.trans;
+        chord := instr.target.trans - last_pose.trans;
+        IF VectMagn(to_start) < MIN_CIRCLE_MM OR VectMagn(to_end) < MIN_CIRCLE_MM
+            OR VectMagn(to_start * chord) < MIN_CIRCLE_SINE * VectMagn(to_start) * VectMagn(chord)
+            OR DotProd(to_start, to_end) > 0.5 * VectMagn(to_start) * VectMagn(to_end)
+            ROS_set_fault ROS_REASON_NO_CIRCLE;
     ERROR
         SkipWarn;
-        ROS_object ROS_REASON_NO_GEOMETRY;
+        ROS_set_fault ROS_REASON_NO_GEOMETRY;
         RETURN;
     ENDPROC
 
-    LOCAL PROC meet_joints()
-        IF ROS_fault <> ROS_REASON_NONE RETURN;
-        order.target := pose_of(order.joints);
-        order.kind := ROS_DO_MOVE_J;
+    LOCAL PROC resolve_joints()
+        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
+        instr.target := pose_of(instr.joints);
+        instr.kind := ROS_DO_MOVE_J;
     ERROR
         SkipWarn;
-        ROS_object ROS_REASON_NO_GEOMETRY;
+        ROS_set_fault ROS_REASON_NO_GEOMETRY;
         RETURN;
     ENDPROC
 ENDMODULE

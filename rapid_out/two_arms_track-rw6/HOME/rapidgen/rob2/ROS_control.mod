@@ -1,45 +1,48 @@
 MODULE ROS_control
-    ! The control server: STOP and all that must not wait, on a connection of its own.
+    ! The control server: STOP and other requests that must not wait, on their own connection.
     !
     ! Robot "two_arms_track-rw6", motion group rob2, T_ROB2. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! STOP, PAUSE, SPEED, HEARTBEAT and SIGNAL, which no point delays. On STOP and on a missing
-    ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
-    ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
+    ! STOP, PAUSE, SPEED, HEARTBEAT and SIGNAL are handled
+    ! here, so that points never delay them. On STOP and on a missing heartbeat this task asks the
+    ! supervisor by an interrupt, because only one task may stop and restart the robot. If the
+    ! supervisor does not answer, this task stops the robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "88e807c4be29";
+    CONST string ROS_BUILD_CONTROL := "529e47b72f7b";
 
     LOCAL CONST num PORT := 11011;
-    ! s between two looks at what the robot does, and for new clients.
-    LOCAL CONST num LOOK_PERIOD := 0.1;
-    ! s for the motion server to look at its sockets after a STOP. It waits for bytes for ROS_WAIT, which is less.
+    ! Time between two checks for new clients and for the end of a trajectory, s.
+    LOCAL CONST num POLL_PERIOD := 0.1;
+    ! Time for the motion server to check its sockets after STOP, s. It waits for bytes for
+    ! ROS_WAIT_TIMEOUT, which is shorter.
     LOCAL CONST num SEEN_TIMEOUT := 0.15;
-    ! s: the longest time between heartbeats.
-    LOCAL CONST num LONGEST := 3600;
+    ! Longest time between heartbeats that a client may request, s.
+    LOCAL CONST num MAX_HEARTBEAT := 3600;
 
     LOCAL VAR socketdev server;
     LOCAL VAR socketdev client_1;
     LOCAL VAR socketdev client_2;
-    ! The other socket already holds the next client.
-    LOCAL VAR bool taken_over := FALSE;
-    LOCAL VAR bool linked := FALSE;
-    LOCAL VAR clock since_look;
+    ! TRUE if the other socket already holds the next client to serve; TRUE while the present client is
+    ! connected.
+    LOCAL VAR bool is_taken_over := FALSE;
+    LOCAL VAR bool is_connected := FALSE;
+    LOCAL VAR clock clock_poll;
 
-    ! The message at hand, by itself.
+    ! Present request and its reply.
     LOCAL VAR rawbytes request;
     LOCAL VAR rawbytes answer;
 
-    ! s in which the next heartbeat must come, 0: none is awaited.
-    LOCAL VAR num heartbeat := 0;
-    LOCAL VAR clock since_heartbeat;
-    ! The newest trajectory whose early end was told.
-    LOCAL VAR num told_dead := 0;
+    ! Time within which the next heartbeat must arrive, s; 0: none is expected.
+    LOCAL VAR num heartbeat_timeout := 0;
+    LOCAL VAR clock clock_heartbeat;
+    ! Newest trajectory whose early end was reported to the client.
+    LOCAL VAR num reported_end := 0;
     LOCAL VAR ROS_progress newest;
 
-    ! Signals that the configuration exposes. They are tied to their names when the task starts;
-    ! one that the controller does not have is refused, the others work.
+    ! Signals of `signals:` in the configuration. This task connects them to their names when it starts.
+    ! A signal that the controller does not have is rejected; the others work.
     LOCAL CONST string NAME_1 := "clamp_close";
     LOCAL VAR signaldo signal_1;
     LOCAL VAR bool has_1 := FALSE;
@@ -49,95 +52,95 @@ MODULE ROS_control
     LOCAL VAR bool link_ok := FALSE;
 
     PROC main()
-        ROS_start_task ROS_shown_control_2,
+        ROS_start_task ROS_task_build_control_2,
             ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
-        ROS_begin_pulse 2;
+        ROS_start_alive_count 2;
         ROS_read_limits;
-        ROS_speed_of_2 := -1;
+        ROS_speed_trajectory_2 := -1;
         link_signals;
         ROS_listen server, PORT;
         WHILE TRUE DO
             serve client_1, client_2;
-            lost_client;
+            on_disconnect;
             serve client_2, client_1;
-            lost_client;
+            on_disconnect;
         ENDWHILE
     ENDPROC
 
-    ! Serve the client on `client` until it is gone, or until a newer one has come on `newcomer`:
-    ! whoever may stop the robot must be able to, whatever another client does.
+    ! Serve the client on `client` until it disconnects or a newer client connects on `newcomer`. A
+    ! client that is allowed to stop the robot must be able to do so, whatever another client does.
     LOCAL PROC serve(VAR socketdev client, VAR socketdev newcomer)
         VAR num received;
 
-        IF NOT taken_over THEN
-            WHILE NOT ROS_accept(server, PORT, client, ROS_WAIT) DO
-                ! Nobody, a stranger, or the server socket broke and was opened again.
+        IF NOT is_taken_over THEN
+            WHILE NOT ROS_accept(server, PORT, client, ROS_WAIT_TIMEOUT) DO
+                ! No client came, or one that is not allowed, or the server socket was opened again.
             ENDWHILE
         ENDIF
-        taken_over := FALSE;
-        linked := TRUE;
-        told_dead := ROS_dead_2;
-        ROS_start_clock since_look;
-        ROS_part_bytes := 0;
-        WHILE linked AND (NOT taken_over) DO
-            received := ROS_receive(client, ROS_chunk, patience());
+        is_taken_over := FALSE;
+        is_connected := TRUE;
+        reported_end := ROS_ended_early_2;
+        ROS_start_clock clock_poll;
+        ROS_partial_bytes := 0;
+        WHILE is_connected AND (NOT is_taken_over) DO
+            received := ROS_receive(client, ROS_chunk, receive_timeout());
             IF received > 0 THEN
-                take_chunk client, received;
+                handle_chunk client, received;
             ELSEIF received < 0 THEN
-                linked := FALSE;
+                is_connected := FALSE;
             ENDIF
-            IF linked AND is_late() THEN
-                heartbeat := 0;
-                ask_stop ROS_REASON_CLIENT_LOST;
+            IF is_connected AND is_heartbeat_late() THEN
+                heartbeat_timeout := 0;
+                request_stop ROS_REASON_CLIENT_LOST;
             ENDIF
-            IF linked tell_end client;
-            IF linked AND ClkRead(since_look) >= LOOK_PERIOD THEN
-                ROS_start_clock since_look;
-                taken_over := ROS_accept(server, PORT, newcomer, 0.001);
+            IF is_connected send_stopped client;
+            IF is_connected AND ClkRead(clock_poll) >= POLL_PERIOD THEN
+                ROS_start_clock clock_poll;
+                is_taken_over := ROS_accept(server, PORT, newcomer, 0.001);
             ENDIF
         ENDWHILE
         SocketClose client;
     ERROR
-        ! Nothing that a client sends may end this task.
+        ! No data that a client sends may end this task.
         ErrWrite \W, "ROS: a client was dropped", "Error " + ValToStr(ERRNO) + " while serving it.";
         SocketClose client;
         RETURN;
     ENDPROC
 
-    LOCAL FUNC bool is_late()
-        IF heartbeat = 0 RETURN FALSE;
-        RETURN ClkRead(since_heartbeat) > heartbeat;
+    LOCAL FUNC bool is_heartbeat_late()
+        IF heartbeat_timeout = 0 RETURN FALSE;
+        RETURN ClkRead(clock_heartbeat) > heartbeat_timeout;
     ENDFUNC
 
-    ! A client whose heartbeats are awaited is gone, or was replaced.
-    LOCAL PROC lost_client()
-        IF heartbeat > 0 ask_stop ROS_REASON_CLIENT_LOST;
-        heartbeat := 0;
+    ! A client that sends heartbeats has disconnected or was replaced.
+    LOCAL PROC on_disconnect()
+        IF heartbeat_timeout > 0 request_stop ROS_REASON_CLIENT_LOST;
+        heartbeat_timeout := 0;
     ENDPROC
 
-    ! s to wait for bytes: never beyond the next heartbeat.
-    LOCAL FUNC num patience()
-        VAR num left;
+    ! Return the time to wait for bytes, s: not longer than until the next heartbeat.
+    LOCAL FUNC num receive_timeout()
+        VAR num remaining;
 
-        IF heartbeat = 0 RETURN LOOK_PERIOD;
-        left := heartbeat - ClkRead(since_heartbeat);
-        IF left > LOOK_PERIOD RETURN LOOK_PERIOD;
-        ! Also one that is due is looked for: it may be here already.
-        IF left < 0.002 RETURN 0.002;
-        RETURN left;
+        IF heartbeat_timeout = 0 RETURN POLL_PERIOD;
+        remaining := heartbeat_timeout - ClkRead(clock_heartbeat);
+        IF remaining > POLL_PERIOD RETURN POLL_PERIOD;
+        ! Also check for a heartbeat that is due now, because it may have arrived.
+        IF remaining < 0.002 RETURN 0.002;
+        RETURN remaining;
     ENDFUNC
 
-    LOCAL PROC take_chunk(VAR socketdev client, num received)
-        ROS_take_bytes received;
-        WHILE linked DO
+    LOCAL PROC handle_chunk(VAR socketdev client, num received)
+        ROS_start_chunk received;
+        WHILE is_connected DO
             TEST ROS_next_frame()
             CASE ROS_FRAME_IN_CHUNK:
-                take_request client, ROS_chunk, ROS_frame_at;
-            CASE ROS_FRAME_IN_PART:
-                take_request client, ROS_part, 1;
+                handle_request client, ROS_chunk, ROS_frame_at;
+            CASE ROS_FRAME_IN_PARTIAL:
+                handle_request client, ROS_partial, 1;
             CASE ROS_FRAME_BROKEN:
-                linked := FALSE;
+                is_connected := FALSE;
             DEFAULT:
                 RETURN;
             ENDTEST
@@ -146,34 +149,34 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! The message that begins at byte `at` of `data`. Anything but a request of the right length
-    ! breaks the link, unless its type is not known.
-    LOCAL PROC take_request(VAR socketdev client, VAR rawbytes data, num at)
-        VAR num comm;
-        VAR num wanted := 0;
+    ! Handle the message that begins at byte `at` of `data`. A message that is not a request, or has the
+    ! wrong length, closes the connection. An unknown type does not.
+    LOCAL PROC handle_request(VAR socketdev client, VAR rawbytes data, num at)
+        VAR num comm_type;
+        VAR num features := 0;
 
         ClearRawBytes request;
         CopyRawBytes data, at, request, 1 \NoOfBytes:=ROS_frame_length + 4;
-        UnpackRawBytes request, 9, comm \IntX:=DINT;
-        linked := (comm = ROS_COMM_REQUEST);
+        UnpackRawBytes request, 9, comm_type \IntX:=DINT;
+        is_connected := (comm_type = ROS_COMM_REQUEST);
         TEST ROS_frame_type
         CASE ROS_MSG_JOINT_TRAJ_PT:
-            IF is_whole(ROS_LEN_JOINT_TRAJ_PT) take_stop client;
+            IF has_length(ROS_LEN_JOINT_TRAJ_PT) handle_stop client;
         CASE ROS_MSG_PAUSE:
-            IF is_whole(ROS_LEN_PAUSE) take_pause client;
+            IF has_length(ROS_LEN_PAUSE) handle_pause client;
         CASE ROS_MSG_SPEED:
-            IF is_whole(ROS_LEN_SPEED) take_speed client;
+            IF has_length(ROS_LEN_SPEED) handle_speed client;
         CASE ROS_MSG_HEARTBEAT:
-            IF is_whole(ROS_LEN_HEARTBEAT) take_heartbeat client;
+            IF has_length(ROS_LEN_HEARTBEAT) handle_heartbeat client;
         CASE ROS_MSG_SIGNAL:
-            IF is_whole(ROS_LEN_SIGNAL) take_signal client;
+            IF has_length(ROS_LEN_SIGNAL) handle_signal client;
         CASE ROS_MSG_HELLO:
-            linked := ROS_take_hello(request, ROS_frame_length + 4, answer, wanted);
-            IF linked send_answer client;
+            is_connected := ROS_handle_hello(request, ROS_frame_length + 4, answer, features);
+            IF is_connected send_answer client;
         CASE ROS_MSG_PING:
-            IF linked confirm client;
+            IF is_connected send_success client;
         DEFAULT:
-            IF linked THEN
+            IF is_connected THEN
                 ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_FAILURE;
                 send_answer client;
             ENDIF
@@ -182,26 +185,26 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    LOCAL FUNC bool is_whole(num length)
-        linked := linked AND ROS_frame_length = length;
-        RETURN linked;
+    LOCAL FUNC bool has_length(num length)
+        is_connected := is_connected AND ROS_frame_length = length;
+        RETURN is_connected;
     ENDFUNC
 
     LOCAL PROC send_answer(VAR socketdev client)
-        linked := ROS_send(client, answer);
+        is_connected := ROS_send(client, answer);
     ENDPROC
 
-    LOCAL PROC confirm(VAR socketdev client)
+    LOCAL PROC send_success(VAR socketdev client)
         ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_SUCCESS;
         send_answer client;
     ERROR
         RAISE;
     ENDPROC
 
-    ! Answer that it was done, or why not.
-    LOCAL PROC report(VAR socketdev client, num reason)
+    ! Reply with success, or with the reason for a failure.
+    LOCAL PROC send_result(VAR socketdev client, num reason)
         IF reason = ROS_REASON_NONE THEN
-            confirm client;
+            send_success client;
             RETURN;
         ENDIF
         ROS_pack_header answer, ROS_HEADER_BYTES + 4, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
@@ -211,40 +214,41 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! STOP is the only point that comes here. The reply comes when the stop is sure to last, and the motion
-    ! server counts what comes from now on as sent after it; but it does not wait for that for long.
-    LOCAL PROC take_stop(VAR socketdev client)
+    ! Handle STOP, the only point that is valid on this port. The reply is sent when the stop is in
+    ! force, and the motion server regards everything that it receives from now on as newer. The reply
+    ! does not wait for the motion server longer than SEEN_TIMEOUT.
+    LOCAL PROC handle_stop(VAR socketdev client)
         VAR num sequence;
         VAR num code := ROS_REPLY_SUCCESS;
 
         UnpackRawBytes request, 17, sequence \IntX:=DINT;
-        linked := (sequence = ROS_SEQ_STOP);
-        IF NOT linked RETURN;
-        ask_stop ROS_REASON_STOPPED;
-        IF NOT answered(ROS_control_asked_2, ROS_control_done_2, ROS_LATE - ROS_SOON) THEN
+        is_connected := (sequence = ROS_SEQ_STOP);
+        IF NOT is_connected RETURN;
+        request_stop ROS_REASON_STOPPED;
+        IF NOT wait_answered(ROS_control_asked_2, ROS_control_done_2, ROS_REPLY_TIMEOUT - ROS_STOP_TIMEOUT) THEN
             code := ROS_REPLY_FAILURE;
-        ELSEIF NOT answered(ROS_control_asked_2, ROS_control_seen_2, SEEN_TIMEOUT) THEN
+        ELSEIF NOT wait_answered(ROS_control_asked_2, ROS_control_stops_seen_2, SEEN_TIMEOUT) THEN
             ! The motion server is still reading. It rejects what it reads before its socket is empty.
         ENDIF
         ROS_pack_reply answer, ROS_frame_type, code;
         send_answer client;
-        ! A heartbeat that came meanwhile was not read yet, and is not late for that.
-        ROS_start_clock since_heartbeat;
+        ! A heartbeat that has arrived meanwhile is still unread, so it is not late.
+        ROS_start_clock clock_heartbeat;
     ERROR
         RAISE;
     ENDPROC
 
-    ! Ask the supervisor for a halt: it stops the robot. Without an answer this task does, and asks
-    ! again: the supervisor may have just answered what came before.
-    LOCAL PROC ask_stop(num reason)
+    ! Ask the supervisor for a halt. Without an answer this task stops the robot and repeats the
+    ! request, because the supervisor may have answered just an earlier one.
+    LOCAL PROC request_stop(num reason)
         ROS_control_reason_2 := reason;
-        ROS_control_asked_2 := ROS_next(ROS_control_asked_2);
-        IF answered(ROS_control_asked_2, ROS_control_done_2, ROS_SOON) RETURN;
-        IF ROS_stopped_alone() ROS_control_asked_2 := ROS_next(ROS_control_asked_2);
+        ROS_control_asked_2 := ROS_next_count(ROS_control_asked_2);
+        IF wait_answered(ROS_control_asked_2, ROS_control_done_2, ROS_STOP_TIMEOUT) RETURN;
+        IF ROS_fallback_stop() ROS_control_asked_2 := ROS_next_count(ROS_control_asked_2);
     ENDPROC
 
-    ! TRUE when all that was `asked` is `done`, FALSE if it is not in time.
-    LOCAL FUNC bool answered(PERS num asked, PERS num done, num seconds)
+    ! Wait until `done` is equal to `asked`. Return FALSE if this takes longer than `seconds`.
+    LOCAL FUNC bool wait_answered(PERS num asked, PERS num done, num seconds)
         FOR try FROM 1 TO 250 * seconds DO
             IF done = asked RETURN TRUE;
             WaitTime 0.004;
@@ -252,59 +256,59 @@ MODULE ROS_control
         RETURN FALSE;
     ENDFUNC
 
-    LOCAL PROC take_pause(VAR socketdev client)
+    LOCAL PROC handle_pause(VAR socketdev client)
         VAR num paused;
 
         UnpackRawBytes request, 17, paused \IntX:=DINT;
         IF paused <> 0 AND paused <> 1 THEN
-            report client, ROS_REASON_BAD_VALUE;
+            send_result client, ROS_REASON_BAD_VALUE;
             RETURN;
         ENDIF
-        ROS_pause_wanted_2 := (paused = 1);
-        ROS_pause_asked_2 := ROS_next(ROS_pause_asked_2);
-        IF answered(ROS_pause_asked_2, ROS_pause_done_2, ROS_LATE) THEN
-            report client, ROS_pause_refused_2;
+        ROS_pause_on_2 := (paused = 1);
+        ROS_pause_asked_2 := ROS_next_count(ROS_pause_asked_2);
+        IF wait_answered(ROS_pause_asked_2, ROS_pause_done_2, ROS_REPLY_TIMEOUT) THEN
+            send_result client, ROS_pause_refused_2;
         ELSE
-            report client, ROS_REASON_INTERNAL;
+            send_result client, ROS_REASON_INTERNAL;
         ENDIF
     ERROR
         RAISE;
     ENDPROC
 
-    ! The motion task is asked directly: it is the only one that can.
-    LOCAL PROC take_speed(VAR socketdev client)
+    ! Ask the motion task directly, because only the motion task can change its speed.
+    LOCAL PROC handle_speed(VAR socketdev client)
         VAR num percent;
 
         UnpackRawBytes request, 17, percent \Float4;
         IF NOT (1 <= percent AND percent <= 100) THEN
-            report client, ROS_REASON_BAD_VALUE;
-        ELSEIF NOT ROS_active() THEN
-            report client, ROS_REASON_IDLE;
+            send_result client, ROS_REASON_BAD_VALUE;
+        ELSEIF NOT ROS_is_active() THEN
+            send_result client, ROS_REASON_IDLE;
         ELSE
-            ROS_speed_wanted_2 := percent;
-            ROS_speed_of_2 := ROS_session_2;
-            ROS_speed_asked_2 := ROS_next(ROS_speed_asked_2);
-            IF answered(ROS_speed_asked_2, ROS_speed_done_2, ROS_LATE) THEN
-                confirm client;
+            ROS_speed_percent_2 := percent;
+            ROS_speed_trajectory_2 := ROS_active_trajectory_2;
+            ROS_speed_asked_2 := ROS_next_count(ROS_speed_asked_2);
+            IF wait_answered(ROS_speed_asked_2, ROS_speed_done_2, ROS_REPLY_TIMEOUT) THEN
+                send_success client;
             ELSE
-                report client, ROS_REASON_INTERNAL;
+                send_result client, ROS_REASON_INTERNAL;
             ENDIF
         ENDIF
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC take_heartbeat(VAR socketdev client)
+    LOCAL PROC handle_heartbeat(VAR socketdev client)
         VAR num seconds;
 
         UnpackRawBytes request, 17, seconds \Float4;
-        IF NOT (0 <= seconds AND seconds <= LONGEST) THEN
-            report client, ROS_REASON_BAD_VALUE;
+        IF NOT (0 <= seconds AND seconds <= MAX_HEARTBEAT) THEN
+            send_result client, ROS_REASON_BAD_VALUE;
             RETURN;
         ENDIF
-        heartbeat := seconds;
-        ROS_start_clock since_heartbeat;
-        ROS_look newest;
+        heartbeat_timeout := seconds;
+        ROS_start_clock clock_heartbeat;
+        ROS_read_progress newest;
         ROS_pack_header answer, 20, ROS_MSG_HEARTBEAT, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
         PackRawBytes newest.trajectory, answer, 17 \IntX:=DINT;
         PackRawBytes newest.state, answer, 21 \IntX:=DINT;
@@ -313,21 +317,22 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! STOPPED: where the robot stands after a trajectory has ended early and its path is gone.
-    LOCAL PROC tell_end(VAR socketdev client)
+    ! Send STOPPED with the position of the robot after a trajectory has ended early and its path was
+    ! cleared.
+    LOCAL PROC send_stopped(VAR socketdev client)
         VAR num trajectory;
         VAR num reached := 0;
         VAR jointtarget joints;
 
-        trajectory := ROS_dead_2;
-        IF trajectory = told_dead RETURN;
-        told_dead := trajectory;
-        IF ROS_started_2 = trajectory reached := ROS_reached_2;
+        trajectory := ROS_ended_early_2;
+        IF trajectory = reported_end RETURN;
+        reported_end := trajectory;
+        IF ROS_started_trajectory_2 = trajectory reached := ROS_reached_2;
         joints := CJointT();
         ROS_pack_topic answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED;
         PackRawBytes trajectory, answer, 17 \IntX:=DINT;
         PackRawBytes reached, answer, 21 \IntX:=DINT;
-        PackRawBytes ROS_dead_reason_2 MOD 100, answer, 25 \IntX:=DINT;
+        PackRawBytes ROS_ended_early_reason_2 MOD 100, answer, 25 \IntX:=DINT;
         PackRawBytes joints.robax.rax_1 / ROS_DEG, answer, 29 \Float4;
         PackRawBytes joints.robax.rax_2 / ROS_DEG, answer, 33 \Float4;
         PackRawBytes joints.robax.rax_3 / ROS_DEG, answer, 37 \Float4;
@@ -339,25 +344,25 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! SIGNAL: read one, or write it first.
-    LOCAL PROC take_signal(VAR socketdev client)
+    ! Handle SIGNAL: read a signal, or write it and read it back.
+    LOCAL PROC handle_signal(VAR socketdev client)
         VAR num index;
-        VAR num wish;
+        VAR num access;
         VAR num value;
         VAR num fault;
 
         UnpackRawBytes request, 17, index \IntX:=DINT;
-        UnpackRawBytes request, 21, wish \IntX:=DINT;
+        UnpackRawBytes request, 21, access \IntX:=DINT;
         UnpackRawBytes request, 25, value \Float4;
-        IF wish <> 0 AND wish <> 1 THEN
+        IF access <> 0 AND access <> 1 THEN
             fault := ROS_REASON_BAD_VALUE;
         ELSE
             fault := ROS_REASON_NONE;
-            IF wish = 1 fault := write_signal(index, value);
+            IF access = 1 fault := write_signal(index, value);
             IF fault = ROS_REASON_NONE fault := read_signal(index, value);
         ENDIF
         IF fault <> ROS_REASON_NONE THEN
-            report client, fault;
+            send_result client, fault;
             RETURN;
         ENDIF
         ROS_pack_header answer, 20, ROS_MSG_SIGNAL, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
@@ -368,9 +373,9 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! Write a signal that the configuration lets be written. Gives why not, 0: done.
+    ! Write a signal whose `access` is write. Return 0 or the reason for the failure.
     LOCAL FUNC num write_signal(num index, num value)
-        IF NOT (-ROS_FINITE <= value AND value <= ROS_FINITE) RETURN ROS_REASON_BAD_VALUE;
+        IF NOT (-ROS_MAX_FINITE <= value AND value <= ROS_MAX_FINITE) RETURN ROS_REASON_BAD_VALUE;
         TEST index
         CASE 0:
             IF NOT has_1 RETURN ROS_REASON_NO_SIGNAL;
@@ -383,13 +388,13 @@ MODULE ROS_control
         ENDTEST
         RETURN ROS_REASON_NONE;
     ERROR
-        ! Its unit is not there, or the value is too large for it.
+        ! Its I/O unit does not exist or the value is too large for it.
         SkipWarn;
         IF ERRNO = ERR_NORUNUNIT RETURN ROS_REASON_NO_SIGNAL;
         RETURN ROS_REASON_BAD_VALUE;
     ENDFUNC
 
-    ! Read a signal into `value`. Gives why not, 0: done.
+    ! Read a signal into `value`. Return 0 or the reason for the failure.
     LOCAL FUNC num read_signal(num index, INOUT num value)
         TEST index
         CASE 0:
@@ -403,7 +408,7 @@ MODULE ROS_control
         ENDTEST
         RETURN ROS_REASON_NONE;
     ERROR
-        ! Its unit is not there.
+        ! Its I/O unit does not exist.
         SkipWarn;
         RETURN ROS_REASON_NO_SIGNAL;
     ENDFUNC
@@ -416,7 +421,7 @@ MODULE ROS_control
         AliasIO NAME_2, signal_2;
         has_2 := link_ok;
     ERROR
-        ! No such signal on this controller.
+        ! The controller has no such signal.
         SkipWarn;
         link_ok := FALSE;
         TRYNEXT;

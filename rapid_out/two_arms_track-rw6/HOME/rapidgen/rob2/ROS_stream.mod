@@ -1,375 +1,379 @@
 MODULE ROS_stream
-    ! Trajectories without end, in batches of points.
+    ! Trajectories of any length, sent in batches of points.
     !
     ! Robot "two_arms_track-rw6", motion group rob2, T_ROB2. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! A point goes into the ring as soon as it is checked: its client has been told that there is
-    ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
-    ! the stream is cut: what was accepted before is executed, and nothing that follows.
+    ! A point is written into the ring buffer as soon as it was checked; the client sends no more points
+    ! than there are free places. The head of the ring buffer is moved once per batch, after its
+    ! checksum was verified. At a fault the stream is cut: the accepted points are executed, later ones
+    ! are not.
 
-    CONST string ROS_BUILD_STREAM := "88e807c4be29";
+    CONST string ROS_BUILD_STREAM := "529e47b72f7b";
 
-    ! s of points that wait in the ring before the robot begins to move, or moves on.
+    ! Duration of the points that must wait in the ring buffer before the robot starts or continues, s.
     LOCAL CONST num PRELOAD := 0.5;
-    ! Bytes of a point, and in front of the first one of a batch.
+    ! Number of bytes of a point, and of the header of a batch.
     LOCAL CONST num POINT_BYTES := 28;
-    LOCAL CONST num HEAD_BYTES := 32;
-    ! Numbers of the wire are steps: so many to a second, and what one is of a joint.
-    LOCAL CONST dnum STEPS := 1000000;
-    LOCAL CONST dnum DEG := 5.729577951308232E-05;
+    LOCAL CONST num HEADER_BYTES := 32;
+    ! Values on the wire are integer steps: steps per second, and size of one step of a joint.
+    LOCAL CONST dnum STEPS_PER_UNIT := 1000000;
+    LOCAL CONST dnum DEG_PER_STEP := 5.729577951308232E-05;
 
-    ! The client's number of the newest stream (0: none), its trajectory, its points that were
-    ! accepted, why nothing of it is taken any more (reason + 100 x joint), and the point at
-    ! fault from 0 (-1: none).
-    LOCAL VAR num stream := 0;
+    ! Newest stream: its number given by the client (0: none), its trajectory number, its accepted
+    ! points, the code (reason + 100 * joint) that ended it, and the index of the faulty point from 0
+    ! (-1: none).
+    LOCAL VAR num stream_number := 0;
     LOCAL VAR num trajectory := 0;
     LOCAL VAR num accepted := 0;
     LOCAL VAR num code := 0;
-    LOCAL VAR num place := -1;
-    ! It was handed to the motion task; no point of it follows.
-    LOCAL VAR bool handed_over := FALSE;
-    LOCAL VAR bool ended := FALSE;
-    ! It is a program, of which nothing is executed before all of it has come.
+    LOCAL VAR num fault_index := -1;
+    ! TRUE if the motion task executes the stream; TRUE if no more points follow.
+    LOCAL VAR bool is_started := FALSE;
+    LOCAL VAR bool is_ended := FALSE;
+    ! TRUE if the stream is a program; TRUE if it starts only after all of it has arrived.
     LOCAL VAR bool is_program := FALSE;
-    LOCAL VAR bool whole := FALSE;
-    ! The head of the ring, as soon as the points that were not announced yet are; how many
-    ! seconds these are, and whether they wait for more of them.
-    LOCAL VAR num written := 0;
-    LOCAL VAR num held := 0;
-    LOCAL VAR bool holding := FALSE;
+    LOCAL VAR bool is_whole := FALSE;
+    ! Head of the ring buffer that includes the points not announced yet, their duration (s), and
+    ! whether they wait for more points.
+    LOCAL VAR num next_head := 0;
+    LOCAL VAR num held_seconds := 0;
+    LOCAL VAR bool is_holding := FALSE;
 
-    ! The batch at hand, and why it was refused although it is not of the newest stream.
-    LOCAL VAR num number := 0;
+    ! Present batch: the number of its stream, flags, first index and number of points, and the reason
+    ! to reject it although it does not belong to the newest stream.
+    LOCAL VAR num batch_stream := 0;
     LOCAL VAR num flags := 0;
-    LOCAL VAR num first := 0;
-    LOCAL VAR num points := 0;
-    LOCAL VAR num strange := 0;
-    ! Its checksum so far, and what that was behind the head.
-    LOCAL VAR dnum check := 0;
-    LOCAL VAR dnum check_of_head := 0;
-    LOCAL VAR bool damaged := FALSE;
-    LOCAL VAR ROS_progress told;
+    LOCAL VAR num batch_first := 0;
+    LOCAL VAR num batch_points := 0;
+    LOCAL VAR num batch_fault := 0;
+    ! Checksum so far, and its value after the header.
+    LOCAL VAR dnum checksum := 0;
+    LOCAL VAR dnum header_checksum := 0;
+    LOCAL VAR bool is_damaged := FALSE;
+    LOCAL VAR ROS_progress progress;
 
-    ! Take the batch that begins at byte `at` of `data`. ROS_pack_batch_reply has the answer.
-    PROC ROS_take_batch(VAR rawbytes data, num at)
-        number := 0;
-        strange := ROS_REASON_NONE;
+    ! Handle the batch that begins at byte `at` of `data`. ROS_pack_batch_reply packs the reply.
+    PROC ROS_handle_batch(VAR rawbytes data, num at)
+        batch_stream := 0;
+        batch_fault := ROS_REASON_NONE;
         IF ROS_frame_length < ROS_LEN_POINTS THEN
-            reject ROS_REASON_FRAMING;
-        ELSEIF NOT has_head(data, at) THEN
-            reject ROS_REASON_CHECKSUM;
-        ELSEIF ROS_frame_type = ROS_MSG_POINTS AND POINT_BYTES * points + ROS_LEN_POINTS <> ROS_frame_length THEN
-            reject ROS_REASON_FRAMING;
-        ELSEIF has(ROS_STREAM_BEGIN) AND ROS_active() AND (NOT is_intact(data, at)) THEN
-            ! Not even that it begins something is sure: what is under way must not end for it.
-            reject ROS_REASON_CHECKSUM;
-        ELSEIF has(ROS_STREAM_BEGIN) AND number > 0 THEN
+            reject_batch ROS_REASON_FRAMING;
+        ELSEIF NOT read_header(data, at) THEN
+            reject_batch ROS_REASON_CHECKSUM;
+        ELSEIF ROS_frame_type = ROS_MSG_POINTS AND POINT_BYTES * batch_points + ROS_LEN_POINTS <> ROS_frame_length THEN
+            reject_batch ROS_REASON_FRAMING;
+        ELSEIF has_flag(ROS_STREAM_BEGIN) AND ROS_is_active() AND (NOT is_intact(data, at)) THEN
+            ! The damaged batch may not really begin a stream, so it must not end the active trajectory.
+            reject_batch ROS_REASON_CHECKSUM;
+        ELSEIF has_flag(ROS_STREAM_BEGIN) AND batch_stream > 0 THEN
             begin_stream;
-            take_if_in_order data, at;
-        ELSEIF number <> stream OR stream = 0 OR is_program <> (ROS_frame_type = ROS_MSG_PROGRAM) THEN
-            reject ROS_REASON_NO_START;
+            handle_in_sequence data, at;
+        ELSEIF batch_stream <> stream_number OR stream_number = 0 OR is_program <> (ROS_frame_type = ROS_MSG_PROGRAM) THEN
+            reject_batch ROS_REASON_NO_START;
         ELSE
-            take_if_in_order data, at;
+            handle_in_sequence data, at;
         ENDIF
     ENDPROC
 
-    ! The answer to the batch that was taken last.
+    ! Pack the reply to the newest batch.
     PROC ROS_pack_batch_reply(VAR rawbytes data)
-        IF strange <> ROS_REASON_NONE THEN
-            pack_refused data, number, 0, 0, strange, -1;
+        IF batch_fault <> ROS_REASON_NONE THEN
+            pack_refused data, batch_stream, 0, 0, batch_fault, -1;
             RETURN;
         ENDIF
-        see_end;
+        check_end;
         IF code <> ROS_REASON_NONE THEN
-            pack_refused data, stream, trajectory, accepted, code, place;
+            pack_refused data, stream_number, trajectory, accepted, code, fault_index;
             RETURN;
         ENDIF
-        ROS_look told;
+        ROS_read_progress progress;
         ROS_pack_header data, 40, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
-        PackRawBytes stream, data, 17 \IntX:=DINT;
+        PackRawBytes stream_number, data, 17 \IntX:=DINT;
         PackRawBytes trajectory, data, 21 \IntX:=DINT;
         PackRawBytes accepted, data, 25 \IntX:=DINT;
-        PackRawBytes room(), data, 29 \IntX:=DINT;
-        PackRawBytes told.planned, data, 33 \IntX:=DINT;
-        PackRawBytes told.reached, data, 37 \IntX:=DINT;
-        PackRawBytes told.state, data, 41 \IntX:=DINT;
+        PackRawBytes free_places(), data, 29 \IntX:=DINT;
+        PackRawBytes progress.planned, data, 33 \IntX:=DINT;
+        PackRawBytes progress.reached, data, 37 \IntX:=DINT;
+        PackRawBytes progress.state, data, 41 \IntX:=DINT;
     ERROR
         RAISE;
     ENDPROC
 
-    ! The client is gone: a stream that has not begun to move never will.
-    PROC ROS_lose_stream()
-        IF stream = 0 OR handed_over RETURN;
-        see_end;
-        IF code = ROS_REASON_NONE refuse ROS_REASON_INCOMPLETE, accepted;
+    ! The client has disconnected. A stream that has not started does not start any more.
+    PROC ROS_drop_stream()
+        IF stream_number = 0 OR is_started RETURN;
+        check_end;
+        IF code = ROS_REASON_NONE refuse_stream ROS_REASON_INCOMPLETE, accepted;
     ENDPROC
 
-    LOCAL PROC pack_refused(VAR rawbytes data, num whose, num its, num taken, num why, num point)
+    LOCAL PROC pack_refused(VAR rawbytes data, num stream_id, num trajectory_id, num accepted_points, num reason_code, num point_index)
         ROS_pack_header data, 36, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
-        PackRawBytes whose, data, 17 \IntX:=DINT;
-        PackRawBytes its, data, 21 \IntX:=DINT;
-        PackRawBytes taken, data, 25 \IntX:=DINT;
-        PackRawBytes why MOD 100, data, 29 \IntX:=DINT;
-        PackRawBytes point, data, 33 \IntX:=DINT;
-        PackRawBytes why DIV 100, data, 37 \IntX:=DINT;
+        PackRawBytes stream_id, data, 17 \IntX:=DINT;
+        PackRawBytes trajectory_id, data, 21 \IntX:=DINT;
+        PackRawBytes accepted_points, data, 25 \IntX:=DINT;
+        PackRawBytes reason_code MOD 100, data, 29 \IntX:=DINT;
+        PackRawBytes point_index, data, 33 \IntX:=DINT;
+        PackRawBytes reason_code DIV 100, data, 37 \IntX:=DINT;
     ERROR
         RAISE;
     ENDPROC
 
-    ! Read the head of the batch. FALSE if that fails.
-    LOCAL FUNC bool has_head(VAR rawbytes data, num at)
-        check_of_head := 0;
-        number := read_number(data, at + 16);
-        flags := read_number(data, at + 20);
-        first := read_number(data, at + 24);
-        points := read_number(data, at + 28);
-        ! What nobody sends is none, so that all of them count from 0.
-        IF number < 0 OR number >= ROS_INDEX_WRAP number := 0;
+    ! Read the header of the batch. Return FALSE if this fails.
+    LOCAL FUNC bool read_header(VAR rawbytes data, num at)
+        header_checksum := 0;
+        batch_stream := read_header_word(data, at + 16);
+        flags := read_header_word(data, at + 20);
+        batch_first := read_header_word(data, at + 24);
+        batch_points := read_header_word(data, at + 28);
+        ! Replace values that no client sends by 0.
+        IF batch_stream < 0 OR batch_stream >= ROS_INDEX_WRAP batch_stream := 0;
         IF flags < 0 flags := 0;
         RETURN TRUE;
     ERROR
         SkipWarn;
-        number := 0;
+        batch_stream := 0;
         RETURN FALSE;
     ENDFUNC
 
-    ! A number of the head, which enters its checksum.
-    LOCAL FUNC num read_number(VAR rawbytes data, num at)
+    ! Read a word of the header and add it to the checksum.
+    LOCAL FUNC num read_header_word(VAR rawbytes data, num at)
         VAR dnum word;
 
         UnpackRawBytes data, at, word \IntX:=DINT;
-        check_of_head := with_word(check_of_head, word);
+        header_checksum := add_to_checksum(header_checksum, word);
         RETURN DnumToNum(word);
     ERROR
         RAISE;
     ENDFUNC
 
-    ! The checksum with one more word.
-    LOCAL FUNC dnum with_word(dnum before, dnum word)
-        RETURN (2 * before + word + ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
+    ! Return the checksum with one more word.
+    LOCAL FUNC dnum add_to_checksum(dnum previous_sum, dnum word)
+        RETURN (2 * previous_sum + word + ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
     ENDFUNC
 
-    LOCAL FUNC bool has(num bit)
-        RETURN (flags DIV bit) MOD 2 = 1;
+    LOCAL FUNC bool has_flag(num flag)
+        RETURN (flags DIV flag) MOD 2 = 1;
     ENDFUNC
 
-    ! TRUE if the checksum of the batch is right.
+    ! Return TRUE if the checksum of the batch is correct.
     LOCAL FUNC bool is_intact(VAR rawbytes data, num at)
         VAR dnum word;
-        VAR num here;
-        VAR num behind;
+        VAR num next_byte;
+        VAR num end_byte;
 
-        check := check_of_head;
-        here := at + HEAD_BYTES;
-        behind := at + ROS_frame_length;
-        WHILE here < behind DO
-            UnpackRawBytes data, here, word \IntX:=DINT;
-            check := with_word(check, word);
-            here := here + 4;
+        checksum := header_checksum;
+        next_byte := at + HEADER_BYTES;
+        end_byte := at + ROS_frame_length;
+        WHILE next_byte < end_byte DO
+            UnpackRawBytes data, next_byte, word \IntX:=DINT;
+            checksum := add_to_checksum(checksum, word);
+            next_byte := next_byte + 4;
         ENDWHILE
-        UnpackRawBytes data, behind, word \IntX:=DINT;
-        RETURN word = check;
+        UnpackRawBytes data, end_byte, word \IntX:=DINT;
+        RETURN word = checksum;
     ERROR
         SkipWarn;
         RETURN FALSE;
     ENDFUNC
 
-    ! Places in the ring that are free.
-    LOCAL FUNC num room()
-        VAR num waiting;
+    ! Return the number of free places in the ring buffer.
+    LOCAL FUNC num free_places()
+        VAR num occupied;
 
-        waiting := written - ROS_tail_2;
-        IF waiting < 0 waiting := waiting + ROS_WRAP;
-        RETURN ROS_RING_SIZE - 1 - waiting;
+        occupied := next_head - ROS_tail_2;
+        IF occupied < 0 occupied := occupied + ROS_WRAP;
+        RETURN ROS_RING_SIZE - 1 - occupied;
     ENDFUNC
 
     LOCAL PROC begin_stream()
-        stream := number;
+        stream_number := batch_stream;
         code := ROS_REASON_NONE;
         accepted := 0;
-        handed_over := FALSE;
-        ended := FALSE;
+        is_started := FALSE;
+        is_ended := FALSE;
         is_program := (ROS_frame_type = ROS_MSG_PROGRAM);
-        whole := is_program AND has(ROS_STREAM_WHOLE);
-        IF is_program ROS_begin_program;
-        ROS_forget_download;
+        is_whole := is_program AND has_flag(ROS_STREAM_WHOLE);
+        IF is_program ROS_init_program;
+        ROS_discard_download;
         ROS_begin_trajectory;
         trajectory := ROS_trajectory_2;
-        written := ROS_head_2;
+        next_head := ROS_head_2;
     ENDPROC
 
-    ! Refuse the batch at hand: if it is of the newest stream that is cut, else it is nobody's.
-    LOCAL PROC reject(num reason)
-        IF number = stream AND stream > 0 THEN
-            see_end;
-            IF code = ROS_REASON_NONE cut reason;
+    ! Reject the present batch. If it belongs to the newest stream, that stream is cut.
+    LOCAL PROC reject_batch(num reason)
+        IF batch_stream = stream_number AND stream_number > 0 THEN
+            check_end;
+            IF code = ROS_REASON_NONE cut_stream reason;
         ELSE
-            strange := reason;
-            ROS_report reason, -1;
+            batch_fault := reason;
+            ROS_report_refusal reason, -1;
         ENDIF
     ENDPROC
 
-    ! See whether the trajectory has ended early meanwhile, for whatever reason.
-    LOCAL PROC see_end()
+    ! Check whether the trajectory has ended early meanwhile.
+    LOCAL PROC check_end()
         IF code <> ROS_REASON_NONE RETURN;
         IF ROS_trajectory_2 <> trajectory THEN
             code := ROS_REASON_SUPERSEDED;
         ELSEIF ROS_phase_2 <> ROS_TRAJ_MOVING THEN
-            code := ROS_refusal_2;
-            place := ROS_refused_at_2;
-        ELSEIF ROS_dead_2 = trajectory OR ROS_halted_2 = trajectory THEN
-            ROS_look told;
-            code := told.code;
-            place := told.index;
+            code := ROS_refusal_code_2;
+            fault_index := ROS_refused_point_2;
+        ELSEIF ROS_ended_early_2 = trajectory OR ROS_halted_trajectory_2 = trajectory THEN
+            ROS_read_progress progress;
+            code := progress.code;
+            fault_index := progress.index;
         ENDIF
     ENDPROC
 
-    ! Nothing of the trajectory moves.
-    LOCAL PROC refuse(num reason, num index)
+    ! Refuse the stream before any of its points was executed.
+    LOCAL PROC refuse_stream(num reason, num index)
         code := reason;
-        place := index;
+        fault_index := index;
         ROS_refuse reason, index;
     ENDPROC
 
-    ! Nothing behind the points that were accepted is executed.
-    LOCAL PROC cut(num reason)
-        IF NOT handed_over THEN
-            refuse reason, accepted;
+    ! Cut the stream after the accepted points.
+    LOCAL PROC cut_stream(num reason)
+        IF NOT is_started THEN
+            refuse_stream reason, accepted;
             RETURN;
         ENDIF
         code := reason;
-        place := accepted;
-        ROS_report reason, place;
-        IF NOT ended close_stream reason;
+        fault_index := accepted;
+        ROS_report_refusal reason, fault_index;
+        IF NOT is_ended close_stream reason;
     ENDPROC
 
-    ! The last point is in the ring.
+    ! Close the stream after its last point was written into the ring buffer.
     LOCAL PROC close_stream(num reason)
-        announce;
-        ended := TRUE;
+        publish_head;
+        is_ended := TRUE;
         ROS_closed_code_2 := reason;
-        ROS_closed_2 := trajectory;
+        ROS_closed_trajectory_2 := trajectory;
     ENDPROC
 
-    LOCAL PROC announce()
-        ROS_head_2 := written;
+    LOCAL PROC publish_head()
+        ROS_head_2 := next_head;
     ENDPROC
 
-    ! What a batch says is its fault only if it came as it was sent.
-    LOCAL PROC cut_if_intact(num reason, VAR rawbytes data, num at)
+    ! Report a fault of the content only if the batch was transmitted correctly.
+    LOCAL PROC cut_stream_if_intact(num reason, VAR rawbytes data, num at)
         IF is_intact(data, at) THEN
-            cut reason;
+            cut_stream reason;
         ELSE
-            cut ROS_REASON_CHECKSUM;
+            cut_stream ROS_REASON_CHECKSUM;
         ENDIF
     ENDPROC
 
-    LOCAL PROC take_if_in_order(VAR rawbytes data, num at)
-        VAR num obstacle;
+    LOCAL PROC handle_in_sequence(VAR rawbytes data, num at)
+        VAR num blocker;
 
-        see_end;
+        check_end;
         IF code <> ROS_REASON_NONE RETURN;
-        IF first <> accepted OR (ended AND points > 0) THEN
-            cut_if_intact ROS_REASON_SEQUENCE_GAP, data, at;
+        IF batch_first <> accepted OR (is_ended AND batch_points > 0) THEN
+            cut_stream_if_intact ROS_REASON_SEQUENCE_GAP, data, at;
             RETURN;
         ENDIF
-        IF points > 0 AND (NOT handed_over) AND (accepted = 0 OR (NOT whole)) THEN
-            ! This also waits until nothing is left in the ring of what this stream has ended.
-            obstacle := ROS_what_hinders();
-            IF obstacle <> ROS_REASON_NONE THEN
-                refuse obstacle, -1;
+        IF batch_points > 0 AND (NOT is_started) AND (accepted = 0 OR (NOT is_whole)) THEN
+            ! This also waits until the ring buffer holds no points of the trajectory that this stream
+            ! has ended.
+            blocker := ROS_blocker();
+            IF blocker <> ROS_REASON_NONE THEN
+                refuse_stream blocker, -1;
                 RETURN;
             ENDIF
         ENDIF
-        IF points > room() THEN
-            cut_if_intact ROS_REASON_OVERRUN, data, at;
+        IF batch_points > free_places() THEN
+            cut_stream_if_intact ROS_REASON_OVERRUN, data, at;
             RETURN;
         ENDIF
-        take_points data, at;
+        read_points data, at;
         IF code <> ROS_REASON_NONE RETURN;
-        IF whole AND has(ROS_STREAM_END) AND accepted > 0 AND (NOT handed_over) begin_whole;
-        IF code <> ROS_REASON_NONE OR (whole AND (NOT has(ROS_STREAM_END))) RETURN;
-        IF has(ROS_STREAM_END) AND (NOT ended) THEN
-            IF NOT handed_over THEN
-                ! An end without a beginning.
-                refuse ROS_REASON_SEQUENCE_GAP, 0;
+        IF is_whole AND has_flag(ROS_STREAM_END) AND accepted > 0 AND (NOT is_started) start_program;
+        IF code <> ROS_REASON_NONE OR (is_whole AND (NOT has_flag(ROS_STREAM_END))) RETURN;
+        IF has_flag(ROS_STREAM_END) AND (NOT is_ended) THEN
+            IF NOT is_started THEN
+                ! The end flag without any point is an error.
+                refuse_stream ROS_REASON_SEQUENCE_GAP, 0;
                 RETURN;
             ENDIF
             close_stream ROS_REASON_NONE;
-        ELSEIF (NOT holding) OR held >= PRELOAD OR has(ROS_STREAM_FLUSH) THEN
-            announce;
+        ELSEIF (NOT is_holding) OR held_seconds >= PRELOAD OR has_flag(ROS_STREAM_FLUSH) THEN
+            publish_head;
         ENDIF
     ENDPROC
 
-    ! All of a program is here, and every instruction was right.
-    LOCAL PROC begin_whole()
-        VAR num obstacle;
+    ! All of the program has arrived, and every instruction was accepted.
+    LOCAL PROC start_program()
+        VAR num blocker;
 
-        obstacle := ROS_what_hinders();
-        IF obstacle = ROS_REASON_NONE obstacle := ROS_start_fault();
-        IF obstacle = ROS_REASON_NONE THEN
-            begin_motion;
+        blocker := ROS_blocker();
+        IF blocker = ROS_REASON_NONE blocker := ROS_check_program_start();
+        IF blocker = ROS_REASON_NONE THEN
+            start_motion;
         ELSE
-            refuse obstacle, -1;
+            refuse_stream blocker, -1;
         ENDIF
     ENDPROC
 
-    LOCAL PROC begin_motion()
-        handed_over := TRUE;
-        IF is_program ROS_program_2 := trajectory;
-        ROS_hand_over;
+    LOCAL PROC start_motion()
+        is_started := TRUE;
+        IF is_program ROS_program_number_2 := trajectory;
+        ROS_start_motion;
     ENDPROC
 
-    ! Take the points of the batch. They count if its checksum is right.
-    LOCAL PROC take_points(VAR rawbytes data, num at)
-        VAR num here;
-        VAR num left;
-        VAR dnum sum;
+    ! Read the points of the batch. They count only if its checksum is correct.
+    LOCAL PROC read_points(VAR rawbytes data, num at)
+        VAR num next_byte;
+        VAR num remaining;
+        VAR dnum received_checksum;
         VAR num head;
 
-        IF written = ROS_head_2 THEN
-            ! Nothing waits in the ring: the robot stands, or will.
-            holding := (ROS_head_2 = ROS_tail_2);
-            held := 0;
+        IF next_head = ROS_head_2 THEN
+            ! The ring buffer is empty, so the robot stands or will stop.
+            is_holding := (ROS_head_2 = ROS_tail_2);
+            held_seconds := 0;
         ENDIF
-        damaged := FALSE;
-        check := check_of_head;
-        head := written;
-        here := at + HEAD_BYTES;
-        left := points;
+        is_damaged := FALSE;
+        checksum := header_checksum;
+        head := next_head;
+        next_byte := at + HEADER_BYTES;
+        remaining := batch_points;
         IF is_program THEN
-            ! Nobody can say how long a robot takes for instructions: it begins with what is there.
-            holding := FALSE;
-            left := 0;
-            here := at + ROS_frame_length;
-            IF points > 0 ROS_take_instructions data, at + HEAD_BYTES, here, points, check, written;
+            ! The duration of instructions is not known in advance, so the program starts without
+            ! waiting for more.
+            is_holding := FALSE;
+            remaining := 0;
+            next_byte := at + ROS_frame_length;
+            IF batch_points > 0 ROS_read_instructions data, at + HEADER_BYTES, next_byte, batch_points, checksum, next_head;
         ENDIF
-        WHILE left > 0 DO
-            left := left - 1;
-            take_point data, here, left = 0 AND has(ROS_STREAM_END);
-            here := here + POINT_BYTES;
+        WHILE remaining > 0 DO
+            remaining := remaining - 1;
+            read_point data, next_byte, remaining = 0 AND has_flag(ROS_STREAM_END);
+            next_byte := next_byte + POINT_BYTES;
         ENDWHILE
-        UnpackRawBytes data, here, sum \IntX:=DINT;
-        IF damaged OR sum <> check THEN
-            written := head;
-            cut ROS_REASON_CHECKSUM;
+        UnpackRawBytes data, next_byte, received_checksum \IntX:=DINT;
+        IF is_damaged OR received_checksum <> checksum THEN
+            next_head := head;
+            cut_stream ROS_REASON_CHECKSUM;
             RETURN;
         ENDIF
-        accepted := ROS_count;
+        accepted := ROS_point_count;
         ROS_received_2 := accepted;
-        IF accepted > 0 AND (NOT handed_over) AND (NOT whole) begin_motion;
-        IF ROS_fault <> ROS_REASON_NONE cut ROS_fault;
+        IF accepted > 0 AND (NOT is_started) AND (NOT is_whole) start_motion;
+        IF ROS_point_fault <> ROS_REASON_NONE cut_stream ROS_point_fault;
     ERROR
         SkipWarn;
-        damaged := TRUE;
+        is_damaged := TRUE;
         TRYNEXT;
     ENDPROC
 
-    ! Check the point at byte `at` of `data`, and write it into the ring unless it or one before
-    ! it is wrong.
-    LOCAL PROC take_point(VAR rawbytes data, num at, bool last)
+    ! Check the point at byte `at` of `data`. Write it into the ring buffer, unless it or an earlier one
+    ! is wrong.
+    LOCAL PROC read_point(VAR rawbytes data, num at, bool last)
         VAR dnum word_1;
         VAR dnum word_2;
         VAR dnum word_3;
@@ -391,70 +395,71 @@ MODULE ROS_stream
         UnpackRawBytes data, at + 16, word_5 \IntX:=DINT;
         UnpackRawBytes data, at + 20, word_6 \IntX:=DINT;
         UnpackRawBytes data, at + 24, word_7 \IntX:=DINT;
-        ! As with_word, one after the other: what comes of it stays below 2^44.
-        check := (128 * check
+        ! This is add_to_checksum for all words at once. The result stays below 2^44, so a dnum
+        ! represents it exactly.
+        checksum := (128 * checksum
             + 64 * word_1 + 32 * word_2 + 16 * word_3 + 8 * word_4 + 4 * word_5 + 2 * word_6
             + word_7
             + 127 * ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
-        IF ROS_fault <> ROS_REASON_NONE RETURN;
-        ROS_before := ROS_taken.target;
-        ROS_seconds := DnumToNum(word_1 / STEPS);
-        IF NOT (0 < ROS_seconds AND ROS_seconds <= ROS_LONGEST) ROS_check_duration;
-        joint_1 := DnumToNum(word_2 * DEG);
+        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
+        ROS_previous := ROS_new_point.target;
+        ROS_duration := DnumToNum(word_1 / STEPS_PER_UNIT);
+        IF NOT (0 < ROS_duration AND ROS_duration <= ROS_MAX_DURATION) ROS_check_duration;
+        joint_1 := DnumToNum(word_2 * DEG_PER_STEP);
         IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1}
-            AND Abs(joint_1 - ROS_before.robax.rax_1) <= ROS_SPEED{1} * ROS_seconds)
-            joint_1 := ROS_judged(joint_1, ROS_before.robax.rax_1, 1);
-        joint_2 := DnumToNum(word_3 * DEG);
+            AND Abs(joint_1 - ROS_previous.robax.rax_1) <= ROS_MAX_SPEED{1} * ROS_duration)
+            joint_1 := ROS_check_joint(joint_1, ROS_previous.robax.rax_1, 1);
+        joint_2 := DnumToNum(word_3 * DEG_PER_STEP);
         IF NOT (ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2}
-            AND Abs(joint_2 - ROS_before.robax.rax_2) <= ROS_SPEED{2} * ROS_seconds)
-            joint_2 := ROS_judged(joint_2, ROS_before.robax.rax_2, 2);
-        joint_3 := DnumToNum(word_4 * DEG);
+            AND Abs(joint_2 - ROS_previous.robax.rax_2) <= ROS_MAX_SPEED{2} * ROS_duration)
+            joint_2 := ROS_check_joint(joint_2, ROS_previous.robax.rax_2, 2);
+        joint_3 := DnumToNum(word_4 * DEG_PER_STEP);
         IF NOT (ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3}
-            AND Abs(joint_3 - ROS_before.robax.rax_3) <= ROS_SPEED{3} * ROS_seconds)
-            joint_3 := ROS_judged(joint_3, ROS_before.robax.rax_3, 3);
-        joint_4 := DnumToNum(word_5 * DEG);
+            AND Abs(joint_3 - ROS_previous.robax.rax_3) <= ROS_MAX_SPEED{3} * ROS_duration)
+            joint_3 := ROS_check_joint(joint_3, ROS_previous.robax.rax_3, 3);
+        joint_4 := DnumToNum(word_5 * DEG_PER_STEP);
         IF NOT (ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4}
-            AND Abs(joint_4 - ROS_before.robax.rax_4) <= ROS_SPEED{4} * ROS_seconds)
-            joint_4 := ROS_judged(joint_4, ROS_before.robax.rax_4, 4);
-        joint_5 := DnumToNum(word_6 * DEG);
+            AND Abs(joint_4 - ROS_previous.robax.rax_4) <= ROS_MAX_SPEED{4} * ROS_duration)
+            joint_4 := ROS_check_joint(joint_4, ROS_previous.robax.rax_4, 4);
+        joint_5 := DnumToNum(word_6 * DEG_PER_STEP);
         IF NOT (ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5}
-            AND Abs(joint_5 - ROS_before.robax.rax_5) <= ROS_SPEED{5} * ROS_seconds)
-            joint_5 := ROS_judged(joint_5, ROS_before.robax.rax_5, 5);
-        joint_6 := DnumToNum(word_7 * DEG);
+            AND Abs(joint_5 - ROS_previous.robax.rax_5) <= ROS_MAX_SPEED{5} * ROS_duration)
+            joint_5 := ROS_check_joint(joint_5, ROS_previous.robax.rax_5, 5);
+        joint_6 := DnumToNum(word_7 * DEG_PER_STEP);
         IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
-            AND Abs(joint_6 - ROS_before.robax.rax_6) <= ROS_SPEED{6} * ROS_seconds)
-            joint_6 := ROS_judged(joint_6, ROS_before.robax.rax_6, 6);
-        ROS_taken.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
-        IF ROS_first THEN
-            begin_at_first;
+            AND Abs(joint_6 - ROS_previous.robax.rax_6) <= ROS_MAX_SPEED{6} * ROS_duration)
+            joint_6 := ROS_check_joint(joint_6, ROS_previous.robax.rax_6, 6);
+        ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
+        IF ROS_is_first THEN
+            check_first_point;
         ELSE
-            IF ROS_seconds < ROS_SHORTEST AND (NOT last)
-                ROS_object ROS_REASON_SEGMENT_TOO_SHORT;
-            ! The same place again: stand there for the duration.
-            ROS_taken.dwell := (ROS_taken.target = ROS_before);
+            IF ROS_duration < ROS_MIN_SEGMENT AND (NOT last)
+                ROS_set_fault ROS_REASON_SEGMENT_TOO_SHORT;
+            ! A point at the same place again means: stand still for the duration.
+            ROS_new_point.dwell := (ROS_new_point.target = ROS_previous);
         ENDIF
-        IF ROS_fault <> ROS_REASON_NONE RETURN;
-        ROS_count := ROS_count + 1;
-        IF ROS_count = ROS_INDEX_WRAP ROS_count := 0;
-        ROS_taken.index := ROS_count;
-        ROS_taken.duration := ROS_seconds;
-        ROS_ring_2{written MOD ROS_RING_SIZE + 1} := ROS_taken;
-        written := written + 1;
-        IF written = ROS_WRAP written := 0;
-        held := held + ROS_seconds;
+        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
+        ROS_point_count := ROS_point_count + 1;
+        IF ROS_point_count = ROS_INDEX_WRAP ROS_point_count := 0;
+        ROS_new_point.index := ROS_point_count;
+        ROS_new_point.duration := ROS_duration;
+        ROS_ring_2{next_head MOD ROS_RING_SIZE + 1} := ROS_new_point;
+        next_head := next_head + 1;
+        IF next_head = ROS_WRAP next_head := 0;
+        held_seconds := held_seconds + ROS_duration;
     ERROR
         SkipWarn;
-        damaged := TRUE;
+        is_damaged := TRUE;
         RETURN;
     ENDPROC
 
-    ! The first point: the robot has to stand where it is, and goes there by itself. The client's
-    ! duration for it is of no use.
-    LOCAL PROC begin_at_first()
+    ! The robot must stand near the first point and approaches it by itself. The client's duration for
+    ! this point is not used.
+    LOCAL PROC check_first_point()
         VAR num joint := 0;
 
-        ROS_reach_start CJointT(), ROS_taken.target, ROS_seconds, joint;
-        IF joint > 0 ROS_object 100 * joint + ROS_REASON_START_TOO_FAR;
-        ROS_first := FALSE;
+        ROS_check_start CJointT(), ROS_new_point.target, ROS_duration, joint;
+        IF joint > 0 ROS_set_fault 100 * joint + ROS_REASON_START_TOO_FAR;
+        ROS_is_first := FALSE;
     ENDPROC
 ENDMODULE

@@ -1,315 +1,318 @@
 MODULE ROS_supervisor
-    ! The supervisor: stops the robot, and is the only one that starts it again.
+    ! The supervisor: the only task that stops and restarts the robot.
     !
     ! Robot "two_arms_track-rw6", motion group rob2, T_ROB2. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds take no trajectory.
+    ! builds accept no trajectory.
     !
-    ! A halt: StopMove, which stays in force (latched); then the motion task is asked to drop
-    ! its path; when it has, StartMove on the empty path. Whatever goes wrong on the way leaves
-    ! the robot standing. It halts on request, and when something happened after
-    ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
-    ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
+    ! A halt takes three steps. StopMove stops the robot and stays in force (latched). The motion task
+    ! is asked to drop its path. After it has done so, StartMove on the empty path resets the stop. If
+    ! one of the steps fails, the robot stays stopped. The supervisor halts the robot on request, and
+    ! after events after which the old path must not continue: emergency stop, motors off, program stop,
+    ! change of mode.
+    ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "88e807c4be29";
+    CONST string ROS_BUILD_SUPERVISOR := "529e47b72f7b";
 
-    LOCAL VAR intnum asked_to_stop;
-    LOCAL VAR intnum asked_to_look;
-    LOCAL VAR intnum asked_by_control;
-    LOCAL VAR intnum asked_to_pause;
+    LOCAL VAR intnum int_stop;
+    LOCAL VAR intnum int_check;
+    LOCAL VAR intnum int_control;
+    LOCAL VAR intnum int_pause;
     LOCAL VAR num mode := 0;
-    LOCAL VAR clock since_bell;
-    LOCAL VAR clock since_halt;
-    ! Bells since the halt, and how many of them at most: a program that does not hear them
-    ! would end with too many of them waiting.
-    LOCAL VAR num bells := 0;
-    LOCAL CONST num MOST_BELLS := 12;
-    ! Of each server: its pulse as it was read last, for how many looks it has not changed, and whether its
-    ! end was reported. Servers may begin later than this task: two seconds are allowed.
-    LOCAL VAR num seen{3};
-    LOCAL VAR num looks{3} := [-20,-20,-20];
-    LOCAL VAR bool told_ended{3};
+    LOCAL VAR clock clock_wakeup;
+    LOCAL VAR clock clock_halt;
+    ! Wake-up interrupts since the halt, and their largest number. A program that does not execute them
+    ! would end with too many of them pending (40223).
+    LOCAL VAR num wakeups := 0;
+    LOCAL CONST num MAX_WAKEUPS := 12;
+    ! For each server: its last alive count, the number of checks without a change, and whether its end
+    ! was reported. The checks start at -20, so a server may start 2 s later than this task.
+    LOCAL VAR num last_alive_count{3};
+    LOCAL VAR num unchanged_checks{3} := [-20,-20,-20];
+    LOCAL VAR bool ended_reported{3};
     LOCAL VAR bool server_ended := FALSE;
-    LOCAL VAR num beats := 0;
-    ! It was said why the robot stays stopped.
-    LOCAL VAR bool told := FALSE;
-    ! Rounds for which the tasks have shown different builds.
-    LOCAL VAR num rounds_mixed := 0;
+    LOCAL VAR num alive_count := 0;
+    ! TRUE when the reason why the robot stays stopped was written to the event log.
+    LOCAL VAR bool is_reported := FALSE;
+    ! Number of rounds in which the tasks had modules of different builds.
+    LOCAL VAR num mixed_rounds := 0;
 
     PROC main()
-        ROS_start_task ROS_shown_supervisor_2, ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
-        ! A halt from before a power failure may not be over: the motion task is asked again.
-        ROS_start_clock since_bell;
-        ROS_start_clock since_halt;
-        ! What was under way when this task ended is over.
-        IF ROS_active() OR (ROS_paused_2 >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
-        ! A controller that has just been given the driver says 0, which would be a pause.
-        ROS_paused_2 := -1;
+        ROS_start_task ROS_task_build_supervisor_2, ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
+        ! A halt from before a power failure may not be complete, so the motion task may be asked again.
+        ROS_start_clock clock_wakeup;
+        ROS_start_clock clock_halt;
+        ! A motion that was active when this task ended must not continue.
+        IF ROS_is_active() OR (ROS_paused_trajectory_2 >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
+        ! On a controller on which the driver was just installed this is 0, which would be a pause.
+        ROS_paused_trajectory_2 := -1;
         mode := OpMode();
-        IDelete asked_to_stop;
-        CONNECT asked_to_stop WITH on_request;
-        IPers ROS_stop_asked_2, asked_to_stop;
-        IDelete asked_to_look;
-        CONNECT asked_to_look WITH on_request;
-        IPers ROS_look_asked_2, asked_to_look;
-        IDelete asked_by_control;
-        CONNECT asked_by_control WITH on_request;
-        IPers ROS_control_asked_2, asked_by_control;
-        IDelete asked_to_pause;
-        CONNECT asked_to_pause WITH on_request;
-        IPers ROS_pause_asked_2, asked_to_pause;
+        IDelete int_stop;
+        CONNECT int_stop WITH on_request;
+        IPers ROS_stop_asked_2, int_stop;
+        IDelete int_check;
+        CONNECT int_check WITH on_request;
+        IPers ROS_check_asked_2, int_check;
+        IDelete int_control;
+        CONNECT int_control WITH on_request;
+        IPers ROS_control_asked_2, int_control;
+        IDelete int_pause;
+        CONNECT int_pause WITH on_request;
+        IPers ROS_pause_asked_2, int_pause;
         WHILE TRUE DO
-            ! A trap must not come between a test here and what follows from it.
+            ! A trap must not come between a test here and the reaction to it.
             IDisable;
-            watch_servers;
-            answer;
-            watch;
-            watch_builds;
-            IF ROS_latched_2 release;
-            ROS_not_ready_2 := obstacle();
-            show_pulse;
+            check_servers;
+            answer_requests;
+            check_conditions;
+            check_builds;
+            IF ROS_stop_latched_2 release_stop;
+            ROS_not_ready_2 := blocker();
+            update_alive_count;
             IEnable;
             WaitTime 0.1;
         ENDWHILE
     ENDPROC
 
-    ! A server that has ended takes its port with it, and with that a STOP: nothing moves without all of
-    ! them.
-    LOCAL PROC watch_servers()
+    ! Without its server a port does not answer, not even to STOP. Therefore nothing moves without all
+    ! servers.
+    LOCAL PROC check_servers()
         server_ended := FALSE;
-        watch_server ROS_pulse_motion_server_2, 1, "T_ROS_RECV_2";
-        watch_server ROS_pulse_control_2, 2, "T_ROS_CONTROL_2";
-        watch_server ROS_pulse_state_2, 3, "T_ROS_STATE_2";
-        IF server_ended AND under_way() halt ROS_REASON_TASK_ENDED;
+        check_server ROS_alive_count_motion_server_2, 1, "T_ROS_RECV_2";
+        check_server ROS_alive_count_control_2, 2, "T_ROS_CONTROL_2";
+        check_server ROS_alive_count_state_2, 3, "T_ROS_STATE_2";
+        IF server_ended AND is_under_way() halt ROS_REASON_TASK_ENDED;
     ENDPROC
 
-    LOCAL PROC watch_server(num pulse, num n, string name)
-        VAR bool ended_before;
+    LOCAL PROC check_server(num value, num server, string name)
+        VAR bool was_reported;
 
-        ended_before := told_ended{n};
-        told_ended{n} := ROS_has_ended(pulse, seen{n}, looks{n}, ROS_LONGEST_SEND);
-        IF NOT told_ended{n} RETURN;
+        was_reported := ended_reported{server};
+        ended_reported{server} := ROS_has_ended(value, last_alive_count{server}, unchanged_checks{server}, ROS_MAX_SEND_CHECKS);
+        IF NOT ended_reported{server} RETURN;
         server_ended := TRUE;
-        IF NOT ended_before ROS_tell_ended name;
+        IF NOT was_reported ROS_report_ended_task name;
     ENDPROC
 
     LOCAL TRAP on_request
-        answer;
+        answer_requests;
     ENDTRAP
 
-    ! Answer requests of the servers. Interrupts of quick requests may fall into one, so the
-    ! counters are compared, not the interrupts counted. Stops come first.
-    LOCAL PROC answer()
+    ! Answer the requests of the servers. Several requests may trigger only one interrupt, so the
+    ! counters are compared. Stops come first.
+    LOCAL PROC answer_requests()
         VAR num asked;
 
         asked := ROS_stop_asked_2;
         IF asked <> ROS_stop_done_2 THEN
-            carry_out ROS_stop_reason_2;
-            ROS_not_ready_2 := obstacle();
+            execute_request ROS_stop_reason_2;
+            ROS_not_ready_2 := blocker();
             ROS_stop_done_2 := asked;
         ENDIF
         asked := ROS_control_asked_2;
         IF asked <> ROS_control_done_2 THEN
-            carry_out ROS_control_reason_2;
-            ROS_not_ready_2 := obstacle();
+            execute_request ROS_control_reason_2;
+            ROS_not_ready_2 := blocker();
             ROS_control_done_2 := asked;
         ENDIF
         asked := ROS_pause_asked_2;
         IF asked <> ROS_pause_done_2 THEN
-            IF ROS_pause_wanted_2 THEN
+            IF ROS_pause_on_2 THEN
                 ROS_pause_refused_2 := pause();
             ELSE
-                ROS_pause_refused_2 := go_on();
+                ROS_pause_refused_2 := resume();
             ENDIF
             ROS_pause_done_2 := asked;
         ENDIF
-        asked := ROS_look_asked_2;
-        IF asked <> ROS_look_done_2 THEN
-            IF ROS_latched_2 release;
-            ROS_not_ready_2 := obstacle();
-            ROS_look_done_2 := asked;
+        asked := ROS_check_asked_2;
+        IF asked <> ROS_check_done_2 THEN
+            IF ROS_stop_latched_2 release_stop;
+            ROS_not_ready_2 := blocker();
+            ROS_check_done_2 := asked;
         ENDIF
     ENDPROC
 
-    ! Somebody wants a halt. The moves of a program that is not in ROS_run are its own.
-    LOCAL PROC carry_out(num reason)
-        IF ROS_active() OR ROS_latched_2 OR IsStopMoveAct(\FromNonMoveTask) THEN
+    ! Halt the robot on request. Moves of a program outside ROS_run do not belong to the driver.
+    LOCAL PROC execute_request(num reason)
+        IF ROS_is_active() OR ROS_stop_latched_2 OR IsStopMoveAct(\FromNonMoveTask) THEN
             halt reason;
-        ELSEIF ROS_service_2 = ROS_OUTSIDE AND reason = ROS_REASON_STOPPED AND ROS_executing() <> ROS_TRI_FALSE THEN
+        ELSEIF ROS_run_state_2 = ROS_RUN_OUTSIDE AND reason = ROS_REASON_STOPPED AND ROS_executing() <> ROS_TRI_FALSE THEN
             ErrWrite \W, "ROS: STOP is not for this program", "It is not in ROS_run: its own moves go on.";
         ENDIF
     ENDPROC
 
-    ! End what is under way when it must not go on by itself.
-    LOCAL PROC watch()
+    ! End a motion that must not continue.
+    LOCAL PROC check_conditions()
         VAR num reason;
 
-        reason := ROS_cause(ROS_REASON_NONE);
+        reason := ROS_stop_cause(ROS_REASON_NONE);
         IF reason = ROS_REASON_NONE THEN
             IF OpMode() <> mode reason := ROS_REASON_MODE_CHANGED;
             IF ROS_executing() = ROS_TRI_FALSE reason := ROS_REASON_PROGRAM_STOPPED;
         ENDIF
         mode := OpMode();
         IF reason > 0 THEN
-            ! What is being received now does not move later, either.
-            ROS_hindrance_2 := reason;
-            ROS_hindered_2 := ROS_trajectory_2;
-            IF under_way() halt reason;
+            ! A trajectory that is being received at this time must not start later.
+            ROS_blocker_code_2 := reason;
+            ROS_blocked_2 := ROS_trajectory_2;
+            IF is_under_way() halt reason;
         ENDIF
-        IF ROS_interrupts_seen_2 <> ROS_interrupts_2 THEN
-            ROS_interrupts_seen_2 := ROS_interrupts_2;
+        IF ROS_interruptions_seen_2 <> ROS_interruptions_2 THEN
+            ROS_interruptions_seen_2 := ROS_interruptions_2;
             halt ROS_REASON_PROGRAM_STOPPED;
         ENDIF
-        ! The paused trajectory has ended by itself: nothing is left to be paused.
-        IF ROS_paused_2 >= 0 AND (NOT ROS_active()) halt ROS_REASON_STOPPED;
+        ! The paused trajectory has ended by itself, so the pause is over.
+        IF ROS_paused_trajectory_2 >= 0 AND (NOT ROS_is_active()) halt ROS_REASON_STOPPED;
     ENDPROC
 
-    ! TRUE while there is a trajectory that was not halted.
-    LOCAL FUNC bool under_way()
-        RETURN ROS_active() AND ROS_halted_2 <> ROS_session_2;
+    ! Return TRUE while a trajectory is active that was not halted.
+    LOCAL FUNC bool is_under_way()
+        RETURN ROS_is_active() AND ROS_halted_trajectory_2 <> ROS_active_trajectory_2;
     ENDFUNC
 
-    ! Say so when tasks of different builds have run side by side for two seconds.
-    LOCAL PROC watch_builds()
-        IF ROS_build_fault() <> ROS_REASON_BUILD_MISMATCH THEN
-            rounds_mixed := 0;
+    ! Write an event when tasks of different builds have been running for 2 s.
+    LOCAL PROC check_builds()
+        IF ROS_get_build_fault() <> ROS_REASON_BUILD_MISMATCH THEN
+            mixed_rounds := 0;
             RETURN;
         ENDIF
-        rounds_mixed := rounds_mixed + 1;
-        IF rounds_mixed = 20 ErrWrite "ROS: tasks of different builds", "No trajectory is taken."
+        mixed_rounds := mixed_rounds + 1;
+        IF mixed_rounds = 20 ErrWrite "ROS: tasks of different builds", "No trajectory is taken."
             \RL2:="Load all modules of one build and restart.";
     ENDPROC
 
     LOCAL PROC halt(num reason)
-        VAR bool lost := FALSE;
+        VAR bool is_client_lost := FALSE;
 
         stop_robot;
-        ROS_latched_2 := TRUE;
-        told := FALSE;
-        bells := 0;
-        IF under_way() THEN
+        ROS_stop_latched_2 := TRUE;
+        is_reported := FALSE;
+        wakeups := 0;
+        IF is_under_way() THEN
             ! The first reason counts.
             ROS_halt_reason_2 := reason;
-            ROS_halted_2 := ROS_session_2;
-            lost := (reason = ROS_REASON_CLIENT_LOST);
+            ROS_halted_trajectory_2 := ROS_active_trajectory_2;
+            is_client_lost := (reason = ROS_REASON_CLIENT_LOST);
         ENDIF
-        ROS_paused_2 := -1;
-        ROS_abort_2 := ROS_next(ROS_abort_2);
-        ROS_start_clock since_halt;
-        ring;
-        ! Whoever stands beside the robot learns of all other reasons in another way.
-        IF lost ErrWrite \W, "ROS: trajectory ended early", ROS_reason_text(reason);
+        ROS_paused_trajectory_2 := -1;
+        ROS_abort_2 := ROS_next_count(ROS_abort_2);
+        ROS_start_clock clock_halt;
+        wake_motion_task;
+        ! Other stop reasons (emergency stop, mode) are visible to the operator, so they are not logged.
+        IF is_client_lost ErrWrite \W, "ROS: trajectory ended early", ROS_reason_text(reason);
     ENDPROC
 
-    ! Let the robot move again, once nothing is left of the old path: the program says so, or was begun
-    ! anew and is not in ROS_run, where nothing of ours may hold its moves. A stop by a server may be
-    ! that task's own on some controllers: then it stays.
-    LOCAL PROC release()
-        IF ROS_abort_done_2 = ROS_abort_2 OR (ROS_service_2 = ROS_OUTSIDE AND (NOT ROS_active())) THEN
+    ! Let the robot move again after the old path was dropped. The motion task has confirmed this, or
+    ! its program was restarted and is outside ROS_run. On some controllers a stop by a server belongs
+    ! to that server, and then it stays in force.
+    LOCAL PROC release_stop()
+        IF ROS_abort_done_2 = ROS_abort_2 OR (ROS_run_state_2 = ROS_RUN_OUTSIDE AND (NOT ROS_is_active())) THEN
             IF ROS_executing() = ROS_TRI_FALSE OR ROS_motors_on() = ROS_TRI_FALSE RETURN;
-            ROS_pulse_2 := -1;
+            ROS_alive_count_2 := -1;
             ROS_start_robot IsStopMoveAct(\FromNonMoveTask);
-            show_pulse;
+            update_alive_count;
             IF NOT IsStopMoveAct(\FromNonMoveTask) THEN
-                ROS_latched_2 := FALSE;
-            ELSEIF ROS_far_off THEN
-                tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
+                ROS_stop_latched_2 := FALSE;
+            ELSEIF ROS_off_path THEN
+                report "ROS: the robot stays stopped", "It stands too far from the path that it left.";
             ELSE
-                tell "ROS: the robot stays stopped", "Its stop cannot be taken back.";
+                report "ROS: the robot stays stopped", "Its stop cannot be taken back.";
             ENDIF
             RETURN;
         ENDIF
         IF ROS_executing() = ROS_TRI_FALSE THEN
-            ! It cannot answer, nor hear a bell: the time for that begins when it runs, and with one more.
-            ROS_start_clock since_halt;
-            IF bells >= MOST_BELLS bells := MOST_BELLS - 1;
+            ! A stopped program can neither answer nor execute an interrupt. The time-out starts when it
+            ! runs, and so does one more wake-up.
+            ROS_start_clock clock_halt;
+            IF wakeups >= MAX_WAKEUPS wakeups := MAX_WAKEUPS - 1;
             RETURN;
         ENDIF
         IF IsStopMoveAct(\FromMoveTask) AND ROS_motors_on() <> ROS_TRI_FALSE THEN
-            tell "ROS: the robot stays stopped", "The motion task cannot take back its stop.";
+            report "ROS: the robot stays stopped", "The motion task cannot take back its stop.";
         ELSE
-            tell "ROS: the motion task does not answer", "The robot stays stopped.";
+            report "ROS: the motion task does not answer", "The robot stays stopped.";
         ENDIF
-        IF bells < MOST_BELLS AND ROS_elapsed(since_bell) > 0.25 ring;
+        IF wakeups < MAX_WAKEUPS AND ROS_elapsed_seconds(clock_wakeup) > 0.25 wake_motion_task;
     ENDPROC
 
-    ! Say once what is wrong, when the program has run for two seconds since the halt.
-    LOCAL PROC tell(string title, string what)
-        IF told RETURN;
-        IF ClkRead(since_halt) <= 2 RETURN;
-        ErrWrite \W, title, what \RL2:="Start the program of T_ROB2 from main.";
-        told := TRUE;
+    ! Report a problem once, if the program has been running for 2 s since the halt.
+    LOCAL PROC report(string title, string text)
+        IF is_reported RETURN;
+        IF ClkRead(clock_halt) <= 2 RETURN;
+        ErrWrite \W, title, text \RL2:="Start the program of T_ROB2 from main.";
+        is_reported := TRUE;
     ENDPROC
 
-    ! Stop the robot on its path and keep that. Gives why not, 0: done.
+    ! Stop the robot on its path and keep the path. Return 0 or the reason for the failure.
     LOCAL FUNC num pause()
-        IF NOT under_way() RETURN ROS_REASON_IDLE;
+        IF NOT is_under_way() RETURN ROS_REASON_IDLE;
         stop_robot;
         IF NOT IsStopMoveAct(\FromNonMoveTask) RETURN ROS_REASON_INTERNAL;
-        ROS_paused_2 := ROS_session_2;
+        ROS_paused_trajectory_2 := ROS_active_trajectory_2;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
-    ! Let a paused robot go on along its path, unless something has happened after which it
-    ! must not. Gives why not, 0: done.
-    LOCAL FUNC num go_on()
-        IF NOT under_way() RETURN ROS_REASON_IDLE;
-        watch;
-        IF NOT under_way() RETURN ROS_halt_reason_2;
-        IF ROS_paused_2 < 0 RETURN ROS_REASON_NONE;
-        IF stop_asked() RETURN ROS_REASON_STOPPED;
-        IF NOT started() RETURN ROS_REASON_INTERNAL;
-        ROS_paused_2 := -1;
-        ! A stop that came meanwhile is answered next, but this has taken it back.
-        IF stop_asked() stop_robot;
+    ! Resume a paused motion, unless an event has occurred after which it must not continue. Return 0 or
+    ! the reason for the failure.
+    LOCAL FUNC num resume()
+        IF NOT is_under_way() RETURN ROS_REASON_IDLE;
+        check_conditions;
+        IF NOT is_under_way() RETURN ROS_halt_reason_2;
+        IF ROS_paused_trajectory_2 < 0 RETURN ROS_REASON_NONE;
+        IF is_stop_asked() RETURN ROS_REASON_STOPPED;
+        IF NOT start_move() RETURN ROS_REASON_INTERNAL;
+        ROS_paused_trajectory_2 := -1;
+        ! StartMove has reset a stop that was requested meanwhile. That request is answered next.
+        IF is_stop_asked() stop_robot;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
-    LOCAL FUNC bool stop_asked()
+    LOCAL FUNC bool is_stop_asked()
         RETURN ROS_stop_asked_2 <> ROS_stop_done_2 OR ROS_control_asked_2 <> ROS_control_done_2;
     ENDFUNC
 
-    ! 0, why no trajectory may start, or -1: not yet.
-    LOCAL FUNC num obstacle()
+    ! Return 0 if a trajectory may start, the reason against it, or -1 if a halt is in progress.
+    LOCAL FUNC num blocker()
         VAR num fault;
         VAR num reason;
 
-        fault := ROS_build_fault();
+        fault := ROS_get_build_fault();
         IF fault = ROS_REASON_BUILD_MISMATCH RETURN fault;
         IF server_ended RETURN ROS_REASON_TASK_ENDED;
-        reason := ROS_cause(fault);
-        IF reason = ROS_REASON_NOT_EXECUTING AND ROS_executing() = ROS_TRI_TRUE AND ROS_service_2 = ROS_OUTSIDE
+        reason := ROS_stop_cause(fault);
+        IF reason = ROS_REASON_NOT_EXECUTING AND ROS_executing() = ROS_TRI_TRUE AND ROS_run_state_2 = ROS_RUN_OUTSIDE
             RETURN ROS_REASON_NOT_SERVING;
         IF reason <> ROS_REASON_NONE RETURN reason;
         IF ROS_executing() = ROS_TRI_FALSE RETURN ROS_REASON_NOT_EXECUTING;
-        IF ROS_service_2 <> ROS_SERVING RETURN ROS_REASON_NOT_SERVING;
-        IF ROS_latched_2 OR ROS_paused_2 >= 0 RETURN -1;
-        IF ROS_interrupts_seen_2 <> ROS_interrupts_2 RETURN -1;
-        IF ROS_stops_seen_2 <> ROS_program_stops_2 RETURN -1;
-        IF ROS_control_seen_2 <> ROS_control_asked_2 RETURN -1;
+        IF ROS_run_state_2 <> ROS_RUN_SERVING RETURN ROS_REASON_NOT_SERVING;
+        IF ROS_stop_latched_2 OR ROS_paused_trajectory_2 >= 0 RETURN -1;
+        IF ROS_interruptions_seen_2 <> ROS_interruptions_2 RETURN -1;
+        IF ROS_program_stops_seen_2 <> ROS_program_stops_2 RETURN -1;
+        IF ROS_control_stops_seen_2 <> ROS_control_asked_2 RETURN -1;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
-    ! Some controllers go on behind StopMove only when the robot stands: no pulse is shown meanwhile.
+    ! On some controllers StopMove returns only when the robot stands. The alive count is -1 meanwhile.
     LOCAL PROC stop_robot()
-        ROS_pulse_2 := -1;
+        ROS_alive_count_2 := -1;
         ROS_stop_robot;
-        show_pulse;
+        update_alive_count;
     ENDPROC
 
-    LOCAL PROC show_pulse()
-        beats := ROS_next(beats);
-        ROS_pulse_2 := beats;
+    LOCAL PROC update_alive_count()
+        alive_count := ROS_next_count(alive_count);
+        ROS_alive_count_2 := alive_count;
     ENDPROC
 
-    LOCAL PROC ring()
-        bells := bells + 1;
-        ROS_start_clock since_bell;
-        ROS_bell_2 := ROS_next(ROS_bell_2);
+    LOCAL PROC wake_motion_task()
+        wakeups := wakeups + 1;
+        ROS_start_clock clock_wakeup;
+        ROS_wakeup_2 := ROS_next_count(ROS_wakeup_2);
     ENDPROC
 
-    ! Take back the stop on a path. FALSE: not now (motors off, program stopped), it stays in force.
-    LOCAL FUNC bool started()
+    ! Reset the stop on the path. Return FALSE if this is not possible now (motors off, program
+    ! stopped); the stop then stays in force.
+    LOCAL FUNC bool start_move()
         IF IsStopMoveAct(\FromNonMoveTask) StartMove;
         RETURN TRUE;
     ERROR
