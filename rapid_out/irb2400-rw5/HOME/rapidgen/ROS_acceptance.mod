@@ -16,7 +16,7 @@ MODULE ROS_acceptance
         num control;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "84947c65be85";
+    CONST string ROS_BUILD_ACCEPTANCE := "1153de331a77";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;

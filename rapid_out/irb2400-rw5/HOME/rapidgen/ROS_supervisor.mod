@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "84947c65be85";
+    CONST string ROS_BUILD_SUPERVISOR := "1153de331a77";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;

@@ -16,7 +16,7 @@ MODULE ROS_acceptance
         num control;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "529e47b72f7b";
+    CONST string ROS_BUILD_ACCEPTANCE := "5b3b193a4930";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;

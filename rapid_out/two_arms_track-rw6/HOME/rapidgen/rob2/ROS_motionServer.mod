@@ -11,7 +11,7 @@ MODULE ROS_motionServer
     ! task therefore never waits for free places in the ring buffer: it reads, and feeds the ring buffer
     ! in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "529e47b72f7b";
+    CONST string ROS_BUILD_MOTION_SERVER := "5b3b193a4930";
 
     LOCAL CONST num PORT := 11010;
     ! Time between two checks for bytes while the ring buffer is being fed, s. It is short compared with
@@ -128,6 +128,8 @@ MODULE ROS_motionServer
         VAR ROS_stop_counts stops;
 
         stops := ROS_current_stops();
+        ! After a stop, check without waiting that no client is there: STOP's reply depends on it.
+        IF stops <> stops_before_others seconds := 0.001;
         IF ROS_accept(server, PORT, client, seconds) THEN
             stops_before_newcomer := stops_before_others;
             RETURN TRUE;
