@@ -229,12 +229,12 @@ def _warned(cell: "CellDescription | None") -> tuple[Diagnostic, ...]:
 def _surrounded(result: Bootable, cell: "CellDescription | None", options: BootOptions) -> Bootable:
     guessed = None
     if str(options.cell) == INFER:
-        from rapidgen.controller.inference.cell import guess
+        from rapidgen.controller.inference.cell import infer_cell
 
         units = [u for g in result.groups for u in (g.mechanical_unit, *g.external_units)]
         first, *others = result.groups
         table = table_pose(first)
-        guessed = guess(result.system, units, table, start_targets(first))
+        guessed = infer_cell(result.system, units, table, start_targets(first))
         cell = guessed.cell
         fixed_table = (ChainLink("", table, (0.0, 0.0, 0.0)),)
         carriers = [Positioner(unit, fixed_table) for unit in guessed.units]

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 # robots, and devices that answer signals.
 
 
-GUESSED = 49_910
+INFERRED_INPUT = 49_910
 """Event: an input without a source received the awaited value. The number is ours."""
 _INPUT_DELAY = 0.5
 """Seconds that a program waits for an inferred input."""
@@ -228,7 +228,9 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
         def give() -> None:
             if value is not None and not awaited.holds():
                 answered.append((signal.name, value))
-                controller.log.info(GUESSED, "Guessed input", f"{signal.name} becomes {value:g}")
+                controller.log.info(
+                    INFERRED_INPUT, "Guessed input", f"{signal.name} becomes {value:g}"
+                )
                 controller.io.set(signal, value)
 
         if signal.name.casefold() in around.guessed:

@@ -8,7 +8,7 @@ from rapidgen.config import load_config
 from rapidgen.config.cell import load_cell
 from rapidgen.controller import VirtualController
 from rapidgen.controller.boot_targets import BootOptions, load_target
-from rapidgen.controller.cell_setup import GUESSED
+from rapidgen.controller.cell_setup import INFERRED_INPUT
 from rapidgen.controller.inference.robot import RobotCandidate
 from rapidgen.controller.inference.start_poses import shown
 from rapidgen.diagnostics import DiagnosticError
@@ -115,7 +115,7 @@ def test_inferred_input_gets_awaited_value_after_half_second(tmp_path):
             ("diA", 1),
         ]
         assert controller.now == pytest.approx(2.0, abs=0.25)
-        message = [event.texts for event in controller.log if event.code == GUESSED]
+        message = [event.texts for event in controller.log if event.code == INFERRED_INPUT]
         assert message[0] == ("diA becomes 1",)
         assert len(message) == 5
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rapidgen.controller.cell_setup import apply_cell
-from rapidgen.controller.inference.cell import guess
+from rapidgen.controller.inference.cell import infer_cell
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.system import is_backup, read_files, read_system, task_folders
@@ -47,7 +47,7 @@ class Program:
 
 def furnished(system: System) -> System:
     """Return a system with the signals, tools and work objects it lacks."""
-    return apply_cell(system, guess(system).cell)
+    return apply_cell(system, infer_cell(system).cell)
 
 
 def programs(folder: Path) -> Iterator[Program]:

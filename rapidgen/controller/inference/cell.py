@@ -112,7 +112,7 @@ class InferredCell:
     """Names of what is divided by, lower case."""
 
 
-def guess(
+def infer_cell(
     system: System,
     units: Iterable[str] = (),
     table: tuple[float, float, float] = (0.0, 0.0, 0.0),
