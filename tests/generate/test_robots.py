@@ -122,7 +122,7 @@ def test_without_geometry_corners_are_those_of_the_zone():
     )
     assert b"shape_corner" in known
     assert b"shape_corner" not in plain
-    assert b"move CORNER;" in plain
+    assert b"move CONFIG_ZONE;" in plain
 
 
 @pytest.mark.parametrize("name", ["irb120", "irb14000", "irb14050", "irb120_track", "irb460"])

@@ -16,7 +16,7 @@ MODULE ROS_acceptance
         num control;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "1153de331a77";
+    CONST string ROS_BUILD_ACCEPTANCE := "ff9cb81b09b1";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;
@@ -230,7 +230,8 @@ MODULE ROS_acceptance
 
     ! Compute the time to the first point (`approach_time`, s), 0 if the robot stands there. `joint`
     ! must be 0; it becomes the first joint that is too far from the first point.
-    PROC ROS_check_start(jointtarget current, jointtarget start, INOUT num approach_time, INOUT num joint, INOUT num min_duration)
+    PROC ROS_check_start(jointtarget current, jointtarget start, INOUT num approach_time,
+        INOUT num joint, INOUT num min_duration)
         approach_time := 0;
         min_duration := 0;
         check_start_axis Abs(start.robax.rax_1 - current.robax.rax_1), 1, approach_time, joint;
@@ -250,7 +251,8 @@ MODULE ROS_acceptance
         IF joint = 0 AND travel > START_TOL{n} joint := n;
         IF travel <= AT_TARGET_TOL RETURN;
         IF approach_time < ROS_MIN_SEGMENT approach_time := ROS_MIN_SEGMENT;
-        IF approach_time < travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR) approach_time := travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR);
+        IF approach_time < travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR)
+            approach_time := travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR);
     ENDPROC
 
     ! Ask the supervisor whether the trajectory may start, and wait for a halt in progress (3 s at

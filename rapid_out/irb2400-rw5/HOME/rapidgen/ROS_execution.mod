@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! This module belongs to the motion task. All checks were made before an instruction was put into
     ! the ring buffer. ROS_motion takes it out, and leaves it by a long jump if the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "1153de331a77";
+    CONST string ROS_BUILD_EXECUTION := "ff9cb81b09b1";
 
     ! Present instruction, and the reason why it failed (0: it did not).
     VAR ROS_instr ROS_current_instr;
@@ -77,7 +77,8 @@ MODULE ROS_execution
         IF ROS_current_instr.kind > ROS_DO_MOVE_C OR ROS_current_instr.zone.finep OR next = ROS_head RETURN TRUE;
         place := next MOD ROS_RING_SIZE + 1;
         IF ROS_instr_ring{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
-        RETURN ROS_instr_ring{place}.tool <> ROS_current_instr.tool OR ROS_instr_ring{place}.wobj <> ROS_current_instr.wobj;
+        RETURN ROS_instr_ring{place}.tool <> ROS_current_instr.tool
+            OR ROS_instr_ring{place}.wobj <> ROS_current_instr.wobj;
     ENDFUNC
 
     ! Change the present move into its remainder: a stop at its target, without its signals.

@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "1153de331a77";
+    CONST string ROS_BUILD_MOTION := "ff9cb81b09b1";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [1000,500,1000,1000];
@@ -292,7 +292,8 @@ MODULE ROS_motion
         ENDIF
         ROS_fetch_instr ROS_tail MOD ROS_RING_SIZE + 1;
         next_tail := ROS_next_count(ROS_tail);
-        IF ROS_current_instr.trajectory <> ROS_active_trajectory OR ROS_current_instr.trajectory = ROS_ended_early THEN
+        IF ROS_current_instr.trajectory <> ROS_active_trajectory
+            OR ROS_current_instr.trajectory = ROS_ended_early THEN
             ROS_tail := next_tail;
             RETURN;
         ENDIF
@@ -427,21 +428,29 @@ MODULE ROS_motion
         max_radius := CONFIG_ZONE.pzone_tcp;
         IF corner_speed * point.duration < 2 * max_radius max_radius := corner_speed * point.duration / 2;
         IF speed_out * following.duration < 2 * max_radius max_radius := speed_out * following.duration / 2;
-        IF corner_speed + speed_out > REST_TCP_SPEED unevenness := Abs(speed_out - corner_speed) / (corner_speed + speed_out);
+        IF corner_speed + speed_out > REST_TCP_SPEED
+            unevenness := Abs(speed_out - corner_speed) / (corner_speed + speed_out);
         IF corner_speed < speed_out corner_speed := speed_out;
         add_axis (following.target.robax.rax_1 - point.target.robax.rax_1) / following.duration,
-            (point.target.robax.rax_1 - previous.robax.rax_1) / point.duration, ACCELERATION_1, unevenness, robot_speed_sum;
+            (point.target.robax.rax_1 - previous.robax.rax_1) / point.duration,
+            ACCELERATION_1, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_2 - point.target.robax.rax_2) / following.duration,
-            (point.target.robax.rax_2 - previous.robax.rax_2) / point.duration, ACCELERATION_2, unevenness, robot_speed_sum;
+            (point.target.robax.rax_2 - previous.robax.rax_2) / point.duration,
+            ACCELERATION_2, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_3 - point.target.robax.rax_3) / following.duration,
-            (point.target.robax.rax_3 - previous.robax.rax_3) / point.duration, ACCELERATION_3, unevenness, robot_speed_sum;
+            (point.target.robax.rax_3 - previous.robax.rax_3) / point.duration,
+            ACCELERATION_3, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_4 - point.target.robax.rax_4) / following.duration,
-            (point.target.robax.rax_4 - previous.robax.rax_4) / point.duration, ACCELERATION_4, unevenness, robot_speed_sum;
+            (point.target.robax.rax_4 - previous.robax.rax_4) / point.duration,
+            ACCELERATION_4, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_5 - point.target.robax.rax_5) / following.duration,
-            (point.target.robax.rax_5 - previous.robax.rax_5) / point.duration, ACCELERATION_5, unevenness, robot_speed_sum;
+            (point.target.robax.rax_5 - previous.robax.rax_5) / point.duration,
+            ACCELERATION_5, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_6 - point.target.robax.rax_6) / following.duration,
-            (point.target.robax.rax_6 - previous.robax.rax_6) / point.duration, ACCELERATION_6, unevenness, robot_speed_sum;
-        IF corner_speed * corner_time > 2 * max_radius corner_fraction := Sqrt(2 * max_radius / (corner_speed * corner_time));
+            (point.target.robax.rax_6 - previous.robax.rax_6) / point.duration,
+            ACCELERATION_6, unevenness, robot_speed_sum;
+        IF corner_speed * corner_time > 2 * max_radius
+            corner_fraction := Sqrt(2 * max_radius / (corner_speed * corner_time));
     ENDPROC
 
     ! Increase `corner_time` until it is long enough for this

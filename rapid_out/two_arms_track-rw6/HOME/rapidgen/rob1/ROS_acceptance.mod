@@ -16,7 +16,7 @@ MODULE ROS_acceptance
         num control;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "5b3b193a4930";
+    CONST string ROS_BUILD_ACCEPTANCE := "d34f9e0a1f3c";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;
@@ -153,7 +153,8 @@ MODULE ROS_acceptance
 
     ! Compute the time to the first point (`approach_time`, s), 0 if the robot stands there. `joint`
     ! must be 0; it becomes the first joint that is too far from the first point.
-    PROC ROS_check_start(jointtarget current, jointtarget start, INOUT num approach_time, INOUT num joint)
+    PROC ROS_check_start(jointtarget current, jointtarget start, INOUT num approach_time,
+        INOUT num joint)
         approach_time := 0;
         check_start_axis Abs(start.robax.rax_1 - current.robax.rax_1), 1, approach_time, joint;
         check_start_axis Abs(start.robax.rax_2 - current.robax.rax_2), 2, approach_time, joint;
@@ -169,7 +170,8 @@ MODULE ROS_acceptance
         IF joint = 0 AND travel > START_TOL{n} joint := n;
         IF travel <= AT_TARGET_TOL RETURN;
         IF approach_time < ROS_MIN_SEGMENT approach_time := ROS_MIN_SEGMENT;
-        IF approach_time < travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR) approach_time := travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR);
+        IF approach_time < travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR)
+            approach_time := travel / (ROS_MAX_SPEED{n} * APPROACH_FACTOR);
     ENDPROC
 
     ! Ask the supervisor whether the trajectory may start, and wait for a halt in progress (3 s at

@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "5b3b193a4930";
+    CONST string ROS_BUILD_SUPERVISOR := "d34f9e0a1f3c";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;
@@ -43,7 +43,8 @@ MODULE ROS_supervisor
         ROS_start_clock clock_wakeup;
         ROS_start_clock clock_halt;
         ! A motion that was active when this task ended must not continue.
-        IF ROS_is_active() OR (ROS_paused_trajectory_1 >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
+        IF ROS_is_active() OR (ROS_paused_trajectory_1 >= 0 AND IsStopMoveAct(\FromNonMoveTask))
+            halt ROS_REASON_POWER_FAILURE;
         ! On a controller on which the driver was just installed this is 0, which would be a pause.
         ROS_paused_trajectory_1 := -1;
         mode := OpMode();
@@ -88,7 +89,8 @@ MODULE ROS_supervisor
         VAR bool was_reported;
 
         was_reported := ended_reported{server};
-        ended_reported{server} := ROS_has_ended(value, last_alive_count{server}, unchanged_checks{server}, ROS_MAX_SEND_CHECKS);
+        ended_reported{server} := ROS_has_ended(value, last_alive_count{server}, unchanged_checks{server},
+            ROS_MAX_SEND_CHECKS);
         IF NOT ended_reported{server} RETURN;
         server_ended := TRUE;
         IF NOT was_reported ROS_report_ended_task name;
@@ -136,7 +138,8 @@ MODULE ROS_supervisor
     LOCAL PROC execute_request(num reason)
         IF ROS_is_active() OR ROS_stop_latched_1 OR IsStopMoveAct(\FromNonMoveTask) THEN
             halt reason;
-        ELSEIF ROS_run_state_1 = ROS_RUN_OUTSIDE AND reason = ROS_REASON_STOPPED AND ROS_executing() <> ROS_TRI_FALSE THEN
+        ELSEIF ROS_run_state_1 = ROS_RUN_OUTSIDE AND reason = ROS_REASON_STOPPED
+            AND ROS_executing() <> ROS_TRI_FALSE THEN
             ErrWrite \W, "ROS: STOP is not for this program", "It is not in ROS_run: its own moves go on.";
         ENDIF
     ENDPROC

@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it arrives. The trajectory starts only after -3 has arrived and all
     ! points were accepted. The points then go through the ring buffer to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "5b3b193a4930";
+    CONST string ROS_BUILD_DOWNLOAD := "d34f9e0a1f3c";
 
     ! TRUE while a trajectory is being received that was not refused.
     VAR bool ROS_receiving := FALSE;
@@ -95,7 +95,8 @@ MODULE ROS_download
             IF NOT (padding = 0) ROS_set_fault 100 * joint + ROS_REASON_BAD_PADDING;
         ENDFOR
 
-        ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
+        ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],
+            [9E9,9E9,9E9,9E9,9E9,9E9]];
         IF ROS_is_first THEN
             ROS_is_first := FALSE;
         ELSE

@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! This module belongs to the motion task. All checks were made before an instruction was put into
     ! the ring buffer. ROS_motion takes it out, and leaves it by a long jump if the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "5b3b193a4930";
+    CONST string ROS_BUILD_EXECUTION := "d34f9e0a1f3c";
 
     ! Present instruction, and the reason why it failed (0: it did not).
     VAR ROS_instr ROS_current_instr;
@@ -95,7 +95,8 @@ MODULE ROS_execution
         IF ROS_current_instr.kind > ROS_DO_MOVE_C OR ROS_current_instr.zone.finep OR next = ROS_head_2 RETURN TRUE;
         place := next MOD ROS_RING_SIZE + 1;
         IF ROS_instr_ring_2{place}.kind > ROS_DO_MOVE_C RETURN TRUE;
-        RETURN ROS_instr_ring_2{place}.tool <> ROS_current_instr.tool OR ROS_instr_ring_2{place}.wobj <> ROS_current_instr.wobj;
+        RETURN ROS_instr_ring_2{place}.tool <> ROS_current_instr.tool
+            OR ROS_instr_ring_2{place}.wobj <> ROS_current_instr.wobj;
     ENDFUNC
 
     ! Change the present move into its remainder: a stop at its target, without its signals.
@@ -187,16 +188,19 @@ MODULE ROS_execution
     LOCAL PROC move_with_signals(PERS tooldata tool, PERS wobjdata wobj)
         TEST ROS_current_instr.kind
         CASE ROS_DO_MOVE_J:
-            TriggJ ROS_current_instr.target, speed, trigger{trigger_set, 1} \T2:=trigger{trigger_set, 2}
-                \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4} \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
+            TriggJ ROS_current_instr.target, speed, trigger{trigger_set, 1}
+                \T2:=trigger{trigger_set, 2} \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4}
+                \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
                 \T7:=trigger{trigger_set, 7} \T8:=trigger{trigger_set, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_L:
-            TriggL ROS_current_instr.target, speed, trigger{trigger_set, 1} \T2:=trigger{trigger_set, 2}
-                \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4} \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
+            TriggL ROS_current_instr.target, speed, trigger{trigger_set, 1}
+                \T2:=trigger{trigger_set, 2} \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4}
+                \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
                 \T7:=trigger{trigger_set, 7} \T8:=trigger{trigger_set, 8}, zone, tool \WObj:=wobj;
         CASE ROS_DO_MOVE_C:
-            TriggC ROS_current_instr.via, ROS_current_instr.target, speed, trigger{trigger_set, 1} \T2:=trigger{trigger_set, 2}
-                \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4} \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
+            TriggC ROS_current_instr.via, ROS_current_instr.target, speed, trigger{trigger_set, 1}
+                \T2:=trigger{trigger_set, 2} \T3:=trigger{trigger_set, 3} \T4:=trigger{trigger_set, 4}
+                \T5:=trigger{trigger_set, 5} \T6:=trigger{trigger_set, 6}
                 \T7:=trigger{trigger_set, 7} \T8:=trigger{trigger_set, 8}, zone, tool \WObj:=wobj;
         ENDTEST
     ERROR

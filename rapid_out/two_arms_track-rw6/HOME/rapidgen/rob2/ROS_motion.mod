@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "5b3b193a4930";
+    CONST string ROS_BUILD_MOTION := "d34f9e0a1f3c";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [5000,500,5000,1000];
@@ -272,7 +272,8 @@ MODULE ROS_motion
         ENDIF
         ROS_fetch_instr ROS_tail_2 MOD ROS_RING_SIZE + 1;
         next_tail := ROS_next_count(ROS_tail_2);
-        IF ROS_current_instr.trajectory <> ROS_active_trajectory_2 OR ROS_current_instr.trajectory = ROS_ended_early_2 THEN
+        IF ROS_current_instr.trajectory <> ROS_active_trajectory_2
+            OR ROS_current_instr.trajectory = ROS_ended_early_2 THEN
             ROS_tail_2 := next_tail;
             RETURN;
         ENDIF
@@ -355,20 +356,27 @@ MODULE ROS_motion
         following.duration := following.duration * 100 / point_percent;
         corner_speed := tcp_speed(previous, point.target, point.duration);
         speed_out := tcp_speed(point.target, following.target, following.duration);
-        IF corner_speed + speed_out > REST_TCP_SPEED unevenness := Abs(speed_out - corner_speed) / (corner_speed + speed_out);
+        IF corner_speed + speed_out > REST_TCP_SPEED
+            unevenness := Abs(speed_out - corner_speed) / (corner_speed + speed_out);
         IF corner_speed < speed_out corner_speed := speed_out;
         add_axis (following.target.robax.rax_1 - point.target.robax.rax_1) / following.duration,
-            (point.target.robax.rax_1 - previous.robax.rax_1) / point.duration, ACCELERATION_1, unevenness, robot_speed_sum;
+            (point.target.robax.rax_1 - previous.robax.rax_1) / point.duration,
+            ACCELERATION_1, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_2 - point.target.robax.rax_2) / following.duration,
-            (point.target.robax.rax_2 - previous.robax.rax_2) / point.duration, ACCELERATION_2, unevenness, robot_speed_sum;
+            (point.target.robax.rax_2 - previous.robax.rax_2) / point.duration,
+            ACCELERATION_2, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_3 - point.target.robax.rax_3) / following.duration,
-            (point.target.robax.rax_3 - previous.robax.rax_3) / point.duration, ACCELERATION_3, unevenness, robot_speed_sum;
+            (point.target.robax.rax_3 - previous.robax.rax_3) / point.duration,
+            ACCELERATION_3, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_4 - point.target.robax.rax_4) / following.duration,
-            (point.target.robax.rax_4 - previous.robax.rax_4) / point.duration, ACCELERATION_4, unevenness, robot_speed_sum;
+            (point.target.robax.rax_4 - previous.robax.rax_4) / point.duration,
+            ACCELERATION_4, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_5 - point.target.robax.rax_5) / following.duration,
-            (point.target.robax.rax_5 - previous.robax.rax_5) / point.duration, ACCELERATION_5, unevenness, robot_speed_sum;
+            (point.target.robax.rax_5 - previous.robax.rax_5) / point.duration,
+            ACCELERATION_5, unevenness, robot_speed_sum;
         add_axis (following.target.robax.rax_6 - point.target.robax.rax_6) / following.duration,
-            (point.target.robax.rax_6 - previous.robax.rax_6) / point.duration, ACCELERATION_6, unevenness, robot_speed_sum;
+            (point.target.robax.rax_6 - previous.robax.rax_6) / point.duration,
+            ACCELERATION_6, unevenness, robot_speed_sum;
     ENDPROC
 
     ! Increase `corner_time` until it is long enough for this

@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! must give that pose. So the limits of the joints can be checked, the configuration (robconf) is
     ! the controller's own, and a client with a wrong robot model is rejected before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "5b3b193a4930";
+    CONST string ROS_BUILD_PROGRAMS := "d34f9e0a1f3c";
 
     ! Upper limits: speeds in mm/s and deg/s, sizes of a zone in mm and deg.
     LOCAL CONST num MAX_TCP_SPEED := 5000;
@@ -254,8 +254,9 @@ MODULE ROS_programs
         instr.zone.zone_leax := read_mm(data);
         instr.zone.zone_reax := read_deg(data);
         has_zone := (stop_flag = 0 OR stop_flag = 1) AND is_valid_size(instr.zone.pzone_tcp)
-            AND is_valid_size(instr.zone.pzone_ori) AND is_valid_size(instr.zone.pzone_eax) AND is_valid_size(instr.zone.zone_ori)
-            AND is_valid_size(instr.zone.zone_leax) AND is_valid_size(instr.zone.zone_reax);
+            AND is_valid_size(instr.zone.pzone_ori) AND is_valid_size(instr.zone.pzone_eax)
+            AND is_valid_size(instr.zone.zone_ori) AND is_valid_size(instr.zone.zone_leax)
+            AND is_valid_size(instr.zone.zone_reax);
     ERROR
         RAISE;
     ENDPROC

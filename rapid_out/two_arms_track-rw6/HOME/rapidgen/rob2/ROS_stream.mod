@@ -10,7 +10,7 @@ MODULE ROS_stream
     ! checksum was verified. At a fault the stream is cut: the accepted points are executed, later ones
     ! are not.
 
-    CONST string ROS_BUILD_STREAM := "5b3b193a4930";
+    CONST string ROS_BUILD_STREAM := "d34f9e0a1f3c";
 
     ! Duration of the points that must wait in the ring buffer before the robot starts or continues, s.
     LOCAL CONST num PRELOAD := 0.5;
@@ -70,7 +70,8 @@ MODULE ROS_stream
         ELSEIF has_flag(ROS_STREAM_BEGIN) AND batch_stream > 0 THEN
             begin_stream;
             handle_in_sequence data, at;
-        ELSEIF batch_stream <> stream_number OR stream_number = 0 OR is_program <> (ROS_frame_type = ROS_MSG_PROGRAM) THEN
+        ELSEIF batch_stream <> stream_number OR stream_number = 0
+            OR is_program <> (ROS_frame_type = ROS_MSG_PROGRAM) THEN
             reject_batch ROS_REASON_NO_START;
         ELSE
             handle_in_sequence data, at;
@@ -108,7 +109,8 @@ MODULE ROS_stream
         IF code = ROS_REASON_NONE refuse_stream ROS_REASON_INCOMPLETE, accepted;
     ENDPROC
 
-    LOCAL PROC pack_refused(VAR rawbytes data, num stream_id, num trajectory_id, num accepted_points, num reason_code, num point_index)
+    LOCAL PROC pack_refused(VAR rawbytes data, num stream_id, num trajectory_id, num accepted_points,
+        num reason_code, num point_index)
         ROS_pack_header data, 36, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
         PackRawBytes stream_id, data, 17 \IntX:=DINT;
         PackRawBytes trajectory_id, data, 21 \IntX:=DINT;
@@ -348,7 +350,8 @@ MODULE ROS_stream
             is_holding := FALSE;
             remaining := 0;
             next_byte := at + ROS_frame_length;
-            IF batch_points > 0 ROS_read_instructions data, at + HEADER_BYTES, next_byte, batch_points, checksum, next_head;
+            IF batch_points > 0 ROS_read_instructions data, at + HEADER_BYTES, next_byte,
+                batch_points, checksum, next_head;
         ENDIF
         WHILE remaining > 0 DO
             remaining := remaining - 1;
@@ -429,7 +432,8 @@ MODULE ROS_stream
         IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
             AND Abs(joint_6 - ROS_previous.robax.rax_6) <= ROS_MAX_SPEED{6} * ROS_duration)
             joint_6 := ROS_check_joint(joint_6, ROS_previous.robax.rax_6, 6);
-        ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
+        ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],
+            [9E9,9E9,9E9,9E9,9E9,9E9]];
         IF ROS_is_first THEN
             check_first_point;
         ELSE
