@@ -56,15 +56,10 @@ EXCEPTIONS = {
     "tests/verification/test_variants.py": {"strangers": CASE},
 }
 NOT_YET: tuple[str, ...] = (
-    "docs/rapid/runtime-rules.md",
     "rapidgen/motion/",
     "rapidgen/viewer/",
     "templates/",
     "tests/cli/",
-    "tests/long_tests.txt",
-    "tests/motion/test_frame_functions.py",
-    "tests/motion/test_loads.py",
-    "tests/motion/test_recorder.py",
 )
 
 

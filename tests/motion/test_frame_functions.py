@@ -69,7 +69,7 @@ def test_poses():
     assert xyz(call("PoseVect", outer, Pos(1, 2, 3))) == pytest.approx((8, 1, 3), abs=1e-5)
 
 
-def test_n_orient_mends_what_is_slightly_off_and_refuses_the_rest():
+def test_n_orient_corrects_small_errors_and_refuses_others():
     assert q(call("NOrient", Orient(0.98, 0, 0, 0))) == pytest.approx((1, 0, 0, 0))
     with pytest.raises(RapidError, match="ERR_ILLQUAT"):
         call("NOrient", Orient(0.5, 0, 0, 0))

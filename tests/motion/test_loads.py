@@ -151,9 +151,9 @@ def test_the_payload_of_a_robot_that_stands_in_is_not_known(tmp_path, robot, cou
     module.write_text(
         f"MODULE m\n{tool}\nPROC main()\nMoveAbsJ {AXES}, v1000, fine, tool;\nENDPROC\nENDMODULE\n"
     )
-    with ControllerRunner.boot(load_target([module], BootOptions(robot=robot))) as cabinet:
-        cabinet.controller.run_for(10)
-        assert sum(event.code == 59_902 for event in cabinet.controller.log) == count
+    with ControllerRunner.boot(load_target([module], BootOptions(robot=robot))) as runner:
+        runner.controller.run_for(10)
+        assert sum(event.code == 59_902 for event in runner.controller.log) == count
 
 
 @pytest.mark.parametrize("body", ["MoveL p, v1000, fine, tool;", "GripLoad payload;"])

@@ -51,7 +51,7 @@ def test_any_period_gives_the_same_motion(rapid):
 
 
 def test_the_tool_of_the_first_move_is_there_before_it(rapid):
-    """A curve of the TCP has no jump where nobody has named a tool yet, or does so no more."""
+    """A curve of the TCP has no jump without a tool, before or after one is set."""
     rod = "[TRUE,[[0,0,200],[1,0,0,0]],[1,[0,0,50],[1,0,0,0],0,0,0]]"
     move = "MoveAbsJ [[20,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, rod;"
     program = rapid(
@@ -82,8 +82,8 @@ def test_a_recording_is_read_back_and_drawn(rapid, tmp_path, capsys):
     html, png = (Path(name) for name in capsys.readouterr().out.split())
     assert png.read_bytes().startswith(b"\x89PNG")
     text = html.read_text()
-    for told in ("commanded", "actual", "joint_6", "deg", '"x"', "mm", "moves reached"):
-        assert told in text
+    for expected in ("commanded", "actual", "joint_6", "deg", '"x"', "mm", "moves reached"):
+        assert expected in text
 
 
 @pytest.mark.parametrize(
