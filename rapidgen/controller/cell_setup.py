@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 # robots, and devices that answer signals.
 
 
-INFERRED_INPUT = 49_910
+INFERRED_INPUT = 191_910
 """Event: an input without a source received the awaited value. The number is ours."""
 _INPUT_DELAY = 0.5
 """Seconds that a program waits for an inferred input."""

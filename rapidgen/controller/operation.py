@@ -3,6 +3,9 @@
 from collections.abc import Callable, Iterator, Mapping
 from typing import Literal, Protocol, TypeAlias, get_args
 
+from rapidgen.controller.event_log import error_event
+from rapidgen.machine.event_log import EventType
+from rapidgen.machine.event_table import Domain, domain_of
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.errors import FatalError
@@ -17,7 +20,10 @@ from rapidgen.runtime.task.task import Task
 
 
 OperatingMode: TypeAlias = Literal["auto", "manual_reduced", "manual_full"]
-_REFUSED = 10_126
+_LOGS_ERROR_NUMBER = (5, 60)
+"""First release whose logs have 40228 (and a warning before it) in place of 40223."""
+_START_COMMAND = {True: "66", False: "142"}
+"""Argument of a refused start, from 6.0 on and before."""
 
 
 class Tasks(Host, Protocol):
@@ -70,7 +76,7 @@ class Operation:
         self._host.motion.zones.drop_all()
         for task in self._host.rapid_tasks.values():
             task.power_up()
-        self._host.log.info(10_011, "Motors ON state")
+        self._host.log.record(10_011)
         self.changed.notify()
 
     def set_motors(self, on: bool, *, event: StopEvent = "STOP") -> None:
@@ -79,16 +85,20 @@ class Operation:
         Off stops the program and runs the routines of `event`.
         """
         if on and (self.e_stop or self.failed):
-            self._host.log.warning(_REFUSED, "Motors on refused", self._why_not())
+            if self.e_stop:
+                self._host.log.record(20_202)
+            else:
+                self._host.log.record(192_095, self._why_not())
             return
         if on == self.motors_on:
             return
         self.motors_on = on
         if on:
             self.halted = False
-            self._host.log.info(10_011, "Motors ON state")
+            self._host.log.record(10_011)
         else:
-            self._host.log.info(10_010, "Motors OFF state")
+            if not self.e_stop:
+                self._host.log.record(10_010 if self.mode == "auto" else 10_012)
             self.stop_program(quick=True, event=event)
         self.changed.notify()
 
@@ -97,7 +107,8 @@ class Operation:
         if pressed == self.e_stop:
             return
         if pressed:
-            self._host.log.error(10_013, "Emergency stop state")
+            self._host.log.record(10_012)
+            self._host.log.record(10_013)
             self.e_stop = True
             for group in self._groups:
                 by_brakes = group.settings.emergency_stop == "brakes"
@@ -105,7 +116,7 @@ class Operation:
             self.set_motors(False, event="QSTOP" if self._host.dialect.e_stop_routines else "")
         else:
             self.e_stop = False
-            self._host.log.info(10_010, "Motors OFF state")
+            self._host.log.record(10_010 if self.mode == "auto" else 10_012)
         self.changed.notify()
 
     def set_mode(self, mode: str) -> None:
@@ -121,19 +132,23 @@ class Operation:
         self.stop_program()
         self.mode = expected
         if expected == "auto":
-            self._host.log.info(10_017, "Automatic mode confirmed")
+            for code in (10_016, 10_010, 10_017):
+                self._host.log.record(code)
         else:
-            self._host.log.info(10_015, "Manual mode selected")
+            for code in (10_015, 10_012):
+                self._host.log.record(code)
         for group in self._groups:
             group.reduced = expected == "manual_reduced"
-        self.set_motors(False)
+        if self.motors_on:
+            self.motors_on = False
+            self.stop_program(quick=True)
         self.changed.notify()
 
     def fail(self) -> None:
         """Enter SYS FAIL: motors off, no start until a restart."""
         self.failed = True
         self.motors_on = False
-        self._host.log.error(20_095, "System failure state", "a warm start is needed")
+        self._host.log.record(10_014)
         self.changed.notify()
 
     def power_loss(self) -> None:
@@ -142,8 +157,11 @@ class Operation:
         Sockets and files are closed.
         """
         host = self._host
-        host.log.error(10_140, "Power failure")
+        host.log.record(192_140)
+        host.log.record(10_045)
         for task in host.rapid_tasks.values():
+            if task.interrupts.queue:
+                host.log.record(40_210, task.name, task=task.name)
             host.sockets.close_task(task.name)
             host.files.close_task(task.name)
             if task.spec.type == "SEMISTATIC":
@@ -160,6 +178,9 @@ class Operation:
         for task in host.rapid_tasks.values():
             task.power_up()
             if task.spec.type != "NORMAL":
+                if task.spec.type == "SEMISTATIC":
+                    host.log.record(10_002, self._number(task), "0", task.name, task=task.name)
+                host.log.record(10_150, self._number(task), task.name, task=task.name)
                 task.start()
         self.changed.notify()
 
@@ -168,30 +189,60 @@ class Operation:
     def start_program(self) -> bool:
         """Start all tasks; return False if the state forbids it."""
         log = self._host.log
-        obstacle = self._why_not()
-        for group in () if obstacle else self._groups:
-            way, _ = group.off_path
-            if not obstacle and way > group.settings.regain_distance:
-                obstacle = f"{group.name} is {way:.3f} m from its path: move it back or PP to main"
-        if obstacle:
-            log.warning(_REFUSED, "Program start refused", obstacle)
+        if self._is_start_refused():
             return False
-        if self.execution_error:
-            self.in_error.clear()
-            log.info(10_021, "Execution error reset")
-        log.info(10_151, "Program started")
-        for task in self._host.rapid_tasks.values():
-            if task.spec.type == "NORMAL" and task.name in self.omitted:
-                continue
-            lost = task.state == "error" and task.pointer.place is None
-            if lost and task.spec.type == "NORMAL":
-                log.warning(_REFUSED, "Program start refused", "PP to main first", task=task.name)
-            if task.no_start and task.spec.modules:
-                log.warning(_REFUSED, "Program start refused", task.no_start, task=task.name)
+        tasks = [
+            task
+            for task in self._host.rapid_tasks.values()
+            if task.spec.type != "NORMAL" or task.name not in self.omitted
+        ]
+        for task in tasks:
+            if task.name in self.in_error:
+                log.record(10_021, self._number(task), task.name, task=task.name)
+        self.in_error.clear()
+        log.record(10_052, "0")
+        log.record(10_053, "0")
+        for task in tasks:
+            is_normal = task.spec.type == "NORMAL"
+            if is_normal and task.state == "error" and task.pointer.place is None:
+                log.record(10_097, task.name, task=task.name)
+            elif task.no_start and task.spec.modules:
+                log.record(192_097, task.no_start, task=task.name)
+            elif is_normal and (task.run.fresh or task.state in ("ready", "finished")):
+                log.record(10_151, self._number(task), task.name, task=task.name)
+            elif is_normal and task.state in ("stopped", "error"):
+                log.record(10_156, self._number(task), task.name, task=task.name)
             task.start()
         self.step_moves()
         self.changed.notify()
         return True
+
+    def _is_start_refused(self) -> bool:
+        """Return whether the state forbids a start, and record why."""
+        log = self._host.log
+        command = _START_COMMAND[self._host.system.robotware >= (6, 0)]
+        if self.e_stop:
+            log.record(20_075, command)
+        elif self.failed or self.halted:
+            log.record(192_095, self._why_not())
+        elif not self.motors_on:
+            log.record(20_072 if self.mode == "auto" else 20_074, command)
+        else:
+            for group in self._groups:
+                distance, _ = group.off_path
+                if distance > group.settings.regain_distance:
+                    text = f"{group.name} is {distance:.3f} m from its path"
+                    log.record(192_096, text, texts=("move it back, or PP to main",))
+                    return True
+            return False
+        return True
+
+    def _number(self, task: RapidTask) -> str:
+        """Return the number of a task in the log: its place among the tasks, from 1."""
+        return str(1 + list(self._host.rapid_tasks).index(task.name))
+
+    def _log_stop(self, code: int, task: RapidTask) -> None:
+        self._host.log.record(code, self._number(task), task.name, task=task.name)
 
     def _why_not(self) -> str:
         """Return why a start is forbidden, "" otherwise."""
@@ -209,9 +260,10 @@ class Operation:
         The routines of `event` run in every stopped task.
         """
         for task in self._normal():
+            if task.state == "running":
+                self._log_stop(10_125, task)
             task.stop(event)
         self._stop_motion(quick=quick)
-        self._host.log.info(10_125, "Program stopped")
         self.changed.notify()
 
     def pp_to_main(self) -> None:
@@ -222,7 +274,8 @@ class Operation:
             group.reset()
         for arc in self._host.arcs.values():
             arc.reset()
-        self._host.log.info(10_002, "Program pointer has been reset")
+        for task in self._normal():
+            self._host.log.record(10_002, self._number(task), "0", task.name, task=task.name)
 
     def drop_paths(self) -> None:
         """Discard paths after a moved program pointer [S4 overview 4-24].
@@ -274,42 +327,78 @@ class Operation:
         self.changed.notify()
 
     def task_failed(self, task: RapidTask, fatal: FatalError) -> None:
-        """Handle a task that stopped with an error.
+        """Record an error that stopped a task, and do what its trust level says.
 
-        The trust level decides on the reaction [S4 overview 4-45].
+        Trust levels: [S4 overview 4-45]. The order of the events is that of saved logs.
         """
         log = self._host.log
-        place = str(fatal.stack[-1]) if fatal.stack else ""
+        is_motion_error = self._log_error(task, fatal)
+        self.in_error.add(task.name)
+        number, trust = self._number(task), task.spec.trust
+        if task.spec.type == "NORMAL":
+            log.record(10_020, number, task.name, task=task.name)
+            if is_motion_error:
+                self._log_stop(10_125, task)
+            else:
+                self._log_stop(10_126, task)
+            self._stop_others(task)
+            self._stop_motion()
+            return
+        log.record(10_020, number, task.name, task=task.name)
+        if trust == "NoSafety":
+            self._log_stop(10_126, task)
+            return
+        log.record(10_048, task.name, task=task.name)
+        if trust == "SysFail":
+            log.record(10_082, task.name, task=task.name)
+        self._log_stop(10_126, task)
+        if trust == "SysFail":
+            self.fail()
+        self.halted = self.halted or trust == "SysHalt"
+        self._stop_others(task)
+        self._stop_motion()
+        if trust == "SysHalt":
+            self.motors_on = False
+            log.record(10_010)
+
+    def _log_error(self, task: RapidTask, fatal: FatalError) -> bool:
+        """Record the error itself; return whether it is one of the motion system."""
+        log = self._host.log
+        where = fatal.stack[-1] if fatal.stack else None
+        place = str(where) if where is not None else ""
         calls = " < ".join(str(p) for p in reversed(fatal.stack[-8:]))
-        text = [t for t in fatal.arguments if t]
+        texts = [t for t in fatal.arguments if t]
         if fatal.span is not None:
             place = f"{fatal.span.path}:{fatal.span.line}"
-        log.error(fatal.event, fatal.title, place, *text, calls, task=task.name)
-        self.in_error.add(task.name)
-        trust = task.spec.trust
-        if task.spec.type == "NORMAL":
-            self._stop_others(task)
-            self._stop_motion()
-            log.error(10_020, "Execution error state", task=task.name)
-        elif trust != "NoSafety":
-            self.halted = self.halted or trust == "SysHalt"
-            self._stop_others(task)
-            self._stop_motion()
-            if trust == "SysFail":
-                self.fail()
-            elif trust == "SysHalt":
-                self.motors_on = False
-                log.error(10_010, "Motors OFF state")
+        code, arguments = fatal.event, (task.name, where.reference if where else "", *texts)
+        if fatal.cause is not None:
+            name, text = fatal.arguments[0], fatal.cause.text
+            code, arguments = error_event(task, name, text, where.reference if where else "")
+        is_motion_error = domain_of(code) is Domain.MOTION
+        has_number = self._host.system.robotware >= _LOGS_ERROR_NUMBER
+        entry = (code, fatal.title, (place, *texts, calls), task.name, arguments)
+        if has_number and not is_motion_error:
+            log.add(EventType.WARNING, *entry)
+        log.add(EventType.ERROR, *entry)
+        if is_motion_error:
+            return True
+        if has_number:
+            log.record(40_228, task.name, str(code), task=task.name)
+        else:
+            log.record(40_223, task.name, task=task.name)
+        return False
 
     def program_stopped(self, task: RapidTask) -> None:
         """Stop the other NORMAL tasks after Stop or Break in a task."""
-        self._host.log.info(10_122, "Program stopped", task=task.name)
+        self._log_stop(10_122, task)
         if task.spec.type == "NORMAL":
             self._stop_others(task)
 
     def _stop_others(self, task: RapidTask) -> None:
         for other in self._normal():
             if other is not task:
+                if other.state == "running":
+                    self._log_stop(10_125, other)
                 other.stop()
 
     def _stop_motion(self, *, quick: bool = False) -> None:

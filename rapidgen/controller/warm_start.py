@@ -23,8 +23,8 @@ from rapidgen.system.paths import home_file
 PersistedState = Mapping[str, tuple[ModuleFile, ...]]
 """Modules that lay in each task."""
 _PROGRAM_ERRORS = 40_160
-_SYSTEM_FAILURE = 20_095
-_NOT_LOADED = 40_165  # [mem]
+_SYSTEM_FAILURE = 192_095
+_NOT_LOADED = 194_165
 
 
 @dataclass(slots=True)

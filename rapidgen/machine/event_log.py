@@ -10,24 +10,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Protocol
 
-
-class Domain(IntEnum):
-    """Event log domains; the number is the ten-thousands of an event's code."""
-
-    COMMON = 0
-    OPERATIONAL = 1
-    SYSTEM = 2
-    HARDWARE = 3
-    PROGRAM = 4
-    MOTION = 5
-    OPERATOR = 6
-    IO = 7
-    USER = 8
-    SAFETY = 9
-    INTERNAL = 10
-    PROCESS = 11
-    CONFIGURATION = 12
-    PAINT = 13
+from rapidgen.machine.event_table import KINDS, Domain, domain_of
 
 
 class EventType(IntEnum):
@@ -36,6 +19,9 @@ class EventType(IntEnum):
     INFO = 1
     WARNING = 2
     ERROR = 3
+
+
+_TYPES = {"I": EventType.INFO, "W": EventType.WARNING, "E": EventType.ERROR}
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +35,18 @@ class Event:
     title: str
     texts: tuple[str, ...] = ()
     task: str = ""
+    arguments: tuple[str, ...] = ()
+    """As a controller gives them, in its order."""
 
     @property
     def domain(self) -> Domain:
-        """Domain of the code."""
-        return Domain(self.code // 10_000)
+        """The domain that the code belongs to."""
+        return domain_of(self.code)
+
+    @property
+    def number(self) -> int:
+        """The code without its domain, as RAPID has it (ReadErrData, IError)."""
+        return self.code - 10_000 * self.domain
 
     def __str__(self) -> str:
         where = f" [{self.task}]" if self.task else ""
@@ -85,12 +78,47 @@ class EventLog:
 
     def write(self, code: int, type: EventType, title: str, *texts: str, task: str = "") -> Event:
         """Add an event and return it."""
+        return self.add(type, code, title, tuple(texts), task)
+
+    def add(
+        self,
+        type: EventType,
+        code: int,
+        title: str,
+        texts: tuple[str, ...],
+        task: str = "",
+        arguments: tuple[str, ...] = (),
+    ) -> Event:
+        """Add an event with all its parts and return it."""
         self._sequence += 1
-        event = Event(self._sequence, self._clock.now * 1e-9, code, type, title, tuple(texts), task)
+        now = self._clock.now * 1e-9
+        event = Event(self._sequence, now, code, type, title, texts, task, arguments)
         self._events.append(event)
         for listener in tuple(self._listeners):
             listener(event)
         return event
+
+    def record(
+        self,
+        code: int,
+        *arguments: str,
+        task: str = "",
+        type: EventType | None = None,
+        texts: tuple[str, ...] = (),
+    ) -> Event:
+        """Add an event of the event table and return it.
+
+        `type` is for numbers that have more than one. `texts` follow the table's text.
+        """
+        kind = KINDS[code]
+        return self.add(
+            type or _TYPES[kind.types[0]],
+            code,
+            kind.title,
+            (kind.filled(arguments), *texts),
+            task,
+            arguments,
+        )
 
     def info(self, code: int, title: str, *texts: str, task: str = "") -> Event:
         """Add an event of type information."""

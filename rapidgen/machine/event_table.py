@@ -310,7 +310,101 @@ _FROM_LOGS: Final[tuple[_Row, ...]] = (
      "Look at the configuration events before this one.", "6.03"),
 )  # fmt: skip
 
+REMEMBERED: Final = "remembered; no log or document at hand"
+_GITHUB_41438: Final = "ros-industrial/abb_libegm, issue 73"
+_OTHERS: Final[tuple[tuple[int, str, str, str, str, str, str], ...]] = (
+    # Number, types, title, text, usual causes, remedy, source.
+    (10067, "W", "Program pointer cannot be moved to main", "Task {2}: PP to main was refused.",
+     "The program has errors (40160).", "Correct the modules.", "a real controller with 6.03"),
+    (10122, "I", "Program stopped: Stop", "Task {2} executed Stop or Break.", "", "", REMEMBERED),
+    (40160, "E", "Errors in the program", "Task {1}: the program has errors.",
+     "A name that is not declared, or a PERS that two modules declare.",
+     "`rapidgen check` lists them.", "a real controller with 6.03, a virtual one with 6.15"),
+    (41438, "E", "Undefined load", "Task {1}: {2}.", "A load without mass.",
+     "Set mass and centre of gravity of tool and payload.", _GITHUB_41438),
+    (41822, "E", "EGM: no data", "Task {1}: no data came from {2}.",
+     "The partner does not send, or to another port.", "Check the address of the UdpUc device.",
+     "forum and issue reports of EGM users"),
+    (41826, "E", "EGM: mode mismatch", "Task {1}: {2}.",
+     "EGMSetup and EGMAct or EGMRun are of different kinds.", "Use matching instructions.",
+     "forum and issue reports of EGM users"),
+    (50026, "E", "Close to singularity", "{1}: an axis would have to turn at once.",
+     "The path passes a wrist or shoulder singularity.",
+     "Move the path, use MoveJ, or SingArea \\Wrist.", REMEMBERED),
+    (50027, "E", "Joint out of range", "{1}.", "A target outside an axis range.",
+     "Move the joint back, or correct the target.", REMEMBERED),
+    (50063, "E", "Circle uncertain", "{1}: the points make no circle.",
+     "Circle point and end are too close, or the arc is longer than 240 degrees.",
+     "Move the circle point, or use two MoveC.", REMEMBERED),
+    (50080, "E", "Position not compatible", "{1}: the path ends in another configuration.",
+     "confdata of the target does not fit the path.", "Correct confdata, or use ConfL \\Off.",
+     REMEMBERED),
+    (50323, "E", "Force sensor not calibrated", "{1}.", "FCCalib was not executed.",
+     "Execute FCCalib first.", REMEMBERED),
+    (80001, "E", "Message of the program", "{1}", "ErrWrite of the program.", "", REMEMBERED),
+    (80002, "W", "Message of the program", "{1}", "ErrWrite \\W of the program.", "", REMEMBERED),
+    (120003, "E", "Configuration file not loaded", "{1}", "The header belongs to another release.",
+     "Give the file the controller's header.", "a real controller with 6.03"),
+)  # fmt: skip
+_OWN: Final[tuple[tuple[int, str, str, str], ...]] = (
+    # Number, types, title, text.
+    (191910, "I", "Inferred input", "{1} becomes {2}."),
+    (192095, "E", "Start refused: system failure", "{1}"),
+    (192096, "E", "Start refused: off the path", "{1}"),
+    (192097, "E", "Start refused", "{1}"),
+    (192140, "E", "Power failure", "Power was lost and came back."),
+    (192800, "W", "Recording ended", "{1}"),
+    (194001, "E", "Statement cannot be executed", "{1}"),
+    (194027, "E", "Stack overflow", "Routines call each other too deeply."),
+    (194165, "E", "Module not loaded", "{1}"),
+    (194199, "EW", "RAPID error", "Task {1}: {3} at {2}."),
+    (194214, "E", "Interrupt or alias refused", "{1}"),
+    (194224, "E", "Too many interrupts wait", "{1}"),
+    (194303, "E", "IPers takes a whole persistent", "{1}"),
+    (194304, "E", "GetTrapData outside a trap", "{1}"),
+    (194305, "E", "No error in the trap data", "{1}"),
+    (194659, "E", "Format missing", "{1}"),
+    (194660, "E", "Data to send or receive missing", "{1}"),
+    (194661, "E", "GetTime needs a part", "{1}"),
+    (194662, "E", "GetSysInfo needs a part", "{1}"),
+    (194663, "E", "Text table not installed", "{1}"),
+    (194800, "E", "SystemStopAction", "{1}"),
+    (194900, "E", "No mechanical unit", "{1}"),
+    (194901, "E", "Not a motion task", "{1}"),
+    (194902, "E", "Not allowed", "{1}"),
+    (194904, "E", "Tool and work object contradict", "{1}"),
+    (194905, "EI", "Not simulated", "{1}"),
+    (194906, "E", "Search without hit", "{1}"),
+    (194907, "E", "World zone reached", "{1}"),
+    (194910, "E", "Synchronised movement refused", "{1}"),
+    (194911, "E", "Robot is guided", "{1}"),
+    (195900, "E", "No geometry", "{1}"),
+    (195901, "W", "Programmed time not met", "{1}"),
+    (195902, "W", "Load above the payload", "{1}"),
+    (197100, "E", "Cross connection refused", "{1}: it closes a loop."),
+    (197101, "W", "System output not simulated", "{1} on signal {2}."),
+    (197102, "E", "Signal not defined", "{1} names {2}."),
+)
+_OWN_SOURCE: Final = "rapidgen's virtual controller; the number of a real controller is not known"
+
 KINDS: Final[Mapping[int, EventKind]] = {
-    row[0]: EventKind(*row[:6], tuple(row[6].split())) for row in _FROM_LOGS
+    kind.code: kind
+    for kind in (
+        *(EventKind(*row[:6], tuple(row[6].split())) for row in _FROM_LOGS),
+        *(EventKind(*row[:6], source=row[6]) for row in _OTHERS),
+        *(EventKind(*row, source=_OWN_SOURCE) for row in _OWN),
+    )
 }
 """Every number that the table knows."""
+RAPID_ERROR: Final = 194_199
+ERROR_CODES: Final[Mapping[str, int]] = {
+    "ERR_REFUNKDAT": 40165,
+    "ERR_REFUNKPRC": 40168,
+    "ERR_TP_DIBREAK": 40502,
+    "ERR_LOADED": 40706,
+    "ERR_SOCK_TIMEOUT": 41581,
+    "ERR_SOCK_CLOSED": 41595,
+    "ERR_OUTSIDE_REACH": 50050,
+    "ERR_ROBLIMIT": 50050,
+}
+"""Event of an error of RAPID, where logs show it; `RAPID_ERROR` for all others."""

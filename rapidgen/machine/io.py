@@ -350,7 +350,7 @@ class IOSystem:
             actors = {name.lower() for name, _ in connection.actors}
             if result in actors or actors & _reachable(result, targets):
                 self._log.error(
-                    71_100, "Cross connection refused", connection.name, "it closes a loop"
+                    197_100, "Cross connection refused", connection.name, "it closes a loop"
                 )
                 continue
             for actor in actors:
@@ -393,7 +393,7 @@ class IOSystem:
             status = status_name(entry.status)
             if status is None:
                 self._log.warning(
-                    71_101, "System output not simulated", entry.status, f"signal {entry.signal}"
+                    197_101, "System output not simulated", entry.status, f"signal {entry.signal}"
                 )
             elif signal is not None:
                 yield _Output(status, (entry.unit or entry.task).lower(), signal)
@@ -418,7 +418,7 @@ class IOSystem:
     def _configured(self, name: str, user: str) -> Signal | None:
         signal = self.get(name)
         if signal is None:
-            self._log.error(71_102, "Signal not defined", f"{user} names '{name}'")
+            self._log.error(197_102, "Signal not defined", f"{user} names '{name}'")
         return signal
 
 

@@ -1,11 +1,11 @@
-"""Events that a robot writes by itself. Numbers from 59900 on are ours: ABB's are not public."""
+"""Events that a robot writes by itself. Numbers from 195900 on are ours: ABB's are not public."""
 
 from rapidgen.machine.event_log import EventLog
 from rapidgen.motion.moves import Move
 
 CORNER_PATH_FAILURE = 50_024
-TIME_NOT_MET = 59_901
-OVERLOAD = 59_902
+TIME_NOT_MET = 195_901
+OVERLOAD = 195_902
 
 
 def corner_failure(log: EventLog, name: str, move: Move) -> None:
@@ -20,6 +20,6 @@ def corner_failure(log: EventLog, name: str, move: Move) -> None:
 
 
 def overload(log: EventLog, name: str, text: str, where: object) -> None:
-    """Event 59902: a group carries more than its payload."""
+    """Event 195902: a group carries more than its payload."""
     place = f" ({where})" if where else ""
     log.warning(OVERLOAD, "Load above the payload of the robot", f"{name}: {text}{place}")

@@ -50,6 +50,13 @@ class Location:
     span: Span
     origin: tuple[str, int] | None = None
     """Template and line of a generated module."""
+    instruction: str = ""
+    """Instruction of the statement, or the function that it calls first."""
+
+    @property
+    def reference(self) -> str:
+        """The place as a controller's event log names it: `/Module/routine/MoveL/12`."""
+        return f"/{self.module}/{self.routine}/{self.instruction}/{self.span.line}"
 
     def __str__(self) -> str:
         made = f" (from {self.origin[0]}:{self.origin[1]})" if self.origin else ""

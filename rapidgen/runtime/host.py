@@ -28,7 +28,7 @@ from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.emit.access import Options
 from rapidgen.runtime.compiler.program import Program
-from rapidgen.runtime.errors import FatalError, Location
+from rapidgen.runtime.errors import FatalError, Location, RapidError
 from rapidgen.runtime.motion_interface import RobotData
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.signals import CyclicBools
@@ -122,8 +122,10 @@ class Host(Protocol):
     def parse_module(self, file: ModuleFile) -> n.Module:
         """Parse a module file."""
 
-    def recovered(self, task: str, number: int, text: str) -> None:
-        """Record an error that a handler recovered."""
+    def recovered(
+        self, task: "RapidTask", error: RapidError, place: tuple[str, int] | None
+    ) -> None:
+        """Record an error that a handler recovered, raised at a place of the compiled program."""
 
     def set_motors(self, on: bool) -> None:
         """Switch the motors on or off; off stops the program."""

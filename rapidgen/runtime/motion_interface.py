@@ -27,21 +27,21 @@ from rapidgen.runtime.values import Record
 #
 # What the planner's refusals are called in RAPID: ERR_ constants, and events that stop the task.
 #
-# Numbers from 49900 and 59900 on are ours: ABB's are not public.
+# Numbers from 194900 and 195900 on are ours: ABB's are not public.
 
 
 SINGULARITY = 50_026
 OUT_OF_RANGE = 50_027
 CIRCLE_UNCERTAIN = 50_063
 NOT_COMPATIBLE = 50_080
-NO_UNIT = 49_900
-NO_MOTION_TASK = 49_901
-NOT_ALLOWED = 49_902
-FRAMES_CONTRADICT = 49_904
-NOT_SIMULATED = 49_905
-WORLD_ZONE = 49_907
-GUIDED = 49_911
-NO_GEOMETRY = 59_900
+NO_UNIT = 194_900
+NO_MOTION_TASK = 194_901
+NOT_ALLOWED = 194_902
+FRAMES_CONTRADICT = 194_904
+NOT_SIMULATED = 194_905
+WORLD_ZONE = 194_907
+GUIDED = 194_911
+NO_GEOMETRY = 195_900
 
 _P = ParamSpec("_P")
 _R = TypeVar("_R")

@@ -74,7 +74,7 @@ def target_of(argument: object) -> Ref | PersistentCell:
 
 
 def _no_value(argument: object) -> FatalError:
-    return FatalError(40_001, "Argument is no value", type(argument).__name__)
+    return FatalError(194_001, "Argument is no value", type(argument).__name__)
 
 
 # -- Cyclic conditions -----------------------------------------------------------------------------

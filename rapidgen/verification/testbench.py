@@ -33,7 +33,7 @@ from rapidgen.config.model import GroupConfig, Joint, RobotConfig
 from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import Span
-from rapidgen.machine.event_log import Domain
+from rapidgen.machine.event_table import Domain
 from rapidgen.machine.network.fault_injection import FaultyNetwork
 from rapidgen.machine.network.interface import NetworkFault
 from rapidgen.motion.group import MotionGroup
@@ -72,7 +72,7 @@ CEILING = 5.0
 """m/s: below it, the driver checks the TCP speed of a group."""
 _PIECES = 60
 """Pieces of a path, to find the fastest TCP speed on it."""
-LATE = 59_901
+LATE = 195_901
 """Event of the virtual controller: moves took longer than programmed.
 
 The excess itself is measured elsewhere.

@@ -105,7 +105,7 @@ def test_an_array_that_no_memory_holds_is_refused(capsys, tmp_path, text):
     path = tmp_path / "big.mod"
     path.write_text(text)
     assert main(["run", str(path)]) != 0
-    assert "a would have 10,000,000,000 elements, there is room for 4,000,000" in (
+    assert "a would have 10,000,000,000 elements; the limit is 4,000,000" in (
         capsys.readouterr().err
     )
 

@@ -56,10 +56,10 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert main(["status", host]) == 0
     assert "motoroff" in said(capsys)
     assert main(["log", host, "--count", "3"]) == 0
-    assert "Motors OFF state" in said(capsys)
+    assert "Motors off" in said(capsys)
     assert main(["log", host, "--count", "3", "--json"]) == 0
     titles = [json.loads(line)["title"] for line in said(capsys).splitlines()]
-    assert "Motors OFF state" in titles
+    assert "Motors off" in titles
 
 
 def test_signals_and_symbols_are_shown_and_set(host, capsys):

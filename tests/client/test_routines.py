@@ -183,7 +183,7 @@ def test_call_stopped_by_error_reports_place():
         with pytest.raises(RoutineFailed, match=r"cell/divides/\d+") as report:
             robot.call("divides")
         assert "PP to Main" in report.value.diagnostics[0].help
-        assert (report.value.number, report.value.event.code) == (0, 40199)
+        assert (report.value.number, report.value.event.code) == (0, 194199)
         assert controller.task("T_ROB1").state == "error"
 
 

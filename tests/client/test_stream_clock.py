@@ -29,7 +29,7 @@ from rapidgen.client.core import checks as checks_module
 from rapidgen.wire.simple_message import spec
 from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState
 
-NOT_IN_TIME = 59901
+NOT_IN_TIME = 195901
 """Event of the virtual controller: a move took longer than was programmed."""
 
 

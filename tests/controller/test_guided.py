@@ -80,7 +80,7 @@ def test_unknown_device_stops_task(backup):
     with VirtualController.from_folder(backup(SIX, "UCdevice")) as controller:
         controller.run_for(1)
         fault = controller.task("T_ROB1").fault
-        assert fault.event == 49_911
+        assert fault.event == 194_911
         assert "UCdevice" in fault.arguments[0]
 
 

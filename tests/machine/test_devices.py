@@ -24,10 +24,10 @@ def test_events_have_numbers_domains_and_the_controllers_time():
     scheduler.advance()
     second, third = report[0], log.error(130_001, "three")
     end()
-    fourth = log.write(71_101, EventType.WARNING, "four")
+    fourth = log.write(197_101, EventType.WARNING, "four")
     events = [first, second, third, fourth]
     assert [e.sequence for e in events] == [1, 2, 3, 4]
-    assert [e.code for e in events] == [10_015, 50_024, 130_001, 71_101]
+    assert [e.code for e in events] == [10_015, 50_024, 130_001, 197_101]
     assert [e.type for e in events] == [1, 2, 3, 2]
     assert [e.domain for e in events] == [
         Domain.OPERATIONAL,

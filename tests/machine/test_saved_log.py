@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.machine.event_table import KINDS, Domain, domain_of
+from rapidgen.machine.event_table import KINDS, SOURCE, Domain, domain_of
 from rapidgen.machine.saved_log import read_saved_log
 
 HEAD = "{title}\nDate:\t2026-01-02 03:04:05\n\nRobotWare: {release}\nKey:\tABC\n\n"
@@ -72,7 +72,7 @@ def test_every_kind_has_domain_text_and_source():
         assert kind.title
         assert kind.text
         assert kind.source
-        assert kind.releases or kind.is_own
+        assert kind.releases or kind.source != SOURCE
         assert len(kind.title) <= 60
         domain_of(code)
 

@@ -47,7 +47,7 @@ EVENTS = [
         "Position not compatible",
         "the way ends in configuration [0, -1, 0, 0], programmed is [0, 0, 0, 1]",
     ),
-    ("RestoPath;", 49_902, "No path is stored", ""),
+    ("RestoPath;", 194_902, "No path is stored", ""),
 ]
 
 
@@ -85,7 +85,7 @@ def test_a_robot_without_geometry_moves_in_joints_only(rapid):
     program.group.planner.kinematics = None
     program.run()
     fault = program.controller.task("T_ROB1").fault
-    assert (fault.event, fault.title) == (59_900, "No geometry")
+    assert (fault.event, fault.title) == (195_900, "No geometry")
     assert fault.arguments[0].startswith("rob1: the configuration has no chain")
 
 

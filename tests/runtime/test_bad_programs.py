@@ -23,8 +23,8 @@ ENDLESS = {
     "wait": "WaitUntil FALSE;",
 }
 STOPPING = {
-    "recursion": ("deeper 1;", "40027"),
-    "recursion of a function": ("x := deepest(1);", "40027"),
+    "recursion": ("deeper 1;", "194027"),
+    "recursion of a function": ("x := deepest(1);", "194027"),
     "a thousand sockets": (
         "FOR i FROM 1 TO 1000 DO\n SocketCreate many{i};\n ENDFOR",
         "ERR_SOCK_UNSPEC",

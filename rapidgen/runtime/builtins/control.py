@@ -53,7 +53,7 @@ def system_stop_action(
     else:
         task.controller.stop_program()
     if stop_block or halt:
-        raise FatalError(40_800, "SystemStopAction", "move PP before a restart", restartable=False)
+        raise FatalError(194_800, "SystemStopAction", "move PP before a restart", restartable=False)
     task.process_pending()
 
 

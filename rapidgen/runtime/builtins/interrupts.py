@@ -116,7 +116,7 @@ def i_pers(task: Task, single: bool | None, safe: bool | None, name: Ref, interr
     """
     cell = name.cell
     if cell is None or not name.whole:
-        raise FatalError(40_303, "IPers takes a whole persistent", name.name)
+        raise FatalError(194_303, "IPers takes a whole persistent", name.name)
     order = _order(task, interrupt, single, safe)
     _watch(cell, order, lambda: task.interrupts.happen(order))
 
@@ -251,7 +251,7 @@ def i_error(task: Task, domain: float, number: float | None, kind: float, interr
             return
         if task.controller.dialect.error_reach == "own" and event.task != task.name:
             return
-        if number is not None and event.code % 10_000 != number:
+        if number is not None and event.number != number:
             return
         task.interrupts.happen(order, event)
 
@@ -262,7 +262,7 @@ def i_error(task: Task, domain: float, number: float | None, kind: float, interr
 def get_trap_data(task: Task, data: TrapData) -> None:
     """GetTrapData: read the data of the current trap."""
     if not task.in_trap:
-        raise FatalError(40_304, "GetTrapData is permitted only in a trap")
+        raise FatalError(194_304, "GetTrapData is permitted only in a trap")
     data.event = task.interrupts.trap_data
 
 
@@ -279,9 +279,9 @@ def read_err_data(
     """ReadErrData: read the event that caused the trap."""
     event = data.event
     if event is None:
-        raise FatalError(40_305, "There is no error in the trap data")
+        raise FatalError(194_305, "There is no error in the trap data")
     domain.set(int(event.domain))
-    number.set(event.code % 10_000)
+    number.set(event.number)
     kind.set(int(event.type))
     if title is not None:
         title.set(event.title[:80])

@@ -153,7 +153,7 @@ def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     """
     given: str | AnySignal = source if isinstance(source, Signal | SignalAlias) else source.get()
     if isinstance(given, str) and not task.controller.dialect.alias_by_name:
-        raise FatalError(40_214, "AliasIO takes a signal", f"'{given}' is a text")
+        raise FatalError(194_214, "AliasIO takes a signal", f"'{given}' is a text")
     match = task.controller.io.get(given) if isinstance(given, str) else given.signal
     if match is None and isinstance(given, str) and isinstance(target, SignalAlias):
         match = task.controller.io.made_up(given, target.type)

@@ -119,7 +119,7 @@ def _unsigned_long(task: Task, value: int) -> float:
 
 def _no_format(name: str) -> FatalError:
     return FatalError(
-        40_659, f"{name} needs a format", "one of \\Hex1, \\IntX, \\Float4 and \\ASCII"
+        194_659, f"{name} needs a format", "one of \\Hex1, \\IntX, \\Float4 and \\ASCII"
     )
 
 

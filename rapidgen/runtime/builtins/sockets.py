@@ -233,7 +233,7 @@ def _payload(
             raise RapidError("ERR_ARGVALERR", f"{len(data)} bytes; {CAPACITY} go")
         payload = bytes(byte_value(data[i]) for i in range(1, len(data) + 1))
     else:
-        raise FatalError(40_660, "Nothing to send", "one of \\Str, \\RawData and \\Data")
+        raise FatalError(194_660, "Nothing to send", "one of \\Str, \\RawData and \\Data")
     if count is None:
         return payload
     expected = whole(count, "ERR_ARGVALERR")
@@ -357,7 +357,7 @@ def _limit(
     elif data is not None:
         free = min(CAPACITY, len(data.get()))
     else:
-        raise FatalError(40_660, "Nowhere to receive", "one of \\Str, \\RawData and \\Data")
+        raise FatalError(194_660, "Nowhere to receive", "one of \\Str, \\RawData and \\Data")
     if read_count is None:
         return free
     expected = whole(read_count, "ERR_ARGVALERR")

@@ -92,7 +92,7 @@ def get_time(
         return now.minute
     if second:
         return now.second
-    raise FatalError(40_661, "GetTime needs a part", "one of \\WDay, \\Hour, \\Min and \\Sec")
+    raise FatalError(194_661, "GetTime needs a part", "one of \\WDay, \\Hour, \\Min and \\Sec")
 
 
 _SHOWN: dict[str, Callable[..., Value]] = {
@@ -146,7 +146,7 @@ def get_sys_info(
         return str(task.controller.network.address)
     if language:
         return "en"
-    raise FatalError(40_662, "GetSysInfo needs a part", "such as \\LanIp")
+    raise FatalError(194_662, "GetSysInfo needs a part", "such as \\LanIp")
 
 
 # -- text tables ----------------------------------------------------------------------------
@@ -161,7 +161,7 @@ def text_tab_install(task: Task, file: str) -> None:
     except OSError as error:
         raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
     except ValueError as error:
-        raise FatalError(40_663, "Text table not installed", file, str(error)) from error
+        raise FatalError(194_663, "Text table not installed", file, str(error)) from error
 
 
 @builtin("TextTabGet", cost="string")

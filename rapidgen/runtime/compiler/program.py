@@ -299,7 +299,7 @@ class Program:
             span = routine.module.span(fault.node)
             self.faults.append(error("RG401", span, str(fault)))
             raise FatalError(
-                40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
+                194001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
             ) from fault
         self._linked.add(routine)
         return function

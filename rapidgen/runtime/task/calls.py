@@ -20,6 +20,9 @@ from rapidgen.runtime.values import ATOMIC, Value
 #
 # Who is where: call stacks of tasks as places in RAPID.
 
+_LONGEST_TARGET = 40
+"""Tokens of a statement that are searched for the function that it calls."""
+
 
 def outwards(frame: FrameType | None) -> Iterator[FrameType]:
     """Iterate over a frame and its callers."""
@@ -48,7 +51,31 @@ def location(codes: Codes, file: str, line: int) -> Location | None:
         if rapid_line > span.line:
             break
         origin = (template, template_line + span.line - rapid_line)
-    return Location(module.name, compiled.routine.name, span, origin)
+    word = _instruction(module.tree.source.tokens, token)
+    return Location(module.name, compiled.routine.name, span, origin, word)
+
+
+def _instruction(tokens: Sequence[str], first: int) -> str:
+    """Return the first word of a statement, or the function that an assignment calls first."""
+    is_assignment = False
+    for place in range(first, min(first + _LONGEST_TARGET, len(tokens) - 1)):
+        if tokens[place] == ";":
+            break
+        is_assignment = is_assignment or tokens[place] == ":="
+        if is_assignment and tokens[place + 1] == "(" and tokens[place].isidentifier():
+            return tokens[place]
+    return tokens[first]
+
+
+def place_in_rapid(codes: Codes, traceback: TracebackType | None) -> tuple[str, int] | None:
+    """Return file and line of the innermost compiled frame; `location` has its place."""
+    result = None
+    while traceback is not None:
+        file = traceback.tb_frame.f_code.co_filename
+        if file in codes:
+            result = file, traceback.tb_lineno
+        traceback = traceback.tb_next
+    return result
 
 
 def between(codes: Codes, frame: FrameType | None, outside: Sequence[CodeType]) -> bool:

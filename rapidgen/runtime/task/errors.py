@@ -22,6 +22,7 @@ from typing import NoReturn
 
 from greenlet import GreenletExit
 
+from rapidgen.machine.event_table import ERROR_CODES, RAPID_ERROR
 from rapidgen.runtime.compiler.symbols import CodeRole
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
@@ -36,7 +37,7 @@ from rapidgen.runtime.errors import (
     python_error,
 )
 from rapidgen.runtime.host import RapidTask
-from rapidgen.runtime.task.calls import outwards, stack_of_error
+from rapidgen.runtime.task.calls import outwards, place_in_rapid, stack_of_error
 
 RETRY, TRYNEXT, RETURN, RAISE = 0, 1, 2, 3
 RETRIES = 4
@@ -125,6 +126,7 @@ class Errors:
     ) -> int:
         """Execute a handler and return its result."""
         task = self._task
+        place = place_in_rapid(task.program.codes, error.__traceback__)
         task.errno = error.number
         self.retry_number = retries
         self.skip_warning = False
@@ -144,7 +146,7 @@ class Errors:
         finally:
             self.handler_level -= 1
         if not self.skip_warning:
-            task.controller.recovered(task.name, error.number, error.text)
+            task.controller.recovered(task, error, place)
         return way
 
     def _retry(self, handler: Handler, error: RapidError, retries: int, frame: FrameType) -> int:
@@ -154,7 +156,7 @@ class Errors:
         further RETRY stops the task.
         """
         if error.raised and not self._switches.retry_raised:
-            raise FatalError(40199, "RETRY is not allowed for an error made by RAISE")
+            raise FatalError(194199, "RETRY is not allowed for an error made by RAISE")
         if retries - self.retry_base < RETRIES:
             return RETRY
         last = RapidError("ERR_EXCRTYMAX")
@@ -240,7 +242,9 @@ class Errors:
         Source: [code]; K §4.8 forbids it.
         """
         if self._switches.raise_in_handler == "error":
-            raise FatalError(40001, "RAISE with a number is not permitted in a handler", "[K §4.8]")
+            raise FatalError(
+                194001, "RAISE with a number is not permitted in a handler", "[K §4.8]"
+            )
         self._instead = self._own_error(number)
 
     def retry_here(self) -> NoReturn:
@@ -249,7 +253,7 @@ class Errors:
         FatalError: outside an ERROR handler.
         """
         if not self.handler_level:
-            raise FatalError(40001, "RETRY is permitted only in an error handler", "[K §4.10]")
+            raise FatalError(194001, "RETRY is permitted only in an error handler", "[K §4.10]")
         raise ResumeInside(RETRY)
 
     def _own_error(self, number: float) -> RapidError:
@@ -439,7 +443,8 @@ class Errors:
         error = as_rapid_error(raised)
         name = error_name(error.number)
         title = f"Unhandled error {name}"
-        fatal = FatalError(40199, title, name, error.text, cause=error, restartable=restartable)
+        code = ERROR_CODES.get(name, RAPID_ERROR)
+        fatal = FatalError(code, title, name, error.text, cause=error, restartable=restartable)
         fatal.stack = stack_of_error(self._task.program.codes, raised)
         return fatal
 

@@ -254,7 +254,7 @@ class Interrupts:
             raise RapidError("ERR_UNKINO")
         if interrupt.ordered:
             raise FatalError(
-                40214, "Interrupt is already ordered", "delete it before it is ordered again"
+                194214, "Interrupt is already ordered", "delete it before it is ordered again"
             )
         interrupt.ordered = True
         interrupt.asleep = False
@@ -313,7 +313,9 @@ class Interrupts:
         else:
             scheduler.at(due, arrive)
         if len(self.queue) + self._underway > LARGEST_QUEUE:
-            task.order(FatalError(40223, "Too many interrupts wait", f"{LARGEST_QUEUE} are queued"))
+            task.order(
+                FatalError(194224, "Too many interrupts wait", f"{LARGEST_QUEUE} are queued")
+            )
 
     def serve(self) -> None:
         """Execute the traps of queued events."""

@@ -9,6 +9,8 @@ and on the next step of the run.
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from rapidgen.machine.event_log import EventType
+from rapidgen.machine.event_table import KINDS
 from rapidgen.runtime.compiler.resume import StoppedFrame
 from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, ExitCycle, FatalError, PointerMoved
@@ -114,7 +116,7 @@ class Run:
             self.pointer.go_on(places)
         except CannotCompile as error:
             raise FatalError(
-                40_001, "Program pointer is lost", f"{error}: PP to main", restartable=False
+                194_001, "Program pointer is lost", f"{error}: PP to main", restartable=False
             ) from error
         return self._next_cycle()
 
@@ -131,8 +133,14 @@ class Run:
             self.pointer.place = stepper.step_back(places)
         except CannotStep as reason:
             self.pointer.place = places
-            task.controller.log.warning(
-                40_700, "Backward step is not possible", str(reason), task=task.name
+            number = str(1 + list(task.controller.rapid_tasks).index(task.name))
+            task.controller.log.add(
+                EventType.WARNING,
+                10_128,
+                KINDS[10_128].title,
+                (str(reason),),
+                task.name,
+                (number, task.name),
             )
         except FatalError as fatal:
             self._fail(fatal, fatal)
@@ -162,7 +170,7 @@ class Run:
         except RECOVERABLE as error:
             self._fail(self.errors.unhandled(error), error)
         except RecursionError as error:
-            self._fail(FatalError(40027, "Stack overflow"), error)
+            self._fail(FatalError(194027, "Stack overflow"), error)
         return False
 
     def _next_cycle(self) -> bool:

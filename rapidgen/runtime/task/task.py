@@ -522,7 +522,7 @@ class Task(Process):
             except MotionFault as fault:
                 raise in_rapid(fault) from fault
         self.b = b
-        raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
+        raise FatalError(194027, "Stack overflow", "routines call each other too deeply")
 
     def polls(self, b: int, costs: tuple[int, ...]) -> int:
         """Pay a block statement by statement if the budget is too small."""
@@ -569,12 +569,12 @@ class Task(Process):
     def missing(self, name: str) -> None:
         """Stop at a routine that exists on controllers only."""
         raise FatalError(
-            40001, f"{name} is not available on the virtual controller", unsupported.reason(name)
+            194001, f"{name} is not available on the virtual controller", unsupported.reason(name)
         )
 
     def refuse(self, reason: str, span: Span) -> None:
         """Stop at a statement that violates the language."""
-        raise FatalError(40001, "Statement cannot be executed", reason, span=span)
+        raise FatalError(194001, "Statement cannot be executed", reason, span=span)
 
     def late(
         self, name: str, module: LoadedModule | None, arguments: tuple[LateArgument | None, ...]

@@ -175,7 +175,7 @@ def _ends_with_an_error(bench: Bench, module: str) -> None:
     link = bench.motion()
     bench.run(0.5)
     task = bench.rapid_task(module)
-    fault = [FatalError(40_199, "made to fail")]
+    fault = [FatalError(194_199, "made to fail")]
 
     def fail(before: Callable[..., Any]) -> Callable[..., Any]:
         def failing(*arguments: object) -> object:

@@ -39,7 +39,7 @@ TICK_NS = 16_666_667
 """Time between two samples of pointers and values: 60 a second."""
 LATEST_EVENTS = 20
 """Number of events that a snapshot repeats."""
-_ENDED = 80_002
+_ENDED = 192_800
 """Code of the event that reports it: a user's, as a program's own are."""
 _CHUNK = 262_144
 """Size of a chunk in bytes: a few seconds, which a scrub has to read."""

@@ -74,6 +74,6 @@ def test_omission_is_reported_at_load_and_stops_task():
             controller.run_for(0.1)
             assert task.fault is not None, name
             assert (task.fault.event, task.fault.arguments) == (
-                40001,
+                194001,
                 (unsupported.reason(name),),
             ), name

@@ -36,7 +36,7 @@ ENDMODULE
 !=== endless_recursion
 MODULE endless_recursion
 ! source: [K §1.4] stack overflow is a fatal execution error: no handler sees it
-! fault: 40027 11
+! fault: 194027 11
   PROC main()
     deeper 1;
   ERROR
@@ -50,7 +50,7 @@ ENDMODULE
 !=== endless_recursion_in_undo
 MODULE endless_recursion_in_undo
 ! source: [K §1.4] stack overflow is fatal, wherever it happens
-! fault: 40027 8
+! fault: 194027 8
   PROC main()
     again;
   ENDPROC

@@ -495,7 +495,7 @@ ENDMODULE
 MODULE raise_in_handler_error
 ! source: [K §4.8] RAISE with a number must not stand in an error handler
 ! dialect: raise_in_handler=error
-! fault: 40001 12
+! fault: 194001 12
   PROC main()
     VAR num z;
     z := 1 / z;
@@ -790,7 +790,7 @@ ENDMODULE
 MODULE retry_raised
 ! source: [S4 datasys 2-RETRY-1] switch retry_raised=false: RETRY is not for an error made by RAISE
 ! dialect: retry_raised=false
-! fault: 40199 14
+! fault: 194199 14
   VAR num n := 0;
   PROC main()
     once;

@@ -321,7 +321,7 @@ ENDMODULE
 MODULE handled_errors_are_warnings
     ! source: [K §7.5] the event log says so, unless SkipWarn was executed
     ! do: start, run 1
-    ! log: 40199 error 1
+    ! log: 194199 Task T_ROB1: error 1 at /handled_errors_are_warnings/fails/RAISE/10.
     PROC main()
         fails 1;
         fails 2;
@@ -375,7 +375,7 @@ MODULE interrupts_on_hold
     ! case:
     ! do: set count 31, start, run 1.5
     ! state: error
-    ! fault: 40223 22
+    ! fault: 194224 22
     VAR intnum i;
     PERS num p := 0;
     PERS num count := 0;
@@ -436,7 +436,7 @@ MODULE move_in_background
     ! do: start, run 1
     ! expect: at 0
     ! state: running error
-    ! fault: 49901 11
+    ! fault: 194901 11
     CONST jointtarget there := [[10,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     PROC back()
         MoveAbsJ there, v100, fine, tool0;
@@ -662,7 +662,7 @@ MODULE pp_to_main
     ! expect: 22
     ! expect: undo
     ! state: ready
-    ! log: 10002
+    ! log: 10002 Task T_ROB1: the program pointer was set to main.
     ! do: start, run 1
     ! expect: 23
     VAR num v := 1;

@@ -89,7 +89,7 @@ MODULE from_main_goto
     ! state: error
     ! do: set bad 0, start, run 2
     ! state: error
-    ! log: 40001 a routine with GOTO cannot go on in the middle: PP to main
+    ! log: 194001 a routine with GOTO cannot go on in the middle: PP to main; 194001 a routine with GOTO cannot go on in the middle: PP to main
     ! do: pp-to-main, start, run 2
     ! state: finished
     PERS num bad := 1;
@@ -118,7 +118,7 @@ MODULE from_main_handler
     ! state: error
     ! do: set bad 0, start, run 2
     ! state: error
-    ! log: 10126 PP to main first
+    ! log: 10097 Task T_ROB1 is blocked and cannot continue from where it stands.
     ! do: pp-to-main, start, run 2
     ! state: finished
     PERS num bad := 1;
@@ -146,7 +146,7 @@ MODULE from_main_trap
     ! state: error
     ! do: set bad 0, start, run 2
     ! state: error
-    ! log: 10126 PP to main first
+    ! log: 10097 Task T_ROB1 is blocked and cannot continue from where it stands.
     ! do: pp-to-main, start, run 2
     ! state: finished
     PERS num bad := 1;
@@ -259,9 +259,9 @@ MODULE main_only
     ! source: [S4 overview 3-23] [mem] the other behaviour: after an error it starts from main only
     ! dialect: after_error=main
     ! do: start, run 1
-    ! log: 40199 main_only/fails/18
+    ! log: 194199 main_only/fails/18; 194199 main_only/fails/18
     ! do: set bad 0, start, run 1
-    ! log: 40199
+    ! log: 194199
     ! state: error
     ! fault: ERR_OUTOFBND 18
     PERS num bad := 1;

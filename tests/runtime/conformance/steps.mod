@@ -138,7 +138,7 @@ MODULE moves_back
     ! expect: [314.354,0,544]
     ! do: step back
     ! at: main WaitTime 9;
-    ! log: 40700 MoveJ: its start is unknown, or the robot is not at its end
+    ! log: 10128 MoveJ: its start is unknown, or the robot is not at its end
     ! do: service look, run 0.5
     ! expect: [314.354,0,544]
     ! case:
@@ -147,7 +147,7 @@ MODULE moves_back
     ! expect: [366.038,104.654,585.889]
     ! do: step back
     ! at: main MoveC Offs(a, 50, 150, 0), Offs(a, 0, 200, 0), v500, z20, tool0;
-    ! log: 40700 MoveLDO: its start is unknown, or the robot is not at its end
+    ! log: 10128 MoveLDO: its start is unknown, or the robot is not at its end
     ! do: service look, run 0.5
     ! expect: [366.038,104.654,585.889]
     ! case: moves_back=false
@@ -155,7 +155,7 @@ MODULE moves_back
     ! expect: [364.354,100,594]
     ! do: step back
     ! at: main MoveC Offs(a, 50, 150, 0), Offs(a, 0, 200, 0), v500, z20, tool0;
-    ! log: 40700 MoveLDO is not executed backward
+    ! log: 10128 MoveLDO is not executed backward
     ! do: service look, run 0.5
     ! expect: [364.354,100,594]
     ! case:
@@ -313,7 +313,7 @@ MODULE search_without_hit
     ! do: step
     ! do: step
     ! at: error
-    ! fault: 49906 18
+    ! fault: 194906 18
     ! case:
     ! do: start, run 9
     ! expect: handled
@@ -364,12 +364,12 @@ MODULE steps_back
     ! value: args = 2
     ! do: step back
     ! at: main CONNECT i WITH t;
-    ! log: 40700
+    ! log: 10128
     ! do: step back
     ! at: main n := 2;
     ! do: step back
     ! at: main n := 2;
-    ! log: 40700 the program is at the top of a statement list
+    ! log: 10128 the program is at the top of a statement list
     ! CONNECT was executed before: it is not undone by going back.
     ! do: step
     ! at: main CONNECT i WITH t;
@@ -382,19 +382,19 @@ MODULE steps_back
     ! value: args = 2
     ! do: step back
     ! at: main IF n = 2 THEN
-    ! log: 40700 plain has no BACKWARD handler
+    ! log: 10128 plain has no BACKWARD handler
     ! value: args = 3
     ! do: step over, step over, step over
     ! expect: empty
     ! at: main TPWrite "end";
     ! do: step back
     ! at: main TPWrite "end";
-    ! log: 40700 the statement before cannot be executed backward
+    ! log: 10128 the statement before cannot be executed backward
     ! do: step
     ! expect: end
     ! do: step back
     ! at: main TPWrite "really";
-    ! log: 40700 TPWrite is not executed backward
+    ! log: 10128 TPWrite is not executed backward
     ! do: step
     ! expect: really
     ! at: finished

@@ -411,7 +411,7 @@ ENDMODULE
 !=== ordered_twice
 MODULE ordered_twice
 ! source: [S4 datasys 2-ISignalDI] a second order without IDelete is not allowed
-! fault: 40214 9
+! fault: 194214 9
   VAR intnum i;
   PERS num p := 0;
   PROC main()

@@ -190,7 +190,7 @@ def test_missing_module_is_sysfail_until_restart(one):
     caller = restart(one)
     assert caller.get("/rw/panel/ctrlstate")[0].text("ctrlstate") == "sysfail"
     titles = [e.text("title") for e in caller.get("/rw/elog/0?lang=en&json=1")]
-    assert {"System failure state", "Module not loaded"} <= set(titles)
+    assert {"System failure", "Module not loaded"} <= set(titles)
     assert caller.post("/rw/panel/ctrlstate?action=setctrlstate", {"ctrl-state": "motoron"}) == 403
     put(caller, "HOME/Back.mod", BACK.replace(b"k + 1", b"k + "))
     caller = restart(caller)

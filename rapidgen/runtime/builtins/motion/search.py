@@ -29,7 +29,7 @@ from rapidgen.runtime.values import Ref, Value
 
 
 _REASON = "search"
-_NO_HIT = 49_906
+_NO_HIT = 194_906
 """Event; the number is ours."""
 
 

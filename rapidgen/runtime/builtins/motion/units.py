@@ -160,7 +160,7 @@ def get_next_mech_unit(
 # end together (`together.py`).
 
 
-_REFUSED = 49_910
+_REFUSED = 194_910
 """Event of ours: ABB's numbers are not public."""
 
 

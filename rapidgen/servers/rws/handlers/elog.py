@@ -4,7 +4,8 @@ from dataclasses import replace
 from datetime import timedelta
 from typing import TYPE_CHECKING
 
-from rapidgen.machine.event_log import Domain, Event
+from rapidgen.machine.event_log import Event
+from rapidgen.machine.event_table import KINDS, Domain
 from rapidgen.machine.scheduler import date_time
 from rapidgen.servers.rws.context import disk_path
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, page, show, whole
@@ -67,17 +68,18 @@ def get_event(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 def _item(context: "RwsContext", domain: str, event: Event) -> Item:
     scheduler = context.controller.scheduler
     ago = timedelta(seconds=scheduler.now * 1e-9 - event.time)
-    texts = [text for text in (event.task, *event.texts) if text]
+    texts = event.arguments or tuple(text for text in (event.task, *event.texts) if text)
+    kind = KINDS.get(event.code)
     notify = {
         "msgtype": str(int(event.type)),
         "code": str(event.code),
         "src-name": context.controller.system.name,
         "tstamp": (date_time(scheduler) - ago).strftime("%Y-%m-%d T %H:%M:%S"),
         "title": event.title,
-        "desc": " ".join([event.title, *texts]),
+        "desc": " ".join(text for text in (event.title, event.task, *event.texts) if text),
         "conseqs": "",
-        "causes": "",
-        "actions": "",
+        "causes": kind.causes if kind is not None else "",
+        "actions": kind.remedy if kind is not None else "",
         "argc": str(len(texts)),
     }
     within = tuple(

@@ -102,7 +102,7 @@ MODULE egm_identities
     ! robot: irb120
     ! expect: four
     ! expect: one was given back
-    ! fault: 49911 22
+    ! fault: 194911 22
     VAR egmident many{6};
 
     PROC main()
@@ -142,7 +142,7 @@ ENDMODULE
 MODULE egm_moving
     ! source: [manual] 3HAC073318: guidance begins and ends in a fine point
     ! robot: irb120
-    ! fault: 49911 13
+    ! fault: 194911 13
     CONST jointtarget far := [[40,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
     VAR egmident id;
 

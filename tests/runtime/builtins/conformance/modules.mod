@@ -24,7 +24,7 @@ ENDMODULE
 MODULE missing
     ! source: what nothing here stands behind is said, and stops the task where it is reached
     ! expect: before
-    ! fault: 40001 9
+    ! fault: 194001 9
     VAR egmident id;
 
     PROC main()

@@ -197,7 +197,7 @@ ENDMODULE
 MODULE start_move_retry
     ! source: [manual 3HAC050917] StartMoveRetry: StartMove and RETRY in one, in an ERROR handler
     ! robot: irb120
-    ! fault: 40001 13
+    ! fault: 194001 13
     ! expect: try 1
     ! expect: try 2
     ! expect: TRUE FALSE
@@ -229,7 +229,7 @@ MODULE stationary_zones
     ! robot: irb120
     ! signal: doIn DO
     ! case: stationary_zones=power_on
-    ! fault: 49902 13
+    ! fault: 194902 13
     ! case: stationary_zones=anywhere
     ! expect: 1
     VAR wzstationary zone;
@@ -446,11 +446,11 @@ MODULE world_zones
     ! expect: home 0, in 1, near 0, clear 1
     ! supervised, the robot stops before the box at y 50, on its line
     ! state: stopped
-    ! log: 49907 rob1 stops before a zone that it must not enter
+    ! log: 194907 rob1 stops before a zone that it must not enter
     ! value: doIn = 1
     ! do: start, run 1
     ! state: stopped
-    ! log: 49907 rob1 stops before a zone that it must not enter
+    ! log: 194907 rob1 stops before a zone that it must not enter
     ! PP to main forgets temporary zones; the stationary one stays
     ! do: pp-to-main, routine where, start, run 1
     ! expect: 50

@@ -39,7 +39,7 @@ MODULE arc_welding
     ! inhibited: Speed holds, nothing burns
     ! expect: 60 mm at 200 mm/s, arc 0
     ! expect: arc off
-    ! log: 49905 weaving is not simulated: the tool goes along the seam at its speed
+    ! log: 194905 weaving is not simulated: the tool goes along the seam at its speed
     ! a program that stands has no arc, nor one that was given up
     ! do: pp-to-main, signal siInhibit 0, routine long, start, run 1
     ! value: doWeld = 1

@@ -313,7 +313,7 @@ MODULE test_signals
     ! expect: channel
     ! expect: axis
     ! expect: no signal
-    ! fault: 49905 14
+    ! fault: 194905 14
     PROC main()
         each;
         TestSignReset;
