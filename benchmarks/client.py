@@ -308,7 +308,8 @@ def frames_before_stop(rounds):
         # The bytes in the kernel were sent before.
         before = _written(channel, peer)
         stopping.set()
-        stop = threading.Thread(target=channel.send_urgent, args=(STOP_FRAME, 5.0))
+        channel.offer_after(STOP_FRAME)
+        stop = threading.Thread(target=channel.finish, args=(5.0,))
         stop.start()
         received = bytearray()
         while not received.endswith(STOP_FRAME):

@@ -20,7 +20,7 @@ from pathlib import Path
 from queue import Queue
 
 from rapidgen.deploy import Access, connect, make_plan, parse_target
-from rapidgen.deploy.command_run import Job, apply_all, desired_set, plan_all
+from rapidgen.deploy.command_run import FleetJob, apply_all, desired_set, plan_all
 from rapidgen.servers import serve_ftp
 
 PASSWORD = "benchmark"
@@ -107,7 +107,7 @@ def figures() -> None:
 
         def deploy(chosen: list[str]) -> float:
             targets = tuple(parse_target(url) for url in chosen)
-            job = Job("deploy", targets, access, lambda _: desired, parallel=COUNT)
+            job = FleetJob("deploy", targets, access, lambda _: desired, parallel=COUNT)
             start = time.perf_counter()
             outcomes = apply_all(job, plan_all(job), lambda line: None)
             assert all(outcome.word == "done" for outcome in outcomes), outcomes

@@ -77,7 +77,7 @@ def recovered(bench):
     """
     last = bench.last_event
     bench.start_again()
-    bench.stays(3, "the program was started, and no client has asked for motion")
+    bench.assert_at_rest(3, "the program was started, and no client has asked for motion")
     events = " ".join(str(event) for event in bench.controller.log.since(last))
     running = bench.controller.task(bench.group.task).state == "running"
     if running and "PP to main" not in events and "from main" not in events:
@@ -85,7 +85,7 @@ def recovered(bench):
     for action in ("stop", "pp-to-main"):
         bench.controller.perform(action)
     bench.start_again()
-    bench.stays(3, "the program was started from main, and no client has asked for motion")
+    bench.assert_at_rest(3, "the program was started from main, and no client has asked for motion")
     return True
 
 

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 _LONGEST = 1e9
 """Largest --max-time, simulated seconds: 31 years."""
+_MOST_WARNINGS = 20
+"""Warnings of the event log that are printed, the most frequent ones."""
 _CALLERS = 10
 """Number of calls of an error's stack that are shown."""
 
@@ -132,6 +134,7 @@ def run(
         observed = Observed(controller, requested)
         controller.start_program()
         wrong = _run(controller, max_time, max_statements, cell)
+        sys.stderr.write(render(_event_warnings(controller)))
         sys.stderr.write(inference_report(controller.guessed))
         observed.write()
     if wrong:
@@ -216,6 +219,35 @@ def _run(
             )
         )
     return findings
+
+
+def _event_warnings(controller: "VirtualController") -> list[Diagnostic]:
+    """Return the warnings of the event log, each place once; handled errors are left out."""
+    from collections import Counter
+
+    from rapidgen.machine.event_log import EventType
+    from rapidgen.machine.event_table import ERROR_CODES, RAPID_ERROR
+
+    handled = {RAPID_ERROR, *ERROR_CODES.values()}
+    failed = {(e.code, e.task) for e in controller.log if e.type is EventType.ERROR}
+    counts = Counter(
+        (event.code, event.title, event.texts)
+        for event in controller.log
+        if event.type is EventType.WARNING
+        and event.code not in handled
+        and (event.code, event.task) not in failed
+    )
+    return [
+        error(
+            "RG409",
+            None,
+            f"event {code}: {title}" + (f" ({count} times)" if count > 1 else ""),
+            f"`rapidgen explain {code}` names causes and remedies",
+            notes=tuple(text for text in texts if text),
+            severity=Severity.WARNING,
+        )
+        for (code, title, texts), count in counts.most_common(_MOST_WARNINGS)
+    ]
 
 
 def _help(fault: "FatalError", cell: str) -> str:

@@ -62,3 +62,34 @@ def test_log_rejects_following_a_file_or_another_file(tmp_path, capsys, options)
     path.write_text(LOG if options else "text")
     assert main(["log", str(path), *options]) == 2
     assert ("RG901" if options else "RG724") in capsys.readouterr().err
+
+
+CORNERS = """MODULE corner
+  CONST robtarget p := [[364,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
+    FOR i FROM 1 TO 3 DO
+      MoveL Offs(p, 0, 20 * i, 0), v1000, z50, tool0;
+      WaitTime 1;
+    ENDFOR
+    handled;
+  ENDPROC
+  PROC handled()
+    VAR num zero;
+    zero := 1 / zero;
+  ERROR
+    TRYNEXT;
+  ENDPROC
+ENDMODULE
+"""
+
+
+def test_run_prints_each_warning_of_the_event_log_once(tmp_path, capsys):
+    path = tmp_path / "corner.mod"
+    path.write_text(CORNERS)
+    assert main(["run", str(path)]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert [line for line in lines if line.startswith("warning")] == [
+        "warning[RG409]: event 50024: Corner path failure (3 times)"
+    ]
+    assert any("corner/main/6" in line for line in lines)

@@ -7,6 +7,7 @@ must load, execute, unload and delete each.
 """
 
 import sys
+from math import degrees
 from pathlib import Path
 
 from rapidgen.config import load_config
@@ -43,7 +44,7 @@ def main(folder: Path) -> None:
             assert controller.run_until(lambda place=place: not place.exists(), timeout=30)
             task = controller.task("T_ROB1")
             assert "mgodel_blend" not in task.rapid.program.modules, task.fault
-            reached = controller.motion.group("rob1").joint_target()[0][0]
+            reached = degrees(controller.motion.group("rob1").positions()[0])
             assert abs(reached - angle) < 1e-3, reached
         assert printed == ["blended 20", "blended -15"]
     print("two modules dropped, loaded, executed, unloaded and deleted")

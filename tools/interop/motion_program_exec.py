@@ -13,6 +13,7 @@ import sys
 import tempfile
 from contextlib import redirect_stdout
 from io import StringIO
+from math import degrees
 from pathlib import Path
 from types import ModuleType
 from unittest.mock import MagicMock, patch
@@ -66,7 +67,7 @@ def example(folder: Path, name: str, robot: str) -> None:
         redirect_stdout(StringIO()),
     ):
         runpy.run_path(str(folder / "examples" / name))
-        ends = controller.call(controller.motion.group("rob1").joint_target)[0]
+        ends = [degrees(a) for a in controller.call(controller.motion.group("rob1").positions)]
     rows = results[0].data
     assert max(abs(a - b) for a, b in zip(rows[-1, 2:8], ends, strict=True)) < 0.01
     commands = sorted({int(row) for row in rows[:, 1]})
