@@ -69,7 +69,9 @@ class Switches:
     """Open without a mode: \\Write (S4 datasys 2-Open-1), or \\Read."""
 
     refused_connect: Literal["timeout", "unreachable", "closed"] = "timeout"
-    """The ERR_SOCK_ error of a connection that the partner rejects. No source."""
+    """What SocketConnect does if the partner rejects the connection: it repeats the request until
+    its time (60 s by default) is over and raises ERR_SOCK_TIMEOUT, as with a partner that is
+    switched off, or it raises another ERR_SOCK_ error at once. No source."""
 
     failed_connect: Literal["again", "create"] = "again"
     """After a failed SocketConnect the same socket may connect again, as a RETRY in public programs

@@ -16,6 +16,7 @@ from rapidgen.machine.network.interface import (
     NetworkReason,
 )
 from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
+from rapidgen.machine.scheduler import S
 from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
@@ -26,11 +27,12 @@ from rapidgen.runtime.values import Ref, Value, register_type
 DEFAULT_TIME = 60.0
 WAIT_MAX = 9_999_999
 """A \\Time of this or more waits for ever."""
+_REPEAT = 1.0
+"""Seconds until a rejected connection request is repeated, as TCP does without an answer."""
 
 register_type("socketdev", SocketDevice)
 
 _REFUSED = {
-    "timeout": "ERR_SOCK_TIMEOUT",
     "unreachable": "ERR_SOCK_NET_UNREACH",
     "closed": "ERR_SOCK_CLOSED",
 }
@@ -184,7 +186,8 @@ def socket_connect(
 ) -> None:
     """Connect to a server.
 
-    See `Switches.failed_connect` for the socket's state after a failure.
+    See `Switches.failed_connect` for the socket's state after a failure, and
+    `Switches.refused_connect` for a partner that rejects it.
     """
     _require(socket)
     if socket.status is SocketStatus.CONNECTED:
@@ -194,28 +197,51 @@ def socket_connect(
     network = task.controller.network
     again = task.controller.dialect.failed_connect == "again"
     _tell_awaited(task, None, port=_port(port))
+    seconds = _seconds(time)
+    end = None if seconds is None else task.scheduler.now + round(seconds * S)
     try:
-        endpoint = socket.endpoint = network.connect(address, _port(port))
-        there = task.wait_for(
-            # An attempt to send raises why there is no connection.
-            lambda: endpoint.connected or network.send(endpoint, b"") > 0,
-            on=(endpoint.changed,),
-            timeout=_seconds(time),
-            why=lambda: f"SocketConnect waits for {address}:{port:g}",
-        )
+        while not _connected(task, socket, address, port, end):
+            # The partner is not there yet. TCP repeats the request until it answers.
+            left = _REPEAT if end is None else min(_REPEAT, (end - task.scheduler.now) / S)
+            if left <= 0:
+                raise RapidError("ERR_SOCK_TIMEOUT")
+            task.wait_for(lambda: False, timeout=left, why=lambda: _connecting(address, port))
+        socket.status = SocketStatus.CONNECTED
+        task.controller.sockets.tell("open", socket)
     except NetworkFault as fault:
         if fault.reason is NetworkReason.REFUSED:
             raise RapidError(_REFUSED[task.controller.dialect.refused_connect]) from fault
         raise _error(fault) from fault
-    else:
-        if not there:
-            raise RapidError("ERR_SOCK_TIMEOUT")
-        socket.status = SocketStatus.CONNECTED
-        task.controller.sockets.tell("open", socket)
     finally:
         if again and socket.status is SocketStatus.CREATED and socket.endpoint is not None:
             network.close(socket.endpoint, abort=True)
             socket.endpoint = None
+
+
+def _connecting(address: str, port: float) -> str:
+    return f"SocketConnect waits for {address}:{port:g}"
+
+
+def _connected(
+    task: Task, socket: SocketDevice, address: str, port: float, end: int | None
+) -> bool:
+    """Connect once; return False if no connection exists and the program must wait."""
+    network = task.controller.network
+    endpoint = socket.endpoint = network.connect(address, _port(port))
+    try:
+        return task.wait_for(
+            # An attempt to send raises why there is no connection.
+            lambda: endpoint.connected or network.send(endpoint, b"") > 0,
+            on=(endpoint.changed,),
+            timeout=None if end is None else max(0.0, (end - task.scheduler.now) / S),
+            why=lambda: _connecting(address, port),
+        )
+    except NetworkFault as fault:
+        waits = task.controller.dialect.refused_connect == "timeout"
+        if fault.reason is not NetworkReason.REFUSED or not waits:
+            raise
+        network.close(endpoint, abort=True)
+        return False
 
 
 # -- data ---------------------------------------------------------------------------------------

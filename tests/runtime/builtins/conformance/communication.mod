@@ -563,6 +563,61 @@ MODULE sockets_time_limits
         SocketConnect own, "127.0.0.1", 5000;
     ENDPROC
 ENDMODULE
+!=== sockets_default_times
+MODULE sockets_default_times
+    ! source: 60 s without \Time of SocketConnect, SocketAccept and SocketReceive [manual, CSDN 37596743]; a time-out every 60 to 61 s in the log of an IRB 120 with 5.15
+    ! task: T_LATE late
+    ! until: 400
+    ! expect: connect: time-out after 60 s
+    ! expect: connect: time-out after 3 s
+    ! expect: accept: time-out after 60 s
+    ! expect: connected after 20 s
+    ! expect: receive: time-out after 60 s
+    VAR clock watch;
+    VAR string what;
+
+    PROC main()
+        VAR socketdev own;
+        VAR socketdev server;
+        VAR socketdev peer;
+        VAR string text;
+        SocketCreate own;
+        begin "connect";
+        SocketConnect own, "127.0.0.1", 5000;
+        begin "connect";
+        SocketConnect own, "127.0.0.1", 5000 \Time:=3;
+        SocketCreate server;
+        SocketBind server, "127.0.0.1", 5001;
+        SocketListen server;
+        begin "accept";
+        SocketAccept server, peer;
+        begin "connect";
+        SocketConnect own, "127.0.0.1", 5000;
+        TPWrite "connected after " + NumToStr(ClkRead(watch), 0) + " s";
+        begin "receive";
+        SocketReceive own \Str:=text;
+    ERROR
+        IF ERRNO = ERR_SOCK_TIMEOUT TPWrite what + ": time-out after " + NumToStr(ClkRead(watch), 0) + " s";
+        TRYNEXT;
+    ENDPROC
+
+    PROC begin(string name)
+        what := name;
+        ClkReset watch;
+        ClkStart watch;
+    ENDPROC
+
+    PROC late()
+        VAR socketdev listener;
+        VAR socketdev silent;
+        WaitTime 60 + 3 + 60 + 19.5;
+        SocketCreate listener;
+        SocketBind listener, "127.0.0.1", 5000;
+        SocketListen listener;
+        SocketAccept listener, silent;
+        WaitTime 1000;
+    ENDPROC
+ENDMODULE
 !=== sockets_refused
 MODULE sockets_refused
     ! source: which error, and whether the socket has to be created again [mem]; Keyence's CV-X modules RETRY [code]
@@ -601,13 +656,13 @@ MODULE sockets_refused
     PROC main()
         VAR socketdev socket;
         SocketCreate socket;
-        SocketConnect socket, "127.0.0.1", 5000;
-        SocketConnect socket, "127.0.0.1", 5000;
+        SocketConnect socket, "127.0.0.1", 5000 \Time:=0.1;
+        SocketConnect socket, "127.0.0.1", 5000 \Time:=0.1;
         SocketClose socket;
         SocketCreate socket;
         SocketConnect socket, "127.0.0.1", 70000;
         before := "created: ";
-        SocketConnect socket, "127.0.0.1", 5000;
+        SocketConnect socket, "127.0.0.1", 5000 \Time:=0.1;
         before := "";
         WaitTime 1;
         SocketConnect socket, "127.0.0.1", 5000;
