@@ -265,7 +265,7 @@ MODULE ROS_probe
         ENDIF
     ENDPROC
 
-    ! What does a search find: by a part of a name, and in modules without being told so?
+    ! What does a search find: by a part of a name, and in modules without an explicit module?
     LOCAL PROC ask_symbols()
         VAR datapos block;
         VAR string name;

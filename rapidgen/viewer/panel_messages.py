@@ -347,7 +347,7 @@ class ResetConnection(MessageModel):
 class InjectFault(MessageModel):
     """Make a connection slow, silent and so on from now on."""
 
-    do: Literal["afflict"] = "afflict"
+    do: Literal["inject-fault"] = "inject-fault"
     number: int
     ailment: Ailment
 
@@ -392,7 +392,7 @@ class UploadedTrajectory(MessageModel):
     """Places of `way` from a point to the next."""
     findings: tuple[TrajectoryFinding, ...] = ()
     state: Literal["refused", "checked", "running", "done", "failed"] = "checked"
-    told: str = ""
+    detail: str = ""
     """Reason of a failure."""
 
 

@@ -41,7 +41,7 @@ def cell(tmp_path_factory):
         sim.close()
 
 
-def told(capsys, *text, code=0):
+def run_command(capsys, *text, code=0):
     assert main(list(text)) == code
     return capsys.readouterr()
 
@@ -51,12 +51,12 @@ def positions(sim):
 
 
 def at_home(cell, capsys):
-    told(capsys, "move", cell[0], "--joints", HOME, "--to", "sim")
+    run_command(capsys, "move", cell[0], "--joints", HOME, "--to", "sim")
 
 
 def test_joints_are_typed_in_degrees(cell, capsys):
     path, sim = cell
-    displayed = told(capsys, "move", path, "--joints", "-10,5,0,0,30,0", "--to", "sim")
+    displayed = run_command(capsys, "move", path, "--joints", "-10,5,0,0,30,0", "--to", "sim")
     assert "at joint_1 -10.00 deg, joint_2 5.00 deg" in displayed.out
     wanted = [math.radians(angle) for angle in (-10, 5, 0, 0, 30, 0)]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
@@ -68,15 +68,17 @@ def test_joints_are_typed_in_degrees(cell, capsys):
 def test_some_by_name_and_in_radians(cell, capsys):
     path, sim = cell
     at_home(cell, capsys)
-    told(capsys, "move", path, "--joints", "joint_6=0.2,joint_2=-0.1", "--rad", "--to", "sim")
+    run_command(
+        capsys, "move", path, "--joints", "joint_6=0.2,joint_2=-0.1", "--rad", "--to", "sim"
+    )
     wanted = [0, -0.1, 0, 0, math.radians(30), 0.2]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
 
 
 def test_a_robot_that_stands_at_its_limit_is_moved_on(cell, capsys):
     """float32, as the wire tells it, of 120 deg is more than 120 deg."""
-    told(capsys, "move", cell[0], "--joints", "0,0,0,0,120,0", "--to", "sim")
-    told(capsys, "move", cell[0], "--joints", "joint_1=10", "--to", "sim")
+    run_command(capsys, "move", cell[0], "--joints", "0,0,0,0,120,0", "--to", "sim")
+    run_command(capsys, "move", cell[0], "--joints", "joint_1=10", "--to", "sim")
     assert positions(cell[1])[0] == pytest.approx(math.radians(10), abs=1e-5)
 
 
@@ -91,20 +93,20 @@ def test_rounding_at_limit_of_coupled_axis_is_accepted():
 
 def test_move_to_printed_pose_reaches_it(cell, capsys):
     path, sim = cell
-    told(capsys, "move", path, "--joints", "10,10,0,0,30,5", "--to", "sim")
+    run_command(capsys, "move", path, "--joints", "10,10,0,0,30,5", "--to", "sim")
     before = positions(sim)
-    line = told(capsys, "pose", path, "--to", "sim").out.splitlines()[0]
+    line = run_command(capsys, "pose", path, "--to", "sim").out.splitlines()[0]
     at_home(cell, capsys)
-    told(capsys, "move", path, "--pose", line.split()[1], "--to", "sim")
+    run_command(capsys, "move", path, "--pose", line.split()[1], "--to", "sim")
     assert positions(sim) == pytest.approx(before, abs=1e-4)
     x, y, z = (float(value) for value in line.split()[1].split(",")[:3])
-    told(capsys, "move", path, "--pose", f"{x},{y},{z - 50}", "--to", "sim")
-    result = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
+    run_command(capsys, "move", path, "--pose", f"{x},{y},{z - 50}", "--to", "sim")
+    result = json.loads(run_command(capsys, "pose", path, "--to", "sim", "--json").out)
     assert result["position"] == pytest.approx([x / 1000, y / 1000, (z - 50) / 1000], abs=1e-4)
 
 
 def test_a_pose_of_joints_asks_no_robot(capsys):
-    displayed = told(capsys, "pose", "irb120", "--joints", HOME)
+    displayed = run_command(capsys, "pose", "irb120", "--joints", HOME)
     assert displayed.out.splitlines() == [
         "pose    364.35,0.00,594.00,0.50000,0.00000,0.86603,0.00000  (mm, quaternion)",
         "joints  0.00,0.00,0.00,0.00,30.00,0.00  (deg, mm)",
@@ -115,10 +117,10 @@ def test_a_dry_run_draws_and_sends_nothing(cell, capsys, tmp_path):
     path, sim = cell
     before = positions(sim)
     text = ["move", path, "--joints", "20,20,20,20,20,20", "--to", "sim", "--dry-run"]
-    displayed = told(capsys, *text, "--plot", str(tmp_path / "p.png"))
+    displayed = run_command(capsys, *text, "--plot", str(tmp_path / "p.png"))
     assert displayed.out == "dry run: 2 points checked, nothing sent\n"
     assert [result.name for result in tmp_path.iterdir()] == ["p.png"]
-    assert json.loads(told(capsys, *text, "--json").out)["dry_run"] is True
+    assert json.loads(run_command(capsys, *text, "--json").out)["dry_run"] is True
     assert positions(sim) == before
 
 
@@ -126,7 +128,7 @@ def test_executed_motion_is_plotted_and_recorded_in_radians(cell, capsys, tmp_pa
     path, _ = cell
     at_home(cell, capsys)
     files = ["--plot", str(tmp_path / "p"), "--record", str(tmp_path / "r.csv")]
-    told(capsys, "move", path, "--joints", "joint_1=10", "--to", "sim", *files)
+    run_command(capsys, "move", path, "--joints", "joint_1=10", "--to", "sim", *files)
     recorded = Trajectory.from_csv(tmp_path / "r.csv")
     assert recorded.positions[-1][0] == pytest.approx(math.radians(10), abs=1e-5)
     assert (tmp_path / "p.png").read_bytes().startswith(b"\x89PNG")
@@ -142,7 +144,7 @@ def patient(monkeypatch):
 def test_jog(cell, capsys):
     path, sim = cell
     at_home(cell, capsys)
-    told(capsys, "jog", path, "joint_1=5", "joint_3=-2", "--speed", "200", "--to", "sim")
+    run_command(capsys, "jog", path, "joint_1=5", "joint_3=-2", "--speed", "200", "--to", "sim")
     wanted = [math.radians(angle) for angle in (5, 0, -2, 0, 30, 0)]
     assert positions(sim) == pytest.approx(wanted, abs=1e-5)
 
@@ -151,9 +153,9 @@ def test_jog(cell, capsys):
 def test_jog_of_the_tool(cell, capsys):
     path, _ = cell
     at_home(cell, capsys)
-    before = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
-    told(capsys, "jog", path, "z=20", "x=-5", "--speed", "200", "--to", "sim")
-    after = json.loads(told(capsys, "pose", path, "--to", "sim", "--json").out)
+    before = json.loads(run_command(capsys, "pose", path, "--to", "sim", "--json").out)
+    run_command(capsys, "jog", path, "z=20", "x=-5", "--speed", "200", "--to", "sim")
+    after = json.loads(run_command(capsys, "pose", path, "--to", "sim", "--json").out)
     moved = [b - a for a, b in zip(before["position"], after["position"], strict=True)]
     assert moved == pytest.approx([-0.005, 0, 0.02], abs=1e-4)
     assert after["orientation"] == pytest.approx(before["orientation"], abs=1e-4)
@@ -161,16 +163,16 @@ def test_jog_of_the_tool(cell, capsys):
 
 def test_signals_of_a_driver_are_read_and_set(cell, capsys):
     path, _ = cell
-    assert told(capsys, "io", path, "gripper", "1", "--to", "sim").out == "gripper  DO  1\n"
-    result = json.loads(told(capsys, "io", path, "--to", "sim", "--json").out)
+    assert run_command(capsys, "io", path, "gripper", "1", "--to", "sim").out == "gripper  DO  1\n"
+    result = json.loads(run_command(capsys, "io", path, "--to", "sim", "--json").out)
     assert [(s["name"], s["value"]) for s in result] == [
         ("gripper", 1.0),
         ("part", 0.0),
         ("count", 0.0),
     ]
-    displayed = told(capsys, "io", path, "count", "1234567", "--to", "sim")
+    displayed = run_command(capsys, "io", path, "count", "1234567", "--to", "sim")
     assert displayed.out == "count  GO  1234567\n"
-    displayed = told(capsys, "io", "irb120", "--to", "127.0.0.1:1,1,1")
+    displayed = run_command(capsys, "io", "irb120", "--to", "127.0.0.1:1,1,1")
     assert displayed.out == ""
     assert "irb120 has no signals" in displayed.err
 
@@ -226,7 +228,7 @@ def test_usage_error(cell, capsys, text, code, message):
     path, sim = cell
     before = positions(sim)
     verb, *remaining = text
-    displayed = told(capsys, verb, path, *remaining, "--to", "sim", code=code)
+    displayed = run_command(capsys, verb, path, *remaining, "--to", "sim", code=code)
     assert message in " ".join(displayed.err.split())
     assert "Traceback" not in displayed.err
     assert positions(sim) == before
@@ -246,7 +248,7 @@ def test_usage_error(cell, capsys, text, code, message):
 )
 def test_wrong_target_is_reported_before_connecting(capsys, text, message):
     verb, *remaining = text
-    displayed = told(capsys, verb, "irb120", *remaining, "--to", "127.0.0.1:1,1,1", code=2)
+    displayed = run_command(capsys, verb, "irb120", *remaining, "--to", "127.0.0.1:1,1,1", code=2)
     assert message in " ".join(displayed.err.split())
 
 
@@ -271,8 +273,8 @@ def test_interrupted_move_stops_and_prints_position(cell, capsys, ignored, numbe
     _, displayed = process.communicate(timeout=60)
     assert process.returncode == 130
     degrees = math.degrees(positions(sim)[0])
-    told = re.search(r"Ctrl-C: stopped at joint_1 (\S+) deg", displayed)
-    assert told, displayed
+    match = re.search(r"Ctrl-C: stopped at joint_1 (\S+) deg", displayed)
+    assert match, displayed
     # Two decimals, and a state is a message old.
-    assert float(told[1]) == pytest.approx(degrees, abs=0.05)
+    assert float(match[1]) == pytest.approx(degrees, abs=0.05)
     assert degrees < 90

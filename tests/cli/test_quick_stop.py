@@ -197,7 +197,7 @@ def test_no_group_waits_for_the_answer_of_another(monkeypatch):
     servers = [socket.create_server(("127.0.0.1", 0)) for _ in range(2)]
     places = [("127.0.0.1", server.getsockname()[1]) for server in servers]
     monkeypatch.setattr(send_stop, "addresses", lambda _: places)
-    # Nobody answers; what was sent waits in the backlogs.
+    # No server answers; what was sent waits in the backlogs.
     send_stop.send([])
     for server in servers:
         server.settimeout(60)

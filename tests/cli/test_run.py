@@ -138,7 +138,7 @@ def test_usage(capsys, program: Path) -> None:
     assert run(capsys)[0] == 2
     assert run(capsys, program, "--task", "nonsense")[0] == 2
     assert run(capsys, program, "--assume", "for_loop=sideways")[0] == 2
-    assert run(capsys, program, "--entry", "nobody")[0] == 2
+    assert run(capsys, program, "--entry", "missing")[0] == 2
     assert run(capsys, program.parent / "missing.mod")[0] == 2
 
 
@@ -195,7 +195,7 @@ def test_unloadable_program_is_rejected_with_all_errors(tmp_path, capsys) -> Non
     path = tmp_path / "a.mod"
     path.write_text(
         'MODULE a\nPROC main()\n TPWrite "x";\nENDPROC\n'
-        'PROC never()\n VAR num n;\n n := "text";\n nobody;\nENDPROC\nENDMODULE\n'
+        'PROC never()\n VAR num n;\n n := "text";\n missing;\nENDPROC\nENDMODULE\n'
     )
     assert main(["run", str(path)]) == 2
     out, err = capsys.readouterr()

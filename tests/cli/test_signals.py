@@ -98,10 +98,10 @@ def test_sim_ends_by_a_signal_during_a_restart(runner):
 def test_sim_ends_by_a_signal_that_another_thread_gets(runner, monkeypatch):
     other = threading.Timer(0.05, come)
 
-    def told(text, **_):
+    def echo(text, **_):
         if str(text).startswith("ready"):
             other.start()
 
-    monkeypatch.setattr(sim.typer, "echo", told)
+    monkeypatch.setattr(sim.typer, "echo", echo)
     assert runner.serve() == 0
     other.join()

@@ -265,7 +265,7 @@ def test_port_in_use_is_reported_before_boot():
 
 @pytest.mark.parametrize("role", ["motion", "control", "state"])
 def test_each_port_is_looked_at(role, capsys):
-    # (A simulator of somebody else's may run on the configuration's own ones.)
+    # (Another user's simulator may run on the configuration's own ones.)
     ports = {name: free_port() for name in ("motion", "control", "state")}
     with socket.socket() as other:
         other.bind(("127.0.0.1", 0))

@@ -1,4 +1,4 @@
-"""`sim --record`: one file a run of the controller; what is asked wrongly is told."""
+"""`sim --record`: one file for each run of the controller; wrong options are rejected."""
 
 import signal
 import subprocess
@@ -38,7 +38,7 @@ def test_a_restart_begins_another_file(runner, look, tmp_path):
             assert file.at(0.5).watch["T_ROB1", "ERRNO"].text == "0"
 
 
-@pytest.mark.parametrize("watch", ["ERRNO", "nobody:ERRNO", "T_ROB1:"])
+@pytest.mark.parametrize("watch", ["ERRNO", "T_NONE:ERRNO", "T_ROB1:"])
 def test_a_watch_names_a_task_and_an_expression(runner, look, tmp_path, watch):
     with (
         pytest.raises(typer.BadParameter, match="T_ROB1, T_ROS_RECV"),

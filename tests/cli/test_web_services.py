@@ -32,7 +32,7 @@ def host(request, tmp_path, monkeypatch):
         where = f"rws://{service.host}:{service.port}"
         first = ["status", where]
         if service.host_key:
-            assert main(first) == 1  # a certificate that nobody has agreed to
+            assert main(first) == 1  # a certificate that was not accepted
             first += ["--fingerprint", service.host_key]
         assert main(first) == 0
         yield where
@@ -49,7 +49,7 @@ def test_a_controller_is_shown_started_and_halted(host, capsys):
     assert main(["status", host, "--json"]) == 0
     text = json.loads(said(capsys))
     assert (text["state"], text["mode"], text["running"]) == ("motoron", "AUTO", False)
-    assert main(["start-program", host]) == 2  # nobody is there to answer
+    assert main(["start-program", host]) == 2  # no terminal to answer the question
     assert main(["start-program", host, "--yes", "--main"]) == 0
     assert f"{host}: program started" in said(capsys)
     assert main(["stop-program", host, "--motors-off"]) == 0

@@ -55,12 +55,7 @@ EXCEPTIONS = {
     },
     "tests/verification/test_variants.py": {"strangers": CASE},
 }
-NOT_YET: tuple[str, ...] = (
-    "rapidgen/motion/",
-    "rapidgen/viewer/",
-    "templates/",
-    "tests/cli/",
-)
+NOT_YET: tuple[str, ...] = ("rapidgen/motion/",)
 
 
 def _pattern():

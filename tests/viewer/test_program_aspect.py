@@ -110,7 +110,7 @@ def test_a_breakpoint_of_which_something_else_is_wanted_stays_the_same_one(viewe
         ("run-to", {"task": "T_ROB1", "module": "work", "line": 900}, "no statement begins"),
         ("look", {"task": "absent"}, "there is no task absent"),
         ("look", {"task": "T_ROB1", "level": -7}, "not understood"),
-        ("source", {"number": 99}, "not loaded"),
+        ("source", {"number": 99}, "no longer loaded"),
         ("origin", {"number": 0}, "no template made it"),
         ("origin", {"number": 99}, "no template made it"),
         ("pace", {"value": 0.09}, "not understood"),

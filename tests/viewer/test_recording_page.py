@@ -110,7 +110,7 @@ def test_it_plays_and_refuses_to_command(page):
     page.get_by_role("button", name="Stop").click()
     page.get_by_role("button", name="Play").wait_for()
     refused = page.evaluate("rapidgen.link.ask({do: 'act', action: 'start'}).catch(e => e.message)")
-    assert "not commanded" in refused
+    assert "accepts no such request" in refused
     assert not page.get_by_role("button", name="Step in").is_visible()
 
 

@@ -271,7 +271,7 @@ def test_requests_are_answered_by_number_and_nonsense_is_refused(page):
     replies = [m for m in got if m["type"] == "reply"]
     assert replies[0] == {"type": "reply", "id": 1, "error": "", "text": "done"}
     assert replies[2]["id"] == 3
-    assert "not commanded" in replies[2]["error"]
+    assert "accepts no such request" in replies[2]["error"]
     assert all(reply["error"] for reply in replies[1:])
     assert [requested.action for requested in watched.asked] == ["start"]
 
@@ -336,7 +336,7 @@ def test_unbuilt_page_is_reported(tmp_path, monkeypatch):
 
 def test_a_weak_token_is_refused(page, monkeypatch):
     monkeypatch.setenv("RAPIDGEN_VIEW_TOKEN", "secret")
-    with pytest.raises(DiagnosticError, match="no token"):
+    with pytest.raises(DiagnosticError, match="not a token"):
         serve_page(Watched())
 
 

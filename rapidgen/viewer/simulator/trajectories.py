@@ -127,7 +127,7 @@ class TrajectoryProvider:
         numbers = (ports.motion, ports.state, ports.control)
         known = [str(listeners[port][1]) for port in numbers if port in listeners]
         address = f"{listeners[ports.motion][0]}:{','.join(known)}"
-        self._shown = self._shown.model_copy(update={"state": "running", "told": ""})
+        self._shown = self._shown.model_copy(update={"state": "running", "detail": ""})
         trajectory = Trajectory(checked.trajectory.times, checked.trajectory.positions)
         threading.Thread(target=self._execute, args=(address, trajectory), daemon=True).start()
         return ""
@@ -146,7 +146,7 @@ class TrajectoryProvider:
 
         def end() -> None:
             state = "failed" if text else "done"
-            self._shown = self._shown.model_copy(update={"state": state, "told": text})
+            self._shown = self._shown.model_copy(update={"state": state, "detail": text})
 
         self._runner.post(end)
 

@@ -113,7 +113,7 @@ export interface FrameValues {
 
 /** Make a connection slow, silent and so on from now on. */
 export interface InjectFault {
-  readonly do: "afflict";
+  readonly do: "inject-fault";
   readonly number: number;
   readonly ailment: "well" | "delay" | "split" | "slow" | "silent" | "half-open";
 }
@@ -546,7 +546,7 @@ export interface UploadedTrajectory {
   readonly steps: number;
   readonly findings: readonly TrajectoryFinding[];
   readonly state: "refused" | "checked" | "running" | "done" | "failed";
-  readonly told: string;
+  readonly detail: string;
 }
 
 export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | FrameValues | LoadedPrograms | Log | PageReply | PanelState | Playback | Pointers | Positions | Scene | Screen | SignalValues | Targets | UploadedTrajectory;

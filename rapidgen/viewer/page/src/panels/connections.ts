@@ -31,7 +31,7 @@ export const connectionsPanel: MakePanel = (view) => {
 
 function row(socket: ShownSocket, view: View): Row<ShownSocket> {
   const ill: HTMLSelectElement = h("select", { "aria-label": `How ${socket.peer} fares`, onchange: () =>
-    void fares.ask({ do: "afflict", number: socket.number, ailment: ill.value as InjectFault["ailment"] }) },
+    void fares.ask({ do: "inject-fault", number: socket.number, ailment: ill.value as InjectFault["ailment"] }) },
     ...AILMENTS.map(([value, text]) => h("option", { value }, text)));
   const fares = new RequestState<InjectFault["ailment"]>(view, (ailment) => { ill.value = ailment; });
   const element = h("tr", {},

@@ -45,7 +45,7 @@ export const trajectoryPanel: MakePanel = ({ link, stage, order, notice }) => {
     say(about, `${now.file}: ${now.points} points in ${now.seconds.toFixed(2)} s` +
       (now.pace.length ? `, TCP up to ${(fastest * 1000).toFixed(0)} mm/s` : ""));
     about.hidden = now.points === 0;
-    say(state, now.told ? `${STATES[now.state]} ${now.told}` : STATES[now.state]);
+    say(state, now.detail ? `${STATES[now.state]} ${now.detail}` : STATES[now.state]);
     run.disabled = now.state === "refused" || now.state === "running";
     findings.replaceChildren(...now.findings.map(row));
     const marks = now.findings.flatMap((found) => (found.point === null ? [] : [found.point * now.steps]));
