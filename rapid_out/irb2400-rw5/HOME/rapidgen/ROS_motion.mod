@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "ff9cb81b09b1";
+    CONST string ROS_BUILD_MOTION := "4e76b519cc36";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [1000,500,1000,1000];

@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "d34f9e0a1f3c";
+    CONST string ROS_BUILD_SUPERVISOR := "71d91e8cff1a";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;
