@@ -28,11 +28,11 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, as_data, error, re
 COMMANDS = {
     "robots": ("configuration", "List the shipped robot models."),
     "new": ("configuration", "Write a commented configuration that checks and builds."),
-    "check": ("source_files", "Check configurations and RAPID files."),
+    "check": ("check", "Check configurations and RAPID files."),
     "explain": ("configuration", "Explain a diagnostic code or an event number."),
     "schema": ("configuration", "Print the JSON schema of the configuration file."),
     "build": ("generation", "Generate the driver for one controller."),
-    "fmt": ("source_files", "Format RAPID source files."),
+    "fmt": ("fmt", "Format RAPID source files."),
     "run": ("run", "Run RAPID on the virtual clock."),
     "sim": ("sim", "Run a virtual controller in real time."),
     "test": ("verification", "Test the generated driver on the virtual controller."),

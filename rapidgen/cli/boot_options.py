@@ -2,18 +2,23 @@
 
 import sys
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rapidgen.cli.project import project_robots
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import DiagnosticError, Severity, refusal, render, suggest
+from rapidgen.system.project import find_project
 
 if TYPE_CHECKING:
     from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.cell_setup import InferenceLog
     from rapidgen.controller.inference.answers import Answer
     from rapidgen.controller.inference.cell import UndeclaredName
+    from rapidgen.system.project import Project
+
+_UNKNOWN_NAMES = frozenset(("RG301", "RG302", "RG303"))
 
 
 def load_boot_target(
@@ -39,8 +44,19 @@ def load_boot_target(
         help = suggest(cell, [INFER]) or f"use the file of a cell description, or `{INFER}`"
         raise refusal("RG001", None, f"cannot read {cell}: No such file or directory", help)
 
+    by_task: Mapping[str, Sequence[Path | str]] = _tasks(tasks or ())
+    files = [*targets, *(file for files in by_task.values() for file in files)]
+    project = find_project(Path(files[0]) if files else Path())
+    if project is not None:
+        if not files:
+            by_task = project.sources
+        if not _describes_itself(targets):
+            if project.robot and not robot:
+                project_robots(project)
+                robot = project.robot
+            robotware = robotware or project.robotware
     options = BootOptions(
-        _tasks(tasks or ()),
+        by_task,
         robot=robot,
         robotware=_release(robotware),
         entry=entry,
@@ -50,8 +66,9 @@ def load_boot_target(
         overrides=tuple(overrides or ()),
     )
     result = load_target(targets, options)
-    if result.notes:
-        sys.stderr.write(render(result.notes, colour=use_colour()))
+    notes = [d for d in result.notes if project is None or project.is_reported(d)]
+    if notes:
+        sys.stderr.write(render(notes, colour=use_colour()))
     if result.likely is not None:
         robot_model = result.likely
         reach = f"reaches {robot_model.reached} of {robot_model.targets} targets of the program"
@@ -60,8 +77,19 @@ def load_boot_target(
         sys.stderr.write(_table("inferred", result.guessed.named))
         sys.stderr.write(_table("undeclared, and not inferred", result.guessed.unknown))
     if check:
-        _reject_unloadable(result)
+        _reject_unloadable(result, project)
     return result
+
+
+def _describes_itself(targets: Sequence[str]) -> bool:
+    """Return True if a target has its own robot and release: all except loose files."""
+    from rapidgen.controller.boot_targets import is_configuration
+    from rapidgen.system import is_backup, is_generated
+
+    only = Path(targets[0]) if len(targets) == 1 else None
+    return only is not None and (
+        is_configuration(only) or (only.is_dir() and (is_generated(only) or is_backup(only)))
+    )
 
 
 def _release(text: str) -> tuple[int, int] | None:
@@ -135,10 +163,19 @@ def _counted(title: str, between: str, message: "Iterable[Answer]") -> str:
     return f"{title}: {', '.join(texts)}\n" if texts else ""
 
 
-def _reject_unloadable(result: "Bootable") -> None:
-    """Raise the errors of the load check; undeclared names are reported at run time."""
+def _reject_unloadable(result: "Bootable", project: "Project | None") -> None:
+    """Raise the errors of the load check.
+
+    Undeclared names are reported at run time, unless the project is strict.
+    """
     from rapidgen.rapid import check
 
-    errors = [d for d in check(result.system, gaps=True) if d.severity is Severity.ERROR]
+    strict = project is not None and project.strict and not result.driver
+    configured = bool(result.system.signals)
+    found = check(result.system, gaps=True, strict=strict, configured=configured)
+    errors = [d for d in found if d.severity is Severity.ERROR]
+    if project is not None:
+        # What no controller loads cannot be ignored.
+        errors = [d for d in errors if d.code not in _UNKNOWN_NAMES or project.is_reported(d)]
     if errors:
         raise DiagnosticError(errors)

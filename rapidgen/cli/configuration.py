@@ -228,13 +228,19 @@ def schema(
     cell: Annotated[
         bool, typer.Option("--cell", help="Schema of a cell description (`run --cell FILE`).")
     ] = False,
+    project: Annotated[
+        bool, typer.Option("--project", help="Schema of the project file, rapidgen.toml.")
+    ] = False,
 ) -> None:
     """Print the JSON schema of the configuration file."""
     import json
 
     from rapidgen.config.schema_reference import cell_schema, json_schema
+    from rapidgen.system.project import project_schema
 
-    made = cell_schema() if cell else json_schema()
+    if cell and project:
+        raise typer.BadParameter("use either --cell or --project")
+    made = cell_schema() if cell else project_schema() if project else json_schema()
     typer.echo(json.dumps(made, indent=2, ensure_ascii=False))
 
 

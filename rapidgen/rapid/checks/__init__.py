@@ -45,12 +45,16 @@ def check(
     gaps: bool = False,
     elsewhere: Collection[str] = frozenset(),
     payloads: Mapping[str, Payload] = MappingProxyType({}),
+    strict: bool = False,
+    configured: bool = True,
 ) -> list[Diagnostic]:
     """Return all errors of a text, a module, related modules, or a system.
 
     Other modules may declare what the given ones do not; `elsewhere` are lower-case names of
     further given modules. A system declares everything, unless `gaps` names a missing source of
-    names. A system's own RobotWare applies unless `dialect` is given. `payloads` are those of the
+    names. `strict`: an unknown name is an error wherever it may be declared; objects of the
+    configuration (signals, tasks) only in a system that is `configured`, which has its cfg files.
+    A system's own RobotWare applies unless `dialect` is given. `payloads` are those of the
     robots by the lower-case name of the task that moves them; modules without a task use an empty
     name. Errors of the parser are included. The result is sorted by place.
     """
@@ -60,14 +64,24 @@ def check(
             dialect or Dialect(given.robotware, some=not given.is_robotware_known),
             gaps,
             payloads,
+            strict=strict,
+            configured=configured,
         )
     dialect = dialect or Dialect()
     if isinstance(given, str | bytes):
         given = parse(given, path=path, dialect=dialect)
     if isinstance(given, Module):
         given = [given]
-    extent = CheckContext(dialect, elsewhere=elsewhere, payload=payloads.get(""))
-    return _check_modules(list(given), extent)
+    modules = list(given)
+    extent = CheckContext(
+        dialect,
+        gaps=_any_unreadable(modules),
+        configured=False,
+        strict=strict,
+        elsewhere=elsewhere,
+        payload=payloads.get(""),
+    )
+    return _check_modules(modules, extent)
 
 
 def _check_modules(modules: Sequence[Module], given: CheckContext) -> list[Diagnostic]:
@@ -124,13 +138,19 @@ def _clash(findings: Findings, first: Symbol, second: Symbol, where: str, entry:
 
 
 def _check_system(
-    system: System, dialect: Dialect, gaps: bool, payloads: Mapping[str, Payload]
+    system: System,
+    dialect: Dialect,
+    gaps: bool,
+    payloads: Mapping[str, Payload],
+    *,
+    strict: bool,
+    configured: bool,
 ) -> list[Diagnostic]:
-    configured = installed_objects(_installed(system))
+    objects = installed_objects(_installed(system))
     parsed: dict[tuple[str, int], Module] = {}
     findings: list[Diagnostic] = []
     for spec in system.tasks:
-        task = TaskScope(configured)
+        task = TaskScope(objects)
         scopes = []
         for file in spec.modules:
             key = (file.path, len(file.data))
@@ -142,7 +162,9 @@ def _check_system(
         given = CheckContext(
             dialect,
             True,
-            gaps or _loads(modules) or _any_unreadable(modules),
+            _any_unreadable(modules) or (not strict and (gaps or _loads(modules))),
+            configured=configured,
+            strict=strict,
             payload=payloads.get(spec.name.lower()),
         )
         for scope in scopes:

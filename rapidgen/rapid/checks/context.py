@@ -28,6 +28,10 @@ class CheckContext:
     elsewhere, and hide what is predefined."""
     gaps: bool = False
     """Parts of the task are not there to be read."""
+    configured: bool = True
+    """The configuration of the controller is given: it declares all signals and tasks."""
+    strict: bool = False
+    """The input is to declare all names, whatever else may declare them."""
     elsewhere: Collection[str] = ()
     """Lower-case names that modules of other tasks declare: neither known nor unknown."""
     payload: Payload | None = None
@@ -36,7 +40,7 @@ class CheckContext:
     @property
     def is_complete(self) -> bool:
         """True if the input declares all names: an unknown one is an error."""
-        return self.system and not self.gaps
+        return (self.system or self.strict) and not self.gaps
 
 
 def closest(keyword: str, known: Iterable[str]) -> str:

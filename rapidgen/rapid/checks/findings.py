@@ -41,6 +41,8 @@ HARDWARE: Final = frozenset(
     ("signaldi", "signaldo", "signalgi", "signalgo", "signalai", "signalao", "mecunit", "taskid")
 )
 """Types whose objects the configuration installs."""
+_OF_SIGNALS: Final = frozenset((None, "num", "dnum", "number", "anytype"))
+"""Expected types of an expression in which a signal may stand."""
 _LISTED: Final = 8
 """Unknown names that a note shows."""
 
@@ -146,14 +148,35 @@ class Findings:
         self._unknown.add(key)
         likely = closest(name, self._candidates(kinds, expected))
         help = f"did you mean '{likely}'?" if likely else ""
-        if self.given.is_complete and expected != "mecunit":
-            self.report(code, f"there is no {role} '{name}'", node, label="not declared", help=help)
+        if self.given.is_complete and self._is_declared_by_programs(expected):
+            self.report(
+                code,
+                f"there is no {role} '{name}'",
+                node,
+                label="not declared",
+                help=help or self._strict_help(role, expected),
+            )
         elif likely and expected not in HARDWARE:
             self.warn(code, f"no {role} '{name}' is declared here or built in", node, help=help)
         else:
             known = role if role in ("function", "trap") else expected
             is_reported = f"{name} ({known})" if known not in (None, "anytype") else name
             self._elsewhere.setdefault(code, []).append((is_reported, node))
+
+    def _is_declared_by_programs(self, expected: str | None) -> bool:
+        """Return True if the given input declares objects of a type, if anything does.
+
+        Only MOC.cfg declares mechanical units, which the checker does not read.
+        """
+        return expected != "mecunit" and (self.given.configured or expected not in HARDWARE)
+
+    def _strict_help(self, role: str, expected: str | None) -> str:
+        """Return where to declare a name that only a strict check requires."""
+        if not self.given.strict:
+            return ""
+        if role == "datum" and not self.given.configured and expected in _OF_SIGNALS:
+            return "declare it; for a signal, load its EIO.cfg (`cfg` in rapidgen.toml)"
+        return "declare it, or add the module that does"
 
     def note_other_scopes(self) -> None:
         """Add notes of names that other modules or the system may declare."""

@@ -240,7 +240,8 @@ class TypeChecker:
     @property
     def _may_be_hidden(self) -> bool:
         """True if an unknown object, such as a signal, may hide a predefined one."""
-        return not self.findings.given.is_complete
+        given = self.findings.given
+        return not (given.is_complete and given.configured)
 
     def _indexed(self, node: Index) -> str | None:
         for index in node.indices:

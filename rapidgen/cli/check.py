@@ -1,10 +1,13 @@
-"""The commands `check` and `fmt`: configurations and RAPID sources."""
+"""The command `check`: findings in configurations and RAPID sources."""
 
+import os
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli.project import project_folders, project_robots
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import (
     Diagnostic,
@@ -16,9 +19,10 @@ from rapidgen.diagnostics import (
     refusal,
     render,
 )
+from rapidgen.system.project import find_project
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from rapidgen.config.model import GroupConfig, RobotConfig
     from rapidgen.generate.existing_controller import Cell
@@ -26,20 +30,32 @@ if TYPE_CHECKING:
     from rapidgen.rapid.checks import Payload
     from rapidgen.rapid.syntax.nodes import Declaration, Module
     from rapidgen.system import System
+    from rapidgen.system.project import Project
 
 
 _CONFIG_SUFFIXES = (".yaml", ".yml")
 _TASK_FOLDERS = ("PROGMOD", "SYSMOD")
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Settings:
+    """Settings of a check: those of the command line, else of the project file."""
+
+    dialect: "Dialect | None"
+    payload: "Payload"
+    strict: bool
+    project: "Project | None"
+
+
 def check(
     paths: Annotated[
-        list[str],
+        list[str] | None,
         typer.Argument(
-            help="Configurations, shipped names, RAPID files, folders or backups.",
+            help="Configurations, shipped names, RAPID files, folders or backups; default: those "
+            "of the project file.",
             metavar="PATH",
         ),
-    ],
+    ] = None,
     robotware: Annotated[
         str | None,
         typer.Option(help="RobotWare version, such as 6.15; default: 6.", metavar="VERSION"),
@@ -54,39 +70,55 @@ def check(
     robot: Annotated[
         str, typer.Option(help="Robot of the RAPID files, for its maximum payload.", metavar="NAME")
     ] = "",
+    strict: Annotated[
+        bool | None,
+        typer.Option(
+            "--strict/--no-strict",
+            help="Report each undeclared name as an error.",
+            show_default=False,
+        ),
+    ] = None,
     format: Annotated[Format, typer.Option(help="Format of the findings.")] = Format.FULL,
     as_json: Annotated[bool, typer.Option("--json", help="Same as --format json.")] = False,
 ) -> int:
     """Check configurations and RAPID files.
 
     A single file may use names of other modules; a backup may not. With --backup, configurations
-    and generated folders are checked for that controller. Reads only.
+    and generated folders are checked for that controller. Defaults are in the project file,
+    rapidgen.toml. Reads only.
     """
     format = Format.JSON if as_json else format
-    dialect = _dialect(robotware)
-    payload = _payload(robot)
     cell = _cell(backup)
     findings: list[Diagnostic] = []
-    modules: list[Path] = []
-    for name in paths:
+    modules: dict[_Settings, list[Path]] = {}
+    known: dict[Path | None, _Settings] = {}
+    for name in paths or _paths_of_project():
         path = Path(name)
         is_name = not path.exists() and not path.suffix and len(path.parts) == 1
+        project = find_project(path)
+        key = project.path if project is not None else None
+        if key not in known:
+            known[key] = _settings(project, robotware, robot, strict)
+        settings = known[key]
+        found: list[Diagnostic] = []
         try:
             if is_name or path.suffix.lower() in _CONFIG_SUFFIXES:
-                findings += _configuration(name, cell)
+                found += _configuration(name, cell)
             elif path.is_dir():
-                findings += _folder(path, dialect, backup, payload)
+                found += _folder(path, backup, settings)
             elif not path.exists():
                 raise _nothing_to_check(name)
             elif path.suffix.lower() == ".cfg":
                 _cfg(path)
             else:
-                modules += _modules(path)
+                modules.setdefault(settings, []).extend(_modules(path))
         except DiagnosticError as fault:
             if not path.exists():
                 raise
-            findings += fault.diagnostics
-    findings += _files(modules, dialect, payload)
+            found += fault.diagnostics
+        findings += _reported(found, settings)
+    for settings, files in modules.items():
+        findings += _reported(_named(files, settings), settings)
     import sys
 
     typer.echo(render(findings, format, colour=use_colour(sys.stdout)), nl=False)
@@ -95,6 +127,34 @@ def check(
         warnings = sum(d.severity is Severity.WARNING for d in findings)
         typer.echo(f"{errors} error(s), {warnings} warning(s)", err=True)
     return 1 if errors else 0
+
+
+def _paths_of_project() -> list[str]:
+    """Return what to check if the command names nothing."""
+    help = "name a configuration, a RAPID file, a folder with modules or a backup"
+    return list(map(str, project_folders("check", help)))
+
+
+def _settings(
+    project: "Project | None", robotware: str | None, robot: str, strict: bool | None
+) -> _Settings:
+    """Combine options and project file; options take precedence."""
+    if project is None:
+        return _Settings(_dialect(robotware), _payload(robot), bool(strict), None)
+    is_strict = project.strict if strict is None else strict
+    if robotware is None:
+        robotware = project.robotware or None
+    if robot or not project.robot:
+        payload = _payload(robot)
+    else:
+        known = _payload_of(project.robot, project_robots(project))
+        payload = known or _payload("")
+    return _Settings(_dialect(robotware), payload, is_strict, project)
+
+
+def _reported(findings: "Iterable[Diagnostic]", settings: _Settings) -> list[Diagnostic]:
+    project = settings.project
+    return [d for d in findings if project is None or project.is_reported(d)]
 
 
 def _dialect(robotware: str | None) -> "Dialect | None":
@@ -198,29 +258,65 @@ def _parsed(paths: list[Path], dialect: "Dialect | None") -> "list[Module]":
     return [parse(read_limited(path), path=str(path), dialect=dialect) for path in paths]
 
 
-def _files(paths: list[Path], dialect: "Dialect | None", payload: "Payload") -> list[Diagnostic]:
-    """Check files that were named one by one; they see each other's names."""
+def _named(paths: list[Path], settings: _Settings) -> list[Diagnostic]:
+    """Check files that were named one by one; those of a project in its tasks."""
+    findings, remaining = _in_tasks(paths, settings)
+    return findings + _files(remaining, settings)
+
+
+def _files(paths: list[Path], settings: _Settings) -> list[Diagnostic]:
+    """Check files that belong together; they see each other's names."""
     from rapidgen.rapid import check as check_rapid
 
     modules: list[Module] = []
     findings: list[Diagnostic] = []
     for path in paths:
         try:
-            modules += _parsed([path], dialect)
+            modules += _parsed([path], settings.dialect)
         except DiagnosticError as fault:
             findings += fault.diagnostics
-    return findings + check_rapid(modules, dialect=dialect, payloads={"": payload})
+    return findings + check_rapid(
+        modules,
+        dialect=settings.dialect,
+        payloads={"": settings.payload},
+        strict=settings.strict,
+    )
 
 
-def _folder(
-    path: Path, dialect: "Dialect | None", backup: Path | None, payload: "Payload"
-) -> list[Diagnostic]:
+def _in_tasks(paths: list[Path], settings: _Settings) -> tuple[list[Diagnostic], list[Path]]:
+    """Check files in the tasks of their project; return the files that are in none."""
+    from rapidgen.rapid import check as check_rapid
+    from rapidgen.system import read_files
+    from rapidgen.system.releases import UNKNOWN_ROBOTWARE, release
+
+    project = settings.project
+    if project is None or not project.tasks or not paths:
+        return [], paths
+    robotware = release(project.robotware) if project.robotware else UNKNOWN_ROBOTWARE
+    system = read_files(project.sources, robotware=robotware)
+    loaded = {os.path.realpath(file.path) for task in system.tasks for file in task.modules}
+    here = {os.path.realpath(path) for path in paths}
+    if not loaded & here:
+        return [], paths
+    found = check_rapid(
+        system,
+        dialect=settings.dialect,
+        gaps=not settings.strict,
+        payloads={task.name.lower(): settings.payload for task in system.tasks if task.motion},
+        strict=settings.strict,
+        configured=bool(project.cfg),
+    )
+    findings = [d for d in found if d.span is None or os.path.realpath(d.span.path) in here]
+    return findings, [path for path in paths if os.path.realpath(path) not in loaded]
+
+
+def _folder(path: Path, backup: Path | None, settings: _Settings) -> list[Diagnostic]:
     """Check a generated folder, a backup, or a folder that contains modules or such folders."""
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_backup, is_generated
 
     if is_generated(path) or is_backup(path):
-        return _system(path, dialect, backup, payload)
+        return _system(path, backup, settings)
     groups: list[list[Path]] = []
     systems: list[Path] = []
     _search(path, groups, systems)
@@ -228,13 +324,20 @@ def _folder(
         raise _nothing_to_check(str(path))
     findings: list[Diagnostic] = []
     for system in systems:
-        findings += _system(system, dialect, backup, payload)
-    parsed = [_rapid(_parsed(files, dialect), findings) for files in groups]
+        findings += _system(system, backup, settings)
+    in_tasks, remaining = _in_tasks([file for group in groups for file in group], settings)
+    findings += in_tasks
+    groups = [rest for group in groups if (rest := [f for f in group if f in remaining])]
+    parsed = [_rapid(_parsed(files, settings.dialect), findings) for files in groups]
     declared = [{_name(d).lower() for m in modules for d in m.declarations} for modules in parsed]
     for k, modules in enumerate(parsed):
         elsewhere = frozenset().union(*declared[:k], *declared[k + 1 :])
         findings += check_rapid(
-            modules, dialect=dialect, elsewhere=elsewhere, payloads={"": payload}
+            modules,
+            dialect=settings.dialect,
+            elsewhere=elsewhere,
+            payloads={"": settings.payload},
+            strict=settings.strict,
         )
     return findings
 
@@ -259,27 +362,27 @@ def _name(declaration: "Declaration") -> str:
     return getattr(declaration, "name", "")
 
 
-def _system(
-    path: Path, dialect: "Dialect | None", backup: Path | None, payload: "Payload"
-) -> list[Diagnostic]:
+def _system(path: Path, backup: Path | None, settings: _Settings) -> list[Diagnostic]:
     from rapidgen.config import from_manifest
     from rapidgen.rapid import Dialect
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_generated, read_backup, read_folder, read_manifest
 
+    dialect, payload, strict = settings.dialect, settings.payload, settings.strict
     if is_generated(path):
         own = from_manifest(read_manifest(path)["configuration"]).groups
         carried = _payloads(own, payload)
-        return check_rapid(read_folder(path, backup), dialect=dialect, payloads=carried)
+        system = read_folder(path, backup)
+        return check_rapid(system, dialect=dialect, payloads=carried, strict=strict)
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
     carried = _of_backup(system, payload)
     result = [
         *notes,
-        *check_rapid(system, dialect=dialect, gaps=bool(notes), payloads=carried),
+        *check_rapid(system, dialect=dialect, gaps=bool(notes), payloads=carried, strict=strict),
     ]
     dialect = dialect or Dialect(system.robotware, some=not system.is_robotware_known)
-    return [*result, *_not_loaded(path, system, dialect, payload)]
+    return [*result, *_not_loaded(system, replace(settings, dialect=dialect, strict=False))]
 
 
 def _of_backup(system: "System", otherwise: "Payload") -> "dict[str, Payload]":
@@ -293,9 +396,7 @@ def _of_backup(system: "System", otherwise: "Payload") -> "dict[str, Payload]":
         return {task.lower(): otherwise for task in motion_tasks(system)}
 
 
-def _not_loaded(
-    path: Path, system: "System", dialect: "Dialect", payload: "Payload"
-) -> list[Diagnostic]:
+def _not_loaded(system: "System", settings: _Settings) -> list[Diagnostic]:
     """Return errors in RAPID files of a backup's HOME that no task loads.
 
     A program may load them while it runs. Each is checked as a single file, without warnings,
@@ -314,7 +415,7 @@ def _not_loaded(
             findings += fault.diagnostics
             continue
         for file in files:
-            findings += _files([file], dialect, payload)
+            findings += _files([file], settings)
     return [d for d in findings if d.severity is Severity.ERROR]
 
 
@@ -344,93 +445,3 @@ def _nothing_to_check(path: str) -> Exception:
         f"nothing to check at {path}",
         "use a configuration, a RAPID file, a folder with modules or a backup",
     )
-
-
-_SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
-
-
-def fmt(
-    paths: Annotated[list[Path], typer.Argument(help="RAPID files or folders.", metavar="PATH")],
-    check: Annotated[
-        bool, typer.Option("--check", help="Do not write; exit with 1 if a file would change.")
-    ] = False,
-    diff: Annotated[bool, typer.Option("--diff", help="Do not write; show the changes.")] = False,
-) -> int:
-    """Format RAPID source files.
-
-    Writes keywords in upper case and indents by four spaces; comments stay. The encoding and the
-    line ends stay, unless a file mixes line ends: it gets the most frequent one, with a message.
-    Files with syntax errors are not changed.
-    """
-    from rapidgen._atomic_write import write_whole
-    from rapidgen.rapid import format_source
-    from rapidgen.system.paths import read_limited
-
-    wrong: list[Diagnostic] = []
-    changed = 0
-    for path in _files_to_format(paths):
-        before = read_limited(path)
-        try:
-            after = format_source(before, path=str(path))
-        except DiagnosticError as fault:
-            if any(d.severity is Severity.ERROR for d in fault.diagnostics):
-                wrong += fault.diagnostics
-            else:
-                typer.echo(f"skipped {path}: {fault.diagnostics[0].message}", err=True)
-            continue
-        if after == before:
-            continue
-        changed += 1
-        ends = _line_ends(before)
-        if len(ends) > 1:
-            displayed = ", ".join(f"{number} {name}" for name, number in ends)
-            typer.echo(
-                f"{path} mixes line ends ({displayed}): all changed to {ends[0][0]}", err=True
-            )
-        if diff:
-            typer.echo(_difference(path, before, after), nl=False)
-        elif check:
-            typer.echo(f"would format {path}", err=True)
-        else:
-            write_whole(path, after)
-            typer.echo(f"formatted {path}", err=True)
-    if wrong:
-        raise DiagnosticError(wrong, exit_code=1)
-    return 1 if changed and (check or diff) else 0
-
-
-def _line_ends(data: bytes) -> list[tuple[str, int]]:
-    """Count the line ends of a file; the most frequent is first."""
-    pairs, feeds, returns = data.count(b"\r\n"), data.count(b"\n"), data.count(b"\r")
-    result = {"CRLF": pairs, "LF": feeds - pairs, "CR": returns - pairs}
-    return sorted(((k, v) for k, v in result.items() if v), key=lambda pair: -pair[1])
-
-
-def _files_to_format(paths: list[Path]) -> list[Path]:
-    result: list[Path] = []
-    for path in paths:
-        if path.is_dir():
-            inside = sorted(
-                file
-                for file in path.rglob("*")
-                if file.suffix.lower() in _SUFFIXES and file.is_file()
-            )
-            if not inside:
-                help = f"RAPID files end in {', '.join(sorted(_SUFFIXES))}"
-                raise refusal("RG904", None, f"no RAPID file in {path}", help)
-            result += inside
-        elif path.exists():
-            result.append(path)
-        else:
-            raise refusal("RG904", None, f"{path} does not exist", "use RAPID files or folders")
-    return result
-
-
-def _difference(path: Path, before: bytes, after: bytes) -> str:
-    from difflib import unified_diff
-
-    from rapidgen.rapid.syntax.lexer import decode
-
-    old = [line + "\n" for line in decode(before)[0].splitlines()]
-    new = [line + "\n" for line in decode(after)[0].splitlines()]
-    return "".join(unified_diff(old, new, f"a/{path}", f"b/{path}"))
