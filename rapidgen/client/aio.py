@@ -4,9 +4,12 @@ Uses only `create_connection`, `time`, `create_future` and `call_later` of the r
 """
 
 import asyncio
+import os
 import warnings
+import weakref
 from collections.abc import AsyncIterable, AsyncIterator, Iterable, Sequence
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
+from dataclasses import dataclass, field
 from typing import TypeVar, cast
 
 from rapidgen._compat import Self
@@ -33,6 +36,7 @@ from rapidgen.client.flows.effects import (
     SendAtOnce,
     Wait,
 )
+from rapidgen.client.unclosed import drop_in_child, warn_unclosed
 from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
@@ -44,30 +48,39 @@ _BREATH = 64
 
 
 class _Link(asyncio.Protocol):
-    """One connection as an asyncio protocol."""
+    """One connection as an asyncio protocol.
 
-    def __init__(self, loop: "AsyncFlowRunner", port: Port) -> None:
+    Its loop holds it; it holds its runner weakly, so that a dropped one is finalized.
+    """
+
+    def __init__(self, runner: "AsyncFlowRunner", port: Port) -> None:
         self.port = port
         self.transport: asyncio.Transport | None = None
         self.is_writable = asyncio.Event()
         self.is_writable.set()
-        self._loop = loop
+        self._runner = weakref.ref(runner)
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self.transport = cast("asyncio.Transport", transport)
         # The transport must not buffer: a STOP would wait for the buffered bytes.
         self.transport.set_write_buffer_limits(high=0)
-        self._loop.opened(self)
+        runner = self._runner()
+        if runner is not None:
+            runner.opened(self)
 
     def data_received(self, data: bytes) -> None:
-        self._loop.received(self, data)
+        runner = self._runner()
+        if runner is not None:
+            runner.received(self, data)
 
     def connection_lost(self, exc: Exception | None) -> None:
         why = "the controller closed it"
         if isinstance(exc, OSError):
             why = os_reason(exc)
         self.is_writable.set()
-        self._loop.lost(self, why)
+        runner = self._runner()
+        if runner is not None:
+            runner.lost(self, why)
 
     def pause_writing(self) -> None:
         self.is_writable.clear()
@@ -76,24 +89,79 @@ class _Link(asyncio.Protocol):
         self.is_writable.set()
 
 
+@dataclass(slots=True, eq=False)
+class _Connections:
+    """Connections of one robot, apart from the runner that its user may drop."""
+
+    where: str
+    loop: asyncio.AbstractEventLoop | None = None
+    """The loop of the last call."""
+    links: dict[Port, _Link] = field(default_factory=dict)
+    may_move: bool = False
+    """True if a motion of this client may move the robot."""
+
+    def time(self) -> float:
+        """Return the time of the loop in s."""
+        return self.loop.time() if self.loop is not None else 0.0
+
+    def close_dropped(self) -> None:
+        """Close with a warning; a STOP goes out during a motion.
+
+        It may run on any thread, at any moment at which Python collects garbage.
+        """
+        if self.loop is None or not self.links:
+            return
+        # A closed loop has no transports; asyncio closes their sockets with them.
+        with suppress(RuntimeError):
+            self.loop.call_soon_threadsafe(self._close_links)
+        warn_unclosed(self.where, stopped=self.may_move)
+
+    def _close_links(self) -> None:
+        for port, link in self.links.items():
+            if link.transport is not None:
+                if self.may_move and port is not Port.STATE:
+                    link.transport.write(STOP_FRAME)
+                link.transport.close()
+        self.links.clear()
+
+    def forked(self) -> None:
+        """Close the sockets of a forked process; the connections stay the parent's."""
+        for link in self.links.values():
+            socket = link.transport.get_extra_info("socket") if link.transport is not None else None
+            if socket is not None and socket.fileno() >= 0:
+                # The transport keeps its descriptor: to close it would remove the parent's
+                # connection from the selector that both processes share.
+                null = os.open(os.devnull, os.O_RDWR)
+                os.dup2(null, socket.fileno(), inheritable=False)
+                os.close(null)
+        self.links.clear()
+        self.may_move = False
+
+
 class AsyncFlowRunner:
     """Runner of flows on the running loop."""
 
     def __init__(self, address: Address, make_core: MakeCore) -> None:
-        self._loop: asyncio.AbstractEventLoop | None = None
+        self._connections = _Connections(str(address))
+        self._links = self._connections.links
         self.address = address
-        self.core = make_core(self._time)
+        self.core = make_core(self._connections.time)
         self.guard = nullcontext()
-        self._links: dict[Port, _Link] = {}
         self._waiters: set[asyncio.Future[None]] = set()
         self._timer: asyncio.TimerHandle | None = None
+        weakref.finalize(self, self._connections.close_dropped)
+        drop_in_child(self)
 
-    def _time(self) -> float:
-        return self._loop.time() if self._loop is not None else 0.0
+    def forked(self) -> None:
+        """Drop the connections in a forked process."""
+        self._connections.forked()
+        self._waiters.clear()
+        self._timer = None
+        self.core.forked()
 
     async def run(self, flow: Flow[T]) -> T:
         """Run a flow on this loop."""
-        self._loop = asyncio.get_running_loop()
+        self._connections.loop = asyncio.get_running_loop()
         outcome: bool | None = None
         failure: BaseException | None = None
         while True:
@@ -114,6 +182,7 @@ class AsyncFlowRunner:
     def _pump(self) -> None:
         """Send the frames that are due, as far as the buffer is empty."""
         core = self.core
+        self._connections.may_move = core.may_move
         stops = core.unmonitored_stops()
         for port, link in self._links.items():
             if link.transport is None:
@@ -122,10 +191,12 @@ class AsyncFlowRunner:
                 link.transport.write(STOP_FRAME)
             while link.is_writable.is_set() and (data := core.due(port)) is not None:
                 link.transport.write(data)
-        if core.is_busy and self._timer is None and self._loop is not None:
-            self._timer = self._loop.call_later(_SLICE, self._tick)
+        loop = self._connections.loop
+        if core.is_busy and self._timer is None and loop is not None:
+            self._timer = loop.call_later(_SLICE, _tick, weakref.ref(self))
 
-    def _tick(self) -> None:
+    def tick(self) -> None:
+        """Check the clock and send what is due."""
         self._timer = None
         self.core.poll()
         self._pump()
@@ -250,11 +321,18 @@ class AsyncFlowRunner:
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
-        links, self._links = list(self._links.values()), {}
+        links = list(self._links.values())
+        self._links.clear()
         for link in links:
             if link.transport is not None:
                 link.transport.close()
         self._notify()
+
+
+def _tick(runner: "weakref.ref[AsyncFlowRunner]") -> None:
+    owner = runner()
+    if owner is not None:
+        owner.tick()
 
 
 def _wake(waiter: "asyncio.Future[None]") -> None:

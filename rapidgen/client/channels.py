@@ -7,11 +7,16 @@ cost milliseconds. Points are written so that a STOP fits between two frames at 
 import selectors
 import socket
 import threading
+import weakref
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
 from select import POLLOUT, poll
+from typing import Protocol
 
 from rapidgen.client.address import Address
 from rapidgen.client.errors import ConnectionLost, RobotTimeout, not_reached, os_reason
+from rapidgen.client.unclosed import warn_unclosed
 from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
@@ -172,30 +177,37 @@ class Channel:
         self.socket.close()
 
 
+class ReaderOwner(Protocol):
+    """Receiver of what a reader reads."""
+
+    @property
+    def is_busy(self) -> bool:
+        """True if `tick` must be called regularly."""
+
+    def received(self, channel: Channel, data: bytes) -> None:
+        """Process bytes of a channel."""
+
+    def lost(self, channel: Channel, why: str) -> None:
+        """Record that the peer closed a channel."""
+
+    def tick(self) -> None:
+        """Check the clock."""
+
+
 class Reader:
     """The one thread that reads all connections of a robot.
 
-    It calls `received(channel, data)` and `lost(channel, why)`, and `tick()` regularly while
-    `is_busy()`.
+    It holds its owner weakly, so that a dropped one is finalized, which calls `abandon`.
     """
 
-    def __init__(
-        self,
-        received: Callable[[Channel, bytes], None],
-        lost: Callable[[Channel, str], None],
-        tick: Callable[[], None],
-        is_busy: Callable[[], bool],
-        name: str,
-    ) -> None:
-        self._received = received
-        self._lost = lost
-        self._tick = tick
-        self._is_busy = is_busy
+    def __init__(self, owner: ReaderOwner, name: str) -> None:
+        self._owner = weakref.ref(owner)
         self._selector = selectors.DefaultSelector()
         self._wake, self._waker = socket.socketpair()
         self._wake.setblocking(False)
         self._selector.register(self._wake, selectors.EVENT_READ)
-        self._lock = threading.Lock()
+        # Reentrant: a garbage collection in a locked section may call `abandon`.
+        self._lock = threading.RLock()
         self._coming: list[Channel] = []
         self._going: list[Channel] = []
         self._ended = False
@@ -214,13 +226,43 @@ class Reader:
             self._going.append(channel)
         self._waker.send(b".")
 
+    def abandon(self) -> None:
+        """End the thread without waiting for it; it closes every channel."""
+        with self._lock:
+            self._ended = True
+            self._waker.send(b".")
+
     def close(self) -> None:
         """End the thread; every channel is closed."""
-        self._ended = True
-        self._waker.send(b".")
-        self._thread.join()
+        self.abandon()
+        # The owner may be dropped while this thread calls it.
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+
+    def forked(self) -> None:
+        """Close the descriptors in a forked process, where the thread does not run."""
+        self._selector.close()
         self._wake.close()
         self._waker.close()
+
+    def _is_busy(self) -> bool:
+        owner = self._owner()
+        return owner is not None and owner.is_busy
+
+    def _tick(self) -> None:
+        owner = self._owner()
+        if owner is not None:
+            owner.tick()
+
+    def _lost(self, channel: Channel, why: str) -> None:
+        owner = self._owner()
+        if owner is not None:
+            owner.lost(channel, why)
+
+    def _received(self, channel: Channel, data: bytes) -> None:
+        owner = self._owner()
+        if owner is not None:
+            owner.received(channel, data)
 
     def _loop(self) -> None:
         while not self._ended:
@@ -236,6 +278,8 @@ class Reader:
             self._forget(channel)
         with self._lock:
             coming, self._coming = self._coming, []
+            self._wake.close()
+            self._waker.close()
         for channel in coming:
             # Data and end of file arrived together since the last check.
             channel.close()
@@ -276,3 +320,39 @@ class Reader:
     def _forget(self, channel: Channel) -> None:
         self._selector.unregister(channel.socket)
         channel.close()
+
+
+@dataclass(slots=True, eq=False)
+class Connections:
+    """Connections of one robot, apart from the runner that its user may drop."""
+
+    where: str
+    channels: dict[Port, Channel] = field(default_factory=dict)
+    reader: Reader | None = None
+    may_move: bool = False
+    """True if a motion of this client may move the robot."""
+
+    def close_dropped(self, stop: bytes) -> None:
+        """Close without waiting, with a warning; `stop` goes out during a motion.
+
+        It may run on any thread, at any moment at which Python collects garbage.
+        """
+        if self.reader is None:
+            return
+        if self.may_move:
+            for port, channel in self.channels.items():
+                if port is not Port.STATE:
+                    with suppress(ConnectionLost):
+                        channel.offer_after(stop)
+        self.reader.abandon()
+        warn_unclosed(self.where, stopped=self.may_move)
+
+    def forked(self) -> None:
+        """Close the descriptors of a forked process; the connections stay the parent's."""
+        for channel in self.channels.values():
+            channel.close()
+        self.channels.clear()
+        if self.reader is not None:
+            self.reader.forked()
+        self.reader = None
+        self.may_move = False

@@ -6,6 +6,7 @@ The caller's threads write, one thread a robot reads.
 import threading
 import time
 import warnings
+import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -16,7 +17,7 @@ from rapidgen._compat import Self
 from rapidgen.client import flows
 from rapidgen.client.address import Address
 from rapidgen.client.api import ExecutionApi, MakeCore, RobotApi, RunApi, StreamApi
-from rapidgen.client.channels import Channel, Reader
+from rapidgen.client.channels import Channel, Connections, Reader
 from rapidgen.client.core.job import batches
 from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.client.core.robot import STOP_FRAME
@@ -24,6 +25,7 @@ from rapidgen.client.core.state import State
 from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, RobotTimeout
 from rapidgen.client.flows.data import Datum
 from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, SendAtOnce, Wait
+from rapidgen.client.unclosed import drop_in_child
 from rapidgen.wire.simple_message.spec import Port
 
 
@@ -67,8 +69,22 @@ class SyncFlowRunner:
         self.address = address
         self.core = make_core(time.monotonic)
         self.guard = threading.Condition()
-        self._channels: dict[Port, Channel] = {}
-        self._reader: Reader | None = None
+        self._connections = Connections(str(address))
+        self._channels = self._connections.channels
+        weakref.finalize(self, self._connections.close_dropped, STOP_FRAME)
+        drop_in_child(self)
+
+    def forked(self) -> None:
+        """Drop the connections in a forked process."""
+        # A thread that the child does not have may hold the old lock.
+        self.guard = threading.Condition()
+        self._connections.forked()
+        self.core.forked()
+
+    @property
+    def is_busy(self) -> bool:
+        """True if the clock must be checked regularly."""
+        return self.core.is_busy
 
     def run(self, flow: Flow[T]) -> T:
         """Run a flow: effects without the lock, its own steps with it.
@@ -117,6 +133,7 @@ class SyncFlowRunner:
         The lock is held.
         """
         core = self.core
+        self._connections.may_move = core.may_move
         stops = core.unmonitored_stops()
         for port, channel in self._channels.items():
             try:
@@ -127,7 +144,8 @@ class SyncFlowRunner:
                 # The reader receives it too.
                 core.state_port.note(str(error))
 
-    def _tick(self) -> None:
+    def tick(self) -> None:
+        """Check the clock and send what is due."""
         with self.guard:
             self.core.poll()
             self._pump()
@@ -197,38 +215,35 @@ class SyncFlowRunner:
         with self.guard:
             channel = self._channels.pop(port, None)
             self.core.dropped(port)
-            if channel is not None and self._reader is not None:
-                self._reader.remove(channel)
+            if channel is not None and self._connections.reader is not None:
+                self._connections.reader.remove(channel)
 
     def _open(self, effect: Open) -> None:
         channel = Channel(self.address, effect.port, effect.timeout)
         with self.guard:
-            if self._reader is None:
-                self._reader = Reader(
-                    self._received,
-                    self._lost,
-                    self._tick,
-                    lambda: self.core.is_busy,
-                    str(self.address),
-                )
+            reader = self._connections.reader
+            if reader is None:
+                reader = self._connections.reader = Reader(self, str(self.address))
             old = self._channels.get(effect.port)
             if old is not None:
-                self._reader.remove(old)
+                reader.remove(old)
             self._channels[effect.port] = channel
             self.core.opened(effect.port)
-            self._reader.add(channel)
+            reader.add(channel)
 
-    def _received(self, channel: Channel, data: bytes) -> None:
+    def received(self, channel: Channel, data: bytes) -> None:
+        """Process bytes of a channel."""
         with self.guard:
             if self._channels.get(channel.port) is channel:
                 if not self.core.received(channel.port, data):
                     del self._channels[channel.port]
-                    assert self._reader is not None
-                    self._reader.remove(channel)
+                    assert self._connections.reader is not None
+                    self._connections.reader.remove(channel)
                 self._pump()
                 self.guard.notify_all()
 
-    def _lost(self, channel: Channel, why: str) -> None:
+    def lost(self, channel: Channel, why: str) -> None:
+        """Record that the peer closed a channel."""
         with self.guard:
             if self._channels.get(channel.port) is channel:
                 del self._channels[channel.port]
@@ -239,8 +254,9 @@ class SyncFlowRunner:
     def _hang_up(self) -> None:
         with self.guard:
             self.core.closed()
-            channels, self._channels = list(self._channels.values()), {}
-            reader, self._reader = self._reader, None
+            channels = list(self._channels.values())
+            self._channels.clear()
+            reader, self._connections.reader = self._connections.reader, None
         if reader is not None:
             for channel in channels:
                 reader.remove(channel)

@@ -297,6 +297,30 @@ class Core:
         for talk in self.ports.values():
             talk.is_open = False
 
+    def forked(self) -> None:
+        """Forget the connections and the motion: they belong to the parent process.
+
+        Nothing connects again by itself, since that would take the motion port from the parent.
+        """
+        error = ConnectionLost.because(
+            "RG602",
+            "the connections belong to the process from which this one was forked",
+            "connect() here, in place of the other process, or make a client of your own",
+        )
+        if self.motion is not None:
+            self.motion.failed(error)
+            # An error of this process must not stop the parent's motion.
+            self.motion.is_settled = True
+        connected = self.state_open or any(talk.is_open for talk in self.ports.values())
+        self.closed()
+        self.ports = {port: RequestPort() for port in self.ports}
+        self.reconnect = 0.0
+        self.may_reach_control = False
+        self.heartbeat.forget()
+        self._outbox.clear()
+        if connected:
+            self.fault = error
+
     def disconnected(self) -> RobotError:
         """Return the reason for a missing connection."""
         return self.fault or ConnectionLost.because("RG602", "not connected", "connect()")
@@ -321,6 +345,12 @@ class Core:
         run.step()
 
     # Output without a request of the caller
+
+    @property
+    def may_move(self) -> bool:
+        """True if a motion of this client may move the robot."""
+        motion = self.motion
+        return motion is not None and (not motion.is_over or motion.needs_stop)
 
     @property
     def is_busy(self) -> bool:
