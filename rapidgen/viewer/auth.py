@@ -28,6 +28,12 @@ HEADERS = {
 }
 
 
+def is_readable(request: web.Request) -> bool:
+    """True if the headers that authenticate a request are ASCII."""
+    names = ("Host", "Origin", "Cookie")
+    return all(value.isascii() for name in names for value in request.headers.getall(name, ()))
+
+
 @dataclass(frozen=True)
 class TokenAuth:
     """The token of one server, and its exchange. DiagnosticError RG922."""
@@ -45,7 +51,7 @@ class TokenAuth:
     def addressed(self, request: web.Request, port: int) -> bool:
         """True if the Host is an IP address of this machine, or `localhost`."""
         name, _, given = request.headers.get("Host", "").rpartition(":")
-        if not given.isdigit() or int(given) != port:
+        if given != str(port):
             return False
         if name == "localhost":
             return True
@@ -59,9 +65,9 @@ class TokenAuth:
         """True for a request of our own page: its Origin equals its Host."""
         return request.headers.get("Origin") == f"http://{request.headers.get('Host')}"
 
-    def enter(self, given: str, response: web.Response, port: int) -> bool:
+    def enter(self, given: bytes, response: web.Response, port: int) -> bool:
         """Return the cookie for the token; False: a wrong token."""
-        if not hmac.compare_digest(given.encode(), self.token.encode()):
+        if not hmac.compare_digest(given, self.token.encode()):
             return False
         response.set_cookie(
             _cookie(port), self._session, httponly=True, samesite="Strict", path="/"

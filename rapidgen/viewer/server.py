@@ -17,7 +17,7 @@ from aiohttp import WSMsgType, web
 
 from rapidgen.diagnostics import refusal
 from rapidgen.servers.aiohttp_thread import WebThread
-from rapidgen.viewer.auth import HEADERS, TokenAuth
+from rapidgen.viewer.auth import HEADERS, TokenAuth, is_readable
 from rapidgen.viewer.broadcaster import Broadcaster, MessageBatch
 from rapidgen.viewer.page_connection import PageConnection, text_frame
 from rapidgen.viewer.provider import Subject
@@ -167,6 +167,8 @@ class _Server:
 
     @web.middleware
     async def _guarded(self, request: web.Request, handler: Answer) -> web.StreamResponse:
+        if not is_readable(request):
+            return web.Response(status=400, headers=HEADERS)
         if not self.door.addressed(request, self.port):
             return web.Response(status=421, headers=HEADERS)
         try:
@@ -196,7 +198,12 @@ class _Server:
 
     async def _enter(self, request: web.Request) -> web.Response:
         response = web.Response(status=204)
-        good = self.door.own(request) and self.door.enter(await request.text(), response, self.port)
+        try:
+            given = (await request.text()).encode()
+        except (LookupError, ValueError):
+            # An unknown charset, or bytes that it does not have.
+            return web.Response(status=400)
+        good = self.door.own(request) and self.door.enter(given, response, self.port)
         return response if good else web.Response(status=403)
 
     async def _link(self, request: web.Request) -> web.StreamResponse:

@@ -129,6 +129,28 @@ def test_the_token_buys_a_cookie(page):
     assert ask(port, "GET", "/session")[0] == 403
 
 
+@pytest.mark.parametrize("charset", ["nonsense", "hex", "utf-16", "unicode_escape", "a\x01b"])
+def test_token_in_an_undecodable_charset_is_refused(page, charset):
+    port, _, _ = page
+    origin = f"http://127.0.0.1:{port}"
+    kind = {"Content-Type": f"text/plain; charset={charset}", "Origin": origin}
+    # Not UTF-16, and a lone surrogate for Python.
+    assert ask(port, "POST", "/session", "\\ud800a", **kind)[0] == 400
+
+
+@pytest.mark.parametrize("name", ["Cookie", "Origin", "Host"])
+def test_headers_outside_ascii_are_refused(page, name):
+    port, token, _ = page
+    value = f"rapidgen-view-{port}=\xe9".encode("latin-1")
+    for method, path in (("GET", "/session"), ("POST", "/session"), ("GET", "/link"), ("GET", "/")):
+        assert ask(port, method, path, token, **{name: value})[0] == 400
+
+
+def test_long_port_of_a_host_is_refused(page):
+    port, _, _ = page
+    assert ask(port, "GET", "/", Host=f"127.0.0.1:{'9' * 5000}")[0] == 421
+
+
 @pytest.mark.parametrize("origin", ["http://evil.example", "null", "https://127.0.0.1:{port}", ""])
 def test_other_pages_do_not_enter(page, origin):
     port, token, _ = page

@@ -1,11 +1,14 @@
 """`AsyncController`: the controller client for asyncio."""
 
 import asyncio
+import os
 import ssl
 import time
+import weakref
 from collections import deque
 from collections.abc import AsyncIterator
-from contextlib import AsyncExitStack, asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager, suppress
+from dataclasses import dataclass
 from typing import TypeVar
 
 import httpx2
@@ -37,15 +40,56 @@ from rapidgen.client.rws.flows import subscriptions
 from rapidgen.client.rws.model import ResourceEvent
 from rapidgen.client.rws.topics import Topic
 from rapidgen.client.rws.transport import (
+    LOGOUT,
+    LOGOUT_HEADERS,
+    LOGOUT_TIMEOUT,
     auth_of,
+    forked,
     no_verification,
     not_reached,
     pinned_tls,
     response_of,
     socket_options,
 )
+from rapidgen.client.unclosed import drop_in_child, warn_unclosed
 
 T = TypeVar("T")
+_LOGOUTS: set[asyncio.Task[None]] = set()
+"""Logouts of dropped clients: a loop holds its tasks weakly."""
+
+
+@dataclass(slots=True, eq=False)
+class _Session:
+    """Session at a controller, apart from the runner that its user may drop."""
+
+    where: str
+    loop: asyncio.AbstractEventLoop | None = None
+    """The loop of the last call."""
+    client: httpx2.AsyncClient | None = None
+    base: str = ""
+    auth: httpx2.Auth | None = None
+
+    def close_dropped(self) -> None:
+        """Log out on the loop, with a warning: a session keeps its mastership for 5 min."""
+        client, self.client = self.client, None
+        if client is None or self.loop is None:
+            return
+        # A closed loop sends nothing; asyncio closes its sockets.
+        with suppress(RuntimeError):
+            self.loop.call_soon_threadsafe(self._begin_logout, client)
+        warn_unclosed(self.where)
+
+    def _begin_logout(self, client: httpx2.AsyncClient) -> None:
+        assert self.loop is not None
+        task = self.loop.create_task(self._log_out(client))
+        _LOGOUTS.add(task)
+        task.add_done_callback(_LOGOUTS.discard)
+
+    async def _log_out(self, client: httpx2.AsyncClient) -> None:
+        url = self.base + LOGOUT
+        with suppress(httpx2.HTTPError):
+            await client.get(url, headers=LOGOUT_HEADERS, auth=self.auth, timeout=LOGOUT_TIMEOUT)
+        await client.aclose()
 
 
 class RwsAsyncRunner:
@@ -56,15 +100,22 @@ class RwsAsyncRunner:
         self._timeout = timeout
         self._lock = asyncio.Lock()
         self._pace = RateLimiter()
-        self._client: httpx2.AsyncClient | None = None
-        self._base = ""
-        self._auth: httpx2.Auth | None = None
+        self._session = _Session(str(core.address))
+        weakref.finalize(self, self._session.close_dropped)
+        drop_in_child(self)
+
+    def forked(self) -> None:
+        """Drop the session in a forked process; it stays the parent's."""
+        self._lock = asyncio.Lock()
+        self._session.client = None
+        self._core.forked()
 
     async def run(self, flow: Flow[T]) -> T:
         """Return the outcome of a flow.
 
         An exception of an effect is thrown into it.
         """
+        self._session.loop = asyncio.get_running_loop()
         async with self._lock:
             try:
                 return await self._carry_out(flow)
@@ -98,30 +149,31 @@ class RwsAsyncRunner:
             case UseEndpoint():
                 await self.close()
                 scheme = "https" if effect.certificate else "http"
-                self._base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
+                self._session.base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
                 verify = pinned_tls(effect.certificate) if effect.certificate else True
-                self._auth = None
-                self._client = httpx2.AsyncClient(
+                self._session.auth = None
+                self._session.client = httpx2.AsyncClient(
                     verify=verify, trust_env=False, timeout=self._timeout, follow_redirects=False
                 )
             case LogIn():
-                self._auth = auth_of(effect, self._core)
+                self._session.auth = auth_of(effect, self._core)
             case DropConnections():
-                if self._client is not None:
-                    self._client.cookies.clear()
+                if self._session.client is not None:
+                    self._session.client.cookies.clear()
         return Response(0)
 
     async def _exchange(self, effect: Exchange) -> Response:
-        assert self._client is not None
+        session = self._session
+        assert session.client is not None
         await asyncio.sleep(self._pace.reserve(time.monotonic()))
         for left in (1, 0):
             try:
-                answer = await self._client.request(
+                answer = await session.client.request(
                     effect.method,
-                    self._base + effect.target,
+                    session.base + effect.target,
                     headers=dict(effect.headers),
                     content=effect.body or None,
-                    auth=self._auth,
+                    auth=session.auth,
                 )
             except httpx2.HTTPError as error:
                 if left and effect.repeat and not isinstance(error, httpx2.TimeoutException):
@@ -150,12 +202,13 @@ class RwsAsyncRunner:
 
         Pings are off: RWS 2.0 disconnects a client that sends.
         """
-        assert self._client is not None
+        session = self._session
+        assert session.client is not None
         try:
             return await stack.enter_async_context(
                 connect_socket(
-                    self._base.replace("http", "ws", 1) + path,
-                    **socket_options(self._core, self._client.cookies),
+                    session.base.replace("http", "ws", 1) + path,
+                    **socket_options(self._core, session.client.cookies),
                     open_timeout=self._timeout,
                 )
             )
@@ -164,9 +217,9 @@ class RwsAsyncRunner:
 
     async def close(self) -> None:
         """Close all connections."""
-        if self._client is not None:
-            await self._client.aclose()
-            self._client = None
+        if self._session.client is not None:
+            await self._session.client.aclose()
+            self._session.client = None
 
 
 class AsyncSubscription:
@@ -184,6 +237,7 @@ class AsyncSubscription:
         self._socket: ClientConnection | None = None
         self._group = ""
         self._stack = AsyncExitStack()
+        self._process = os.getpid()
 
     async def _open(self, flow: Flow[subscriptions.SubscriptionGroup]) -> None:
         opened = await self._carrier.run(flow)
@@ -194,6 +248,8 @@ class AsyncSubscription:
 
     async def next(self, timeout: float | None = None) -> ResourceEvent:
         """Return the next event. Raises RobotTimeout (RG602)."""
+        if os.getpid() != self._process:
+            raise forked()
         try:
             async with deadline.timeout(timeout):
                 while not self._waiting:
@@ -229,6 +285,9 @@ class AsyncSubscription:
 
     async def close(self) -> None:
         """End the subscription."""
+        if os.getpid() != self._process:
+            # The websocket is the parent's.
+            self._socket = None
         if self._socket is not None:
             await self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
             await self._stack.aclose()

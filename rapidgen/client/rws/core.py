@@ -71,6 +71,11 @@ class RwsCore:
     clock: Callable[[], float] = time.monotonic
     """Clock of waits, s."""
 
+    def forked(self) -> None:
+        """Forget the session, which belongs to the parent process."""
+        self.connected = False
+        self.held.clear()
+
     @property
     def where(self) -> str:
         """Host and port, for messages and the list of certificates."""

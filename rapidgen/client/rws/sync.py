@@ -1,12 +1,15 @@
 """`Controller`: Robot Web Services on the caller's thread."""
 
+import os
 import socket
 import ssl
 import threading
 import time
+import weakref
 from collections import deque
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass
 from typing import TypeVar
 
 import httpx2
@@ -37,15 +40,49 @@ from rapidgen.client.rws.flows import subscriptions
 from rapidgen.client.rws.model import ResourceEvent
 from rapidgen.client.rws.topics import Topic
 from rapidgen.client.rws.transport import (
+    LOGOUT,
+    LOGOUT_HEADERS,
+    LOGOUT_TIMEOUT,
     auth_of,
+    forked,
     no_verification,
     not_reached,
     pinned_tls,
     response_of,
     socket_options,
 )
+from rapidgen.client.unclosed import drop_in_child, warn_unclosed
 
 T = TypeVar("T")
+
+
+@dataclass(slots=True, eq=False)
+class _Session:
+    """Session at a controller, apart from the runner that its user may drop."""
+
+    where: str
+    client: httpx2.Client | None = None
+    base: str = ""
+    auth: httpx2.Auth | None = None
+
+    def close_dropped(self) -> None:
+        """Log out without waiting, with a warning: a session keeps its mastership for 5 min."""
+        client, self.client = self.client, None
+        if client is None:
+            return
+        if threading.main_thread().is_alive():
+            name = f"rapidgen logout {self.where}"
+            threading.Thread(target=self._log_out, args=(client,), name=name, daemon=True).start()
+        else:
+            # No thread starts while the interpreter ends.
+            self._log_out(client)
+        warn_unclosed(self.where)
+
+    def _log_out(self, client: httpx2.Client) -> None:
+        url = self.base + LOGOUT
+        with suppress(httpx2.HTTPError):
+            client.get(url, headers=LOGOUT_HEADERS, auth=self.auth, timeout=LOGOUT_TIMEOUT)
+        client.close()
 
 
 class RwsSyncRunner:
@@ -56,9 +93,16 @@ class RwsSyncRunner:
         self._timeout = timeout
         self._lock = threading.RLock()
         self._pace = RateLimiter()
-        self._client: httpx2.Client | None = None
-        self._base = ""
-        self._auth: httpx2.Auth | None = None
+        self._session = _Session(str(core.address))
+        weakref.finalize(self, self._session.close_dropped)
+        drop_in_child(self)
+
+    def forked(self) -> None:
+        """Drop the session in a forked process; it stays the parent's."""
+        # A thread that the child does not have may hold the old locks.
+        self._lock = threading.RLock()
+        self._session.client = None
+        self._core.forked()
 
     def run(self, flow: Flow[T]) -> T:
         """Return the outcome of a flow.
@@ -98,7 +142,7 @@ class RwsSyncRunner:
             case UseEndpoint():
                 self._settle(effect)
             case LogIn():
-                self._auth = auth_of(effect, self._core)
+                self._session.auth = auth_of(effect, self._core)
             case DropConnections():
                 self._forget()
         return Response(0)
@@ -106,28 +150,29 @@ class RwsSyncRunner:
     def _settle(self, effect: UseEndpoint) -> None:
         self.close()
         scheme = "https" if effect.certificate else "http"
-        self._base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
+        self._session.base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
         verify = pinned_tls(effect.certificate) if effect.certificate else True
-        self._auth = None
-        self._client = httpx2.Client(
+        self._session.auth = None
+        self._session.client = httpx2.Client(
             verify=verify, trust_env=False, timeout=self._timeout, follow_redirects=False
         )
 
     def _forget(self) -> None:
-        if self._client is not None:
-            self._client.cookies.clear()
+        if self._session.client is not None:
+            self._session.client.cookies.clear()
 
     def _exchange(self, effect: Exchange) -> Response:
-        assert self._client is not None
+        session = self._session
+        assert session.client is not None
         time.sleep(self._pace.reserve(time.monotonic()))
         for left in (1, 0):
             try:
-                answer = self._client.request(
+                answer = session.client.request(
                     effect.method,
-                    self._base + effect.target,
+                    session.base + effect.target,
                     headers=dict(effect.headers),
                     content=effect.body or None,
-                    auth=self._auth,
+                    auth=session.auth,
                 )
             except httpx2.HTTPError as error:
                 if left and effect.repeat and not isinstance(error, httpx2.TimeoutException):
@@ -152,12 +197,13 @@ class RwsSyncRunner:
 
         Pings are off: RWS 2.0 disconnects a client that sends.
         """
-        assert self._client is not None
+        session = self._session
+        assert session.client is not None
         try:
             return stack.enter_context(
                 connect_socket(
-                    self._base.replace("http", "ws", 1) + path,
-                    **socket_options(self._core, self._client.cookies, threads=True),
+                    session.base.replace("http", "ws", 1) + path,
+                    **socket_options(self._core, session.client.cookies, threads=True),
                     open_timeout=self._timeout,
                 )
             )
@@ -166,9 +212,9 @@ class RwsSyncRunner:
 
     def close(self) -> None:
         """Close all connections."""
-        if self._client is not None:
-            self._client.close()
-            self._client = None
+        if self._session.client is not None:
+            self._session.client.close()
+            self._session.client = None
 
 
 class Subscription:
@@ -186,6 +232,10 @@ class Subscription:
         self._socket: ClientConnection | None = None
         self._group = ""
         self._stack = ExitStack()
+        self._process = os.getpid()
+        self._sockets: list[ClientConnection] = []
+        """The open websocket, for the finalizer; its thread holds it, too."""
+        weakref.finalize(self, _close_dropped, str(core.address), self._sockets)
         self._open(subscriptions.subscribe(core, chosen))
 
     def _open(self, flow: Flow[subscriptions.SubscriptionGroup]) -> None:
@@ -194,9 +244,12 @@ class Subscription:
         self._waiting.extend(opened.events)
         self._stack.close()
         self._socket = self._carrier.open_socket(opened.path, self._stack)
+        self._sockets[:] = [self._socket]
 
     def next(self, timeout: float | None = None) -> ResourceEvent:
         """Return the next event. Raises RobotTimeout (RG602)."""
+        if os.getpid() != self._process:
+            raise forked()
         until = None if timeout is None else time.monotonic() + timeout
         while not self._waiting:
             left = None if until is None else until - time.monotonic()
@@ -227,6 +280,10 @@ class Subscription:
 
     def close(self) -> None:
         """End the subscription."""
+        self._sockets.clear()
+        if os.getpid() != self._process:
+            # The websocket is the parent's.
+            self._socket = None
         if self._socket is not None:
             self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
             self._stack.close()
@@ -241,6 +298,14 @@ class Subscription:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _close_dropped(where: str, sockets: list[ClientConnection]) -> None:
+    for each in sockets:
+        # The thread of the websocket ends; a closing handshake would wait for the controller.
+        with suppress(OSError):
+            each.socket.shutdown(socket.SHUT_RDWR)
+        warn_unclosed(where)
 
 
 class Controller(ControllerApi[RwsSyncRunner]):

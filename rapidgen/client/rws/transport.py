@@ -13,9 +13,14 @@ from websockets.typing import Subprotocol
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotError
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import LogIn, Response
+from rapidgen.wire.rws import media
 from rapidgen.wire.rws.events import PROTOCOLS
 from rapidgen.wire.rws.xhtml import LARGEST
 
+LOGOUT = "/logout"
+LOGOUT_HEADERS = {"Accept": media.HAL}
+LOGOUT_TIMEOUT = 2.0
+"""s for which a dropped client waits for the end of its session."""
 _NO_CHECK_TIME = 0x200000
 """X509_V_FLAG_NO_CHECK_TIME: a confirmed certificate may have expired."""
 
@@ -75,6 +80,15 @@ def socket_options(
         proxy=None,
         ping_interval=None,
         max_size=LARGEST,
+    )
+
+
+def forked() -> ConnectionLost:
+    """Return the error of a subscription in a process that was forked from its owner's."""
+    return ConnectionLost.because(
+        "RG602",
+        "the subscription belongs to the process from which this one was forked",
+        "subscribe in this process",
     )
 
 

@@ -32,6 +32,11 @@ from rapidgen.wire.rws.operations import RwsOperation
 SESSION, CONNECTION = "-http-session-", "ABBCX"
 """Cookies of the session and of the TCP connection."""
 LARGEST_FORM = 100_000
+_SAFE = ("GET", "HEAD", "OPTIONS")
+"""Methods that change nothing."""
+_MOST_NONCES = 1000
+_MOST_COUNTS = 1000
+"""Logins with one nonce."""
 _REALM = 'Basic realm="Robot Web Services"'
 
 
@@ -58,7 +63,8 @@ class RwsApplication:
         self._users = login.users
         self._strict = strict
         self._key = secrets.randbelow(10**9) * 10**6
-        self._nonces: dict[str, None] = {}
+        self._nonces: dict[str, set[int]] = {}
+        """Used counts by nonce: a login is valid once."""
         self._connections: dict[str, Session] = {}
         """Sessions by the cookie of the TCP connection."""
         runner.on_restart.append(self._restarted)
@@ -103,6 +109,8 @@ class RwsApplication:
             return HttpResponse(400)
         if not got.headers.get("host", "").isascii():
             return HttpResponse(400)
+        if got.method not in _SAFE and is_foreign(got):
+            return HttpResponse(403)
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None:
             entered = self._enter(got)
@@ -124,30 +132,51 @@ class RwsApplication:
         """Log in; a response gives the reason for a refusal."""
         user = self._user(got)
         if user is None:
-            return HttpResponse(401, (("WWW-Authenticate", self._challenge()),))
+            return HttpResponse(401, (("WWW-Authenticate", self._challenge(got)),))
         return self.sessions.begin(user) or HttpResponse(503, (("Retry-After", "1"),))
 
-    def _challenge(self) -> str:
+    def _challenge(self, got: HttpRequest) -> str:
         if self.generation is not Generation.ONE:
             return _REALM
         nonce = secrets.token_hex(16)
-        self._nonces[nonce] = None
-        if len(self._nonces) > 1000:
+        self._nonces[nonce] = set()
+        if len(self._nonces) > _MOST_NONCES:
             del self._nonces[next(iter(self._nonces))]
-        return logging_in.challenge(nonce)
+        # Only the nonce is wrong: the client need not ask its user again.
+        return logging_in.challenge(nonce, stale=self._digest(got) is not None)
 
     def _user(self, got: HttpRequest) -> str | None:
         """Return the user of the Authorization header; None if there is none."""
         header = got.headers.get("authorization", "")
         if self.generation is not Generation.ONE:
             return logging_in.basic_user(header, self._users)
-        sent = logging_in.parse(header)
-        if sent is None or sent.nonce not in self._nonces:
+        sent = self._digest(got)
+        if sent is None or not self._is_first(sent):
+            return None
+        return sent.user
+
+    def _digest(self, got: HttpRequest) -> logging_in.Digest | None:
+        """Return a login with the right password for this request, of any nonce."""
+        sent = logging_in.parse(got.headers.get("authorization", ""))
+        if sent is None or not logging_in.is_for(sent, got.target):
             return None
         password = self._users.get(sent.user)
         if password is None or not logging_in.is_right(sent, got.method, password):
             return None
-        return sent.user
+        return sent
+
+    def _is_first(self, sent: logging_in.Digest) -> bool:
+        """Use a nonce's count; False if it was used before, or the nonce is unknown.
+
+        Counts may come in any order: a client sends them on several connections.
+        """
+        used, count = self._nonces.get(sent.nonce), logging_in.count_of(sent)
+        if used is None or count is None or count in used:
+            return False
+        used.add(count)
+        if len(used) >= _MOST_COUNTS:
+            del self._nonces[sent.nonce]
+        return True
 
     def _syntax(self, got: HttpRequest, path: str, query: dict[str, str]) -> Syntax | None:
         """Return the syntax of the answer; None if the client accepts none."""
@@ -232,10 +261,10 @@ class RwsApplication:
         self, got: HttpRequest, session: Session, path: str, answer: RwsResponse, syntax: Syntax
     ) -> HttpResponse:
         headers = [*answer.headers]
-        headers.append(("Set-Cookie", f"{SESSION}={session.key}; path=/; httponly"))
-        headers.append(
-            ("Set-Cookie", f"{CONNECTION}={self._connection(got, session)}; path=/; httponly")
-        )
+        cookies = {SESSION: session.key, CONNECTION: self._connection(got, session)}
+        for name, value in cookies.items():
+            # A page of another server that runs in the same browser must not use the session.
+            headers.append(("Set-Cookie", f"{name}={value}; path=/; httponly; samesite=strict"))
         if answer.body is None:
             if not any(name == "Content-Type" for name, _ in headers):
                 if answer.data is not None:
@@ -252,6 +281,19 @@ class RwsApplication:
             kind += ";v=2.0"
         headers.append(("Content-Type", kind))
         return HttpResponse(answer.status, tuple(headers), WRITERS[syntax](body))
+
+
+def is_foreign(got: HttpRequest) -> bool:
+    """True if a page of another server sent a request: its Origin is not the Host.
+
+    A browser adds a user's login and cookies to such a request. Other clients send no Origin, or
+    the server's own address.
+    """
+    origin = got.headers.get("origin")
+    if origin is None:
+        return False
+    _, _, netloc = origin.partition("://")
+    return netloc.lower() != got.headers.get("host", "").lower()
 
 
 def _cookies(got: HttpRequest) -> dict[str, str]:

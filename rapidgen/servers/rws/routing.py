@@ -63,6 +63,13 @@ def _vagueness(row: _Row) -> tuple[int, bool, int, bool]:
     return path.count("{"), "*" in path, -len(path), not row.route.selector
 
 
+@cache
+def services(generation: Generation) -> tuple[str, ...]:
+    """Return the names directly below `/rw`."""
+    paths = (row.route.path.split("/") for row in _rows(generation))
+    return tuple(sorted({path[2] for path in paths if path[1] == "rw" and len(path) > 2}))
+
+
 def find(generation: Generation, method: str, path: str, query: Mapping[str, str]) -> RouteMatch:
     """Return the handler of a request.
 

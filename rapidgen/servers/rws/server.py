@@ -13,7 +13,7 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.aiohttp_thread import WebThread
-from rapidgen.servers.rws.application import RwsApplication
+from rapidgen.servers.rws.application import RwsApplication, is_foreign
 from rapidgen.servers.rws.certificate import Certificate, self_signed
 from rapidgen.servers.rws.context import Accounts
 from rapidgen.servers.rws.messages import HttpRequest, HttpResponse, RequestDenied
@@ -161,6 +161,8 @@ class _Server:
         asked = [p.strip() for p in got.headers.get("sec-websocket-protocol", "").split(",")]
         if got.headers.get("upgrade", "").lower() != "websocket" or protocol not in asked:
             return web.Response(status=400)
+        if is_foreign(got):
+            return web.Response(status=403)
         events: asyncio.Queue[bytes | None] = asyncio.Queue()
 
         def send(event: bytes | None) -> None:

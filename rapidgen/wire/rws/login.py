@@ -6,6 +6,7 @@ import hmac
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from urllib.parse import unquote
 
 REALM = "validusers@robapi.abb"
 _PART = re.compile(r'(\w+)=(?:"((?:[^"\\]|\\.)*)"|([^\s,"]+))')
@@ -52,10 +53,27 @@ def is_right(sent: Digest, method: str, password: str) -> bool:
 
     The user name is used unchanged.
     """
-    ha1 = _md5(f"{sent.user}:{REALM}:{password}")
-    ha2 = _md5(f"{method}:{sent.uri}")
-    expected = _md5(f"{ha1}:{sent.nonce}:{sent.nc}:{sent.cnonce}:auth:{ha2}")
-    return hmac.compare_digest(expected, sent.response.lower())
+    try:
+        ha1 = _md5(f"{sent.user}:{REALM}:{password}")
+        ha2 = _md5(f"{method}:{sent.uri}")
+        expected = _md5(f"{ha1}:{sent.nonce}:{sent.nc}:{sent.cnonce}:auth:{ha2}")
+        return hmac.compare_digest(expected.encode(), sent.response.lower().encode())
+    except UnicodeEncodeError:
+        return False
+
+
+def is_for(sent: Digest, target: str) -> bool:
+    """True if a digest was made for this request target [RFC 7616, 3.4.6].
+
+    A client may name the complete address, and may escape other characters.
+    """
+    uri = re.sub(r"^https?://[^/]*", "", sent.uri)
+    return unquote(uri) == unquote(target)
+
+
+def count_of(sent: Digest) -> int | None:
+    """Return the nonce count; None if it is not one [RFC 7616, 3.4]."""
+    return int(sent.nc, 16) if re.fullmatch(r"[0-9A-Fa-f]{8}", sent.nc) else None
 
 
 def _md5(text: str) -> str:

@@ -101,6 +101,18 @@ def test_websocket_of_unknown_client_is_refused(subscribe, changed, status):
     assert caught.value.response.status_code == status
 
 
+def test_pages_of_other_servers_get_no_events(subscribe):
+    wanted = subscribe("/rw/panel/opmode")
+    headers = {**wanted["additional_headers"], "Origin": "https://other"}
+    with pytest.raises(InvalidStatus) as refused:
+        connect(**{**wanted, "additional_headers": headers})
+    assert refused.value.response.status_code == 403
+    host = wanted["uri"].split("/")[2]
+    headers["Origin"] = f"https://{host}"
+    with connect(**{**wanted, "additional_headers": headers}) as events:
+        assert events.subprotocol == "rws_subscription"
+
+
 def test_nothing_is_lost_between_the_answer_and_the_upgrade(tmp_path):
     with make_runner(tmp_path, Generation.TWO, clock="real") as runner:
         runner.start()

@@ -41,7 +41,8 @@ def get_execution(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 def start(context: "RwsContext", request: RwsRequest) -> None:
     """Start the program.
 
-    A success means that the request was accepted: the program may not run [real 7.21].
+    A success of RWS 2.0 means that the request was accepted: the program may not run, for example
+    with motors off [real 7.21, VC 7.21]. RWS 1.0 rejects it, as in any wrong state [VC 6.16].
     """
     notify = {name: request.field(name, text) for name, text in _START.items()}
     controller = context.controller
@@ -53,7 +54,12 @@ def start(context: "RwsContext", request: RwsRequest) -> None:
     _may_start(context, request)
     if notify["cycle"] != "asis":
         controller.cycle = "once" if notify["cycle"] == "once" else "forever"
-    controller.start_program()
+    _start(context, request)
+
+
+def _start(context: "RwsContext", request: RwsRequest) -> None:
+    if not context.controller.start_program() and request.is_one and context.strict:
+        raise RequestDenied(400, "E_EXEC_STATE", "start is not allowed in this state", -508)
 
 
 def _may_start(context: "RwsContext", request: RwsRequest) -> None:
@@ -92,7 +98,7 @@ def start_entry(context: "RwsContext", request: RwsRequest) -> None:
     context.masters.need_mode(request.session, "exec")
     _may_start(context, request)
     reset_pp(context, request)
-    context.controller.start_program()
+    _start(context, request)
 
 
 @serves(ops.STOP)

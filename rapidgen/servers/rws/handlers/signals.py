@@ -4,6 +4,7 @@ Their access level decides which client may set them.
 """
 
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from rapidgen.machine.io import Signal
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, page, show
@@ -70,7 +71,12 @@ def item(signal: Signal, kind: str, request: RwsRequest) -> Item:
             if _is_writable(signal)
             else "Rapid|LocalManual"
         )
-    return Item(kind, title_of(signal), notify)
+    title = title_of(signal)
+    # Relative to `/rw/iosystem/`, the parent of the collection [VC 6.16, VC 7.21].
+    parent = "" if request.path.rstrip("/").endswith("/signals") else "/rw/iosystem/"
+    query = "?json=1" if request.is_one and request.query.get("json") == "1" else ""
+    links = {"self": f"{parent}signals/{quote(title)}{query}"} if kind.endswith("-li") else {}
+    return Item(kind, title, notify, links)
 
 
 def _is_writable(signal: Signal) -> bool:

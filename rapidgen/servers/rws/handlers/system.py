@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from rapidgen.machine.scheduler import date_time
 from rapidgen.servers.rws.default_cfg import OPTIONS
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
-from rapidgen.servers.rws.routing import serves
+from rapidgen.servers.rws.routing import serves, services
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
 
@@ -33,6 +33,17 @@ def identity(context: "RwsContext", request: RwsRequest) -> RwsResponse:
         "ctrl-mac": "",
     }
     return show(Item("ctrl-identity-info", "identity", notify))
+
+
+@serves(ops.SERVICES)
+def get_services(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+    """Return the services, which public clients use to test a connection.
+
+    Class and links are those of RobotWare 6.05 [code: HslCommunication].
+    """
+    names = services(request.generation)
+    items = (Item("rwservice-li", name, links={"self": f"rw/{name}"}) for name in names)
+    return show(*items, collection=True)
 
 
 @serves(ops.SYSTEM)

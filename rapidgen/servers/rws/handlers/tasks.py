@@ -159,12 +159,13 @@ def get_modules(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
     HAL has them in `state`, though they are many [VC 7.21].
     """
-    result = context.runner.programs.modules(task_to_boot(context, request))
+    task = task_to_boot(context, request)
+    result = context.runner.programs.modules(task)
     return show(
         *(
             Item(
                 "rap-module-info-li",
-                module.name,
+                f"{task.name}/{module.name}",
                 {"name": module.name, "type": "SysMod" if module.is_system else "ProgMod"},
             )
             for module in result
