@@ -79,4 +79,4 @@ def test_fork_leaves_the_parents_session(served_two, caplog):
         assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
         assert "DELETE" not in caplog.text
         assert "logout" not in caplog.text
-        assert controller.holder("cfg").is_mine
+        assert controller.holder("cfg").mine
