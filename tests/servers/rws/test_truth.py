@@ -114,7 +114,7 @@ def test_a_module_is_loaded_replaced_and_taken_out(one):
     assert one.post(f"{tasks}?action=loadmod", {**form, "replace": "true"}) == 204
     assert one.get("/rw/rapid/symbol/data/RAPID/T_ROB1/h?json=1")[0].text("value") == "6"
     one.application.context.controller.run_for(1.1)
-    names = [i.title for i in one.get("/rw/rapid/modules?task=T_ROB1")]
+    names = [i.text("name") for i in one.get("/rw/rapid/modules?task=T_ROB1")]
     assert names == ["MainModule", "Helper"]
     one.application.context.controller.start_program()
     running = one.send("POST", f"{tasks}?action=unloadmod", {"module": "Helper"})
