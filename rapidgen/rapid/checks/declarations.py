@@ -8,6 +8,7 @@ from rapidgen.rapid.binding.names import array, datum_symbol, parameter_symbol
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.flow import FlowChecker
 from rapidgen.rapid.checks.labels import bodies, check_labels, flat
+from rapidgen.rapid.checks.moves import MoveChecker
 from rapidgen.rapid.checks.typing import TypeChecker
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
@@ -47,6 +48,7 @@ class _ModuleChecker:
         self.report, self.warn, self.declared = findings.report, findings.warn, findings.declared
         self.scope = findings.module
         self.types = TypeChecker(findings)
+        self.moves = MoveChecker(findings)
 
     def module(self) -> None:
         """Check the module."""
@@ -250,6 +252,7 @@ class _ModuleChecker:
             self._data(datum, routine=True)
             self._declare(current, datum_symbol(datum, self.scope, node))
         check_labels(self.findings, node)
+        self.moves.routine(node)
         for part, body in bodies(node):
             flow.part = part
             if part == "ERROR":

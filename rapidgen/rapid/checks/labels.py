@@ -23,7 +23,7 @@ Path = tuple[int, ...]
 """The lists that a statement is in, outermost first, by number."""
 
 
-def _inner(statement: Statement) -> list[Sequence[Statement]]:
+def inner_lists(statement: Statement) -> list[Sequence[Statement]]:
     """Return the statement lists inside a statement."""
     if isinstance(statement, If):
         bodies: list[Sequence[Statement]] = [b.body for b in statement.branches]
@@ -45,7 +45,7 @@ def _jumps(body: Sequence[Statement], path: Path) -> Iterator[tuple[Label | Goto
         if isinstance(statement, Label | Goto):
             yield statement, path
             continue
-        for inner in _inner(statement):
+        for inner in inner_lists(statement):
             number += 1
             yield from _jumps(inner, (*path, number))
 
@@ -54,7 +54,7 @@ def flat(body: Sequence[Statement]) -> Iterator[Statement]:
     """Iterate over statements of a list and its nested lists."""
     for statement in body:
         yield statement
-        for inner in _inner(statement):
+        for inner in inner_lists(statement):
             yield from flat(inner)
 
 

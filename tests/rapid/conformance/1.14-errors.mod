@@ -125,3 +125,52 @@ MODULE Demo
         TRYNEXT;  ! -> RG321
     ENDPROC
 ENDMODULE
+!=== handler_moves
+! rule: a move in a trap or error handler needs StorePath before it
+! source: [manual] 3HAC050917 StorePath; the log of an IRB 120 with 5.15 has 41739 for each move of a trap
+MODULE Demo
+    VAR robtarget p;
+    VAR bool ready;
+    TRAP bare
+        MoveL p, v100, fine, tool0;  ! -> RG334?
+        MoveL p, v100, fine, tool0;
+    ENDTRAP
+    TRAP good
+        StopMove;
+        StorePath;
+        MoveL p, v100, fine, tool0;
+        RestoPath;
+    ENDTRAP
+    TRAP by_call
+        IF ready THEN
+            far;  ! -> RG334?
+        ENDIF
+    ENDTRAP
+    TRAP stored_by_call
+        keep;
+        far;
+    ENDTRAP
+    PROC keep()
+        StorePath;
+    ENDPROC
+    PROC far()
+        near;
+    ENDPROC
+    PROC near()
+        MoveJ p, v100, fine, tool0;
+        IF ready far;
+    ENDPROC
+    PROC main()
+        MoveL p, v100, fine, tool0;
+    ERROR
+        TEST ERRNO
+        CASE ERR_DIVZERO:
+            StorePath;
+            MoveL p, v100, fine, tool0;
+            RestoPath;
+        CASE ERR_ARGVALERR:
+            MoveL p, v100, fine, tool0;  ! -> RG334?
+        ENDTEST
+        TRYNEXT;
+    ENDPROC
+ENDMODULE

@@ -190,6 +190,7 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
 
 Maker: TypeAlias = Callable[[Task, Arguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
 """joint_move or cartesian_move."""
+MISSING_STORE_PATH = 41_739
 _PLACES = frozenset(map(errnum, ("ERR_OUTSIDE_REACH", "ERR_ROBLIMIT")))
 _STOPS = frozenset((NOT_COMPATIBLE, OUT_OF_RANGE, SINGULARITY, CIRCLE_UNCERTAIN))
 
@@ -220,8 +221,23 @@ def order(
 
 
 def _put(task: Task, arguments: Arguments, group: MotionGroup, move: Move) -> MotionGroup:
-    group.move(task, together(task, group, move, arguments.get("ID")))
+    _start(task, group, move, arguments.get("ID"))
     return group
+
+
+def _start(task: Task, group: MotionGroup, move: Move, identity: float | None) -> None:
+    """Append a move to the path.
+
+    A move of a trap or an error handler joins the path that it interrupted. Controllers execute it,
+    with a warning unless StorePath came before.
+    """
+    if (task.in_trap or task.errors.handler_level) and group.path_level == 1:
+        place = here(task)
+        at = place() if place is not None else None
+        if isinstance(at, Location):
+            arguments = (task.name, at.instruction, "StorePath", at.reference)
+            task.controller.log.record(MISSING_STORE_PATH, *arguments, task=task.name)
+    group.move(task, together(task, group, move, identity))
 
 
 def _goes_by_its_axes(task: Task, arguments: Arguments, events: tuple[PathEvent, ...]) -> bool:
@@ -306,7 +322,7 @@ def move_ext_j(task: Task, _name: str, arguments: Arguments) -> None:
     Robot axes stay at the end of the path, and only the speeds of external axes apply.
     """
     group, move, _ = external_move(task, arguments)
-    group.move(task, together(task, group, move, arguments["ID"]))
+    _start(task, group, move, arguments["ID"])
 
 
 def external_move(task: Task, arguments: Arguments) -> tuple[MotionGroup, JointMove, Offsets]:

@@ -174,3 +174,46 @@ MODULE Demo
         WaitTestAndSet p_bool \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE
+!=== moves_without_identity
+! rule: between SyncMoveOn and SyncMoveOff a move has an \ID
+! source: [manual] 3HAC050917 SyncMoveOn
+MODULE Demo
+    PERS tasks both{2} := [["T_ROB1"], ["T_ROB2"]];
+    VAR syncident begins;
+    VAR syncident ends;
+    VAR robtarget p;
+    VAR jointtarget j;
+    VAR bool ready;
+    PROC main()
+        MoveL p, v100, fine, tool0;
+        SyncMoveOn begins, both;
+        MoveL p \ID:=10, v100, fine, tool0;
+        MoveL p, v100, fine, tool0;  ! -> RG335?
+        MoveAbsJ j, v100, fine, tool0;  ! -> RG335?
+        inside;  ! -> RG335?
+        WaitTime 1;
+        SyncMoveSuspend;
+        inside;
+        SyncMoveResume;
+        IF ready THEN
+            MoveJ p, v100, fine, tool0;  ! -> RG335?
+            SyncMoveOff ends;
+        ELSE
+            SyncMoveOff ends;
+            MoveJ p, v100, fine, tool0;
+        ENDIF
+        MoveL p, v100, fine, tool0;
+        IF ready SyncMoveOn begins, both;
+        MoveL p, v100, fine, tool0;
+        complete;
+        complete;
+    ENDPROC
+    PROC inside()
+        MoveL p, v100, fine, tool0;
+    ENDPROC
+    PROC complete()
+        SyncMoveOn begins, both;
+        MoveL p, v100, fine, tool0;  ! -> RG335?
+        SyncMoveOff ends;
+    ENDPROC
+ENDMODULE

@@ -90,6 +90,56 @@ MODULE searches
         TPWrite ValToStr(Round(here.y \Dec:=3));
     ENDPROC
 ENDMODULE
+!=== moves_without_store_path
+MODULE moves_without_store_path
+    ! source: log of an IRB 120 with 5.15: 41739 (task, "MoveL", "StorePath", place) for each move of a trap, which is executed; error handlers [mem]
+    ! robot: irb120
+    ! do: start, run 30
+    ! expect: trap 40
+    ! expect: end 0
+    ! expect: handler 0
+    ! log: 41739 Task T_ROB1: MoveL in a trap or error handler without StorePath, at /moves_without_store_path/aside/MoveL/13.; 41739 Task T_ROB1: MoveJ in a trap or error handler without StorePath, at /moves_without_store_path/back/MoveJ/42.
+    CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    CONST robtarget p := [[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+    VAR intnum i;
+    TRAP aside
+        MoveL Offs(p, 0, 40, 0), v200, fine, tool0;
+        tell "trap";
+    ENDTRAP
+    TRAP kept
+        StopMove;
+        StorePath;
+        MoveL CRobT(\Tool:=tool0), v200, fine, tool0;
+        RestoPath;
+        StartMove;
+    ENDTRAP
+    PROC main()
+        VAR num zero := 0;
+        MoveAbsJ home, v1000, fine, tool0;
+        CONNECT i WITH aside;
+        ITimer \Single, 0.5, i;
+        WaitTime 3;
+        MoveL p, v200, fine, tool0;
+        tell "end";
+        IDelete i;
+        CONNECT i WITH kept;
+        ITimer \Single, 0.5, i;
+        MoveL Offs(p, 0, 100, 0), v100, fine, tool0;
+        zero := 1 / zero;
+        tell "handler";
+    ERROR
+        back;
+        TRYNEXT;
+    ENDPROC
+    PROC back()
+        MoveJ p, v200, fine, tool0;
+    ENDPROC
+    PROC tell(string where)
+        VAR pos here;
+        here := CPos();
+        TPWrite where + " " + ValToStr(Round(here.y));
+    ENDPROC
+ENDMODULE
 !=== trigg_data
 MODULE trigg_data
     ! source: 3HAC050917 TriggDataReset, TriggDataCopy, TriggDataValid [manual]
