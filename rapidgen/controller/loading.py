@@ -9,15 +9,12 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
 from rapidgen.machine.io import IOSystem
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.link import find_type
+from rapidgen.runtime.compiler.link import SMALL, find_type
 from rapidgen.runtime.compiler.program import missing_routines
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Type, Value
 from rapidgen.system.model import ModuleFile, System
-
-_SMALL = 64_000
-"""Bytes of a module whose tree is cached for the next controller."""
 
 
 class ParseCache:
@@ -32,7 +29,7 @@ class ParseCache:
 
     def parse(self, file: ModuleFile) -> n.Module:
         """Return the tree of a module file; callers must not change it."""
-        if len(file.data) <= _SMALL:
+        if len(file.data) <= SMALL:
             return _tree(file.data, file.path, self._dialect)
         key = file.data, file.path
         if key not in self._parsed:
@@ -93,6 +90,8 @@ def _tell_its_robot(task: Task) -> None:
 def _unguided(tasks: Iterable[Task]) -> list[Diagnostic]:
     """Return a note on all programs that use externally guided motion."""
     for module in (module for task in tasks for module in task.program.modules.values()):
+        if b"egmsetupuc" not in module.file.data.lower():
+            continue
         source = module.tree.source
         for at, token in enumerate(source.tokens):
             if token.lower() == "egmsetupuc":

@@ -1,10 +1,10 @@
 """Compiler from RAPID routines to Python functions.
 
 Stages: `link` makes types, data and routines of the names of a task. `emit` writes a routine as
-Python source. `program` compiles routines on their first call and owns the namespace. `resume`
-compiles the rest of a routine for a place inside it, for resumption and for watched expressions.
-`support` contains the functions that compiled code calls, `symbols` what all stages know about data
-and code.
+Python source. `program` compiles routines on their first call and owns the namespace. `emitted`
+keeps their code for other controllers of the process with the same modules. `resume` compiles the
+rest of a routine for a place inside it, for resumption and for watched expressions. `support`
+contains the functions that compiled code calls, `symbols` what all stages know about data and code.
 
 Rules of the generated code:
 
@@ -26,5 +26,6 @@ Rules of the generated code:
 7. Blocks nested beyond CPython's limit become nested functions of the same kind as handlers.
 
 Names in generated code: `R` is the task (`task.Task`), `v_name` a parameter, `m3_name` an object of
-the third module, `p_name` a predefined datum, `B_name` a built-in, `k7` any other object.
+the third module, `p_name` a predefined datum, `B_name` a built-in, `k7` or `k1_m3_name` any other
+object.
 """

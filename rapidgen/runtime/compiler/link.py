@@ -11,8 +11,10 @@ loaded and run up to that use.
 """
 
 from collections import Counter
-from functools import cache
+from dataclasses import dataclass
+from functools import cache, lru_cache
 from math import prod
+from typing import TypeAlias
 
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.rapid.binding import constants
@@ -233,6 +235,9 @@ def predefined_routine(name: str) -> Routine | None:
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
 
+SMALL = 64_000
+"""Bytes of a module whose tree and code are kept for the next controller."""
+
 MOST_ELEMENTS = 4_000_000
 """Elements of an array: about 400 MB. The program memory of a controller is smaller [mem]."""
 
@@ -257,6 +262,26 @@ class Shared:
         self.names = installed_objects((k, t.name) for k, (t, _) in self.configured.items())
 
 
+@lru_cache(maxsize=1024)
+def _record_type(name: str, components: tuple[tuple[str, Type], ...]) -> Type:
+    """Return the type of a record; controllers of a process share it."""
+    made: Type = make_record(name, components).rapid_type
+    return made
+
+
+@dataclass(frozen=True, slots=True)
+class Loading:
+    """A module that was loaded into a task."""
+
+    tree: n.Module
+    installed: bool
+    shared: bool
+
+
+Change: TypeAlias = Loading | str
+"""A module that was loaded, or the name of one that was removed."""
+
+
 class Linker:
     """Types, data and routines of one task, made on first need."""
 
@@ -266,6 +291,10 @@ class Linker:
         self.space = space
         self.names = TaskScope(shared.names)
         self.modules: dict[str, LoadedModule] = {}
+        self.changes: list[Change] = []
+        """All modules that came and went."""
+        self.small = True
+        """No module was larger than SMALL."""
         self.faults: list[Diagnostic] = []
         """Errors, and warnings of undeclared types."""
         self.trace_points: list[tuple[Routine, n.Statement]] = []
@@ -322,6 +351,8 @@ class Linker:
                 exit_code=1,
             )
         self._modules += 1
+        self.changes.append(Loading(tree, file.installed, file.shared))
+        self.small = self.small and len(file.data) <= SMALL
         scope = self.names.add(tree, installed=file.installed or file.shared)
         module = self._loaded[scope] = LoadedModule(self._modules, tree, file, scope)
         self.modules[tree.name.lower()] = module
@@ -345,6 +376,7 @@ class Linker:
     def remove(self, name: str) -> None:
         """Remove a module."""
         gone = self.modules.pop(name.lower()).scope
+        self.changes.append(name.lower())
         self.names.remove(gone)
         del self._loaded[gone]
         for symbol in gone.own.values():
@@ -375,6 +407,11 @@ class Linker:
         self.faults.append(error("RG401", module.span(node), message))
 
     # -- types -----------------------------------------------------------------------------------
+
+    @property
+    def declared_types(self) -> tuple[Type | None, ...]:
+        """Types that the modules declare."""
+        return tuple(self._types.values())
 
     def find_type(self, module: LoadedModule, name: str, node: n.Node) -> Type | None:
         """Return the type of a name in a module; `node` is its place.
@@ -432,7 +469,7 @@ class Linker:
         signature = (symbol.name.lower(), *((c.lower(), t.name) for c, t in components))
         known = self.shared.records.get(signature)
         if known is None:
-            known = make_record(symbol.name, components).rapid_type
+            known = _record_type(symbol.name, tuple(components))
             self.shared.records[signature] = known
         return known
 

@@ -25,6 +25,7 @@ from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler import support
 from rapidgen.runtime.compiler.emit.access import Options
 from rapidgen.runtime.compiler.emit.routine import RoutineCompiler
+from rapidgen.runtime.compiler.emitted import EmittedProgram, EmittedRoutine, Kept, emitted_program
 from rapidgen.runtime.compiler.link import Linker, Shared
 from rapidgen.runtime.compiler.resume import (
     StoppedFrame,
@@ -161,6 +162,8 @@ class Program:
         self.codes: dict[str, Compiled] = {}
         self._linked: set[Routine] = set()
         """Routines compiled for the present modules."""
+        self.emitted: EmittedProgram | None = None
+        """Code of equal programs; None: nothing is kept for this one."""
         self._initial: dict[str, Value] = {}
         """Unchanged initial values, by storage."""
         self.space: dict[str, Value] = {
@@ -205,6 +208,7 @@ class Program:
 
     def _reset_code(self) -> None:
         self._linked.clear()
+        self.emitted = emitted_program(self.name, self.linker, self.options)
         self._initial = {}
         for module in self.modules.values():
             for routine in module.routines.values():
@@ -292,9 +296,8 @@ class Program:
         if routine in self._linked and file in self.codes:
             linked: Callable[..., Value] = self.space[routine.code]
             return linked
-        compiler = RoutineCompiler(self.linker, routine, self.options, routine.code, file)
         try:
-            function = self._known(*compiler.link())
+            function = self._known(*self._linked_routine(routine, file))
         except CannotCompile as fault:
             span = routine.module.span(fault.node)
             self.faults.append(error("RG401", span, str(fault)))
@@ -303,6 +306,27 @@ class Program:
             ) from fault
         self._linked.add(routine)
         return function
+
+    def _linked_routine(self, routine: Routine, file: str) -> tuple[Callable[..., Value], Compiled]:
+        """Return a function and its code, emitted or known. CannotCompile."""
+        # Undeclared types may come with another task, after this one was loaded.
+        emitted = None if self.shared.unknown else self.emitted
+        if emitted is None:
+            return RoutineCompiler(self.linker, routine, self.options, routine.code, file).link()
+        known = emitted.routines.get(file)
+        if known is not None:
+            compiled = known.taken_over(self.linker, routine, file)
+            exec(known.code, self.space)
+            return self.space[routine.code], compiled
+        faults = len(self.faults)
+        kept = Kept(f"{routine.code}_{len(self.linker.changes)}")
+        compiler = RoutineCompiler(self.linker, routine, self.options, routine.code, file, kept)
+        code, compiled = compiler.compile()
+        self.space.update(kept.values)
+        exec(code, self.space)
+        if len(self.faults) == faults:
+            emitted.routines[file] = EmittedRoutine.of(code, compiled, kept, self.linker)
+        return self.space[routine.code], compiled
 
     def _known(self, function: Callable[..., Value], compiled: Compiled) -> Callable[..., Value]:
         self.codes[compiled.file] = compiled
@@ -354,6 +378,15 @@ _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})
 
 def missing_routines(program: Program) -> list[Diagnostic]:
     """Return one warning per unavailable or undeclared routine."""
+    emitted = program.emitted
+    if emitted is None:
+        return _missing(program)
+    if emitted.missing is None:
+        emitted.missing = tuple(_missing(program))
+    return list(emitted.missing)
+
+
+def _missing(program: Program) -> list[Diagnostic]:
     findings: dict[str, Diagnostic] = {}
     for module in program.modules.values():
         suspects = _suspects(program, module) - findings.keys()

@@ -23,7 +23,7 @@ from rapidgen.runtime.compiler.symbols import (
     LoadedModule,
     Routine,
 )
-from rapidgen.runtime.values import BOOL, NUM, Type, attribute
+from rapidgen.runtime.values import BOOL, NUM, Type, Value, attribute
 
 # -- Compiled expressions --------------------------------------------------------------------------
 #
@@ -87,7 +87,7 @@ def calling(code: str, kind: Type, *parts: CompiledExpression, cost: int = 0) ->
     return e
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Options:
     """Compiler options."""
 
@@ -129,6 +129,8 @@ class Unit:
     """The current scope: the routine, or a FOR inside it."""
     boxed: set[str]
     """Locals that are passed by reference, lower case."""
+    keep: Callable[[Value], str]
+    """Returns a global name for any object."""
     locals: dict[Symbol, Data] = field(default_factory=dict)
     """Storage of parameters, data and loop variables."""
     globals_written: set[str] = field(default_factory=set)
@@ -450,7 +452,7 @@ def _reference_code(
     as_object = not builtin and parameter.mode == "VAR" and not place.atomic
     if as_object:
         return e.code
-    t, cell = unit.linker.keep(kind), place.cell or "None"
+    t, cell = unit.keep(kind), place.cell or "None"
     if place.holder:
         if not place.atomic:
             return f"PART({e.code}, {t}, {data.name!r}, {cell})"
@@ -474,7 +476,7 @@ def _reference_code(
 def _boxed(unit: Unit, node: n.Expression, parameter: FormalParameter) -> CompiledExpression:
     """Return a box for an expression passed to REF or anytype."""
     e = unit.expression(node, parameter.type)
-    t = unit.linker.keep(e.type)
+    t = unit.keep(e.type)
     name = node.name if isinstance(node, n.Name) else ""
     code = f"BOX({by_value(e, e.type)}, {t}, {e.dims!r}, {name!r})"
     return CompiledExpression(code, e.type, e.dims).take(e)

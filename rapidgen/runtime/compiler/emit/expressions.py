@@ -323,7 +323,7 @@ def _conditional(
         raise CannotCompile("a conditional argument names an optional parameter", argument)
     if parameter.switch or data.storage == "ref" or parameter.mode:
         if builtin and parameter.mode and data.storage not in ("ref", "box"):
-            t = unit.linker.keep(data.type)
+            t = unit.keep(data.type)
             code = f"(None if {data.code} is None else BOX({data.code}, {t}, {data.dims!r}))"
             return CompiledExpression(code, data.type, data.dims)
         if data.storage == "ref" and not parameter.mode:
@@ -786,5 +786,5 @@ def _aggregate(
     members = list(zip(node.members, kinds, strict=False))
     parts = [unit.value_of(m, kind, (), "component") for m, kind in members]
     inside = ", ".join(by_value(p, kind) for p, kind in zip(parts, kinds, strict=False))
-    cls = unit.linker.keep(expected.make)
+    cls = unit.keep(expected.make)
     return CompiledExpression(f"{cls}({inside})", expected, fresh=True).take(*parts)

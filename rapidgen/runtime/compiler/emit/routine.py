@@ -247,7 +247,7 @@ def _parameter(unit: Unit, w: Writer, parameter: FormalParameter) -> None:
         storage = "object"
     elif key in unit.boxed and atomic and not parameter.switch:
         storage = "box"
-        t = unit.linker.keep(kind)
+        t = unit.keep(kind)
         box = f"{code} = BOX({code}, {t}, (), {parameter.name!r})"
         w.emit(f"if {code} is not None: {box}" if parameter.optional else box)
     unit.locals[unit.names.names[key]] = Data(
@@ -270,15 +270,15 @@ def _constant(unit: Unit, name: str) -> Value:
 def _variable(
     unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, complete: IntegerLocals
 ) -> None:
-    key, kind, dims, linker = d.name.lower(), data.type, data.dims, unit.linker
+    key, kind, dims = d.name.lower(), data.type, data.dims
     if d.kind == "CONST":
         data.kind, data.readonly, data.storage = "CONST", True, "global"
-        data.code = linker.keep(value)
+        data.code = unit.keep(value)
     elif dims or kind.kind not in ATOMIC:
         w.emit(f"{data.code} = {_fresh(unit, d, kind, dims, value)}")
     elif key in unit.boxed:
         data.storage = "box"
-        w.emit(f"{data.code} = BOX({value!r}, {linker.keep(kind)}, (), {d.name!r})")
+        w.emit(f"{data.code} = BOX({value!r}, {unit.keep(kind)}, (), {d.name!r})")
     else:
         # With tracing, a debugger may store any value.
         data.whole = key in complete.whole and kind.kind == "num" and not unit.options.tracing
@@ -291,14 +291,13 @@ def _fresh(
     unit: Unit, d: n.DataDeclaration, kind: Type, dims: tuple[int, ...], value: Value
 ) -> str:
     """Return code that creates a record, array or object per call."""
-    linker = unit.linker
     if d.initial is None and not dims and kind.make is not None:
-        return f"{linker.keep(kind.make)}()"
+        return f"{unit.keep(kind.make)}()"
     if d.initial is None and len(dims) == 1 and kind.kind in ATOMIC:
         return f"dict.fromkeys(range(1, {dims[0] + 1}), {kind.default()!r})"
     if kind.is_value:
-        return f"COPY({linker.keep(value)})"
-    return f"ARRAY({dims!r}, {linker.keep(kind.make)})"
+        return f"COPY({unit.keep(value)})"
+    return f"ARRAY({dims!r}, {unit.keep(kind.make)})"
 
 
 # -- Routine ---------------------------------------------------------------------------------------
@@ -322,9 +321,18 @@ class RoutineCompiler:
     """
 
     def __init__(
-        self, linker: Linker, routine: Routine, options: Options, entry: str, file: str
+        self,
+        linker: Linker,
+        routine: Routine,
+        options: Options,
+        entry: str,
+        file: str,
+        keep: Callable[[Value], str] | None = None,
     ) -> None:
-        """Set the name of the Python function (`entry`) and of its `file`."""
+        """Set the name of the Python function (`entry`) and of its `file`.
+
+        `keep` names objects in the code, by default the linker.
+        """
         node = routine.node
         module = routine.module
         assert node is not None
@@ -334,7 +342,17 @@ class RoutineCompiler:
         names = module.scope.routine(node)
         self.facts = RoutineFacts(node, lambda name: linker.routine(names.find(name)))
         boxed = self.facts.by_reference
-        self.unit = Unit(linker, module, routine, node, options, compile_expression, names, boxed)
+        self.unit = Unit(
+            linker,
+            module,
+            routine,
+            node,
+            options,
+            compile_expression,
+            names,
+            boxed,
+            keep or linker.keep,
+        )
         self.emitter = Emitter(self.unit, compile_statement, self.facts.goto)
         self.parameters = header(self.unit)
         self.variables: Callable[[], None] = lambda: declare(self.unit, self.emitter.w, self.facts)
@@ -342,12 +360,13 @@ class RoutineCompiler:
 
     def link(self) -> tuple[Callable[..., Value], Compiled]:
         """Return the function, defined in the namespace. CannotCompile."""
-        code, compiled = self._compile()
+        code, compiled = self.compile()
         space = self.unit.linker.space
         exec(code, space)
         return space[self.entry], compiled
 
-    def _compile(self) -> tuple[CodeType, Compiled]:
+    def compile(self) -> tuple[CodeType, Compiled]:
+        """Return the code that defines the function. CannotCompile."""
         unit, emitter, w = self.unit, self.emitter, self.emitter.w
         node = unit.node
         w.token = node.name_token

@@ -193,7 +193,7 @@ def connect(emitter: Emitter, node: n.Connect) -> None:
         return
     if place.e.type.kind != "num" or place.e.dims:
         raise CannotCompile("CONNECT takes an intnum", node)
-    code = f"R.connect({place.e.code}, {emitter.unit.linker.keep(trap)})"
+    code = f"R.connect({place.e.code}, {emitter.unit.keep(trap)})"
     e = calling(code, NUM, place.e)
     lines = _through("_x", place.e.code, e, NUM)
     if place.data.storage == "global":
@@ -430,7 +430,7 @@ def late_call(emitter: Emitter, node: n.LateCall) -> None:
         code, part = _argument(unit, argument)
         codes.append(code)
         parts += part
-    module = unit.linker.keep(unit.module)
+    module = unit.keep(unit.module)
     inside = "".join(c + ", " for c in codes)
     code = f"R.late({name.code}, {module}, ({inside}))"
     emitter.simple(calling(code, NUM, *parts, cost=emitter.options.call))
@@ -453,9 +453,9 @@ def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[CompiledExpre
     place = place_of(unit, node)
     if place is None:
         e = unit.expression(node)
-        t = unit.linker.keep(e.type)
+        t = unit.keep(e.type)
         return f"LATE({name}, lambda: {by_value(e, e.type)}, None, {t}{last})", [e]
-    t = unit.linker.keep(place.e.type)
+    t = unit.keep(place.e.type)
     read = by_value(place.e, place.e.type)
     ref = _reference(unit, place)
     return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code}{last})", [place.e]
@@ -470,7 +470,7 @@ def _reference(unit: Unit, place: DataReference) -> str:
         return f"lambda: {data.code}"
     if not place.holder and data.storage == "global":
         return f"lambda: {unit.linker.global_ref(data)}"
-    t, cell = unit.linker.keep(e.type), place.cell or "None"
+    t, cell = unit.keep(e.type), place.cell or "None"
     if place.holder and place.atomic:
         maker = "MEMBER" if place.member else "ITEM"
         key = repr(place.key) if place.member else place.key

@@ -280,7 +280,7 @@ class Emitter:
             return
         about = unknown_type(self.unit, node)
         reason = f"nothing declares {about}" if about else str(fault)
-        span = self.unit.linker.keep(self.unit.module.span(fault.node))
+        span = self.unit.keep(self.unit.module.span(fault.node))
         self.simple(calling(f"R.refuse({reason!r}, {span})", NUM))
 
     def pay(self, e: CompiledExpression) -> None:
