@@ -41,6 +41,23 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True)
+class AxisInertia:
+    """How the acceleration of an axis depends on the posture; s^2/rad, rad/s^2.
+
+    The inverse of the acceleration is constant + elbow * e^2 + wrist * w^2 + cosine * cos(q3) +
+    sine * sin(q3), with the distances e of axis 3 and w of the wrist's centre from axis 1 in m.
+    """
+
+    axis: str
+    most: float
+    constant: float
+    elbow: float = 0.0
+    wrist: float = 0.0
+    cosine: float = 0.0
+    sine: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class KeptAxis:
     """A robot axis without a joint, held at its position during motion.
 
@@ -202,6 +219,8 @@ class GroupConfig:
     """Robot axes without a joint."""
     max_payload: float = field(default=0.0, metadata=SPARSE)
     """kg; 0: not known."""
+    inertias: tuple[AxisInertia, ...] = field(default=(), metadata=SPARSE)
+    """Axes whose acceleration depends on the posture."""
     unit_group: str = field(default="", metadata=SPARSE)
     """Name of the mechanical unit group, if a backup has another than the unit's."""
 

@@ -1,8 +1,9 @@
 """Cartesian ways: the TCP on a line or a circle, axes by inverse kinematics."""
 
 from bisect import bisect_right
+from collections.abc import Callable
 from itertools import pairwise
-from math import ceil
+from math import ceil, inf
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
@@ -22,12 +23,15 @@ from rapidgen.motion.moves import (
     timed,
 )
 from rapidgen.motion.pieces import AxisLimits, Piece
-from rapidgen.motion.sampling import interval_limits, largest_step, spaced
+from rapidgen.motion.sampling import cubics, interval_limits, largest_step, spaced
 from rapidgen.motion.singularities import put_tcp, wrist_end, wrist_places
 
-_STEP = 0.12
+_STEP = 0.05
 """rad or m of one axis that an interval of the sampling should not exceed."""
-_FEWEST, _MOST = 8, 512
+_FEWEST, _USUAL, _MOST = 5, 96, 512
+_PERIOD = 0.01
+"""Nominal s of an interval, as long as no more than `_USUAL` of them are needed: an interval has
+one acceleration, so that few of them make a move too slow."""
 _JUMP = 0.6
 """rad between the finest nodes that no axis can follow: a singularity."""
 
@@ -37,6 +41,7 @@ class CartesianPath:
 
     __slots__ = (
         "_ceilings",
+        "_curves",
         "_external",
         "_kinematics",
         "_nodes",
@@ -76,25 +81,26 @@ class CartesianPath:
         if move.singularities is not Singularities.OFF:
             self._wrist = origin, wrist_end(kinematics, move, origin, check)
         self._turns = self.measure.angle > NO_TURN
-        count = _FEWEST
+        programmed = nominal_time(self.measure, move.speed) if move.time is None else move.time
+        count = min(_USUAL, max(_FEWEST, ceil(programmed / _PERIOD)))
         while True:
             self._shares, self._nodes = self._sample(origin, count)
-            fastest, self.strength = self._bounds()
-            self.duration = self._nominal(move, fastest, from_rest + move.zone.fine)
+            least, fastest, self.strength = self._bounds()
+            self.duration = max(programmed, SHORTEST)
+            if move.time is not None:
+                rests = from_rest + move.zone.fine
+                total = move.time - rests * limits.ramp / 2
+                self.duration = timed(total, fastest, self.strength, rests / 2)
             count = len(self._nodes) - 1
             spacing = self.duration / count
             self._ceilings, close = interval_limits(self._nodes, spacing, limits)
-            if close or 2 * count > _MOST:
+            # The speed that the axes reach counts here, whatever is programmed.
+            wanted = min(_USUAL, ceil(least / _PERIOD))
+            if (close and count >= wanted) or 2 * count > _MOST:
                 break
-            count *= 2
+            count = max(wanted, count if close else 2 * count)
+        self._curves = cubics(self._nodes, spacing, 0.0)
         self.target = self._nodes[-1]
-
-    def _nominal(self, move: CartesianMove, fastest: float, rests: int) -> float:
-        """Nominal s of the move, which stands at `rests` of its ends."""
-        if move.time is None:
-            return max(nominal_time(self.measure, move.speed), SHORTEST)
-        total = move.time - rests * self.limits.ramp / 2
-        return timed(total, fastest, self.strength, rests / 2)
 
     @property
     def tcp(self) -> float:
@@ -129,17 +135,15 @@ class CartesianPath:
         count = len(self._nodes) - 1
         spacing = self.duration / count
 
-        def at(place: float) -> Posture:
-            return self.posture(place - begin)
-
         result: list[Piece] = []
         for k in range(count):
             left, right = begin + k * spacing, begin + (k + 1) * spacing
             if k == count - 1:
                 right = begin + self.duration
             low, high = max(left, start), min(right, end)
+            limits = self._ceilings[k]
             if high - low > 1e-12:
-                result.append(Piece(low, high, at, self._ceilings[k], self.tcp))
+                result.append(Piece(low, high, _later(self._curves[k], begin), limits, self.tcp))
         if result:
             result[0].start, result[-1].end = start, end
         return result
@@ -218,19 +222,24 @@ class CartesianPath:
             [a + (b - a) * part for a, b in zip(self._nodes[k], self._nodes[k + 1], strict=True)]
         )
 
-    def _bounds(self) -> tuple[float, float]:
-        """Nominal time at full axis speed, and the way's acceleration in shares per s^2."""
-        spacing = 1.0 / (len(self._nodes) - 1)
-        fastest, acceleration = SHORTEST, float("inf")
+    def _bounds(self) -> tuple[float, float, float]:
+        """Nominal time at full axis speed where that is largest and where it is smallest, and the
+        way's acceleration in shares per s^2."""
+        limits, spacing = self.limits, 1.0 / (len(self._nodes) - 1)
+        least, fastest, most = inf, SHORTEST, 0.0
         for a, b in pairwise(self._nodes):
-            for x, y, v, acc in zip(
-                a, b, self.limits.speeds, self.limits.accelerations, strict=True
-            ):
+            slowest = 0.0
+            for x, y, v, acc in zip(a, b, limits.speeds, limits.accelerations(a), strict=True):
                 rate = abs(y - x) / spacing
-                if rate > 0.0:
-                    fastest = max(fastest, rate / v)
-                    acceleration = min(acceleration, acc / rate)
-        return fastest, acceleration
+                slowest = max(slowest, rate / v)
+                most = max(most, rate / acc)
+            least, fastest = min(least, slowest), max(fastest, slowest)
+        return least, fastest, 1 / most if most else inf
+
+
+def _later(curve: Callable[[float], Posture], begin: float) -> Callable[[float], Posture]:
+    """A curve over the time of a way, over places of a path on which it begins at `begin`."""
+    return lambda place: curve(place - begin)
 
 
 def external_places(kinematics: Kinematics) -> tuple[int, ...]:

@@ -22,17 +22,17 @@ from rapidgen.motion.moves import (
     corner_shares,
     extended_share,
 )
-from rapidgen.motion.pieces import AxisLimits, Piece, joint_corner
-from rapidgen.motion.sampling import interval_limits, largest_step, sample, spaced
+from rapidgen.motion.pieces import AxisLimits, Limits, Piece, joint_corner
+from rapidgen.motion.sampling import cubics, interval_limits, largest_step, sample, spaced
 
 Bend = tuple[float, float, list[Piece]]
 """Start and end on the path, and the pieces between."""
-Ceilings = list[tuple[float, float]]
-"""Path speed and acceleration for each of some equal intervals."""
+Ceilings = list[Limits]
+"""Limits of each of some equal intervals."""
 _SMALLEST = 1e-7
 _FEWEST, _MOST = 5, 80
 """Intervals of one section of a corner."""
-_STEP = 0.1
+_STEP = 0.05
 """rad or m of one axis that an interval should not exceed."""
 
 
@@ -141,7 +141,13 @@ def _cartesian(
     sections = [(point + a, point + b) for a, b in pairwise(ends) if b - a > _SMALLEST]
     origin = path.posture(path.duration - wide[0])
     solve = _Tracker(kinematics, path.carrier, pose, external)
-    return _sampled(solve, point, sections, origin, limits, max(path.tcp, after.tcp))
+    bend = _sampled(solve, point, sections, origin, limits, max(path.tcp, after.tcp))
+    if bend is not None and limits.shortest > 0.0:
+        fastest = sum(near) / limits.corner / limits.shortest
+        for piece in bend[2]:
+            if point - near[0] <= (piece.start + piece.end) / 2 <= point + near[1]:
+                piece.speed = min(piece.speed, fastest)
+    return bend
 
 
 def _position(
@@ -248,11 +254,11 @@ def _sampled(
     pieces: list[Piece] = []
     try:
         for low, high in sections:
-            result = _section(solve, point, (low, high), origin, limits)
+            result = _section(solve, point, (low, high), origin, limits, tcp)
             if result is None:
                 return None
-            at, origin, ceilings = result
-            pieces += _curves(at, (low, high), ceilings, tcp)
+            origin, own = result
+            pieces += own
     except MotionFault:
         return None  # the corner cannot be reached: the point itself can
     return sections[0][0], sections[-1][1], pieces
@@ -264,8 +270,9 @@ def _section(
     bounds: tuple[float, float],
     origin: Posture,
     limits: AxisLimits,
-) -> tuple[Callable[[float], Posture], Posture, Ceilings] | None:
-    """Posture at a place, the last one, and the limits of each interval; None: a jump."""
+    tcp: float,
+) -> tuple[Posture, list[Piece]] | None:
+    """The last posture, and a piece for each interval; None: a jump."""
     (low, high), count = bounds, _FEWEST
     while True:
         places = spaced(low, high, count)
@@ -280,22 +287,19 @@ def _section(
         elif count >= _MOST:
             return None
         count *= 2
-
-    def at(place: float) -> Posture:
-        k = min(count - 1, max(0, int((place - low) / spacing)))
-        part = (place - places[k]) / spacing
-        near = tuple([a + (b - a) * part for a, b in zip(nodes[k], nodes[k + 1], strict=True)])
-        return solve(place - point, near)
-
-    return at, nodes[-1], ceilings
+    return nodes[-1], _pieces(nodes, bounds, ceilings, tcp)
 
 
-def _curves(
-    at: Callable[[float], Posture], bounds: tuple[float, float], ceilings: Ceilings, tcp: float
+def _pieces(
+    nodes: list[Posture], bounds: tuple[float, float], ceilings: Ceilings, tcp: float
 ) -> list[Piece]:
-    """A piece for each interval."""
-    places = pairwise(spaced(*bounds, len(ceilings)))
-    return [Piece(*ends, at, own, tcp) for ends, own in zip(places, ceilings, strict=True)]
+    """A piece for each interval between nodes."""
+    low, high = bounds
+    curves = cubics(nodes, (high - low) / len(ceilings), low)
+    places = pairwise(spaced(low, high, len(ceilings)))
+    return [
+        Piece(*ends, at, own, tcp) for ends, at, own in zip(places, curves, ceilings, strict=True)
+    ]
 
 
 # -- joint space along both tangents ------------------------------------------------------------
@@ -334,7 +338,7 @@ def _mixed(
             if close or count >= _MOST:
                 break
             count *= 2
-        pieces += _curves(at, (low, high), ceilings, max(path.tcp, after.tcp))
+        pieces += _pieces(nodes, (low, high), ceilings, max(path.tcp, after.tcp))
     return start, end, pieces
 
 

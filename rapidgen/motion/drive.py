@@ -6,13 +6,12 @@ from math import inf
 from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.motion import smoothing
 from rapidgen.motion.braking import BrakingMotion, coast, moment_before
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import Path
 from rapidgen.motion.pieces import Piece
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.motion.speed_profile import ProfileSegment, SpeedProfile, brake, plan
+from rapidgen.motion.speed_profile import SpeedProfile, brake, plan
 
 MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""
@@ -82,6 +81,10 @@ class Drive:
         """Where the robot is on its path."""
         return self.motion.place(self._scheduler.now)
 
+    def behind(self) -> float:
+        """Where on its path the mean begins that the robot follows."""
+        return self.motion.behind(self._scheduler.now)
+
     def planned(self) -> tuple[float, float]:
         """Place and speed from which on the path may still be planned anew."""
         return self.motion.planned(self._scheduler.now)
@@ -129,18 +132,11 @@ class Drive:
     ) -> SpeedProfile | None:
         limit = min(self.tcp_limit, MANUAL_REDUCED if self.reduced else inf)
         cap = self.override * (self.refresh if self.refreshed else 1.0)
-        return plan(self._spans(pieces), place, speed, cap, limit, self.ramp, wait)
-
-    def _spans(
-        self, pieces: tuple[Piece, ...]
-    ) -> tuple[ProfileSegment, ...] | list[ProfileSegment]:
-        if self.ramp <= 0.0 or not pieces:
-            return pieces
-        return smoothing.widened(pieces, pieces[0].start, self.ramp / 2)
+        return plan(pieces, place, speed, cap, limit, self.ramp, wait)
 
     def replan(self, path: Path) -> bool:
         """Go from the present state to the end of the path; False: it is there."""
-        path.prune(self.place())
+        path.prune(self.behind())
         place, _ = self.planned()
         if not path.pieces or path.end <= place:
             return False
@@ -157,17 +153,17 @@ class Drive:
 
     def brake(self, path: Path, quick: bool) -> None:
         """Slow down to a standstill on the path."""
-        path.prune(self.place())
+        path.prune(self.behind())
         factor = self.settings.quick_factor if quick else 1.0
-        self.run(brake(self._spans(path.pieces), *self.planned(), factor), path)
+        self.run(brake(path.pieces, *self.planned(), factor), path)
 
     def coast(self, path: Path, joints: Sequence[Joint]) -> None:
         """Stop each axis by its brake; the law tells where on the path it should have been."""
         now, factor = self._scheduler.now, self.settings.quick_factor
         before = self.motion.posture(max(self.motion.since, moment_before(now)))
         stop = coast(now, self.commanded(), before, joints, factor)
-        path.prune(self.place())
-        law = brake(self._spans(path.pieces), *self.planned(), factor)
+        path.prune(self.behind())
+        law = brake(path.pieces, *self.planned(), factor)
         self.run(law, path, stop)
 
     def run(self, law: SpeedProfile, path: Path, stop: BrakingMotion | None = None) -> None:

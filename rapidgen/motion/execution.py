@@ -124,7 +124,7 @@ class PathExecution:
         fixed, _ = drive.planned()
         if self._braking():
             fixed = max(fixed, self.motion.law.place)
-        path.prune(drive.place())
+        path.prune(drive.behind())
         limits, at_rest = self.limits(), self.is_standing
         make = self._planner.way_maker(limits)
         leg, failed = path.extend(move, make, drive.law, limits, fixed, self._planner.kinematics)
@@ -180,7 +180,7 @@ class PathExecution:
 
     def store(self) -> StoredPath:
         """The path as it is, for `restore`; another one is to `begin`."""
-        self.path.prune(self.drive.place())
+        self.path.prune(self.drive.behind())
         aside = StoredPath(self.path, self.motion, self._events)
         self._events = PathEvents()
         return aside

@@ -1,5 +1,6 @@
 """Legs: one move instruction each, placed on the path; joint ways."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import inf
@@ -19,7 +20,10 @@ from rapidgen.motion.moves import (
     timed,
 )
 from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
+from rapidgen.motion.sampling import spaced
 
+_PARTS = 8
+"""Parts of a joint move, where the accelerations depend on the posture."""
 _CHORDS = 4
 """Straight parts that stand for the TCP's way in a joint move."""
 
@@ -81,6 +85,7 @@ class JointPath:
     """All axes together on a straight line in joint space."""
 
     __slots__ = (
+        "_constant",
         "_peak",
         "duration",
         "limits",
@@ -99,8 +104,11 @@ class JointPath:
         measure: tuple[Measure, float],
         limits: AxisLimits,
         strength: float,
+        constant: Sequence[float] | None,
     ) -> None:
         self.strength = strength
+        self._constant = constant
+        """Accelerations of the axes that hold for all of the way, if there are such."""
         self.origin = origin
         self.target = target
         self.duration = duration
@@ -118,9 +126,14 @@ class JointPath:
         return tuple([q + r * time for q, r in zip(self.origin, self.rates, strict=True)])
 
     def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
-        """One straight piece."""
+        """Straight pieces: one, unless the accelerations differ along the way."""
         line = begin, self.origin, self.rates
-        return [joint_line(start, end, line, self.limits, self.tcp)]
+        if self._constant is not None:
+            return [joint_line(start, end, line, self.limits, self.tcp, self._constant)]
+        return [
+            joint_line(*ends, line, self.limits, self.tcp)
+            for ends in pairwise(spaced(start, end, _PARTS))
+        ]
 
 
 def joint_way(
@@ -134,16 +147,23 @@ def joint_way(
     """The way of a joint move. `\\T` includes the ramps at ends where the robot stands."""
     deltas = [b - a for a, b in zip(origin, move.target, strict=True)]
     fastest = max(abs(d) / v for d, v in zip(deltas, limits.speeds, strict=True))
-    strongest = min(
-        (a / abs(d) for d, a in zip(deltas, limits.accelerations, strict=True) if d), default=inf
-    )
+    shares = spaced(0.0, 1.0, _PARTS) if limits.vary else [0.0]
+    rows = [
+        limits.accelerations(tuple([q + d * share for q, d in zip(origin, deltas, strict=True)]))
+        for share in shares
+    ]
+    least = [min(column) for column in zip(*rows, strict=True)]
+    strongest = min((a / abs(d) for d, a in zip(deltas, least, strict=True) if d), default=inf)
+    constant: Sequence[float] | None = least
     if move.time is None:
         duration = max(fastest, nominal_time(measure[0], move.speed), SHORTEST)
+        constant = None if limits.vary else least
     else:
+        # With one acceleration all along, the time of a way is a formula.
         rests = from_rest + move.zone.fine
         total = move.time - rests * limits.ramp / 2
         duration = timed(total, fastest, strongest, rests / 2)
-    return JointPath(origin, move.target, duration, measure, limits, strongest)
+    return JointPath(origin, move.target, duration, measure, limits, strongest, constant)
 
 
 def lever_measure(

@@ -15,9 +15,10 @@ from rapidgen.motion.speed_profile import SpeedProfile
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A time law over pieces of path. Times are scheduler ns.
+    """A speed profile over pieces of path. Times are scheduler ns.
 
-    The law is what was planned; the robot follows its mean over the last `ramp` s.
+    The profile is what was planned; the robot follows the mean of that motion over the last
+    `ramp` s.
     """
 
     since: int
@@ -31,7 +32,7 @@ class Motion:
     legs: tuple[tuple[float, Move], ...] = ()
     """The moves on the path and where they end."""
     ramp: float = 0.0
-    """s in which acceleration builds up (`smoothing.py`); 0: at once."""
+    """s over which the motion is smoothed (`smoothing.py`)."""
 
     coast: BrakingMotion | None = None
     """The axes' own way to rest when the brakes stop them; the law then tells where on the path
@@ -54,6 +55,10 @@ class Motion:
         """Where the robot is on the path at a time."""
         return smoothing.state(self.law, (now - self.start) / S, self.ramp)[0]
 
+    def behind(self, now: int) -> float:
+        """Where on the path the mean begins that the robot follows at a time."""
+        return self.law.state((now - self.start) / S - self.ramp)[0]
+
     def time_at(self, place: float) -> float:
         """When the robot reaches a place, scheduler s; the standstill for places not reached."""
         return self.start / S + smoothing.time_at(self.law, place, self.ramp)
@@ -64,7 +69,10 @@ class Motion:
             return self.rest
         if self.coast is not None:
             return self.coast.posture(now)
-        return posture_at(self.pieces, self.place(now), self.rest)
+        time = (now - self.start) / S
+        if self.ramp <= 0.0 or not self.pieces:
+            return posture_at(self.pieces, self.law.state(time)[0], self.rest)
+        return smoothing.posture(self.law, self.pieces, self.rest, time, self.ramp)
 
     def move(self, now: int) -> Move | None:
         """The move under way at a time, or the last one that was."""

@@ -55,15 +55,13 @@ class Path:
 
         The corner at the tail takes the programmed zone; where the robot is too fast for it
         the zone shrinks, and as the last resort the point becomes a stop. Returns the leg and
-        whether that happened (a corner path failure). A corner so sharp that a stop is quicker
-        is a stop, too.
+        whether that happened (a corner path failure).
         """
         tail = self.tail
-        sharp = False
         if tail is not None and not tail.stops:
             path = make(self.target, move, False)
             for size in _SHRINK:
-                bend = corner(tail, path, size, limits, kinematics)
+                bend = corner(tail, path, size * limits.corner, limits, kinematics)
                 if bend is None:
                     break
                 start, end, between = bend
@@ -72,9 +70,6 @@ class Path:
                 leg = Leg(move, path, tail.end, tail.end + path.duration)
                 before = self._until(start)
                 after = limits.slow(path.pieces(leg.begin, end, leg.end))
-                sharp = _slower_than_a_stop([*before[-1:], *after[:1]], between, limits.ramp)
-                if sharp:
-                    break
                 pieces = (*before, *limits.slow(between), *after)
                 if plan(pieces) is None:
                     continue
@@ -86,7 +81,7 @@ class Path:
             tail.committed = True
         leg, pieces = self._from_rest(move, make, limits)
         self._take(leg, pieces)
-        return leg, failed and not sharp
+        return leg, failed
 
     def _from_rest(
         self, move: Move, make: WayMaker, limits: AxisLimits
@@ -195,17 +190,6 @@ class Path:
     def at(self, place: float) -> Posture:
         """Axis values at a place."""
         return posture_at(self.pieces, place, self.target)
-
-
-def _slower_than_a_stop(adjacent: list[Piece], between: list[Piece], ramp: float) -> bool:
-    """Whether the ramp makes a corner slower than a stop.
-
-    The corner's speed c holds half a ramp before and behind it, which takes ramp (1/c - 1) longer;
-    a stop takes the ramp, and the time of slowing down and speeding up, 1/a.
-    """
-    c = min(piece.speed for piece in between)
-    a = min(piece.acceleration for piece in adjacent)
-    return ramp * (1 / c - 2) > 1 / a
 
 
 def posture_at(pieces: tuple[Piece, ...], place: float, remaining: Posture) -> Posture:

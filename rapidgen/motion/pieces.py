@@ -8,7 +8,10 @@ from math import inf, sqrt
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.kinematics import Posture
+from rapidgen.motion.speed_profile import Shares
 
+Limits = tuple[float, Shares]
+"""Path speed, and what the axes need of their accelerations."""
 _SAMPLES = 8
 """Parts of a piece over which the TCP's curve is measured."""
 
@@ -16,26 +19,31 @@ _SAMPLES = 8
 class Piece:
     """A stretch of path from `start` to `end` (nominal s) with constant limits.
 
-    `speed` and `acceleration` are ceilings of the path's own speed (1 = as programmed).
+    `speed` is a ceiling of the path's own speed (1 = as programmed), `shares` are what the axes
+    need of their accelerations (`speed_profile.py`).
     """
 
-    __slots__ = ("acceleration", "at", "end", "speed", "start", "stop", "tcp")
+    __slots__ = ("at", "end", "shares", "speed", "start", "stop", "straight", "tcp")
 
     def __init__(
         self,
         start: float,
         end: float,
         at: Callable[[float], Posture],
-        limits: tuple[float, float],
+        limits: Limits,
         tcp: float,
+        *,
+        straight: bool = False,
     ) -> None:
         self.start = start
         self.end = end
         self.at = at
         """Axis values at a place."""
-        self.speed, self.acceleration = limits
+        self.speed, self.shares = limits
         self.tcp = tcp
         """m that the TCP goes in a nominal s."""
+        self.straight = straight
+        """Whether all axes are linear in the place."""
         self.stop = False
         """Whether the robot stands at the end."""
 
@@ -56,7 +64,17 @@ class Piece:
 class AxisLimits:
     """Speeds and accelerations of the axes (rad, m), turned into limits along a path."""
 
-    __slots__ = ("accelerations", "ramp", "share", "speeds", "tcp_acceleration", "world")
+    __slots__ = (
+        "_at",
+        "_typical",
+        "corner",
+        "ramp",
+        "share",
+        "shortest",
+        "speeds",
+        "tcp_acceleration",
+        "world",
+    )
 
     def __init__(
         self,
@@ -66,28 +84,45 @@ class AxisLimits:
         tcp_acceleration: float = inf,
         ramp: float = 0.0,
         world: tuple[Callable[[Posture], Vector], float] | None = None,
+        at: Callable[[Posture], Sequence[float]] | None = None,
+        corner: float = 1.0,
+        shortest: float = 0.0,
     ) -> None:
         self.speeds = tuple(speeds)
-        self.accelerations = tuple(accelerations)
+        self._typical = tuple(accelerations)
+        self._at = at
         self.share = fraction
+        """What the curvature of the path may take of an acceleration; the rest is for braking."""
+        self.corner = corner
+        """Part of a zone that the parabola of its corner takes."""
+        self.shortest = shortest
+        """s that the way through a zone takes at least."""
         self.tcp_acceleration = tcp_acceleration
         """m/s^2 of the TCP along the path (PathAccLim)."""
         self.ramp = ramp
-        """s in which acceleration builds up; a standstill begins and ends half of it later."""
+        """s over which the robot follows the mean of what is planned."""
         self.world = world
         """Where the TCP of a posture is, and its largest acceleration, m/s^2 (WorldAccLim)."""
+
+    @property
+    def vary(self) -> bool:
+        """Whether the accelerations depend on the posture."""
+        return self._at is not None
+
+    def accelerations(self, posture: Posture) -> Sequence[float]:
+        """Accelerations of the axes in a posture."""
+        return self._typical if self._at is None else self._at(posture)
 
     def slow(self, pieces: Sequence[Piece]) -> Sequence[Piece]:
         """Fresh pieces with the limits of the TCP's acceleration, along its path and in all."""
         for piece in pieces:
-            if piece.tcp * piece.acceleration > self.tcp_acceleration:
-                piece.acceleration = self.tcp_acceleration / piece.tcp
+            if piece.tcp and self.tcp_acceleration < inf:
+                piece.shares = (*piece.shares, (piece.tcp / self.tcp_acceleration, 0.0))
             if self.world is not None:
                 self._slow_in_world(piece, *self.world)
         return pieces
 
     def _slow_in_world(self, piece: Piece, tcp: Callable[[Posture], Vector], limit: float) -> None:
-        """Turning takes its part of the limit first, as it does of the axes'."""
         step = (piece.end - piece.start) / _SAMPLES
         row = [tcp(piece.at(piece.start + k * step)) for k in range(_SAMPLES + 1)]
         rate = max(frames.distance(a, b) for a, b in pairwise(row)) / step
@@ -95,37 +130,38 @@ class AxisLimits:
         bend = max(frames.distance(a, b) for a, b in pairwise(chords)) / (step * step)
         if bend * piece.speed * piece.speed > limit * self.share:
             piece.speed = sqrt(limit * self.share / bend)
-        left = limit - bend * piece.speed * piece.speed
-        if rate * piece.acceleration > left:
-            piece.acceleration = left / rate
+        if rate > 0.0 or bend > 0.0:
+            piece.shares = (*piece.shares, (rate / limit, bend / limit))
 
-    def of_line(self, rates: Posture) -> tuple[float, float]:
-        """Path speed (at most 1) and acceleration on a straight joint line."""
-        speed, acceleration = 1.0, inf
-        for rate, v, a in zip(rates, self.speeds, self.accelerations, strict=True):
+    def of_line(self, rates: Posture, accelerations: Sequence[float]) -> Limits:
+        """Path speed (at most 1) and shares on a straight joint line."""
+        speed, most = 1.0, 0.0
+        for rate, v, a in zip(rates, self.speeds, accelerations, strict=True):
             size = abs(rate)
             if size * speed > v:
                 speed = v / size
-            if size * acceleration > a:
-                acceleration = a / size
-        return speed, acceleration
+            if size > most * a:
+                most = size / a
+        return speed, ((most, 0.0),) if most else ()
 
-    def of_curve(self, rates: Posture, curvings: Posture) -> tuple[float, float]:
-        """The same where the path bends: turning takes its part of the acceleration first."""
-        speed = 1.0
-        for rate, curving, v, a in zip(
-            rates, curvings, self.speeds, self.accelerations, strict=True
+    def of_curve(self, rates: Posture, curvatures: Posture, posture: Posture) -> Limits:
+        """The same where the path bends."""
+        speed, pairs = 1.0, []
+        for rate, curvature, v, a in zip(
+            rates, curvatures, self.speeds, self.accelerations(posture), strict=True
         ):
             if rate * speed > v:
                 speed = v / rate
-            if curving * speed * speed > a * self.share:
-                speed = sqrt(a * self.share / curving)
-        acceleration = inf
-        for rate, curving, a in zip(rates, curvings, self.accelerations, strict=True):
-            left = a - curving * speed * speed
-            if rate * acceleration > left:
-                acceleration = left / rate
-        return speed, acceleration
+            if curvature * speed * speed > a * self.share:
+                speed = sqrt(a * self.share / curvature)
+            pairs.append((rate / a, curvature / a))
+        pairs.sort(reverse=True)
+        shares, most = [], -1.0
+        for pair in pairs:
+            if pair[1] > most and pair != (0.0, 0.0):
+                shares.append(pair)
+                most = pair[1]
+        return speed, tuple(shares)
 
 
 def joint_line(
@@ -134,16 +170,19 @@ def joint_line(
     line: tuple[float, Posture, Posture],
     limits: AxisLimits,
     tcp: float,
+    accelerations: Sequence[float] | None = None,
 ) -> Piece:
     """All axes linear in nominal time: a line is the place where it begins, where the axes are
-    there, and their rates per s."""
+    there, and their rates per s. `accelerations` are those of the axes in its middle."""
     zero, origin, rates = line
 
     def at(place: float) -> Posture:
         t = place - zero
         return tuple([q + r * t for q, r in zip(origin, rates, strict=True)])
 
-    return Piece(start, end, at, limits.of_line(rates), tcp)
+    if accelerations is None:
+        accelerations = limits.accelerations(at((start + end) / 2))
+    return Piece(start, end, at, limits.of_line(rates, accelerations), tcp, straight=True)
 
 
 def joint_corner(
@@ -201,7 +240,8 @@ def _half(
         return tuple([o + (d + b * w) * w for o, d, b in zip(origin, tangent, bend, strict=True)])
 
     extremes = _extremes(tangent, bend, (slope, turn), (first, last))
-    return Piece(start, end, at, limits.of_curve(*extremes), tcp)
+    middle = at((start + end) / 2)
+    return Piece(start, end, at, limits.of_curve(*extremes, middle), tcp)
 
 
 def _extremes(

@@ -3,6 +3,7 @@
 Range, geometry and configuration are checked here, before motion.
 """
 
+from collections.abc import Sequence
 from math import inf
 
 from rapidgen.axes import frames
@@ -10,6 +11,7 @@ from rapidgen.axes.frames import IDENTITY, Pose, Vector, compose
 from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.axes.limits import outside
 from rapidgen.config.model import GroupConfig
+from rapidgen.motion.accelerations import of_posture
 from rapidgen.motion.cartesian import CartesianPath
 from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.legs import Geometry, joint_measure, joint_way, lever_measure
@@ -23,13 +25,22 @@ from rapidgen.motion.settings import MotionSettings
 class Planner:
     """What the moves of one group are planned with."""
 
-    __slots__ = ("config", "kinematics", "modal", "settings", "speed_limited", "tool")
+    __slots__ = (
+        "_accelerations",
+        "config",
+        "kinematics",
+        "modal",
+        "settings",
+        "speed_limited",
+        "tool",
+    )
 
     def __init__(self, config: GroupConfig, settings: MotionSettings) -> None:
         self.config = config
         self.settings = settings
         self.kinematics = Kinematics.of(config)
         """None: the model has no geometry, so the robot moves in joints only."""
+        self._accelerations = of_posture(config)
         self.modal = ModalSettings()
         self.tool: Pose = IDENTITY
         """The active TCP in the flange."""
@@ -59,14 +70,24 @@ class Planner:
                 return compose(own.forward(posture), tool)[0]
 
             world = tcp, modal.world_acceleration
-        joints = self.config.joints
+        joints, share, by_posture = self.config.joints, modal.acceleration, self._accelerations
+        at = by_posture
+        if by_posture is not None and share != 1.0:
+            full = by_posture
+
+            def at(posture: Posture) -> Sequence[float]:
+                return [a * share for a in full(posture)]
+
         return AxisLimits(
             [min(j.speed, slower.get(j.axis, inf)) for j in joints],
-            [j.acceleration * modal.acceleration for j in joints],
+            [j.acceleration * share for j in joints],
             self.settings.corner_share,
             modal.path_acceleration,
             ramp,
             world,
+            at,
+            self.settings.corner_size,
+            self.settings.shortest_corner,
         )
 
     def check_range(self, move: Move) -> None:

@@ -1,19 +1,30 @@
-"""Jerk: how a law of phases of constant acceleration becomes one with ramps of acceleration.
+"""Smoothing in time: what the axes do of a planned motion.
 
-The robot follows the mean of the planned law over the last `width` s. A mean of places on a path
-lies on that path, so corners and stops stay where they are; speed and acceleration become
-continuous whatever was planned anew in between; and acceleration changes at no more than its
-range over `width` (jerk <= 2 a / width), from nothing to full in `width` s. The planned law is
-ahead by half of it while speed is constant, and all of it at a standstill.
+The robot follows the mean of the planned motion over the last `width` s, axis by axis. Speeds and
+accelerations of a mean are means of those that are planned, so no limit is exceeded, whatever was
+planned anew in between. Both become continuous, and acceleration changes by no more than its
+range over `width`. On a straight joint line the mean lies on the line. Where the path bends, it
+lies inside of the bend, the more so the faster the robot is. A stop keeps its place: the planned
+motion waits there. It is ahead by half of `width` while speed is constant, and by all of it at a
+standstill.
+
+Logs of RobotStudio and of a real robot show the same: at 1 m/s on a circle of 567 mm they are 0.4
+to 0.8 mm inside of it, and at 50 mm/s on it (docs/rapid/motion-model.md).
 """
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import pairwise
+from math import sqrt
 
-from rapidgen.motion.speed_profile import ProfileSegment, SpeedProfile
+from rapidgen.axes.kinematics import Posture
+from rapidgen.motion.pieces import Piece
+from rapidgen.motion.speed_profile import SpeedProfile
 
+_LONG = 0.02
+"""s of a phase above which three points of a curve are needed for its mean."""
+_TWO = ((0.5 - sqrt(1 / 12), 0.5), (0.5 + sqrt(1 / 12), 0.5))
+_THREE = ((0.5 - sqrt(0.15), 5 / 18), (0.5, 8 / 18), (0.5 + sqrt(0.15), 5 / 18))
+"""Points and weights of Gauss' quadrature from 0 to 1."""
 _ROUNDS = 60
 _EXACT = 1e-11
 
@@ -75,72 +86,85 @@ def time_at(law: SpeedProfile, place: float, width: float) -> float:
     return time
 
 
-@dataclass(slots=True)
-class _Widened:
-    """A span whose limits hold for all that the mean mixes into it."""
+def posture(
+    law: SpeedProfile, pieces: Sequence[Piece], rest: Posture, time: float, width: float
+) -> Posture:
+    """Mean axis values over the `width` s before a time, which is before the standstill.
 
-    end: float
-    speed: float
-    acceleration: float
-    tcp: float
-    stop: bool
-
-
-def widened(spans: Sequence[ProfileSegment], start: float, radius: float) -> list[ProfileSegment]:
-    """Spans in which every limit holds `radius` further on both sides.
-
-    The mean of a law at a place mixes what was planned up to half its width before and behind
-    (path speed is at most 1). At a stop the planned law waits, so nothing is mixed across it.
-    `start` is where the first span begins.
+    `pieces` reach back to where the law was at the beginning of these, `rest` is where it ends.
     """
-    result: list[ProfileSegment] = []
-    first = 0
-    for i, span in enumerate(spans):
-        if span.stop or i == len(spans) - 1:
-            result += _between_stops(spans[first : i + 1], start, radius)
-            first, start = i + 1, span.end
-    return result
+    begin = time - width
+    means = _Means(pieces)
+    if time > law.duration:
+        means.add(rest, time - max(law.duration, begin))
+        time = law.duration
+    times, places, speeds, accelerations = law.phases
+    i = bisect_right(times, time) - 1
+    while i >= 0 and time > begin:
+        first = times[i]
+        low, high = max(begin, first) - first, time - first
+        if high > low:
+            means.phase(places[i], speeds[i], accelerations[i], low, high)
+        time = min(time, max(begin, first))
+        i -= 1
+    if time > begin:
+        means.phase(places[0] if places else law.place, 0.0, 0.0, 0.0, time - begin)
+    return means.result(width)
 
 
-def _between_stops(
-    spans: Sequence[ProfileSegment], start: float, radius: float
-) -> Sequence[ProfileSegment]:
-    if len(spans) == 1:
-        return spans
-    # A slower neighbour reaches into a span; only there it has to be cut.
-    cuts = []
-    for a, b in pairwise(spans):
-        if b.speed < a.speed or b.acceleration < a.acceleration or b.tcp > a.tcp:
-            cuts.append(a.end - radius)
-        if a.speed < b.speed or a.acceleration < b.acceleration or a.tcp > b.tcp:
-            cuts.append(a.end + radius)
-    if not cuts:
-        return spans
-    end = spans[-1].end
-    cuts = sorted(cut for cut in cuts if start < cut < end)
-    cuts.append(end)
-    result: list[ProfileSegment] = []
-    low, left = 0, start
-    for right in cuts:
-        if right - left < _EXACT and right < end:
-            continue
-        middle = (left + right) / 2
-        while spans[low].end < middle - radius and low < len(spans) - 1:
-            low += 1
-        speed, acceleration, tcp = spans[low].speed, spans[low].acceleration, spans[low].tcp
-        i = low
-        while spans[i].end < middle + radius and i < len(spans) - 1:
-            i += 1
-            span = spans[i]
-            if span.speed < speed:
-                speed = span.speed
-            if span.acceleration < acceleration:
-                acceleration = span.acceleration
-            if span.tcp > tcp:
-                tcp = span.tcp
-        result.append(_Widened(right, speed, acceleration, tcp, False))
-        left = right
-    last = result[-1]
-    assert isinstance(last, _Widened)
-    last.end, last.stop = end, spans[-1].stop
-    return result
+class _Means:
+    """Weighted sum of axis values along a path, from its last place back to the first one."""
+
+    __slots__ = ("_area", "_index", "_line", "_pieces", "_span", "_sums")
+
+    def __init__(self, pieces: Sequence[Piece]) -> None:
+        self._pieces = pieces
+        self._index = len(pieces) - 1
+        self._sums: list[float] | None = None
+        self._line: Piece | None = None
+        self._area = self._span = 0.0
+
+    def add(self, values: Posture, weight: float) -> None:
+        """Axis values that hold for `weight` s."""
+        if self._sums is None:
+            self._sums = [weight * q for q in values]
+        else:
+            self._sums = [s + weight * q for s, q in zip(self._sums, values, strict=True)]
+
+    def phase(self, place: float, speed: float, a: float, low: float, high: float) -> None:
+        """A part of a phase, which begins at `place`."""
+        span = high - low
+        middle = (low + high) / 2
+        piece = self._at(place + (speed + a * middle / 2) * middle)
+        if piece.straight:
+            # Of a straight line only the mean of the place counts.
+            if piece is not self._line:
+                self._flush()
+                self._line = piece
+            self._area += place * span + (
+                speed / 2 * (high * high - low * low)
+                + a / 6 * (high * high * high - low * low * low)
+            )
+            self._span += span
+            return
+        for share, weight in _THREE if span > _LONG else _TWO:
+            t = low + share * span
+            self.add(piece.at(place + (speed + a * t / 2) * t), weight * span)
+
+    def result(self, width: float) -> Posture:
+        """The mean."""
+        self._flush()
+        assert self._sums is not None
+        return tuple([s / width for s in self._sums])
+
+    def _at(self, place: float) -> Piece:
+        pieces, i = self._pieces, self._index
+        while i > 0 and pieces[i].start > place:
+            i -= 1
+        self._index = i
+        return pieces[i]
+
+    def _flush(self) -> None:
+        if self._line is not None:
+            self.add(self._line.at(self._area / self._span), self._span)
+            self._line, self._area, self._span = None, 0.0, 0.0

@@ -1,9 +1,15 @@
 """When the robot is where on its path: speed profiles in closed form.
 
 A path has one coordinate, its *nominal time* in s: at speed 1 everything moves as programmed.
-A time law is a chain of phases of constant acceleration of that coordinate, so its state at
-any time, and the time of any place, are formulas and no integration step exists. The limits of
-each span of the path (speed <= 1 and acceleration) already stand for those of all axes.
+A speed profile is a chain of phases of constant acceleration of that coordinate, so its state at
+any time, and the time of any place, are formulas and no integration step exists.
+
+Every axis divides its acceleration between the curvature of the path and the change of speed. With
+its rate r and its curvature c along the path, |r s\" + c s'^2| <= a has to hold. A span states this
+as shares (R, C) = (r/a, c/a): R |s\"| + C s'^2 <= 1. Over a span of length L that is linear in the
+square of the speed, x = s'^2: from x0 at one end, x1 <= (x0 R + 2 L) / (R + 2 L C) at the other.
+One pass backwards gives the largest speed at the beginning of each span from which all later
+limits can be kept, one pass forwards the profile.
 """
 
 from bisect import bisect_left, bisect_right
@@ -12,6 +18,8 @@ from math import inf, sqrt
 from typing import Protocol
 
 _TOLERANCE = 1e-7
+Shares = tuple[tuple[float, float], ...]
+"""(R, C) of the axes that may limit a span."""
 
 
 class ProfileSegment(Protocol):
@@ -24,7 +32,7 @@ class ProfileSegment(Protocol):
     @property
     def speed(self) -> float: ...
     @property
-    def acceleration(self) -> float: ...
+    def shares(self) -> Shares: ...
     @property
     def tcp(self) -> float: ...
     @property
@@ -142,44 +150,76 @@ def plan(
     """
     spans = _ahead(spans, place)
     bounds = _entry_bounds(spans, place)
-    if speed > bounds[0]:
-        if speed > bounds[0] * (1 + _TOLERANCE) + _TOLERANCE:
+    x = speed * speed
+    if x > bounds[0]:
+        if speed > sqrt(bounds[0]) * (1 + _TOLERANCE) + _TOLERANCE:
             return None
-        speed = bounds[0]
+        x = bounds[0]
+        speed = sqrt(x)
     law = SpeedProfile(place)
     law.add(place, speed, 0.0, wait)
+    last = len(spans) - 1
     for i, span in enumerate(spans):
         path = span.end - place
         if path <= 0.0:
             continue
-        a = span.acceleration
         ceiling = min(span.speed, cap)
         if span.tcp * ceiling > tcp_limit:
             ceiling = tcp_limit / span.tcp
-        bound = 0.0 if span.stop else bounds[i + 1]
-        if speed > ceiling:
-            down = (speed * speed - ceiling * ceiling) / (2 * a)
+        most = ceiling * ceiling
+        if x > most:
+            a = _reserve(span.shares, x)
+            down = (x - most) / (2 * a)
             if down >= path:
-                final = sqrt(max(0.0, speed * speed - 2 * a * path))
+                x -= 2 * a * path
+                final = sqrt(x)
                 law.add(place, speed, -a, (speed - final) / a)
                 place, speed = span.end, final
                 continue
             law.add(place, speed, -a, (speed - ceiling) / a)
-            place, speed, path = place + down, ceiling, path - down
-        final = min(bound, ceiling, sqrt(speed * speed + 2 * a * path))
-        peak = min(ceiling, sqrt((speed * speed + final * final) / 2 + a * path))
-        peak = max(peak, speed, final)
-        rise = (peak * peak - speed * speed) / (2 * a)
-        fall = (peak * peak - final * final) / (2 * a)
-        law.add(place, speed, a, (peak - speed) / a)
-        if path - rise - fall > 0.0 and peak > 0.0:
-            law.add(place + rise, peak, 0.0, (path - rise - fall) / peak)
-        law.add(span.end - fall, peak, -a, (peak - final) / a)
-        place, speed = span.end, final
-        if span.stop and i < len(spans) - 1:
+            place, path, x, speed = place + down, path - down, most, ceiling
+        bound = 0.0 if span.stop else min(most, bounds[i + 1])
+        if x == bound == most:
+            law.add(place, speed, 0.0, path / speed)
+            place = span.end
+            continue
+        twice = 2 * path
+        final_x, peak_x = bound, most
+        for rate, curvature in span.shares:
+            share = twice * curvature
+            reached = (x * rate + twice) / (rate + share)
+            if reached < final_x:
+                final_x = reached
+        for rate, curvature in span.shares:
+            reached = ((x + final_x) * rate + twice) / (2 * (rate + twice * curvature))
+            if reached < peak_x:
+                peak_x = reached
+        peak_x = max(peak_x, x, final_x)
+        peak, final = sqrt(peak_x), sqrt(final_x)
+        a = max(_reserve(span.shares, peak_x), (2 * peak_x - x - final_x) / twice)
+        if a > 0.0:
+            rise, fall = (peak_x - x) / (2 * a), (peak_x - final_x) / (2 * a)
+            law.add(place, speed, a, (peak - speed) / a)
+            if peak > 0.0:
+                law.add(place + rise, peak, 0.0, (path - rise - fall) / peak)
+            law.add(span.end - fall, peak, -a, (peak - final) / a)
+        else:
+            law.add(place, peak, 0.0, path / peak)
+        place, x, speed = span.end, final_x, final
+        if span.stop and i < last:
             law.add(place, 0.0, 0.0, pause)
     law.place = place
     return law
+
+
+def _reserve(shares: Shares, x: float) -> float:
+    """Acceleration of the path that is left for a change of speed at the squared speed `x`."""
+    least = inf
+    for rate, curvature in shares:
+        left = 1.0 - curvature * x
+        if left < least * rate:
+            least = left / rate
+    return max(least, 0.0)
 
 
 def brake(
@@ -187,16 +227,21 @@ def brake(
 ) -> SpeedProfile:
     """Down to standstill on the path, with `factor` times the spans' accelerations."""
     law = SpeedProfile(place)
+    x = speed * speed
     for span in spans:
         path = span.end - place
         if path <= 0.0:
             continue
-        a = span.acceleration * factor
-        if speed * speed <= 2 * a * path:
+        a = factor * _reserve(span.shares, x / factor)
+        if x <= 2 * a * path:
             law.add(place, speed, -a, speed / a)
             return law
-        final = sqrt(speed * speed - 2 * a * path)
-        law.add(place, speed, -a, (speed - final) / a)
+        x -= 2 * a * path
+        final = sqrt(x)
+        if a > 0.0:
+            law.add(place, speed, -a, (speed - final) / a)
+        else:
+            law.add(place, speed, 0.0, path / speed)
         place, speed = span.end, final
         if span.stop:
             break
@@ -213,12 +258,19 @@ def _ahead(spans: Sequence[ProfileSegment], place: float) -> Sequence[ProfileSeg
 
 
 def _entry_bounds(spans: Sequence[ProfileSegment], place: float) -> list[float]:
-    """Largest speed at the start of each span (the first: at `place`) that can be kept."""
+    """Largest squared speed at the start of each span (the first: at `place`) that can be kept."""
     bounds = [0.0] * (len(spans) + 1)
+    after = 0.0
     for i in range(len(spans) - 1, -1, -1):
         span = spans[i]
         start = spans[i - 1].end if i else place
-        path = max(0.0, span.end - max(start, place))
-        final = 0.0 if span.stop else min(bounds[i + 1], span.speed)
-        bounds[i] = min(span.speed, sqrt(final * final + 2 * span.acceleration * path))
+        twice = 2 * max(0.0, span.end - max(start, place))
+        most = span.speed * span.speed
+        after = 0.0 if span.stop else min(after, most)
+        before = most
+        for rate, curvature in span.shares:
+            reached = (after * rate + twice) / (rate + twice * curvature)
+            if reached < before:
+                before = reached
+        bounds[i] = after = before
     return bounds

@@ -14,7 +14,6 @@ from typing import Protocol
 from rapidgen.axes.frames import Vector, compose, distance
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import MS, S, Scheduler, Timer
-from rapidgen.motion import smoothing
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import posture_at
@@ -213,12 +212,7 @@ class ZoneWatch:
 
 def _standstill(motion: Motion, now: int) -> float:
     """Where on the path the robot would stand if it began to brake now."""
-    spans = motion.pieces
-    if motion.ramp > 0.0 and spans:
-        return brake(
-            smoothing.widened(spans, spans[0].start, motion.ramp / 2), *motion.planned(now)
-        ).place
-    return brake(spans, *motion.planned(now)).place
+    return brake(motion.pieces, *motion.planned(now)).place
 
 
 @dataclass(slots=True)

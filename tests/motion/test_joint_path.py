@@ -95,8 +95,11 @@ def test_no_successor_in_time_is_a_corner_path_failure(cell, joint):
 
 
 def test_a_corner_is_the_parabola_of_its_zone(make_cell, joint):
-    """Entry and exit at one radius, tangents along both moves, nothing outside the triangle."""
-    cell = make_cell(settings=MotionSettings(lever=1.0))
+    """Entry and exit at one radius, tangents along both moves, nothing outside the triangle.
+
+    Without smoothing, which rounds it further, and with a parabola of the whole zone.
+    """
+    cell = make_cell(settings=MotionSettings(lever=1.0, ramp_time=0.0, corner_size=1.0))
     cell.group.planner.kinematics = None  # a lever of 1 m: zones in mm are thousandths of a rad
 
     def program(task):
@@ -113,7 +116,7 @@ def test_a_corner_is_the_parabola_of_its_zone(make_cell, joint):
 
 
 def test_a_zone_never_exceeds_half_of_the_shorter_move(make_cell, joint):
-    cell = make_cell()
+    cell = make_cell(settings=MotionSettings(ramp_time=0.0, corner_size=1.0))
     cell.group.planner.kinematics = None
 
     def program(task):

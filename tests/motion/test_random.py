@@ -2,7 +2,7 @@
 
 import pytest
 
-from rapidgen.motion import smoothing
+from rapidgen.motion import pieces
 from tools import motion_campaign as campaign
 
 
@@ -41,7 +41,7 @@ def test_a_short_campaign(capsys):
     assert "4 programs" in capsys.readouterr().out
 
 
-def test_limits_that_do_not_reach_far_enough_are_noticed(monkeypatch, capsys):
-    monkeypatch.setattr(smoothing, "widened", lambda spans, _start, _radius: spans)
+def test_accelerations_above_the_limit_are_noticed(monkeypatch, capsys):
+    monkeypatch.setattr(pieces.AxisLimits, "accelerations", lambda _self, _posture: (50.0,) * 6)
     assert campaign.main(60, 0) == 1
     assert "of the limit" in capsys.readouterr().out

@@ -1,4 +1,4 @@
-"""Jerk: the mean of a law keeps limits, is smooth whatever was planned anew, stops on its path."""
+"""Smoothing: the mean of a motion keeps limits, is smooth whatever was planned anew, and stops."""
 
 import random
 
@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings, smoothing
 from rapidgen.motion.moves import JointMove, MoveSpeed
+from rapidgen.motion.pieces import AxisLimits, joint_corner, joint_line
 from rapidgen.motion.speed_profile import brake, plan
 from tests.motion.test_timelaw import Stretch, paths
 from tools.motion_campaign import disturb
@@ -17,42 +18,56 @@ from tools.motion_campaign import disturb
 WIDTH = 0.05
 
 
-def limit_within(spans, low, high, name):
-    """The largest limit of the spans between two places."""
-    starts = [0.0, *(span.end for span in spans)]
-    return max(
-        getattr(span, name)
-        for start, span in zip(starts, spans, strict=False)
-        if start <= high + 1e-6 and span.end >= low - 1e-6
-    )
+LIMITS = AxisLimits((1.0, 1.5), (5.0, 8.0), 0.9)
 
 
-@settings(max_examples=200)
-@given(paths(), st.floats(0.005, 0.3))
-def test_the_mean_keeps_every_limit_where_the_robot_is(spans, width):
-    law = plan(smoothing.widened(spans, 0.0, width / 2), 0.0, 0.0, 1.0, pause=width)
-    assert law is not None
-    end = law.duration + width
-    count = 600
-    step = end / count
-    places, speeds = np.array([smoothing.state(law, k * step, width) for k in range(count + 1)]).T
-    assert places[0] == 0.0
-    assert places[-1] == pytest.approx(law.place) == spans[-1].end
-    assert speeds[-1] == pytest.approx(0.0, abs=1e-9)
-    assert np.diff(places).min() >= -1e-12
-    accelerations = np.diff(speeds) / step
-    for k in range(1, count):
-        assert speeds[k] <= limit_within(spans, places[k], places[k], "speed") * (1 + 1e-9) + 1e-9
-        allowed = limit_within(spans, places[k - 1], places[k], "acceleration")
-        assert abs(accelerations[k - 1]) <= allowed * (1 + 1e-6) + 1e-6
-    jerk = np.abs(np.diff(accelerations)) / step
-    assert jerk.max() <= 2 * max(s.acceleration for s in spans) / width * (1 + 1e-6) + 1e-3
+@st.composite
+def bent_paths(draw):
+    """Lines of two axes, 0.2 to 1 s each, with parabolas of any size between them."""
+    rates = [
+        tuple(draw(st.floats(-0.9, 0.9)) for _ in range(2)) for _ in range(draw(st.integers(1, 5)))
+    ]
+    times = [draw(st.floats(0.2, 1.0)) for _ in rates]
+    pieces, place, point, cut = [], 0.0, (0.0, 0.0), 0.0
+    for i, (rate, time) in enumerate(zip(rates, times, strict=True)):
+        line = place, point, rate
+        target = tuple(q + r * time for q, r in zip(point, rate, strict=True))
+        last = i == len(rates) - 1
+        size = 0.0 if last else draw(st.floats(0.001, 0.5)) * min(time, times[i + 1])
+        pieces.append(joint_line(place + cut, place + time - size, line, LIMITS, 0.0))
+        if not last:
+            pieces += joint_corner(
+                place + time - size, target, (rate, size), (rates[i + 1], size), LIMITS, 0.0
+            )
+        place, point, cut = place + time, target, size
+    return pieces, point
+
+
+@settings(max_examples=100)
+@given(bent_paths(), st.floats(0.01, 0.2))
+def test_the_mean_keeps_every_limit(path, width):
+    """Speeds, accelerations and jerk of the axes, from the start to the standstill."""
+    pieces, rest = path
+    law = plan(pieces, 0.0, 0.0)
+    count = 400
+    step = (law.duration + width) / count
+    times = [k * step for k in range(count)]
+    axes = np.array([smoothing.posture(law, pieces, rest, t, width) for t in times])
+    assert axes[0] == pytest.approx((0.0, 0.0), abs=1e-12)
+    speeds = np.diff(axes, axis=0) / step
+    accelerations = np.diff(speeds, axis=0) / step
+    jerk = np.diff(accelerations, axis=0) / step
+    assert (np.abs(speeds) <= np.array(LIMITS.speeds) * (1 + 1e-6)).all()
+    allowed = np.array(LIMITS.accelerations((0.0, 0.0)))
+    assert (np.abs(accelerations) <= allowed * (1 + 1e-4) + 1e-6).all()
+    assert (np.abs(jerk) <= 2 * allowed / width * (1 + 1e-3) + 0.1).all()
+    assert np.abs(axes[-1] - rest).max() <= 8.0 * step * step
 
 
 @settings(max_examples=100)
 @given(paths())
 def test_it_stands_at_every_stop(spans):
-    law = plan(smoothing.widened(spans, 0.0, WIDTH / 2), 0.0, 0.0, 1.0, pause=WIDTH)
+    law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
     for span in [s for s in spans if s.stop] + [spans[-1]]:
         time = smoothing.time_at(law, span.end, WIDTH)
         place, speed = smoothing.state(law, time, WIDTH)
@@ -97,16 +112,6 @@ def test_a_trapezoid_with_a_ramp():
     assert smoothing.time_at(law, 2.0, WIDTH) == pytest.approx(2.25 + WIDTH)
     assert smoothing.time_at(law, 1.0, WIDTH) == pytest.approx((2.25 + WIDTH) / 2)
     assert smoothing.state(law, WIDTH, WIDTH) == pytest.approx((4 * WIDTH**2 / 6, 4 * WIDTH / 2))
-
-
-def test_limits_reach_as_far_as_the_mean():
-    spans = [Stretch(1.0, 1.0, 9.0), Stretch(2.0, 0.5, 9.0), Stretch(3.0, 1.0, 9.0)]
-    wide = smoothing.widened(spans, 0.0, 0.1)
-    assert [(s.end, s.speed) for s in wide] == [
-        (pytest.approx(0.9), 1.0), (pytest.approx(2.1), 0.5), (3.0, 1.0)
-    ]  # fmt: skip
-    across = [Stretch(1.0, 1.0, 9.0, stop=True), Stretch(2.0, 0.5, 9.0)]
-    assert smoothing.widened(across, 0.0, 0.1) == across
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -169,4 +174,5 @@ def test_a_new_ramp_holds_from_the_next_standstill_on(cell, joint):
 
     seen = []
     cell.run(program)
-    assert seen == [pytest.approx(0.05), pytest.approx(0.5)]
+    ramp = MotionSettings().ramp_time
+    assert seen == [pytest.approx(ramp), pytest.approx(10 * ramp)]

@@ -16,6 +16,11 @@ class Stretch:
     acceleration: float
     tcp: float = 0.0
     stop: bool = False
+    curvature: float = 0.0
+
+    @property
+    def shares(self):
+        return ((1 / self.acceleration, self.curvature),)
 
 
 @st.composite
@@ -123,3 +128,62 @@ def test_one_law_after_the_other():
     chain = first.then(second)
     assert chain.duration == pytest.approx(3.0)
     assert chain.state(2.0) == pytest.approx((1.5, 0.5))
+
+
+@st.composite
+def bent_paths(draw):
+    """Spans in which two axes divide their accelerations between curvature and speed."""
+    end, spans = 0.0, []
+    for _ in range(draw(st.integers(1, 12))):
+        end += draw(st.floats(1e-3, 0.5))
+        shares = tuple(
+            (1 / draw(st.floats(0.5, 50.0)), draw(st.floats(0.0, 40.0))) for _ in range(2)
+        )
+        most = max(curvature for _, curvature in shares)
+        speed = min(draw(st.floats(0.1, 1.0)), (0.9 / most) ** 0.5 if most else 1.0)
+        spans.append(Bend(end, speed, shares))
+    return spans
+
+
+@dataclass(frozen=True)
+class Bend:
+    end: float
+    speed: float
+    shares: tuple[tuple[float, float], ...]
+    tcp: float = 0.0
+    stop: bool = False
+
+
+def used(law, spans):
+    """The largest share of an acceleration that a profile needs, by its phases."""
+    most = 0.0
+    ends = [*law.phases[0], law.duration]
+    for start, place, speed, acceleration, then in zip(*law.phases, ends[1:], strict=True):
+        final = speed + acceleration * (then - start)
+        span = span_at(spans, place + 1e-9)
+        fastest = max(speed, final) ** 2
+        for rate, curvature in span.shares:
+            most = max(most, rate * abs(acceleration) + curvature * fastest)
+    return most
+
+
+@settings(max_examples=150)
+@given(bent_paths())
+def test_curvature_and_speed_share_the_acceleration(spans):
+    law = plan(spans, 0.0, 0.0)
+    assert law.place == spans[-1].end
+    assert used(law, spans) <= 1 + 1e-6
+
+
+@settings(max_examples=100)
+@given(bent_paths(), st.floats(0, 1))
+def test_a_plan_can_be_renewed_anywhere_on_a_bent_path(spans, fraction):
+    law = plan(spans, 0.0, 0.0)
+    place, speed = law.state(fraction * law.duration)
+    left = [s for s in spans if s.end > place]
+    if left:
+        again = plan(left, place, speed)
+        assert again is not None
+        assert again.duration <= (1 - fraction) * law.duration + 1e-6
+        halt = brake(left, place, speed)
+        assert used(halt, left) <= 1 + 1e-6
