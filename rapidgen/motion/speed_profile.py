@@ -179,7 +179,7 @@ def plan(
             law.add(place, speed, -a, (speed - ceiling) / a)
             place, path, x, speed = place + down, path - down, most, ceiling
         bound = 0.0 if span.stop else min(most, bounds[i + 1])
-        if x == bound == most:
+        if x == bound == most > 0.0:
             law.add(place, speed, 0.0, path / speed)
             place = span.end
             continue

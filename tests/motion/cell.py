@@ -17,6 +17,10 @@ from rapidgen.runtime.compiler.link import Shared
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System, TaskSpec
 
+PLANNED = MotionSettings(ramp_time=0.0, corner_size=1.0, shortest_corner=0.0)
+"""The motion as planned: parabolas of the whole zone, and no smoothing, which rounds every bend of
+a path in space by up to some 0.1 mm at the speeds of these tests."""
+
 
 def zone(millimetres: float) -> Zone:
     """A zone with the proportions of the predefined ones; 0 = fine."""

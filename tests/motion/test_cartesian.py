@@ -10,13 +10,15 @@ from rapidgen.axes.path_shapes import arc_through
 from rapidgen.machine.scheduler import S
 from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.moves import CartesianMove, MoveFrames, MoveSpeed, Singularities
+from tests.motion.cell import PLANNED
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 TOOL = ((0.02, 0.0, 0.15), (1.0, 0.0, 0.0, 0.0))
 
 
 @pytest.fixture
-def robot(cell):
+def robot(make_cell):
+    cell = make_cell(settings=PLANNED)
     cell.group.jump(HOME)
     return cell
 
@@ -290,7 +292,7 @@ def test_out_of_reach_and_out_of_range_are_errors_before_motion(robot, linear):
 
 
 def test_a_line_through_the_wrist_singularity(make_cell, zones):
-    cell = make_cell()
+    cell = make_cell(settings=PLANNED)
     group = cell.group
     group.jump((0.3, 0.0, 0.0, 0.4, 0.4, 0.0))
     own = group.kinematics
@@ -309,7 +311,7 @@ def test_a_line_through_the_wrist_singularity(make_cell, zones):
 
 def test_with_sing_area_wrist_the_line_goes_through_the_singularity(make_cell, zones):
     """S4 datasys 2-SingArea: wrist axes straight in joint space, TCP on the line."""
-    cell = make_cell()
+    cell = make_cell(settings=PLANNED)
     group = cell.group
     group.jump((0.3, 0.0, 0.0, 0.4, 0.4, 0.0))
     own = group.kinematics
@@ -344,7 +346,7 @@ def test_a_line_that_ends_in_another_configuration(robot, linear):
 
 
 def test_robots_without_a_closed_form_go_straight_too(make_cell, zones):
-    cell = make_cell("crb15000")
+    cell = make_cell("crb15000", PLANNED)
     group = cell.group
     home = (0.1, 0.2, 0.3, 0.2, 0.7, 0.1)
     group.jump(home)
@@ -361,7 +363,7 @@ def test_robots_without_a_closed_form_go_straight_too(make_cell, zones):
 
 
 def test_a_track_moves_with_the_tcp_on_its_line(make_cell, zones):
-    cell = make_cell("irb120_track")
+    cell = make_cell("irb120_track", PLANNED)
     group = cell.group
     axes = [j.axis for j in group.config.joints]
     home = tuple(0.5 if a == "rax_5" else 0.0 for a in axes)

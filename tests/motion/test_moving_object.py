@@ -5,6 +5,7 @@ import pytest
 
 from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S
+from tests.motion.cell import PLANNED
 
 OBJECT = (
     'PERS wobjdata w := [FALSE,FALSE,"STN_1",[[9,9,9],[1,0,0,0]],[[0,-450,100],[1,0,0,0]]];\n'
@@ -30,6 +31,7 @@ def in_object(group, posture):
 
 
 def samples(program, seconds, period=0.004):
+    program.controller.motion.settings = PLANNED
     result = []
     scheduler = program.controller.scheduler
 

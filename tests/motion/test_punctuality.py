@@ -16,7 +16,9 @@ def passed(cell, joint):
 
     def make(took: float, promised: float | None = 1.0) -> Leg:
         move = joint(10, time=promised)
-        path = JointPath(cell.group.positions(), move.target, 1.0, (Measure(), 0.0), limits, 1.0)
+        path = JointPath(
+            cell.group.positions(), move.target, 1.0, (Measure(), 0.0), limits, 1.0, [1.0]
+        )
         return Leg(move, path, 0.0, 1.0, began=5.0, passed_at=5.0 + took)
 
     return make
