@@ -112,7 +112,11 @@ class Arc:
 
 
 def arc_through(
-    start: Pose, via: Pose, end: Pose, mode: CircleMode = CircleMode.PATH
+    start: Pose,
+    via: Pose,
+    end: Pose,
+    mode: CircleMode = CircleMode.PATH,
+    smallest: float = SMALLEST_ANGLE,
 ) -> Arc | None:
     """Return the circle through three points, or None.
 
@@ -128,7 +132,7 @@ def arc_through(
     normal = frames.cross(to_via, to_end)
     area = frames.dot(normal, normal)
     seen = frames.dot(to_via, to_via) * frames.dot(to_end, to_end)
-    if area < sin(SMALLEST_ANGLE) ** 2 * seen:
+    if area < sin(smallest) ** 2 * seen:
         return None
     # Circumcentre from a.
     first = frames.scale(frames.cross(normal, to_via), frames.dot(to_end, to_end))

@@ -94,8 +94,8 @@ def _figures(group: MappingNode) -> Figures:
     return {
         (text(joint["axis"]), figure): number(joint[figure])
         for joint in map(members, joints.values())
-        for figure in ("lower", "upper", "speed")
-        if not isinstance(joint[figure], str)  # a placeholder
+        for figure in ("lower", "upper", "speed", "acceleration")
+        if figure in joint and not isinstance(joint[figure], str)  # a placeholder
     }
 
 

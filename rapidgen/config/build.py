@@ -11,7 +11,7 @@ from rapidgen.config import model, schema
 from rapidgen.config.axis_sets import resolve_held_axes
 from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
-from rapidgen.config.joints import joints_of
+from rapidgen.config.joints import inertias_of, joints_of
 from rapidgen.config.plausibility import Arm, is_radians, length_of
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.tools import data_of, routine_of, tool_of, work_object_of
@@ -300,6 +300,8 @@ def _group(
         ),
         kept=saved,
         max_payload=draft.max_payload,
+        inertias=inertias_of(keys, draft),
+        acceleration_source=keys.source.get("accelerations", ""),
     )
 
 

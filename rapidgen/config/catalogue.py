@@ -98,6 +98,8 @@ def variant_text(variant: Variant) -> str:
     lines.append(f"  payload {payload}")
     coupling = "not known" if variant.coupling is None else f"{variant.coupling:g}"
     lines.append(f"  coupling {coupling}")
+    measured = "accelerations" in dict(variant.sources)
+    lines.append(f"  accelerations {'measured' if measured else 'estimated from its size'}")
     lines += [f"  {what}: {source}" for what, source in variant.sources]
     if variant.unsure:
         lines.append(f"  without a second source: {', '.join(variant.unsure)}")

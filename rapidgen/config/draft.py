@@ -45,7 +45,7 @@ class GroupDraft:
     max_payload: float = 0.0
     """kg; 0: not known."""
     known: dict[tuple[str, str], float] = field(default_factory=dict)
-    """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
+    """Figures of the shipped model by (axis, "lower", "upper", "speed" or "acceleration")."""
     external_units: tuple[str, ...] = ()
     urdf_chain: list[ChainLink] = field(default_factory=list)
     """Chain of the URDF, if one is read."""

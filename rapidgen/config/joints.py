@@ -3,9 +3,10 @@
 import math
 
 from rapidgen.config import model, schema
+from rapidgen.config.accelerations import usual_time
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
-from rapidgen.config.plausibility import axis_doubts
+from rapidgen.config.plausibility import axis_doubts, length_of
 from rapidgen.diagnostics import Severity
 
 MAX_JOINTS = 10
@@ -36,6 +37,7 @@ def joints_of(
         )
     _check_radians(draft, where, report)
     seen: dict[str, str] = {}
+    length = length_of(draft.chain)
     joints = []
     for joint in draft.joints:
         current: KeyPath = (*where, joint.name)
@@ -50,8 +52,11 @@ def joints_of(
         if joint.axis:
             seen.setdefault(joint.axis, joint.name)
         for key, message, help in axis_doubts(joint):
-            report.add("RG071", Severity.WARNING, message, (*current, key), help=help)
-        made = _joint(joint, keys.acceleration_time, current, report)
+            # A wrong acceleration makes every simulated duration wrong, without a sign of it.
+            severity = Severity.ERROR if key == "acceleration" else Severity.WARNING
+            report.add("RG071", severity, message, (*current, key), help=help)
+        time = keys.acceleration_time or usual_time(joint.axis, length)
+        made = _joint(joint, time, current, report)
         if made:
             joints.append(made)
     return tuple(joints)
@@ -137,3 +142,24 @@ def inwards(lower: float, upper: float) -> tuple[float, float]:
     Noise below 1e-6 is ignored.
     """
     return math.ceil(lower * 100 - 1e-4) / 100, math.floor(upper * 100 + 1e-4) / 100
+
+
+def inertias_of(keys: schema.GroupKeys, draft: GroupDraft) -> tuple[model.AxisInertia, ...]:
+    """Return how accelerations depend on the posture, in SI units.
+
+    An axis with another acceleration than its model's has that one in every posture.
+    """
+    own = {joint.axis: joint.acceleration for joint in draft.joints}
+    return tuple(
+        model.AxisInertia(
+            axis,
+            math.radians(given.most),
+            given.constant,
+            given.elbow,
+            given.wrist,
+            given.cosine,
+            given.sine,
+        )
+        for axis, given in sorted(keys.inertias.items())
+        if own.get(axis) == draft.known.get((axis, "acceleration"), own.get(axis))
+    )

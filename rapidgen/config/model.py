@@ -221,6 +221,8 @@ class GroupConfig:
     """kg; 0: not known."""
     inertias: tuple[AxisInertia, ...] = field(default=(), metadata=SPARSE)
     """Axes whose acceleration depends on the posture."""
+    acceleration_source: str = field(default="", metadata=SPARSE)
+    """Where accelerations were measured; empty: they are estimated."""
     unit_group: str = field(default="", metadata=SPARSE)
     """Name of the mechanical unit group, if a backup has another than the unit's."""
 

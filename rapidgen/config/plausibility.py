@@ -38,7 +38,7 @@ _SLOWEST_TURN, _FASTEST_TURN = 1.0, 5000.0
 """deg/s; the fastest known is axis 4 of the IRB 910SC, 2400."""
 _SLOWEST_LINEAR, _FASTEST_LINEAR = 10.0, 20_000.0
 """mm/s"""
-_SOONEST, _LATEST = 0.005, 10.0
+_SOONEST, _LATEST = 0.01, 2.5
 """s from standstill to full speed."""
 _FAR_TOOL, _FAR_OBJECT = 3.0, 10.0
 """Times the reach."""

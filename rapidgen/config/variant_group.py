@@ -6,17 +6,17 @@ configuration file of the robot that gives every figure with its source (`rapidg
 
 import math
 import re
+from itertools import pairwise
 
+from rapidgen.config.accelerations import usual_time
 from rapidgen.config.model import ChainLink, GroupConfig, Joint, Ports
-from rapidgen.config.variant_library import Variant, variants
+from rapidgen.config.variant_library import KnownAxis, Variant, variants
 
 _TYPE = re.compile(
     r"ROB_?[A-Z0-9]+?_(\d{2,5}[A-Z]{0,3})(?:_[A-Z]+)?(?:_(\d+)[._](\d+)_(\d+))?", re.I
 )
 """-use_robot_type of MOC.cfg: ROB1_4600_2.55_40, ROB1_910SC_0.55_3, ROB1_15000_0_95_5."""
 _NAME = re.compile(r"[IC]RB (\w+)-([\d.]+)/([\d.]+)")
-_SETTLE = 0.25
-"""s from standstill to full speed; no source gives accelerations."""
 ASSUMED_SPEED = 100.0
 """deg/s of an axis without a source for its speed: typical of large arms.
 
@@ -60,6 +60,8 @@ def group_of(variant: Variant, name: str = "rob1") -> GroupConfig | None:
         return None
     joints, links = [], []
     before = (0.0, 0.0, 0.0)
+    length = sum(math.dist(a.point, b.point) for a, b in pairwise(lines))
+    length += math.dist(lines[-1].point, variant.skeleton.end)
     for number, line in enumerate(lines, 1):
         known = variant.axis(line.axis)
         if known is None or known.lower is None or known.upper is None:
@@ -74,7 +76,7 @@ def group_of(variant: Variant, name: str = "rob1") -> GroupConfig | None:
                 math.radians(known.lower),
                 math.radians(known.upper),
                 speed,
-                speed / _SETTLE,
+                _acceleration(known, speed, length),
                 source=dict(variant.sources).get("limits", ""),
             )
         )
@@ -93,7 +95,16 @@ def group_of(variant: Variant, name: str = "rob1") -> GroupConfig | None:
         tuple(links),
         variant.coupling or 0.0,
         max_payload=variant.max_payload,
+        inertias=variant.inertias,
+        acceleration_source=dict(variant.sources).get("accelerations", ""),
     )
+
+
+def _acceleration(axis: KnownAxis, speed: float, length: float) -> float:
+    """rad/s^2 of an axis of an arm that is `length` m long."""
+    if axis.acceleration is not None:
+        return math.radians(axis.acceleration)
+    return speed / usual_time(axis.axis, length)
 
 
 def _between(

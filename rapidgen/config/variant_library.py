@@ -8,11 +8,13 @@ import json
 import re
 from dataclasses import dataclass
 from functools import cache
+from math import radians
 
 from rapidgen._data import data_folder
 from rapidgen._json import Json, Members, items, members, number, text
 from rapidgen.config.draft import GroupDraft
 from rapidgen.config.geometry import ArmAxes, Difference, Line, Matrix, compare, skeleton
+from rapidgen.config.model import AxisInertia
 from rapidgen.config.vectors import unit
 
 SAME_PLACE = 0.003
@@ -31,6 +33,7 @@ class KnownAxis:
     upper: float | None
     speed: float | None
     unsure: tuple[str, ...] = ()
+    acceleration: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +52,7 @@ class Variant:
     unsure: tuple[str, ...]
     disagreements: tuple[str, ...]
     """Figures that differ between its sources; the narrower or lower one is used."""
+    inertias: tuple[AxisInertia, ...]
 
     @property
     def family(self) -> str:
@@ -135,6 +139,7 @@ def _variant(entry: Json) -> Variant:
                 _figure(axis, "upper"),
                 _figure(axis, "speed"),
                 tuple(text(part) for part in items(axis.get("unsure", []))),
+                _figure(axis, "acceleration"),
             )
             for axis in axes
         ),
@@ -154,7 +159,14 @@ def _variant(entry: Json) -> Variant:
         sources=tuple((key, text(value)) for key, value in members(data["sources"]).items()),
         unsure=tuple(text(part) for part in items(data.get("unsure", []))),
         disagreements=tuple(text(part) for part in items(data.get("disagreements", []))),
+        inertias=tuple(_inertia(members(axis)) for axis in items(data.get("inertias", []))),
     )
+
+
+def _inertia(data: Members) -> AxisInertia:
+    names = "constant", "elbow", "wrist", "cosine", "sine"
+    parts = {name: _figure(data, name) or 0.0 for name in names}
+    return AxisInertia(text(data["axis"]), radians(number(data["most"])), **parts)
 
 
 def _figure(data: Members, name: str) -> float | None:

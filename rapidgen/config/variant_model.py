@@ -6,13 +6,16 @@ coupling is known; for others the missing figures are reported. Speeds without a
 """
 
 import re
+from math import degrees
 
 from rapidgen._data import data_folder
+from rapidgen.config.model import AxisInertia
 from rapidgen.config.placeholders import OPEN
 from rapidgen.config.variant_library import Variant, variants
 from rapidgen.config.vectors import Vector, subtract
 
 PATH = data_folder("robots") / "variants.json"
+_INERTIA = ("constant", "elbow", "wrist", "cosine", "sine")
 _SIX = tuple(f"rax_{n}" for n in range(1, 7))
 
 
@@ -74,10 +77,15 @@ def model_text(variant: Variant) -> str:
             key: OPEN if value is None else f"{value:g}"
             for key, value in (("lower", axis.lower), ("upper", axis.upper), ("speed", axis.speed))
         }
+        if axis.acceleration is not None:
+            figures["acceleration"] = f"{axis.acceleration:g}"
         if axis.unsure:
             figures["unsure"] = f"[{', '.join(axis.unsure)}]"
         displayed = ", ".join(f"{key}: {value}" for key, value in figures.items())
         lines.append(f"  joint_{axis.axis[-1]}: {{{displayed}}}")
+    if variant.inertias:
+        lines.append("inertias:")
+        lines += [f"  {inertia.axis}: {{{_inertia(inertia)}}}" for inertia in variant.inertias]
     lines.append(f"coupling: {variant.coupling:g}")
     if variant.max_payload:
         lines.append(f"max_payload: {variant.max_payload:g}")
@@ -94,6 +102,12 @@ def model_text(variant: Variant) -> str:
     if variant.unsure:
         lines.append(f"unsure: [{', '.join(variant.unsure)}]")
     return "\n".join(lines) + "\n"
+
+
+def _inertia(inertia: AxisInertia) -> str:
+    figures = {name: getattr(inertia, name) for name in _INERTIA}
+    figures = {"most": degrees(inertia.most)} | figures
+    return ", ".join(f"{name}: {value:.6g}" for name, value in figures.items() if value)
 
 
 def _mm(v: Vector) -> str:

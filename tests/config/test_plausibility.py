@@ -58,7 +58,8 @@ ERROR, WARNING = Severity.ERROR, Severity.WARNING
         ),
         ("model: irb120\njoints: {joint_1: {speed: 0.5}}\n", "RG071", WARNING, "no speed of an"),
         ("model: irb120\njoints: {joint_1: {offset: 1.5708}}\n", "RG071", WARNING, "1.5708 deg"),
-        ("model: irb120\njoints: {joint_1: {acceleration: 5}}\n", "RG071", WARNING, "in 50 s"),
+        ("model: irb120\njoints: {joint_1: {acceleration: 5}}\n", "RG071", ERROR, "in 50 s"),
+        ("model: irb120\njoints: {joint_1: {acceleration: 43}}\n", "RG071", ERROR, "in 5.81 s"),
         (
             "model: irb120_track\njoints: {track: {lower: 0, upper: 3}}\n",
             "RG071",

@@ -137,7 +137,7 @@ def test_an_orientation_that_turns_with_the_path(robot, zones):
 
 @pytest.mark.parametrize(
     ("via", "end"),
-    [((0, 0.05, 0.0), (0, 0.1, 0.0)), ((0, 0.00005, 0.0), (0, 0.1, 0.0))],
+    [((0, 0.15, 0.0), (0, 0.1, 0.0)), ((0, 0.00005, 0.0), (0, 0.1, 0.0))],
 )
 def test_three_points_that_make_no_circle(robot, linear, via, end):
     def program(task):
@@ -146,6 +146,15 @@ def test_three_points_that_make_no_circle(robot, linear, via, end):
         assert fault.value.refusal is FaultReason.NO_CIRCLE
 
     robot.run(program)
+
+
+@pytest.mark.parametrize("height", [0.0, 2e-6, 5e-5])
+def test_a_circle_through_nearly_straight_points(robot, linear, height):
+    """RobotStudio drives them, as does a real robot (rapidgen.motion.cartesian)."""
+    robot.run(lambda task: robot.group.move(task, linear(0, 0.1, 0.0, via=(0.0, 0.05, height))))
+    places, _ = tcp(robot)
+    assert places[-1] == pytest.approx((0.0, 0.1, 0.0), abs=1e-6)
+    assert places[:, 2].max() == pytest.approx(height, abs=3e-6)
 
 
 @pytest.mark.parametrize(("degrees", "makes_one"), [(0.98, False), (1.02, True)])
