@@ -60,6 +60,7 @@ class CartesianPath:
         "duration",
         "limits",
         "measure",
+        "programmed",
         "shape",
         "strength",
         "target",
@@ -88,6 +89,7 @@ class CartesianPath:
         if move.singularities is not Singularities.OFF:
             self._wrist = origin, wrist_end(kinematics, move, origin, check)
         self._turns = self.measure.angle > NO_TURN
+        self.programmed = 1.0
         programmed = nominal_time(self.measure, move.speed) if move.time is None else move.time
         count = min(_USUAL, max(_FEWEST, ceil(programmed / _PERIOD)))
         while True:
@@ -108,6 +110,11 @@ class CartesianPath:
             count = max(wanted, count if close else 2 * count)
         self._curves = cubics(self._nodes, spacing, 0.0)
         self.target = self._nodes[-1]
+
+    def stretch(self, factor: float) -> None:
+        """See Geometry."""
+        self.duration *= factor
+        self.programmed *= factor
 
     @property
     def tcp(self) -> float:
@@ -142,15 +149,21 @@ class CartesianPath:
         count = len(self._nodes) - 1
         spacing = self.duration / count
 
+        factor = self.programmed
         result: list[Piece] = []
         for k in range(count):
             left, right = begin + k * spacing, begin + (k + 1) * spacing
             if k == count - 1:
                 right = begin + self.duration
             low, high = max(left, start), min(right, end)
-            limits = self._ceilings[k]
+            speed, shares = self._ceilings[k]
+            if factor != 1.0:
+                speed *= factor
+                shares = tuple([(r / factor, c / (factor * factor)) for r, c in shares])
             if high - low > 1e-12:
-                result.append(Piece(low, high, _later(self._curves[k], begin), limits, self.tcp))
+                at = _later(self._curves[k], begin, factor)
+                own = speed, shares
+                result.append(Piece(low, high, at, own, self.tcp, programmed=factor))
         if result:
             result[0].start, result[-1].end = start, end
         return result
@@ -244,9 +257,13 @@ class CartesianPath:
         return least, fastest, 1 / most if most else inf
 
 
-def _later(curve: Callable[[float], Posture], begin: float) -> Callable[[float], Posture]:
-    """A curve over the time of a way, over places of a path on which it begins at `begin`."""
-    return lambda place: curve(place - begin)
+def _later(
+    curve: Callable[[float], Posture], begin: float, factor: float
+) -> Callable[[float], Posture]:
+    """Return a curve of a way by places of a path, on which the way begins at `begin`."""
+    if factor == 1.0:
+        return lambda place: curve(place - begin)
+    return lambda place: curve((place - begin) / factor)
 
 
 def external_places(kinematics: Kinematics) -> tuple[int, ...]:

@@ -30,6 +30,8 @@ Bend = tuple[float, float, list[Piece]]
 Ceilings = list[Limits]
 """Limits of each of some equal intervals."""
 _SMALLEST = 1e-7
+_FURTHEST = 1e4
+"""Largest ratio of the programmed speeds of two moves that a way is stretched by."""
 _FEWEST, _MOST = 5, 80
 """Intervals of one section of a corner."""
 _STEP = 0.05
@@ -52,7 +54,10 @@ def corner(
         return None
     if isinstance(path, JointPath) and isinstance(after, JointPath):
         start, end = before.end - inside, before.end + outside
-        rates = (path.rates, inside), (after.rates, outside)
+        rates = (
+            (path.rates, inside, path.programmed),
+            (after.rates, outside, after.programmed),
+        )
         tcp = max(path.tcp, after.tcp)
         return start, end, joint_corner(start, path.target, *rates, limits, tcp)
     if isinstance(path, CartesianPath) and isinstance(after, CartesianPath):
@@ -63,6 +68,20 @@ def corner(
             wide = _extended(zone, path, after, size, (inside, outside))
             return _cartesian(before, path, after, (inside, outside), wide, limits, kinematics)
     return _mixed(before, path, after, (inside, outside), limits)
+
+
+def stretch(before: Leg, after: Geometry) -> None:
+    """Give the way behind a leg the nominal time with which both halves of the corner are equal.
+
+    Then the speed along the corner is even, and a change of the programmed speed is one of the
+    path speed, for which the axes have room. A move with \\T keeps its nominal time: the corner
+    has to pass from one speed to the other exactly in its middle.
+    """
+    shares = corner_shares(before.move.zone, before.way.measure, after.measure)
+    if shares is not None and min(shares) > 0.0:
+        factor = before.way.duration * shares[0] / (after.duration * shares[1])
+        if 1 / _FURTHEST < factor < _FURTHEST:
+            after.stretch(factor)
 
 
 def _extended(
@@ -141,7 +160,8 @@ def _cartesian(
     sections = [(point + a, point + b) for a, b in pairwise(ends) if b - a > _SMALLEST]
     origin = path.posture(path.duration - wide[0])
     solve = _Tracker(kinematics, path.carrier, pose, external)
-    bend = _sampled(solve, point, sections, origin, limits, max(path.tcp, after.tcp))
+    speeds = path.programmed, after.programmed
+    bend = _sampled(solve, point, sections, origin, limits, max(path.tcp, after.tcp), speeds)
     if bend is not None and limits.shortest > 0.0:
         fastest = sum(near) / limits.corner / limits.shortest
         for piece in bend[2]:
@@ -250,11 +270,13 @@ def _sampled(
     origin: Posture,
     limits: AxisLimits,
     tcp: float,
+    speeds: tuple[float, float],
 ) -> Bend | None:
     pieces: list[Piece] = []
     try:
         for low, high in sections:
-            result = _section(solve, point, (low, high), origin, limits, tcp)
+            programmed = speeds[low >= point]
+            result = _section(solve, point, (low, high), origin, limits, tcp, programmed)
             if result is None:
                 return None
             origin, own = result
@@ -271,6 +293,7 @@ def _section(
     origin: Posture,
     limits: AxisLimits,
     tcp: float,
+    programmed: float,
 ) -> tuple[Posture, list[Piece]] | None:
     """The last posture, and a piece for each interval; None: a jump."""
     (low, high), count = bounds, _FEWEST
@@ -281,24 +304,29 @@ def _section(
         for place in places[1:]:
             nodes.append(solve(place - point, nodes[-1]))
         if largest_step(nodes) <= _STEP:
-            ceilings, close = interval_limits(nodes, spacing, limits)
+            ceilings, close = interval_limits(nodes, spacing, limits, programmed)
             if close or count >= _MOST:
                 break
         elif count >= _MOST:
             return None
         count *= 2
-    return nodes[-1], _pieces(nodes, bounds, ceilings, tcp)
+    return nodes[-1], _pieces(nodes, bounds, ceilings, tcp, programmed)
 
 
 def _pieces(
-    nodes: list[Posture], bounds: tuple[float, float], ceilings: Ceilings, tcp: float
+    nodes: list[Posture],
+    bounds: tuple[float, float],
+    ceilings: Ceilings,
+    tcp: float,
+    programmed: float,
 ) -> list[Piece]:
     """A piece for each interval between nodes."""
     low, high = bounds
     curves = cubics(nodes, (high - low) / len(ceilings), low)
     places = pairwise(spaced(low, high, len(ceilings)))
     return [
-        Piece(*ends, at, own, tcp) for ends, at, own in zip(places, curves, ceilings, strict=True)
+        Piece(*ends, at, own, tcp, programmed=programmed)
+        for ends, at, own in zip(places, curves, ceilings, strict=True)
     ]
 
 
@@ -330,15 +358,19 @@ def _mixed(
     start, end = point - inside, point + outside
     # The two halves have different slopes: sampled apart, so that no node lies across.
     pieces: list[Piece] = []
-    for low, high in ((start, point), (point, end)):
+    for low, high, programmed in (
+        (start, point, path.programmed),
+        (point, end, after.programmed),
+    ):
         count = _FEWEST
         while True:
             nodes, spacing = sample(at, low, high, count), (high - low) / count
-            ceilings, close = interval_limits(nodes, spacing, limits)
+            ceilings, close = interval_limits(nodes, spacing, limits, programmed)
             if close or count >= _MOST:
                 break
             count *= 2
-        pieces += _pieces(nodes, (low, high), ceilings, max(path.tcp, after.tcp))
+        tcp = max(path.tcp, after.tcp)
+        pieces += _pieces(nodes, (low, high), ceilings, tcp, programmed)
     return start, end, pieces
 
 

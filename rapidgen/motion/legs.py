@@ -36,6 +36,11 @@ class Geometry(Protocol):
     limits: AxisLimits
     strength: float
     """Acceleration that the axes allow, in ways per s^2."""
+    programmed: float
+    """Path speed that is as programmed: 1, unless the way is stretched."""
+
+    def stretch(self, factor: float) -> None:
+        """Let the way have `factor` times its nominal time, at another programmed path speed."""
 
     @property
     def target(self) -> Posture:
@@ -91,6 +96,7 @@ class JointPath:
         "limits",
         "measure",
         "origin",
+        "programmed",
         "rates",
         "strength",
         "target",
@@ -112,9 +118,16 @@ class JointPath:
         self.origin = origin
         self.target = target
         self.duration = duration
+        self.programmed = 1.0
         self.measure, self._peak = measure
         self.limits = limits
         self.rates = tuple([(b - a) / duration for a, b in zip(origin, target, strict=True)])
+
+    def stretch(self, factor: float) -> None:
+        """See Geometry."""
+        self.duration *= factor
+        self.programmed *= factor
+        self.rates = tuple([r / factor for r in self.rates])
 
     @property
     def tcp(self) -> float:
@@ -129,9 +142,10 @@ class JointPath:
         """Straight pieces: one, unless the accelerations differ along the way."""
         line = begin, self.origin, self.rates
         if self._constant is not None:
-            return [joint_line(start, end, line, self.limits, self.tcp, self._constant)]
+            constant = self._constant, self.programmed
+            return [joint_line(start, end, line, self.limits, self.tcp, *constant)]
         return [
-            joint_line(*ends, line, self.limits, self.tcp)
+            joint_line(*ends, line, self.limits, self.tcp, None, self.programmed)
             for ends in pairwise(spaced(start, end, _PARTS))
         ]
 

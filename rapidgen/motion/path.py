@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 
 from rapidgen.axes.kinematics import Kinematics, Posture
-from rapidgen.motion.corners import corner
+from rapidgen.motion.corners import corner, stretch
 from rapidgen.motion.legs import Geometry, Leg
 from rapidgen.motion.moves import Move
 from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
@@ -60,6 +60,8 @@ class Path:
         tail = self.tail
         if tail is not None and not tail.stops:
             path = make(self.target, move, False)
+            if tail.move.time is None and move.time is None:
+                stretch(tail, path)
             for size in _SHRINK:
                 bend = corner(tail, path, size * limits.corner, limits, kinematics)
                 if bend is None:

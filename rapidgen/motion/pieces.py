@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from copy import copy
 from itertools import pairwise
-from math import inf, sqrt
+from math import ceil, inf, sqrt
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
@@ -12,6 +12,8 @@ from rapidgen.motion.speed_profile import Shares
 
 Limits = tuple[float, Shares]
 """Path speed, and what the axes need of their accelerations."""
+_PART, _MOST_PARTS = 0.02, 6
+"""s at the programmed speed, and number, of the parts of half a joint corner."""
 _SAMPLES = 8
 """Parts of a piece over which the TCP's curve is measured."""
 
@@ -23,7 +25,17 @@ class Piece:
     need of their accelerations (`speed_profile.py`).
     """
 
-    __slots__ = ("at", "end", "shares", "speed", "start", "stop", "straight", "tcp")
+    __slots__ = (
+        "at",
+        "end",
+        "programmed",
+        "shares",
+        "speed",
+        "start",
+        "stop",
+        "straight",
+        "tcp",
+    )
 
     def __init__(
         self,
@@ -34,6 +46,7 @@ class Piece:
         tcp: float,
         *,
         straight: bool = False,
+        programmed: float = 1.0,
     ) -> None:
         self.start = start
         self.end = end
@@ -44,6 +57,8 @@ class Piece:
         """m that the TCP goes in a nominal s."""
         self.straight = straight
         """Whether all axes are linear in the place."""
+        self.programmed = programmed
+        """Path speed that is as programmed."""
         self.stop = False
         """Whether the robot stands at the end."""
 
@@ -133,9 +148,11 @@ class AxisLimits:
         if rate > 0.0 or bend > 0.0:
             piece.shares = (*piece.shares, (rate / limit, bend / limit))
 
-    def of_line(self, rates: Posture, accelerations: Sequence[float]) -> Limits:
+    def of_line(
+        self, rates: Posture, accelerations: Sequence[float], programmed: float = 1.0
+    ) -> Limits:
         """Path speed (at most 1) and shares on a straight joint line."""
-        speed, most = 1.0, 0.0
+        speed, most = programmed, 0.0
         for rate, v, a in zip(rates, self.speeds, accelerations, strict=True):
             size = abs(rate)
             if size * speed > v:
@@ -144,9 +161,11 @@ class AxisLimits:
                 most = size / a
         return speed, ((most, 0.0),) if most else ()
 
-    def of_curve(self, rates: Posture, curvatures: Posture, posture: Posture) -> Limits:
+    def of_curve(
+        self, rates: Posture, curvatures: Posture, posture: Posture, programmed: float = 1.0
+    ) -> Limits:
         """The same where the path bends."""
-        speed, pairs = 1.0, []
+        speed, pairs = programmed, []
         for rate, curvature, v, a in zip(
             rates, curvatures, self.speeds, self.accelerations(posture), strict=True
         ):
@@ -171,9 +190,13 @@ def joint_line(
     limits: AxisLimits,
     tcp: float,
     accelerations: Sequence[float] | None = None,
+    programmed: float = 1.0,
 ) -> Piece:
-    """All axes linear in nominal time: a line is the place where it begins, where the axes are
-    there, and their rates per s. `accelerations` are those of the axes in its middle."""
+    """Return a piece on which all axes are linear in nominal time.
+
+    A line is its place, the axes there, and their rates per s. `accelerations` are those of the
+    axes in its middle.
+    """
     zero, origin, rates = line
 
     def at(place: float) -> Posture:
@@ -182,23 +205,30 @@ def joint_line(
 
     if accelerations is None:
         accelerations = limits.accelerations(at((start + end) / 2))
-    return Piece(start, end, at, limits.of_line(rates, accelerations), tcp, straight=True)
+    own = limits.of_line(rates, accelerations, programmed)
+    return Piece(start, end, at, own, tcp, straight=True, programmed=programmed)
 
 
 def joint_corner(
     start: float,
     point: Posture,
-    incoming: tuple[Posture, float],
-    outgoing: tuple[Posture, float],
+    incoming: tuple[Posture, float, float],
+    outgoing: tuple[Posture, float, float],
     limits: AxisLimits,
     tcp: float,
 ) -> list[Piece]:
-    """The two halves of a corner at `point` that begins at `start` on the path.
+    """Return the pieces of a corner at `point` that begins at `start` on the path.
 
-    `incoming` and `outgoing` are the rates of the two lines and the nominal s that the corner
-    takes of each; `tcp` the larger TCP speed of the two.
+    `incoming` and `outgoing` are the rates of the two lines, the nominal s that the corner takes
+    of each, and the path speed that is as programmed; `tcp` is the larger TCP speed of the two.
+
+    The corner is the parabola over entry, programmed point and exit. Its parameter w runs from 0
+    to 1 over both halves with a slope that changes linearly within each half, from the speed of
+    the incoming move to that of the outgoing one, and passes both halves in the time that the two
+    programmed speeds need for them. So the place of the corner is that of the zone, while \\T stays
+    exact.
     """
-    (rates_in, before), (rates_out, after) = incoming, outgoing
+    (rates_in, before, speed_in), (rates_out, after, speed_out) = incoming, outgoing
     origin = tuple([p - r * before for p, r in zip(point, rates_in, strict=True)])
     tangent = tuple([2 * r * before for r in rates_in])
     bend = tuple([o * after - i * before for i, o in zip(rates_in, rates_out, strict=True)])
@@ -208,40 +238,43 @@ def joint_corner(
     half = 0.25 + before * middle / 2
     centre = start + before
     return [
-        _half(start, centre, curve, (first, middle), 0.0, limits, tcp),
-        _half(centre, centre + after, curve, (middle, last), half, limits, tcp),
+        *_half((start, centre), curve, (first, middle), 0.0, limits, tcp, speed_in),
+        *_half((centre, centre + after), curve, (middle, last), half, limits, tcp, speed_out),
     ]
 
 
 def _half(
-    start: float,
-    end: float,
+    ends: tuple[float, float],
     curve: tuple[Posture, Posture, Posture],
     slopes: tuple[float, float],
     first: float,
     limits: AxisLimits,
     tcp: float,
-) -> Piece:
-    """Half of a joint corner: the parabola over entry, programmed point and exit.
-
-    Its parameter w runs from 0 to 1 over both halves with a slope that changes linearly within
-    each half, from the speed of the incoming move to that of the outgoing one, and passes both
-    halves in the time that the two programmed speeds need for them. So the place of the corner
-    is that of the zone, while \\T stays exact.
-    """
+    programmed: float,
+) -> list[Piece]:
+    """Return half of a joint corner, in parts with limits of their own."""
     origin, tangent, bend = curve
+    start, end = ends
     slope = slopes[0]
     turn = (slopes[1] - slopes[0]) / (end - start)
-    last = first + (slopes[0] + slopes[1]) / 2 * (end - start)
+
+    def w_at(t: float) -> float:
+        return first + (slope + turn * t / 2) * t
 
     def at(place: float) -> Posture:
-        t = place - start
-        w = first + (slope + turn * t / 2) * t
+        w = w_at(place - start)
         return tuple([o + (d + b * w) * w for o, d, b in zip(origin, tangent, bend, strict=True)])
 
-    extremes = _extremes(tangent, bend, (slope, turn), (first, last))
-    middle = at((start + end) / 2)
-    return Piece(start, end, at, limits.of_curve(*extremes, middle), tcp)
+    parts = min(_MOST_PARTS, ceil((end - start) / programmed / _PART))
+    step = (end - start) / parts
+    pieces = []
+    for k in range(parts):
+        low, high = k * step, (k + 1) * step
+        extremes = _extremes(tangent, bend, (slope + turn * low, turn), (w_at(low), w_at(high)))
+        own = limits.of_curve(*extremes, at(start + (low + high) / 2), programmed)
+        right = end if k == parts - 1 else start + high
+        pieces.append(Piece(start + low, right, at, own, tcp, programmed=programmed))
+    return pieces
 
 
 def _extremes(

@@ -19,7 +19,7 @@ _CLOSE = 0.9
 
 
 def interval_limits(
-    nodes: Sequence[Posture], spacing: float, limits: AxisLimits
+    nodes: Sequence[Posture], spacing: float, limits: AxisLimits, programmed: float = 1.0
 ) -> tuple[list[Limits], bool]:
     """Path speed and shares for each interval between equally spaced nodes, 6 or more.
 
@@ -34,10 +34,11 @@ def interval_limits(
             abs(y - x) / spacing + c * spacing / 2 for x, y, c in zip(a, b, curving, strict=True)
         ]
         most = tuple([rate + m * spacing / 2 for rate, m in zip(least, margin, strict=True)])
-        own = limits.of_curve(most, tuple([c + m for c, m in zip(curving, margin, strict=True)]), a)
+        curved = tuple([c + m for c, m in zip(curving, margin, strict=True)])
+        own = limits.of_curve(most, curved, a, programmed)
         result.append(own)
         if close:
-            close = _close(own, limits.of_curve(tuple(least), curving, a))
+            close = _close(own, limits.of_curve(tuple(least), curving, a, programmed))
     return result, close
 
 

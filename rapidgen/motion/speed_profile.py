@@ -34,6 +34,8 @@ class ProfileSegment(Protocol):
     @property
     def shares(self) -> Shares: ...
     @property
+    def programmed(self) -> float: ...
+    @property
     def tcp(self) -> float: ...
     @property
     def stop(self) -> bool: ...
@@ -144,7 +146,8 @@ def plan(
 ) -> SpeedProfile | None:
     """The fastest law from a state to standstill at the end of the last span.
 
-    Spans behind `place` do not count. `cap` (path speed) and `tcp_limit` (m/s) are ceilings that
+    Spans behind `place` do not count. `cap` (share of the programmed speed) and `tcp_limit` (m/s)
+    are ceilings that
     may be below `speed`: then the law comes down to them. At stops on the way it waits `pause` s,
     before it begins `wait` s. None: from this state the limits of a later span cannot be kept.
     """
@@ -163,7 +166,7 @@ def plan(
         path = span.end - place
         if path <= 0.0:
             continue
-        ceiling = min(span.speed, cap)
+        ceiling = min(span.speed, cap * span.programmed)
         if span.tcp * ceiling > tcp_limit:
             ceiling = tcp_limit / span.tcp
         most = ceiling * ceiling

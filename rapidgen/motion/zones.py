@@ -188,7 +188,7 @@ class ZoneWatch:
         if isinstance(self._zone.shape, JointSpace):
             result = max(joint.speed for joint in self._group.config.joints)
         else:
-            paths = [piece.tcp for piece in motion.pieces]
+            paths = [piece.tcp * piece.programmed for piece in motion.pieces]
             known = motion.coast is None and all(paths)
             result = max(paths, default=_FASTEST_TCP) if known else _FASTEST_TCP
         return 2 * result if self._ahead else result

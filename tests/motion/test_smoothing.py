@@ -37,7 +37,12 @@ def bent_paths(draw):
         pieces.append(joint_line(place + cut, place + time - size, line, LIMITS, 0.0))
         if not last:
             pieces += joint_corner(
-                place + time - size, target, (rate, size), (rates[i + 1], size), LIMITS, 0.0
+                place + time - size,
+                target,
+                (rate, size, 1.0),
+                (rates[i + 1], size, 1.0),
+                LIMITS,
+                0.0,
             )
         place, point, cut = place + time, target, size
     return pieces, point

@@ -17,6 +17,7 @@ class Stretch:
     tcp: float = 0.0
     stop: bool = False
     curvature: float = 0.0
+    programmed: float = 1.0
 
     @property
     def shares(self):
@@ -152,6 +153,7 @@ class Bend:
     shares: tuple[tuple[float, float], ...]
     tcp: float = 0.0
     stop: bool = False
+    programmed: float = 1.0
 
 
 def used(law, spans):
