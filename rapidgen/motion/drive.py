@@ -122,7 +122,7 @@ class Drive:
     def _rest(self, place: float) -> float:
         """s until the robot stands, too, where the law does: nothing is planned before that."""
         now, motion = self._scheduler.now, self.motion
-        if now >= motion.end:
+        if now >= motion.end or self.behind() >= place:
             return 0.0
         stood = (now - motion.start) / S - motion.law.time_at(place)
         return max(0.0, self.ramp - stood)

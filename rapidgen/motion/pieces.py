@@ -12,7 +12,7 @@ from rapidgen.motion.speed_profile import Shares
 
 Limits = tuple[float, Shares]
 """Path speed, and what the axes need of their accelerations."""
-_PART, _MOST_PARTS = 0.02, 6
+_PART, _MOST_PARTS = 0.01, 6
 """s at the programmed speed, and number, of the parts of half a joint corner."""
 _SAMPLES = 8
 """Parts of a piece over which the TCP's curve is measured."""
