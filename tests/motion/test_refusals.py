@@ -29,7 +29,7 @@ ERRORS = [
 ]
 EVENTS = [
     (
-        "MoveC Offs(p,0,10,0), Offs(p,0,20,0), v100, fine, tool0;",
+        "MoveC Offs(p,0,30,0), Offs(p,0,20,0), v100, fine, tool0;",
         50_063,
         "Circle uncertain",
         "the three points make no circle",
