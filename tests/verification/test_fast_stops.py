@@ -13,8 +13,8 @@ from rapidgen.verification.worker_pool import run_in_fork
 
 
 @cache
-def booted(robot, *texts, stuck=False):
-    config = load_config(robot)
+def booted(robot, *texts, stuck=False, overrides=()):
+    config = load_config(robot, overrides)
     system = make_system(config, build(config))
     if stuck:
         # A halt that is never answered is in force for ever.
@@ -28,8 +28,8 @@ def booted(robot, *texts, stuck=False):
     return bench
 
 
-def stopped(seed, *texts, robot="irb120", stuck=False):
-    bench = booted(robot, *texts, stuck=stuck)
+def stopped(seed, *texts, robot="irb120", stuck=False, overrides=()):
+    bench = booted(robot, *texts, stuck=stuck, overrides=overrides)
     return run_in_fork(lambda: fast_stop(bench, seed))
 
 
@@ -43,7 +43,8 @@ def test_a_driver_goes_on(robot):
 
 
 def test_a_robot_half_a_metre_off_is_started_from_main():
-    stop = stopped(51, robot="irb6700")
+    # A slow robot: at the accelerations of its class it would be 0.13 m.
+    stop = stopped(51, robot="irb6700", overrides=("acceleration_time=0.5",))
     assert stop.off_path > 0.5
     assert (stop.from_main, stop.finding) == (True, "")
 

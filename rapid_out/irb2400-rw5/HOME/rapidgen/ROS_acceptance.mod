@@ -16,7 +16,7 @@ MODULE ROS_acceptance
         num control;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "4e76b519cc36";
+    CONST string ROS_BUILD_ACCEPTANCE := "19ee5eb13cb3";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;

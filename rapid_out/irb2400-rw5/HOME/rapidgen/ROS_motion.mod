@@ -10,18 +10,18 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "4e76b519cc36";
+    CONST string ROS_BUILD_MOTION := "19ee5eb13cb3";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [1000,500,1000,1000];
     LOCAL CONST zonedata CONFIG_ZONE := z5;
     ! Acceleration that each axis certainly reaches, deg/s^2 or mm/s^2 (30 % of its estimated value).
-    LOCAL CONST num ACCELERATION_1 := 150;
-    LOCAL CONST num ACCELERATION_2 := 150;
-    LOCAL CONST num ACCELERATION_3 := 150;
-    LOCAL CONST num ACCELERATION_4 := 360;
-    LOCAL CONST num ACCELERATION_5 := 360;
-    LOCAL CONST num ACCELERATION_6 := 450;
+    LOCAL CONST num ACCELERATION_1 := 220.4562;
+    LOCAL CONST num ACCELERATION_2 := 220.4562;
+    LOCAL CONST num ACCELERATION_3 := 220.4562;
+    LOCAL CONST num ACCELERATION_4 := 1542.857;
+    LOCAL CONST num ACCELERATION_5 := 1542.857;
+    LOCAL CONST num ACCELERATION_6 := 1928.5714;
     ! A corner zone is as small as the axes can follow without slowing down, and at most CONFIG_ZONE.
     ! The corner is planned for at least MIN_CORNER_TIME (s; an estimate, ABB publishes no value). The
     ! zone is not smaller than MIN_ZONE_MM (mm) and MIN_ZONE_DEG (deg).

@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "4e76b519cc36";
+    CONST string ROS_BUILD_SUPERVISOR := "19ee5eb13cb3";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;

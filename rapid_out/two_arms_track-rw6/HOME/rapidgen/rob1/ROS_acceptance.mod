@@ -16,7 +16,7 @@ MODULE ROS_acceptance
         num control;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "71d91e8cff1a";
+    CONST string ROS_BUILD_ACCEPTANCE := "aa28722e070a";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! supervisor by an interrupt, because only one task may stop and restart the robot. If the
     ! supervisor does not answer, this task stops the robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "71d91e8cff1a";
+    CONST string ROS_BUILD_CONTROL := "aa28722e070a";
 
     LOCAL CONST num PORT := 11001;
     ! Time between two checks for new clients and for the end of a trajectory, s.

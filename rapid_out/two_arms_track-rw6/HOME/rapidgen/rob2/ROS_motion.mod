@@ -10,18 +10,18 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "71d91e8cff1a";
+    CONST string ROS_BUILD_MOTION := "aa28722e070a";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [5000,500,5000,1000];
     LOCAL CONST zonedata CONFIG_ZONE := z50;
     ! Acceleration that each axis certainly reaches, deg/s^2 or mm/s^2 (30 % of its estimated value).
-    LOCAL CONST num ACCELERATION_1 := 300;
-    LOCAL CONST num ACCELERATION_2 := 300;
-    LOCAL CONST num ACCELERATION_3 := 300;
-    LOCAL CONST num ACCELERATION_4 := 384;
-    LOCAL CONST num ACCELERATION_5 := 384;
-    LOCAL CONST num ACCELERATION_6 := 504;
+    LOCAL CONST num ACCELERATION_1 := 750;
+    LOCAL CONST num ACCELERATION_2 := 750;
+    LOCAL CONST num ACCELERATION_3 := 750;
+    LOCAL CONST num ACCELERATION_4 := 1371.4286;
+    LOCAL CONST num ACCELERATION_5 := 1371.4286;
+    LOCAL CONST num ACCELERATION_6 := 1800;
     ! A corner zone is as small as the axes can follow without slowing down, and at most CONFIG_ZONE.
     ! The corner is planned for at least MIN_CORNER_TIME (s; an estimate, ABB publishes no value). The
     ! zone is not smaller than MIN_ZONE_MM (mm) and MIN_ZONE_DEG (deg).
