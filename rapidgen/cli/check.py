@@ -154,7 +154,19 @@ def _settings(
 
 def _reported(findings: "Iterable[Diagnostic]", settings: _Settings) -> list[Diagnostic]:
     project = settings.project
-    return [d for d in findings if project is None or project.is_reported(d)]
+    found = [d for d in findings if project is None or project.is_reported(d)]
+    return _without_repetitions(found)
+
+
+def _without_repetitions(findings: list[Diagnostic]) -> list[Diagnostic]:
+    """Report the encoded modules of a folder in one finding."""
+    encoded = [d for d in findings if d.code == "RG219" and d.span is not None]
+    if len(encoded) < 2:
+        return findings
+    names = tuple(d.span.path for d in encoded if d.span is not None)
+    message = f"{len(encoded)} modules are encoded: only a controller can read them"
+    one = replace(encoded[0], message=message, notes=names)
+    return [one if d is encoded[0] else d for d in findings if d is encoded[0] or d not in encoded]
 
 
 def _dialect(robotware: str | None) -> "Dialect | None":

@@ -7,11 +7,11 @@ backinfo.txt or system.xml, else the one in the cfg header.
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, refusal
 from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.cfg_loading import faults_within
@@ -75,6 +75,7 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         )
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
+    collected += _of_options(entries, tasks, sys_cfg.path)
     proc, sio = _further(folder, "PROC", collected), _further(folder, "SIO", collected)
     report = _robotware(info)
     if report is None:
@@ -91,6 +92,32 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         udp_devices=None if sio is None else _udp_devices(sio),
     )
     return with_cfg(result, sys_cfg, eio_cfg)
+
+
+def _of_options(
+    entries: Sequence[ModuleEntry], tasks: Iterable[TaskSpec], path: str
+) -> list[Diagnostic]:
+    """Report the modules of options, which no backup contains, in one note."""
+    loaded = {module.name.casefold() for task in tasks for module in task.modules}
+    files = dict.fromkeys(
+        entry.file
+        for entry in entries
+        if not entry.file.strip().upper().startswith("HOME:")
+        and entry.file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0].casefold()
+        not in loaded
+    )
+    if not files:
+        return []
+    number = f"{len(files)} modules" if len(files) > 1 else "a module"
+    return [
+        error(
+            "RG710",
+            Span(path, 1, 1),
+            f"{number} of installed options: no backup contains them",
+            notes=tuple(files),
+            severity=Severity.INFO,
+        )
+    ]
 
 
 def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str], ...]:

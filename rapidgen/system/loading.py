@@ -92,9 +92,9 @@ def load_entries(
 ) -> tuple[ModuleFile, ...]:
     """Return `loaded` and the modules that CAB_TASK_MODULES adds.
 
-    A missing file is a warning RG710 when `notes` collects them (a real backup names options' files
-    that it does not contain), else an error. The same applies to a second file with a module of the
-    same name, RG714.
+    A missing file is a warning RG710 when `notes` collects them, else an error; files of options
+    (RELEASE:) are skipped then, because no backup contains them. A second file with a module of the
+    same name is RG714 in the same way.
     """
     modules = list(loaded)
     known = {module.name.casefold() for module in loaded}
@@ -109,11 +109,16 @@ def load_entries(
             stem = entry.file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
             if stem.casefold() in known:
                 continue
+            known_missing = notes is not None and any(
+                note.code == "RG710" and note.span == place for note in notes
+            )
+            if known_missing or (outside and notes is not None):
+                continue
             _note(
                 notes,
                 "RG710",
                 place,
-                f"module file '{entry.file}' of task {task.name} is missing",
+                f"module file '{entry.file}' is missing",
                 "put the file into HOME, or take its CAB_TASK_MODULES instance out",
             )
             continue

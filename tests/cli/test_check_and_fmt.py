@@ -260,3 +260,14 @@ def test_loads_are_compared_with_the_robot_of_a_generated_folder(folder, capsys)
     datum = "\n    PERS loaddata own := [9, [0, 0, 50], [1, 0, 0, 0], 0, 0, 0];"
     module.write_text(head + datum + marker + remaining, encoding="latin-1")
     assert overloads(capsys, "out") == ["a load of 9 kg is more than irb120 carries, 3 kg"]
+
+
+def test_encoded_modules_of_a_folder_are_one_warning(tmp_path, capsys):
+    (tmp_path / "good.mod").write_text(GOOD)
+    for name in ("a.sys", "b.sys", "c.sys"):
+        (tmp_path / name).write_bytes(b"\xfc\x01\x02\x03" * 100)
+    assert main(["check", str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    assert out.count("RG219") == 1
+    assert all(name in out for name in ("a.sys", "b.sys", "c.sys"))
+    assert "1 warning(s)" in err

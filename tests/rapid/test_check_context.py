@@ -343,3 +343,54 @@ def test_where_no_robot_is_known_only_a_negative_mass_is_wrong():
     assert found(module("a", "", data)) == [("warning", "RG333")]
     task = system(module("a", "", data))
     assert found(task, payloads={"t_rob2": IRB}) == [("warning", "RG333")]
+
+
+def test_a_handler_behind_its_routine_is_reported_once():
+    text = "MODULE m\nPROC p()\nENDPROC\n%s\nTRYNEXT;\nENDPROC\nPROC q()\nENDPROC\nENDMODULE\n"
+    for handler in ("ERROR", "UNDO", "BACKWARD"):
+        (one,) = check(text % handler)
+        assert (one.code, one.span.line, one.related[0].span.line) == ("RG216", 4, 3)
+        assert handler in one.message
+
+
+@pytest.mark.parametrize(
+    ("severity", "given"),
+    [("warning", lambda text: text), ("error", lambda text: system(text))],
+)
+def test_a_datum_of_another_routine_is_named(severity, given):
+    trap = "TRAP t\nn := 1;\nENDTRAP\n"
+    text = module("m", "n := 2;\nTPWrite ValToStr(n);\nCONNECT i WITH t;", "VAR intnum i;")
+    text = text.replace("PROC main()\n", "PROC main()\nVAR num n;\n")
+    (one,) = check(given(text.replace("ENDMODULE", trap + "ENDMODULE")))
+    assert (one.severity.value, one.code) == (severity, "RG302")
+    assert "'main'" in one.message
+    assert one.related[0].span.line == 4
+
+
+@pytest.mark.parametrize(
+    ("called", "tasks", "expected"),
+    [
+        ("go;", ("T_ROB1", "T_IO"), ["RG336"]),
+        ("CONNECT i WITH fires;", ("T_ROB1", "T_IO"), ["RG336"]),
+        ("IDelete i;", ("T_ROB1", "T_IO"), []),
+        ("go;", ("T_IO", "T_ROB1"), []),
+    ],
+)
+def test_a_move_in_a_task_without_a_robot_is_reported(called, tasks, expected):
+    """Event 194901 of such a program at run time; only calls from the entry count."""
+    moves = (
+        "PROC go()\nMoveAbsJ [[0,0,0,0,30,0],[0,0,0,0,0,0]],v100,fine,tool0;\nENDPROC\n"
+        "TRAP fires\ngo;\nENDTRAP\n"
+    )
+    text = module("b", called, "VAR intnum i;").replace("ENDMODULE", moves + "ENDMODULE")
+    texts = {tasks[0]: module("a"), tasks[1]: text}
+    specs = tuple(
+        TaskSpec(name, motion=name == "T_ROB1", modules=(ModuleFile(name, name, text.encode()),))
+        for name, text in texts.items()
+    )
+    assert [d.code for d in check(System("s", specs))] == expected
+
+
+def test_a_receiver_of_a_value_is_used():
+    assert found(module("m", "a := CJointT();", "LOCAL VAR jointtarget a;")) == []
+    assert found(module("m", "a := 1;", "LOCAL VAR num a;")) == [("warning", "RG324")]

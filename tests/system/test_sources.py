@@ -67,6 +67,10 @@ CAB_TASK_MODULES:
       -File "HOME:/Shared.sys" -AllTask
 
       -File "RELEASE:/options/dispense.sys" -Task "T_ROB1"
+
+      -File "SMARTGRIPPER:/code/grip.sys" -AllTask
+
+      -File "HOME:/lost.sys" -AllTask
 #
 CAB_EXEC_HOOKS:
 
@@ -115,7 +119,14 @@ def test_backup(backup):
     )
     assert [m.name for m in robot.modules] == ["user", "Work", "Shared"]
     assert [m.name for m in back.modules] == ["Back", "Shared"]
-    assert [n.code for n in notes] == ["RG710"]
+    lost, options = notes
+    assert (lost.code, lost.severity, options.code, options.severity) == (
+        "RG710",
+        Severity.WARNING,
+        "RG710",
+        Severity.INFO,
+    )
+    assert options.notes == ("RELEASE:/options/dispense.sys", "SMARTGRIPPER:/code/grip.sys")
     program = SignalSpec("goProgram", "GO", device="d651", size=8, bits=tuple(range(8, 16)))
     assert system.signals == (program,)
     assert system.outputs == (SystemOutput("TaskExecuting", "goProgram", task="T_ROB1"),)

@@ -19,6 +19,7 @@ from rapidgen.rapid.binding import (
 from rapidgen.rapid.checks.context import CheckContext, Payload
 from rapidgen.rapid.checks.declarations import check_module
 from rapidgen.rapid.checks.findings import Findings
+from rapidgen.rapid.checks.motion_tasks import moves_without_robot
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse
@@ -149,6 +150,7 @@ def _check_system(
     objects = installed_objects(_installed(system))
     parsed: dict[tuple[str, int], Module] = {}
     findings: list[Diagnostic] = []
+    has_robot = any(spec.motion for spec in system.tasks)
     for spec in system.tasks:
         task = TaskScope(objects)
         scopes = []
@@ -170,6 +172,9 @@ def _check_system(
         for scope in scopes:
             findings += _check_module(scope, given, task.clashes, spec.entry)
         findings += _entry(spec, task, given)
+        if has_robot and not spec.motion:
+            for one in moves_without_robot(spec, task, given):
+                findings += one.found
     return _sorted(dict.fromkeys(findings))  # a module may be in several tasks
 
 

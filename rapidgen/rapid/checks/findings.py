@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Final, Literal
 
-from rapidgen.diagnostics import Diagnostic, Label, Severity, error
+from rapidgen.diagnostics import Diagnostic, Label, Severity, Span, error
 from rapidgen.rapid.binding import (
     DATA,
     ROUTINES,
@@ -19,7 +19,7 @@ from rapidgen.rapid.binding import (
 from rapidgen.rapid.binding.names import AGGREGATE, element, equal
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.context import CheckContext, closest
-from rapidgen.rapid.syntax.nodes import Node
+from rapidgen.rapid.syntax.nodes import DataDeclaration, Node, Parameter, RoutineDeclaration
 
 _Options = Literal["procedures", "functions", "types", "values", ""]
 _ROLES: Final[dict[str, tuple[str, frozenset[str], _Options]]] = {
@@ -146,9 +146,21 @@ class Findings:
         if options and key[1] in signatures.option_names(options):
             return
         self._unknown.add(key)
-        likely = closest(name, self._candidates(kinds, expected))
+        inside = self._data_of_routine(name) if role == "datum" else None
+        likely = "" if inside else closest(name, self._candidates(kinds, expected))
         help = f"did you mean '{likely}'?" if likely else ""
-        if self.given.is_complete and self._is_declared_by_programs(expected):
+        if inside is not None:
+            routine, token = inside
+            self.report(
+                code,
+                f"'{name}' is declared in '{routine.name}': other routines cannot use it",
+                node,
+                label="not declared here",
+                help="declare it at the head of the module, or pass it as an argument",
+                related=(Label(self._span(token), f"declared in '{routine.name}'"),),
+                severity=Severity.ERROR if self.given.is_complete else Severity.WARNING,
+            )
+        elif self.given.is_complete and self._is_declared_by_programs(expected):
             self.report(
                 code,
                 f"there is no {role} '{name}'",
@@ -162,6 +174,19 @@ class Findings:
             known = role if role in ("function", "trap") else expected
             is_reported = f"{name} ({known})" if known not in (None, "anytype") else name
             self._elsewhere.setdefault(code, []).append((is_reported, node))
+
+    def _data_of_routine(self, name: str) -> tuple[RoutineDeclaration, int] | None:
+        """Return the first routine with a datum or parameter of a name, and its token."""
+        folded = name.lower()
+        for routine in self.module.tree.routines:
+            data: list[Parameter | DataDeclaration] = [*routine.parameters, *routine.data]
+            for datum in data:
+                if datum.name.lower() == folded:
+                    return routine, datum.name_token
+        return None
+
+    def _span(self, token: int) -> Span:
+        return self.module.tree.source.span(token, token)
 
     def _is_declared_by_programs(self, expected: str | None) -> bool:
         """Return True if the given input declares objects of a type, if anything does.

@@ -22,6 +22,7 @@ from rapidgen.rapid.syntax.nodes import (
     Exit,
     Expression,
     For,
+    FunctionCall,
     Goto,
     If,
     Index,
@@ -83,7 +84,9 @@ class FlowChecker:
             was_used = root in self.findings.used
             expected = self.types.datum(target, self._hint(node))
             if root is not None:
-                if isinstance(target, Name) and not was_used:
+                # A function can only be called in an expression, so its value needs a receiver.
+                forced = isinstance(node.value, FunctionCall)
+                if isinstance(target, Name) and not was_used and not forced:
                     self.findings.used.discard(root)  # being written is no use
                 self._writable(target, root)
         if expected is not None:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Severity, error
+from rapidgen.diagnostics import Diagnostic, Label, Severity, error
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax import errors, lexer, text
 from rapidgen.rapid.syntax.blocks import Blocks
@@ -20,6 +20,7 @@ from rapidgen.rapid.syntax.nodes import (
     Module,
     PlaceholderDeclaration,
     RecordDeclaration,
+    RoutineDeclaration,
     Scope,
 )
 from rapidgen.rapid.syntax.routines import ROUTINES, RoutineParser
@@ -32,6 +33,7 @@ _EXCLUDED: Final = (
     ("NOVIEW", "READONLY"),
     ("VIEWONLY", "READONLY"),
 )
+_HANDLERS: Final = ("ERROR", "UNDO", "BACKWARD")
 _RANK: Final = {"type": 0, "datum": 1, "routine": 2}
 _DECLARATION_HOLDERS: Final = {"<TDN>": "type", "<DDN>": "datum", "<RDN>": "routine"}
 
@@ -175,6 +177,10 @@ class ModuleParser:
                     holder = self.texts[i].upper()
                     new = _RANK[_DECLARATION_HOLDERS[holder]]
                     declaration = PlaceholderDeclaration(i, i, holder)
+                elif kind in _HANDLERS and result and isinstance(result[-1], RoutineDeclaration):
+                    self._handler_outside(i, result[-1])
+                    i = self._next_declaration(i, i)
+                    continue
                 else:
                     raise SyntaxFault(i, "a declaration or ENDMODULE")
             except SyntaxFault as fault:
@@ -188,6 +194,20 @@ class ModuleParser:
                 rank = new
             result.append(declaration)
             i = declaration.last + 1
+
+    def _handler_outside(self, i: int, routine: RoutineDeclaration) -> None:
+        """Report a handler behind the end of the routine before it."""
+        source, end = self.source, self.texts[routine.last].upper()
+        self.report(
+            error(
+                "RG216",
+                errors.place(source, i),
+                f"this {self.kinds[i]} handler is behind the {end} of '{routine.name}'",
+                f"take out the {end} before it: a handler is the last part of its routine",
+                notes=("handlers of a routine [K §5.3-5.5]",),
+                related=(Label(source.span(routine.last, routine.last), "ends here"),),
+            )
+        )
 
     def _next_declaration(self, start: int, at: int) -> int:
         kinds = self.kinds
