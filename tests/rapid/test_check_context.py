@@ -388,7 +388,8 @@ def test_a_move_in_a_task_without_a_robot_is_reported(called, tasks, expected):
         TaskSpec(name, motion=name == "T_ROB1", modules=(ModuleFile(name, name, text.encode()),))
         for name, text in texts.items()
     )
-    assert [d.code for d in check(System("s", specs))] == expected
+    codes = [d.code for d in check(System("s", specs))]
+    assert [code for code in codes if code == "RG336"] == expected
 
 
 def test_a_receiver_of_a_value_is_used():

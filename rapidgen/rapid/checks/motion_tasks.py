@@ -7,12 +7,10 @@ from rapidgen.rapid.binding import RoutineSymbol, TaskScope
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.checks.context import CheckContext
 from rapidgen.rapid.checks.findings import Findings
+from rapidgen.rapid.checks.moves import is_move
 from rapidgen.rapid.syntax.nodes import Connect, FunctionCall, ProcedureCall
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.system import TaskSpec
-
-_TARGETS = frozenset(("topoint", "tojointpos"))
-"""Parameters that only move instructions have."""
 
 
 def moves_without_robot(spec: TaskSpec, task: TaskScope, given: CheckContext) -> Iterator[Findings]:
@@ -57,6 +55,6 @@ def _moves(symbol: object) -> bool:
     """Return True for a move instruction of RAPID."""
     return (
         isinstance(symbol, RoutineSymbol)
-        and symbol.module is None
-        and not _TARGETS.isdisjoint(p.name.lower() for p in symbol.parameters or ())
+        and symbol.signature is not None
+        and is_move(symbol.signature)
     )

@@ -139,7 +139,7 @@ class _Walk:
         """Return whether a call is a fault, and the state after it."""
         signature = symbol.signature
         if signature is not None:
-            is_fault = state != self._safe and _is_move(signature)
+            is_fault = state != self._safe and is_move(signature)
             after = self._after.get(symbol.name.lower(), state)
             return is_fault and self._is_fault(call, signature), after
         key = (symbol, state)
@@ -159,7 +159,7 @@ def _lacks_identity(call: ProcedureCall, signature: Signature) -> bool:
     return has_parameter and all((a.name or "").lower() != "id" for a in call.arguments)
 
 
-def _is_move(signature: Signature) -> bool:
+def is_move(signature: Signature) -> bool:
     """Return True for an instruction with a target."""
     return signature.kind == "PROC" and any(
         parameter.name.lower() in _TARGETS for parameter in signature.parameters
