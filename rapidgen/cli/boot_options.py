@@ -147,8 +147,10 @@ def inference_report(log: "InferenceLog") -> str:
     answered = "inferred, because the program waited for it"
     missed = "the inferred robot did not reach it as programmed (`--robot` selects another)"
     restarted = "stopped after an inferred answer, restarted from main"
+    disks = ", ".join(disk.upper() for disk in log.disks)
     return (
-        _counted(answered, " = ", log.answered)
+        (f"inferred disks, each an empty folder: {disks}\n" if disks else "")
+        + _counted(answered, " = ", log.answered)
         + _counted(restarted, ": ", log.stopped)
         + _counted(missed, ": ", log.missed)
     )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.event_log import EventLog
+from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem, SignalCondition
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.memory import MemoryNetwork
@@ -81,6 +82,8 @@ class InferenceLog:
     """Places of moves to where the robot does not come as programmed, and how it went there."""
     stopped: "list[Answer]" = field(default_factory=list)
     """Places where a program stopped after an answer and was restarted from main, with reasons."""
+    disks: list[str] = field(default_factory=list)
+    """Disks outside the controller that a program accessed, each an empty folder."""
 
 
 class Booted(Protocol):
@@ -91,6 +94,7 @@ class Booted(Protocol):
         """Event log of the controller."""
 
     io: IOSystem
+    files: FileSystem
     operator: Operator
     motion: MotionSystem
     network: Network
@@ -217,6 +221,8 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
     """
     guessed = InferenceLog(around.is_guess)
     answered = guessed.answered
+    if around.is_guess:
+        controller.files.inferred = guessed.disks
     for name, posture in around.starts.items():
         controller.motion.group(name).jump(posture)
     for reaction in around.reactions:

@@ -7,6 +7,7 @@ controller's disks.
 
 import errno
 import os
+import re
 import shutil
 import tempfile
 import weakref
@@ -28,6 +29,7 @@ _DEVICES = {
     "flp1:": "FLP1",
     "release:": "RELEASE",
 }
+_OUTSIDE = re.compile(r"[a-z]\w{0,15}:", re.ASCII)
 CAPACITY = 256 * 1024 * 1024
 """Bytes that a controller's programs may write in all; then the disk is full."""
 LARGEST_COPY = 1_000_000_000
@@ -110,6 +112,8 @@ class FileSystem:
         home_below: Path | None = None,
     ) -> None:
         self._free = CAPACITY
+        self.inferred: list[str] | None = None
+        """Disks outside the controller that are inferred as empty folders; None: there are none."""
         self._open: dict[IODevice | Directory, str] = {}
         self._scratch: weakref.finalize[[Path], FileSystem] | None = None
         self._folder = None if folder is None else _with_devices(folder)
@@ -146,7 +150,7 @@ class FileSystem:
         if file:
             text = text.rstrip("/\\") + "/" + file if not text.endswith(":") else text + file
         device, remaining = _split(text)
-        folder = _DEVICES.get(device)
+        folder = _DEVICES.get(device) or self._inferred(device)
         if folder is None or "\0" in remaining:
             raise DiskFault(DiskReason.NO_ACCESS, f"no disk for '{text}'")
         place = self.folder / folder
@@ -162,6 +166,16 @@ class FileSystem:
         if not self._inside(place):
             raise DiskFault(DiskReason.NO_ACCESS, f"'{text}' leads out of the controller")
         return place
+
+    def _inferred(self, device: str) -> str | None:
+        """Return the folder of a disk outside the controller, such as C: of a computer."""
+        if self.inferred is None or _OUTSIDE.fullmatch(device) is None:
+            return None
+        if device not in self.inferred:
+            self.inferred.append(device)
+        folder = f"OUTSIDE_{device[:-1].upper()}"
+        (self.folder / folder).mkdir(exist_ok=True)
+        return folder
 
     def _inside(self, place: Path) -> bool:
         """Return True if a path is inside the folder after all links.

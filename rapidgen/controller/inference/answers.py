@@ -448,10 +448,12 @@ def flags(
     scopes: Iterable[ModuleScope],
     looks: Iterable[WaitCondition],
     made: Mapping[str, str],
+    exchanged: Collection[str] = (),
 ) -> Iterator[PolledData]:
     """Return all data polled in the modules of a task.
 
-    `made` are the types of inferred data, by lower-case name.
+    `made` are the types of inferred data, by lower-case name. `exchanged` are persistents that
+    the tasks set for each other: their values are never inferred.
     """
     written: dict[str, set[object]] = {}
     for scope in scopes:
@@ -459,9 +461,36 @@ def flags(
             written.setdefault(name, set()).add(value)
     for look in looks:
         expected = [one for term in look.terms for one in _wanted(term, made)]
-        known = {one.name.casefold(): one for one in (_given(s, written) for s in expected) if one}
+        given = (_given(one, written) for one in expected)
+        free = [one for one in given if one and one.name.casefold() not in exchanged]
+        known = {one.name.casefold(): one for one in free}
         if known:
             yield PolledData(task, look.module, look.first, look.last, tuple(known.values()))
+
+
+def exchanged_persistents(
+    tasks: Iterable[Sequence[ModuleScope]], made: Mapping[str, str]
+) -> frozenset[str]:
+    """Return the persistents of several tasks of which one sets them, by lower-case name.
+
+    Undeclared data count: the inferred ones may be persistents.
+    """
+    known: Counter[str] = Counter()
+    written: set[str] = set()
+    for scopes in tasks:
+        own = {
+            one.name.casefold()
+            for scope in scopes
+            for one in scope.tree.data
+            if one.kind == "PERS" and not one.scope
+        }
+        for scope in scopes:
+            for name, _ in _written(scope, made):
+                if name in own or scope.find(name) is None:
+                    own.add(name)
+                    written.add(name)
+        known.update(own)
+    return frozenset(name for name in written if known[name] > 1)
 
 
 def _given(one: Adjusted, written: Mapping[str, set[object]]) -> Adjusted | None:

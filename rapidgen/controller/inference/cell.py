@@ -9,7 +9,9 @@ A public program usually lacks its controller's configuration. The rules of infe
    robot; a mechanical unit is at its place and has no axes; a camera sees one object in its centre.
 4. Data of other types have RAPID's default: 0, FALSE, an empty text. Exceptions: a divisor is 1, a
    target is the start position of the robot, `v25` is a speed of 25 mm/s and `z5` a zone of 5 mm.
-5. A name without a type stays unknown.
+5. Components decide before all others: `mySpeed.v_leax` makes mySpeed a speeddata.
+6. A number that is the port of a socket gets a port of its own.
+7. A name without a type stays unknown.
 """
 
 import re
@@ -23,6 +25,7 @@ from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.controller.inference.answers import (
     PolledData,
     PolledSignals,
+    exchanged_persistents,
     flags,
     passed_arguments,
     polled,
@@ -31,9 +34,11 @@ from rapidgen.controller.inference.answers import (
 from rapidgen.controller.inference.names import (
     DefaultedPersistent,
     absent,
+    accessed_components,
     find_defaulted_persistents,
     passed,
     read,
+    record_of,
     scoped,
 )
 from rapidgen.controller.inference.peers import ExpectedMessages, expected_messages
@@ -71,6 +76,11 @@ _ELEMENTS = 20
 _NOTHING: Mapping[str, str] = {"num": "0", "dnum": "0", "bool": "FALSE", "string": '""'}
 _ORDER = frozenset(("<", ">", "<=", ">="))
 _ALIASIO = 2
+_PORTS = frozenset(("socketbind", "socketconnect"))
+_WITH_PORT = 3
+"""Required arguments of these, of which the port is the last."""
+_FIRST_PORT = 4100
+"""Of inferred ports; each name gets one of its own."""
 _Use = tuple[n.Name, str, int]
 
 
@@ -145,6 +155,16 @@ def infer_cell(
                 if one.sure > before.sure:
                     surer = replace(before, type=one.type, sure=one.sure)
                     found[one.name.casefold()] = surer
+    paths: dict[str, set[tuple[str, ...]]] = {}
+    for scopes in tasks:
+        for scope in scopes:
+            for name, path in accessed_components(scope):
+                key = name.name.casefold()
+                at = scope.tree.source.span(name.first, name.first)
+                found.setdefault(key, UndeclaredName(name.name, "", at))
+                paths.setdefault(key, set()).add(path)
+    for key, components in paths.items():
+        found[key] = replace(found[key], type=record_of(components, found[key].type))
     for key in assigned & found.keys():
         # No signal is assigned: it is a number.
         if found[key].type.startswith("signal"):
@@ -191,10 +211,11 @@ def infer_cell(
     persisted = {name for scopes in tasks for scope in scopes for name in _persistent(scope)}
     initial = {word for scopes in tasks for scope in scopes for word in _in_initial_values(scope)}
     sizes = {name: size for scopes in tasks for scope in scopes for name, size in _sizes(scope)}
+    ports = dict.fromkeys(port for scopes in tasks for scope in scopes for port in _ports(scope))
+    values = {port: _FIRST_PORT + k for k, port in enumerate(ports)}
+    values |= dict.fromkeys(divisors, 1) | sizes
     data = tuple(
-        _declaration(
-            one, frames, initial | sizes.keys(), persisted, dict.fromkeys(divisors, 1) | sizes
-        )
+        _declaration(one, frames, initial | sizes.keys(), persisted, values)
         for one in named
         if _is_plain(one.type)
     )
@@ -203,10 +224,11 @@ def infer_cell(
     kinds = {name.casefold(): kind for name, kind in made.items()}
     stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
     named += [UndeclaredName(s.name, s.kind, s.span) for s in stubs.values()]
+    exchanged = exchanged_persistents(tasks, kinds)
     looked = dict.fromkeys(
         flag
         for spec, scopes in zip(system.tasks, tasks, strict=True)
-        for flag in flags(spec.name, scopes, looks[spec.name], kinds)
+        for flag in flags(spec.name, scopes, looks[spec.name], kinds, exchanged)
     )
     blank = find_defaulted_persistents(
         (spec.name, s) for spec, s in zip(system.tasks, tasks, strict=True)
@@ -277,6 +299,18 @@ def _in_initial_values(module: ModuleScope) -> Iterator[str]:
             for node in walk(declared.initial):
                 if isinstance(node, n.Name):
                     yield node.name.casefold()
+
+
+def _ports(module: ModuleScope) -> Iterator[str]:
+    """Iterate over names of the ports of sockets."""
+    for node, scope in scoped(module):
+        if isinstance(node, n.ProcedureCall) and node.name.lower() in _PORTS:
+            routine = called(scope.find(node.name))
+            if isinstance(routine, RoutineSymbol) and routine.module is None:
+                given = [a.value for a in node.arguments if a.kind == "required"]
+                port = given[-1] if len(given) == _WITH_PORT else None
+                if isinstance(port, n.Name):
+                    yield port.name.casefold()
 
 
 def _divisors(module: ModuleScope) -> Iterator[str]:

@@ -1,7 +1,7 @@
 """Names of a foreign program."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -9,7 +9,7 @@ from rapidgen.diagnostics import Span
 from rapidgen.rapid.binding import ModuleScope, RoutineSymbol, Scope, constant, match
 from rapidgen.rapid.binding.expressions import declared_type, type_of
 from rapidgen.rapid.binding.names import NUMBER, called, degree, element
-from rapidgen.rapid.builtins.signatures import type_class
+from rapidgen.rapid.builtins.signatures import record, records, type_class
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.lexer import KEYWORDS
 from rapidgen.rapid.syntax.walk import children
@@ -85,12 +85,17 @@ def passed(
 
 # -- Default tools ---------------------------------------------------------------------------------
 #
-# Tools and work objects without a value in the program: persistents whose other declaration is in a
-# task outside the files. In an inferred cell the predefined tool0 and wobj0 replace them; with all
-# numbers 0 no move and no CRobT would be possible.
+# Tools, work objects, loads and speeds without a value in the program: persistents whose other
+# declaration is in a task outside the files. In an inferred cell predefined data (tool0, wobj0,
+# load0, v100) replace them; with all numbers 0 no move and no CRobT would be possible.
 
 
-_DEFAULTS: Final[Mapping[str, str]] = {"tooldata": "tool0", "wobjdata": "wobj0"}
+_DEFAULTS: Final[Mapping[str, str]] = {
+    "tooldata": "tool0",
+    "wobjdata": "wobj0",
+    "loaddata": "load0",
+    "speeddata": "v100",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +136,49 @@ def _filled(module: ModuleScope) -> Iterator[str]:
                 target = target.base
             if isinstance(target, n.Name):
                 yield target.name.casefold()
+
+
+# -- Records ---------------------------------------------------------------------------------------
+#
+# The record of an undeclared datum, from the components that a program accesses:
+# `mySpeed.v_leax := 5000;` makes it a speeddata.
+
+
+_PREFERRED: Final = ("robtarget", "jointtarget", "pose", "pos", "orient", "speeddata", "tooldata")
+"""Records that programs use most, the first that fits is taken: `x.trans` is also in a pose."""
+
+
+def accessed_components(module: ModuleScope) -> Iterator[tuple[n.Name, tuple[str, ...]]]:
+    """Iterate over undeclared names with components, and the path of these (lower case)."""
+    for node, scope in scoped(module):
+        path: list[str] = []
+        base = node
+        while isinstance(base, n.Member):
+            path.insert(0, base.component.lower())
+            base = base.base
+        if path and isinstance(base, n.Name) and scope.find(base.name) is None:
+            yield base, tuple(path)
+
+
+def record_of(paths: Collection[tuple[str, ...]], known: str) -> str:
+    """Return the predefined record with all these components; empty if it is not certain.
+
+    `known` is the type by another use, which is taken if it fits.
+    """
+    fitting = [name for name in records() if all(_has(name, path) for path in paths)]
+    if known in fitting:
+        return known
+    preferred = [name for name in _PREFERRED if name in fitting]
+    return preferred[0] if preferred else fitting[0] if len(fitting) == 1 else ""
+
+
+def _has(kind: str, path: Sequence[str]) -> bool:
+    """Return True if a type has a component, and that the further ones of the path."""
+    if not path:
+        return True
+    one = record(kind)
+    components = {name.lower(): type_name for type_name, name in one.components} if one else {}
+    return path[0] in components and _has(components[path[0]], path[1:])
 
 
 # -- Missing routines ------------------------------------------------------------------------------

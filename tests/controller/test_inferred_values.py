@@ -1,0 +1,134 @@
+"""Values of an inferred cell: records, shared data, ports, disks and default data."""
+
+import pytest
+
+from rapidgen.controller import VirtualController
+from rapidgen.controller.boot_targets import BootOptions, load_target
+
+
+def inferred(tmp_path, body, data=""):
+    path = tmp_path / "m.mod"
+    path.write_text(f"MODULE m\n{data}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n")
+    result = load_target([path], BootOptions(cell="infer"))
+    names = {one.name: one.type for one in result.guessed.named}
+    return names | {one.name: "" for one in result.guessed.unknown}
+
+
+@pytest.mark.parametrize(
+    ("body", "kind"),
+    [
+        ("a.v_leax := 5000;\ngoThere 1, a;", "speeddata"),
+        ("a.v_tcp := 5;", "speeddata"),
+        ("TPWrite ValToStr(a.v_ori);", "speeddata"),
+        ("a.trans.x := 5;", "robtarget"),
+        ("a.rot := [1,0,0,0];", "robtarget"),
+        ("a.robconf.cf1 := 1;", "robtarget"),
+        ("a.extax.eax_a := 1;", "robtarget"),
+        ("a.robax.rax_1 := 1;", "jointtarget"),
+        ("a.extax.eax_a := 1;\na.trans.x := 1;", "robtarget"),
+        ("a.tframe.trans.z := 1;", "tooldata"),
+        ("a.uframe := [[0,0,0],[1,0,0,0]];", "wobjdata"),
+        ("a.mass := 1;", "loaddata"),
+        ("a.x := 1;", "pos"),
+        ("a.trans.x := 1;\nb := PoseInv(a);", "pose"),
+        ("a.no_such_component := 1;", ""),
+        ("a.x.y := 1;", ""),
+    ],
+)
+def test_components_decide_the_type(tmp_path, body, kind):
+    assert inferred(tmp_path, body).get("a") == kind
+
+
+def test_an_undeclared_record_is_executed(tmp_path):
+    path = tmp_path / "m.mod"
+    path.write_text(
+        "MODULE m\nPROC main()\nmySpeed.v_leax := 5000;\ngoThere 1, mySpeed;\n"
+        "TPWrite ValToStr(mySpeed.v_tcp);\nENDPROC\nENDMODULE\n"
+    )
+    displayed = []
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
+        assert controller.run(max_time=5) == "finished"
+    assert displayed == ["100"]
+
+
+WATCHER = """MODULE watcher
+    PERS num place;
+    PROC main()
+        WHILE place <> 7 DO
+            WaitTime 0.1;
+        ENDWHILE
+        TPWrite "end " + ValToStr(place);
+    ENDPROC
+ENDMODULE
+"""
+WORKER = """MODULE worker
+    PERS num place := 3;
+    PROC main()
+        FOR i FROM 1 TO 60 DO
+            WaitTime 0.1;
+            IF place <> 3 TPWrite "changed";
+        ENDFOR
+        place := %s;
+    ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("value", ["7", "3 + 4", "Trunc(7.5)"])
+def test_a_datum_that_another_task_sets_is_not_inferred(tmp_path, value):
+    (tmp_path / "watcher.mod").write_text(WATCHER)
+    (tmp_path / "worker.mod").write_text(WORKER % value)
+    tasks = {"T_ROB1": [tmp_path / "worker.mod"], "T_LOOK": [tmp_path / "watcher.mod"]}
+    displayed = []
+    target = load_target([], BootOptions(tasks=tasks, cell="infer"))
+    with VirtualController.boot(target, cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
+        assert controller.run(max_time=30) == "finished"
+        assert controller.guessed.answered == []
+    assert displayed == ["end 7"]
+
+
+def test_a_datum_of_one_task_is_still_inferred(tmp_path):
+    (tmp_path / "watcher.mod").write_text(WATCHER)
+    with VirtualController.from_files([tmp_path / "watcher.mod"], cell="infer") as controller:
+        controller.run(max_time=5)
+        assert ("place", "7") in controller.guessed.answered
+
+
+def test_ports_and_speeds_are_usable(tmp_path):
+    path = tmp_path / "m.mod"
+    path.write_text(
+        "MODULE m\nVAR socketdev s;\nVAR socketdev t;\nPERS speeddata fast;\nPERS loaddata part;\n"
+        'PROC main()\nSocketCreate s;\nSocketBind s, "127.0.0.1", nPort;\nSocketListen s;\n'
+        'SocketCreate t;\nSocketBind t, "127.0.0.1", nOther;\nSocketListen t;\n'
+        'TPWrite ValToStr(nPort) + " " + ValToStr(nOther) + " " + ValToStr(fast.v_tcp);\n'
+        "GripLoad part;\nMoveJ Offs(CRobT(), 0, 0, 1), fast, fine, tool0;\nENDPROC\nENDMODULE\n"
+    )
+    displayed = []
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
+        assert controller.run(max_time=20) == "finished"
+        assert controller.task("T_ROB1").fault is None
+    assert displayed == ["4100 4101 100"]
+
+
+def test_a_disk_of_a_computer_is_an_empty_folder(tmp_path):
+    path = tmp_path / "m.mod"
+    path.write_text(
+        'MODULE m\nVAR iodev f;\nPROC main()\nOpen "C:/a.txt", f \\Write;\n'
+        'Write f, "x";\nClose f;\n'
+        'Open "pc:b.txt", f \\Write;\nClose f;\nTPWrite ValToStr(FileSize("C:/a.txt"));\n'
+        "ENDPROC\nENDMODULE\n"
+    )
+    displayed = []
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
+        assert controller.run(max_time=5) == "finished"
+        assert controller.task("T_ROB1").fault is None
+        assert controller.guessed.disks == ["c:", "pc:"]
+        assert controller.files.path("C:/a.txt").is_relative_to(controller.files.folder)
+    assert displayed == ["2"]
+    with VirtualController.from_files([path], cycle="once") as controller:
+        controller.run(max_time=5)
+        assert controller.task("T_ROB1").fault is not None
