@@ -55,7 +55,7 @@ def client() -> None:
         print(f"first motion {1000 * (controller.now - since):.0f} ms after run() (simulated)")
         result = execution.result()
         print(
-            f"{result.points} executed by {execution.way} in {result.seconds:.1f} s "
+            f"{result.points} executed by {execution.mode} in {result.seconds:.1f} s "
             f"({result.planned_seconds:.1f} s at least), starved {result.starved} times, "
             f"{len([e for e in controller.log if e.code == 50024])} corner path failures"
         )

@@ -15,4 +15,4 @@ with robot_of(config) as robot:
             time = n * 0.02
             swing = 0.05 * math.sin(math.tau * time / 1.5) ** 2
             stream.append(time, [value + swing for value in here])
-    print(f"{stream.total} points by {stream.way}, {stream.starved} times without one")
+    print(f"{stream.total} points by {stream.mode}, {stream.starved} times without one")

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from rapidgen.axes.frames import Pose, Quaternion, Vector
     from rapidgen.client import InvalidTrajectory, Result, Robot, Trajectory
-    from rapidgen.client.core.checks import Way
+    from rapidgen.client.core.checks import TransferMode
     from rapidgen.client.core.group import Group
 
 
@@ -124,20 +124,20 @@ def move(
         if approach is not None:
             trajectory = trajectory.starting_at(robot.state, approach)
         warnings = robot.check(trajectory)
-        way = _way(robot, trajectory, stream)
+        mode = _mode(robot, trajectory, stream)
         whose = "the axes'" if asked is None else "the file's"
-        _show_plan(robot, trajectory, f"{used:.0%} of {whose} speed", way, units)
+        _show_plan(robot, trajectory, f"{used:.0%} of {whose} speed", mode, units)
         sys.stderr.write(render(warnings, colour=use_colour()))
         if dry_run:
             if files:
                 draw_motion(files, robot, trajectory, None)
-            _report_dry(trajectory, way, as_json)
+            _report_dry(trajectory, mode, as_json)
             return 0
         if must_ask:
             confirm_at(robot)
         with robot.recording() as recording:
             try:
-                result = execute_motion(robot, trajectory, way, units)
+                result = execute_motion(robot, trajectory, mode, units)
             finally:
                 if record is not None:
                     recording.to_csv(record)
@@ -249,9 +249,9 @@ def _resampled(trajectory: "Trajectory", period: float) -> "Trajectory":
     return trajectory.resampled(period) if sound else trajectory
 
 
-def _way(robot: "Robot", trajectory: "Trajectory", stream: bool | None) -> "Way":
+def _mode(robot: "Robot", trajectory: "Trajectory", stream: bool | None) -> "TransferMode":
     if stream is None:
-        return robot.way_for(trajectory)
+        return robot.mode_for(trajectory)
     return "stream" if stream else "download"
 
 
@@ -261,7 +261,7 @@ def _positive(option: str, value: float | None) -> None:
 
 
 def _show_plan(
-    robot: "Robot", trajectory: "Trajectory", speed: str, way: "Way", units: Units
+    robot: "Robot", trajectory: "Trajectory", speed: str, mode: "TransferMode", units: Units
 ) -> None:
     from rich.console import Console
     from rich.table import Table
@@ -271,7 +271,7 @@ def _show_plan(
     who = f"rapidgen driver {driver.version}" if driver.is_rapidgen else "standard abb_driver"
     console.print(
         f"{len(trajectory)} points, {trajectory.duration:.2f} s at {speed}, to {robot.address} "
-        f"({who}), sent {'during' if way == 'stream' else 'before'} the motion"
+        f"({who}), sent {'during' if mode == 'stream' else 'before'} the motion"
     )
     table = Table("joint", box=None)
     # min and max are of all points; lower and upper are limits of the controller's axes.
@@ -288,14 +288,14 @@ def _show_plan(
     console.print(table)
 
 
-def _report_dry(trajectory: "Trajectory", way: "Way", as_json: bool) -> None:
+def _report_dry(trajectory: "Trajectory", mode: "TransferMode", as_json: bool) -> None:
     if as_json:
         _print_json(
             {
                 "dry_run": True,
                 "points": len(trajectory),
                 "planned_seconds": trajectory.duration,
-                "way": way,
+                "way": mode,
                 "joints": dict(
                     zip(trajectory.names, trajectory.positions[-1].tolist(), strict=False)
                 ),
@@ -319,7 +319,7 @@ def _report(robot: "Robot", result: "Result", units: Units, as_json: bool) -> No
                 "seconds": result.seconds,
                 "planned_seconds": result.planned_seconds,
                 "deviation": result.deviation,
-                "way": result.way,
+                "way": result.mode,
                 "starved": result.starved,
                 "joints": result.state.by_name,
             }
@@ -327,7 +327,7 @@ def _report(robot: "Robot", result: "Result", units: Units, as_json: bool) -> No
         return
     typer.echo(
         f"done: {result.points} points in {result.seconds:.2f} s, "
-        f"{result.deviation:.4f} (rad, m) from the last point ({result.way})\n"
+        f"{result.deviation:.4f} (rad, m) from the last point ({result.mode})\n"
         f"at {named_text(units, robot.group, result.state.joints)}"
     )
 

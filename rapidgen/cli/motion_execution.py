@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
     from rapidgen.client import Execution, Result, Robot, Trajectory
-    from rapidgen.client.core.checks import Way
+    from rapidgen.client.core.checks import TransferMode
 
 
 def permitted(robot: "Robot", to: str, *, yes: bool, real_robot: str) -> bool:
@@ -45,13 +45,15 @@ def confirm_at(robot: "Robot") -> None:
     typer.confirm(f"Move the robot at {robot.address}?", abort=True, err=True)
 
 
-def execute_motion(robot: "Robot", trajectory: "Trajectory", path: "Way", units: Units) -> "Result":
+def execute_motion(
+    robot: "Robot", trajectory: "Trajectory", mode: "TransferMode", units: Units
+) -> "Result":
     """Execute a trajectory; Ctrl-C stops the robot and prints its position and progress.
 
     Raises as `Robot.execute` and `Execution.result`, KeyboardInterrupt.
     """
     with report_interruption(robot, units) as in_progress:
-        execution = robot.execute(trajectory, way=path)
+        execution = robot.execute(trajectory, mode=mode)
         in_progress.append(execution)
         return follow(execution)
 

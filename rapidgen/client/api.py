@@ -17,7 +17,7 @@ from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client import display, flows
 from rapidgen.client.address import Address
 from rapidgen.client.connect_target import resolve
-from rapidgen.client.core.checks import Way
+from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.robot import Core, Timeouts
@@ -141,10 +141,10 @@ class ExecutionApi(JobApi[C_co]):
         return self._job.motion.planned_seconds
 
     @property
-    def way(self) -> Way:
+    def mode(self) -> TransferMode:
         """`stream` (sent during the motion) or `download` (sent before it)."""
         assert self._job.motion is not None
-        return self._job.motion.way
+        return self._job.motion.mode
 
 
 class RunApi(JobApi[C_co]):
@@ -163,10 +163,10 @@ class RunApi(JobApi[C_co]):
         return self._job.motion.warnings
 
     @property
-    def way(self) -> Way:
+    def mode(self) -> TransferMode:
         """`download` (sent before the motion) or `stream` (sent during it)."""
         assert self._job.motion is not None
-        return self._job.motion.way
+        return self._job.motion.mode
 
 
 class StreamApi(JobApi[C_co]):
@@ -187,12 +187,12 @@ class StreamApi(JobApi[C_co]):
         return self._job.last.time if self._job.last is not None else 0.0
 
     @property
-    def way(self) -> Way | None:
+    def mode(self) -> TransferMode | None:
         """`stream`, or `download` if the driver does not stream.
 
         None before the first point.
         """
-        return self._job.way
+        return self._job.mode
 
     @property
     def starved(self) -> int:
@@ -409,25 +409,27 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         with self._carrier.guard:
             return self._core.check(trajectory).warnings
 
-    def way_for(self, trajectory: Trajectory) -> Way:
-        """Return the default `way` of `execute` for a trajectory.
+    def mode_for(self, trajectory: Trajectory) -> TransferMode:
+        """Return the default `mode` of `execute` for a trajectory.
 
         Raises InvalidTrajectory, NotReady.
         """
         with self._carrier.guard:
-            return self._core.check(trajectory).way
+            return self._core.check(trajectory).mode
 
     @_own
-    def execute(self, trajectory: Trajectory, *, way: Way | None = None) -> Flow[Execution]:
+    def execute(
+        self, trajectory: Trajectory, *, mode: TransferMode | None = None
+    ) -> Flow[Execution]:
         """Send a trajectory; return when the controller has accepted it.
 
-        `way` is `download` (all points are sent before the motion) or `stream` (the rest is sent
+        `mode` is `download` (all points are sent before the motion) or `stream` (the rest is sent
         during the motion); by default a trajectory that exceeds the driver's ring buffer is
         streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused if
         the robot will not move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or cancelling
         this call stops the robot.
         """
-        job = yield from flows.job.execute(self._core, trajectory, way)
+        job = yield from flows.job.execute(self._core, trajectory, mode)
         return self._execution_type(self._carrier, job)
 
     def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
@@ -448,14 +450,14 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         return checked.notes
 
     @_own
-    def run(self, program: Program, *, way: Way | None = None) -> Flow[Run]:
+    def run(self, program: Program, *, mode: TransferMode | None = None) -> Flow[Run]:
         """Send a program; return when the controller has accepted it.
 
-        `way` is `download` (sent and checked by the controller before the motion) or `stream` (the
+        `mode` is `download` (sent and checked by the controller before the motion) or `stream` (the
         rest is sent during the motion); by default a program that fits the driver's ring buffer is
         downloaded. Raises InvalidProgram, NotReady and NotSupported before a byte is sent,
         TrajectoryRefused if the robot will not move, RobotTimeout, ConnectionLost. Ctrl-C or
         cancelling this call stops the robot.
         """
-        job = yield from flows.program.run(self._core, program, way)
+        job = yield from flows.program.run(self._core, program, mode)
         return self._run_type(self._carrier, job)

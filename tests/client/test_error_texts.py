@@ -104,7 +104,7 @@ def test_traceback_shows_place_and_help(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("given", "way"),
+    ("given", "mode"),
     [
         ([HOME, [0.1] * 6], "from_points"),
         (np.zeros((2, 6)), "from_points"),
@@ -115,13 +115,13 @@ def test_traceback_shows_place_and_help(tmp_path):
         (None, "from_points"),
     ],
 )
-@pytest.mark.parametrize("call", ["execute", "check", "way_for"])
-def test_execute_of_other_type_names_conversion(connected, call, given, way):
+@pytest.mark.parametrize("call", ["execute", "check", "mode_for"])
+def test_execute_of_other_type_names_conversion(connected, call, given, mode):
     with connected() as (robot, controller):
         with pytest.raises(InvalidTrajectory) as error:
             getattr(robot, call)(given)
         assert type(given).__name__ in str(error.value)
-        assert way in error.value.diagnostics[0].help
+        assert mode in error.value.diagnostics[0].help
         assert not controller.frames
 
 
@@ -183,12 +183,12 @@ def test_a_signal_without_a_number_is_not_read_instead_of_written(connected, val
         assert not controller.frames
 
 
-@pytest.mark.parametrize("way", ["fast", "Stream", 1])
-def test_a_way_that_is_none_moves_nothing(connected, way):
+@pytest.mark.parametrize("mode", ["fast", "Stream", 1])
+def test_a_way_that_is_none_moves_nothing(connected, mode):
     with connected() as (robot, controller):
         for call, given in ((robot.execute, PATH), (robot.run, Program().move_joints(HOME))):
             with pytest.raises(ValueError, match="'download', 'stream' or None"):
-                call(given, way=way)
+                call(given, mode=mode)
         assert not controller.frames
 
 

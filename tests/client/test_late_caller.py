@@ -23,7 +23,7 @@ THERE_AND_BACK = Trajectory([0, 0.6, 1.2], [[0.0] * 6, [0.1] * 6, [0.0] * 6])
 def test_a_motion_is_seen_that_is_over_before_its_caller_looks(monkeypatch, plain):
     with driven(plain=plain) as (robot, controller):
         caller_comes_late(monkeypatch, LATE)
-        result = robot.execute(THERE_AND_BACK, way="download").result()
+        result = robot.execute(THERE_AND_BACK, mode="download").result()
         assert result.deviation < 1e-4
         assert 0.9 < result.seconds < 2.0
         assert not complaints(controller)
@@ -40,19 +40,19 @@ def test_each_state_counts_where_many_come_at_once(monkeypatch):
             return True
 
         monkeypatch.setattr(Core, "received", received)
-        requested = robot.later.execute(THERE_AND_BACK, way="download")
+        requested = robot.later.execute(THERE_AND_BACK, mode="download")
         robot.sleep(1.9)
         holds = False
         assert prompt(robot._core, Port.STATE, bytes(held))
         assert robot._run(requested.result().result()).deviation < 1e-4
 
 
-@pytest.mark.parametrize("way", ["download", "stream"])
-def test_the_result_tells_how_it_ended_whenever_the_caller_looks(monkeypatch, way):
+@pytest.mark.parametrize("mode", ["download", "stream"])
+def test_the_result_tells_how_it_ended_whenever_the_caller_looks(monkeypatch, mode):
     path = Trajectory([0, 9], [[0.0] * 6, [0.1] * 6])
     with driven() as (robot, controller):
         caller_comes_late(monkeypatch, LATE)
-        requested = robot.later.execute(path, way=way)
+        requested = robot.later.execute(path, mode=mode)
         while not robot.state.is_moving:
             robot.sleep(0.1)
         controller.set_e_stop(True)

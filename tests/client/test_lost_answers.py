@@ -53,12 +53,12 @@ def stands(robot, controller):
 
 
 @pytest.mark.parametrize("fault", FAULTS, ids=lambda fault: fault.__name__)
-@pytest.mark.parametrize("way", ["download", "stream"])
-def test_the_robot_stands_when_execute_raises(fault, way):
-    kind = {"download": 11, "stream": 1302}[way]
+@pytest.mark.parametrize("mode", ["download", "stream"])
+def test_the_robot_stands_when_execute_raises(fault, mode):
+    kind = {"download": 11, "stream": 1302}[mode]
     with lossy(once("motion", fault, kind=kind)) as (robot, controller):
         with pytest.raises(LOST, match="the robot is at rest") as error:
-            robot.execute(wiggle(robot), way=way)
+            robot.execute(wiggle(robot), mode=mode)
         assert "then continue" in error.value.diagnostics[0].help
         assert stands(robot, controller)
 
@@ -114,11 +114,11 @@ def test_without_progress_a_motion_ends_when_the_robot_stands_at_its_end():
         kind = int.from_bytes(message[4:8], "little")
         return b"" if lost and which == "state" and kind == 1301 else message
 
-    for way in ("download", "stream"):
+    for mode in ("download", "stream"):
         lost.clear()
         with lossy(alter) as (robot, controller):
             path = wiggle(robot)
-            moving = robot.execute(path, way=way)
+            moving = robot.execute(path, mode=mode)
             lost.append(True)
             began = robot.time()
             result = moving.result()
@@ -190,16 +190,16 @@ def test_no_motion_begins_where_the_control_port_takes_a_connection_and_says_not
 
 
 @pytest.mark.parametrize("fault", [cut, swallowed, wrong_direction], ids=lambda f: f.__name__)
-@pytest.mark.parametrize("way", ["download", "stream"])
-def test_both_clients_raise_when_the_robot_stands(fake, client, fault, way):
+@pytest.mark.parametrize("mode", ["download", "stream"])
+def test_both_clients_raise_when_the_robot_stands(fake, client, fault, mode):
     """Real sockets: an answer that is lost, and a robot that is on its way already."""
-    kind = {"download": 11, "stream": 1302}[way]
+    kind = {"download": 11, "stream": 1302}[mode]
     controller = fake(control=True, stream=StreamModel(ring=100, preload=0.1, batch=20))
     proxy = Proxy(controller, once("motion", fault, kind=kind))
     try:
         with client(proxy.address) as robot:
             with pytest.raises(RobotError, match="the robot is at rest"):
-                robot.execute(LONG, way=way)
+                robot.execute(LONG, mode=mode)
             with controller.lock:
                 assert controller.stops
                 assert not controller._moving

@@ -165,7 +165,7 @@ class ClientAndController(RuleBasedStateMachine):
             assert was_over, "nothing ended it since the last step"
             return
         assert result.deviation < 1e-3
-        if result.way == "download" and self.robot._core.override == 1:
+        if result.mode == "download" and self.robot._core.override == 1:
             assert result.seconds < 4 * result.planned_seconds + 2 + self.held
 
     @precondition(lambda self: self.under_way)

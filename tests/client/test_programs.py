@@ -39,7 +39,7 @@ def square(robot, size=0.05, **options):
 def test_a_program_goes_from_joints_to_poses():
     with driven() as (robot, controller):
         execution = robot.run(square(robot))
-        assert execution.way == "download"
+        assert execution.mode == "download"
         result = execution.result()
         assert (result.points, execution.progress.reached) == (5, 5)
         assert execution.progress.state is TrajectoryState.DONE
@@ -168,13 +168,13 @@ def test_more_than_the_ring_holds_is_streamed():
         for n in range(1, 201):
             program.move_linear(moved(robot.pose_of(BENT), y=0.01 * (n % 7), z=0.01 * (n % 5)))
         execution = robot.run(program)
-        assert execution.way == "stream"
+        assert execution.mode == "stream"
         result = execution.result()
         assert (result.points, result.starved) == (200, 0)
         assert execution.progress.reached == 200
         assert not complaints(controller)
         with pytest.raises(InvalidProgram, match="ring holds"):
-            robot.run(program, way="download")
+            robot.run(program, mode="download")
 
 
 def test_a_stop_gives_a_prefix_with_its_index():

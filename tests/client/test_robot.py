@@ -397,11 +397,11 @@ def test_stop_before_lock_prevents_further_frames():
         peer.close()
 
 
-@pytest.mark.parametrize("way", ["download", "stream"])
-def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
-    controller = fake(stream=StreamModel() if way == "stream" else None)
+@pytest.mark.parametrize("mode", ["download", "stream"])
+def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, mode):
+    controller = fake(stream=StreamModel() if mode == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
-        execution = robot.execute(LONG, way=way)
+        execution = robot.execute(LONG, mode=mode)
         wait = robot._carrier.guard.wait
 
         def interrupt(timeout=None):
@@ -414,12 +414,12 @@ def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
         assert comes(lambda: controller.stops)
 
 
-@pytest.mark.parametrize("way", ["download", "stream"])
+@pytest.mark.parametrize("mode", ["download", "stream"])
 @pytest.mark.parametrize("place", ["_pump", "_perform"])
-def test_ctrl_c_between_two_waits_stops_the_robot(fake, patient, monkeypatch, comes, place, way):
-    controller = fake(stream=StreamModel() if way == "stream" else None)
+def test_ctrl_c_between_two_waits_stops_the_robot(fake, patient, monkeypatch, comes, place, mode):
+    controller = fake(stream=StreamModel() if mode == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
-        execution = robot.execute(LONG, way=way)
+        execution = robot.execute(LONG, mode=mode)
         goes_on = getattr(robot._carrier, place)
 
         def interrupt(*arguments):

@@ -273,12 +273,12 @@ def test_nothing_else_begins_while_a_routine_runs():
         robot.sleep(1)
         # The client itself sees that something is under way; a driver must not need that.
         robot._core.motion, motion = None, robot._core.motion
-        for way in ("download", "stream"):
+        for mode in ("download", "stream"):
             with pytest.raises(TrajectoryRefused) as refused:
-                robot.run(Program().move_joints([0.1] * 6), way=way)
+                robot.run(Program().move_joints([0.1] * 6), mode=mode)
             assert refused.value.reason is Reason.MOVING
         with pytest.raises(TrajectoryRefused) as refused:
-            robot.execute(wiggle(robot), way="download")
+            robot.execute(wiggle(robot), mode="download")
         assert refused.value.reason is Reason.MOVING
         robot._core.motion = motion
         assert execution.result().deviation < 1e-4

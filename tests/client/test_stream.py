@@ -38,12 +38,12 @@ def test_streams_to_the_end(connected):
     with connected(**streams()) as (robot, controller):
         assert "accept points" not in str(robot.driver.cannot)
         with robot.stream() as stream:
-            assert stream.way is None
+            assert stream.mode is None
             stream.extend(wave(600))
-            assert stream.way == "stream"
+            assert stream.mode == "stream"
             assert (stream.total, stream.time) == (600, pytest.approx(59.9))
         result = stream.result()
-        assert (result.points, result.way) == (600, "stream")
+        assert (result.points, result.mode) == (600, "stream")
         assert result.deviation < 1e-5
         assert stream.is_over
         assert stream.progress.fraction == 1.0
@@ -161,7 +161,7 @@ def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(connected):
         stream = robot.stream()
         stream.append([0.0, 0.1], [[0.0] * 6, [0.01] * 6])
         stream.flush()
-        assert stream.way == "download"
+        assert stream.mode == "download"
         assert stream.progress.total == 2
         with pytest.raises(InvalidTrajectory, match="point 2"):
             stream.append([0.2], [[9.0] * 6])
@@ -170,11 +170,11 @@ def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(connected):
             stream.append(np.arange(3, 51) * 0.1, np.full((48, 6), 0.02))
         assert controller.points == []
         result = stream.result()
-        assert (result.points, result.way) == (3, "download")
+        assert (result.points, result.mode) == (3, "download")
         assert [d for _, d in controller.points] == pytest.approx([0.1, 0.1, 0.1])
         for what in (
             lambda: robot.stream(fallback=False).append([0], [[0.02] * 6]),
-            lambda: robot.execute(Trajectory([0, 1], [[0.02] * 6] * 2), way="stream"),
+            lambda: robot.execute(Trajectory([0, 1], [[0.02] * 6] * 2), mode="stream"),
             robot.pause,
             lambda: robot.read_signal(0),
             lambda: robot.next_feedback(),
@@ -188,10 +188,10 @@ def test_execute_tells_the_way(connected):
     long = Trajectory.from_points([[0.01 * (n > 30)] * 6 for n in range(100)], seconds=0.1)
     with connected(**streams(ring=64)) as (robot, _):
         execution = robot.execute(long)
-        assert execution.way == "stream"
+        assert execution.mode == "stream"
         assert execution.planned_seconds == pytest.approx(10)
-        assert execution.result().way == "stream"
-        execution = robot.execute(short.reversed(), way="stream")
+        assert execution.result().mode == "stream"
+        execution = robot.execute(short.reversed(), mode="stream")
         assert execution.result().points == 2
         assert execution.trajectory.names == robot.group.names
 
@@ -199,9 +199,9 @@ def test_execute_tells_the_way(connected):
 def test_what_no_number_of_a_stream_holds_is_downloaded(connected):
     path = Trajectory(np.arange(70) * 2200.0, np.zeros((70, 6)))
     with connected(**streams(ring=64), capacity=1000) as (robot, _):
-        assert robot.way_for(path) == "download"
+        assert robot.mode_for(path) == "download"
         with pytest.raises(InvalidTrajectory, match="RG623"):
-            robot.execute(path, way="stream")
+            robot.execute(path, mode="stream")
 
 
 def test_pause_speed_and_signals(fake, client, comes):

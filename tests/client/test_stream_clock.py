@@ -146,7 +146,7 @@ def test_a_hundred_thousand_points():
     assert model.reached == result.points == count
     assert model.state == DONE
     assert result.starved == 0
-    assert result.way == "stream"
+    assert result.mode == "stream"
     assert result.deviation < 1e-6
     # without a stall: it took the time of its points and no more
     assert result.seconds == pytest.approx(0.1 * count, abs=2.0)
@@ -506,37 +506,39 @@ def test_lost_connection_without_waiter_stops_motion():
 
 def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
     with streamed() as (robot, driver):
-        assert robot.way_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == ("download")
+        assert robot.mode_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == (
+            "download"
+        )
         long = Trajectory.from_points([[0.0] * 6] * 5000, seconds=0.1)
         robot.check(long)
         execution = robot.execute(long)
-        assert execution.way == "stream"
+        assert execution.mode == "stream"
         # 1,000 are the most that the driver holds as a whole
         with pytest.raises(NotReady):
-            robot.execute(long, way="download")
+            robot.execute(long, mode="download")
         began = driver.model.reached
         result = execution.result()
         assert execution.trajectory.positions.shape == (5000, 6)
         with pytest.raises(InvalidTrajectory, match="holds 1000"):
-            robot.execute(long, way="download")
+            robot.execute(long, mode="download")
     assert began < 128
     assert result.points == 5000
-    assert result.way == "stream"
+    assert result.mode == "stream"
 
 
 @pytest.mark.parametrize(
-    ("points", "way"),
+    ("points", "mode"),
     [(100, None), (5000, None), (100, "download"), (100, "stream"), (0, "append")],
 )
-def test_a_trajectory_is_checked_once(monkeypatch, points, way):
+def test_a_trajectory_is_checked_once(monkeypatch, points, mode):
     checks, content = [], checks_module._content
     monkeypatch.setattr(checks_module, "_content", lambda *a: checks.append(a) or content(*a))
 
     with streamed() as (robot, _):
-        if way == "append":
+        if mode == "append":
             robot.stream().append([0, 1], [[0.0] * 6] * 2)
         else:
-            robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), way=way)
+            robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), mode=mode)
         robot.stop()
     assert len(checks) == 1
 

@@ -33,7 +33,7 @@ def test_a_stream_is_executed_point_for_point():
         with robot.recording() as recording, robot.stream() as stream:
             stream.extend(wave(300))
         result = stream.result()
-        assert (result.points, result.way, result.starved) == (300, "stream", 0)
+        assert (result.points, result.mode, result.starved) == (300, "stream", 0)
         assert result.deviation < 1e-5
         assert result.seconds == pytest.approx(result.planned_seconds, abs=1.0)
         assert not complaints(controller)
@@ -45,11 +45,11 @@ def test_a_stream_is_executed_point_for_point():
 
 
 def test_motion_begins_at_once_however_long_the_trajectory():
-    def begins(points, way):
+    def begins(points, mode):
         with driven() as (robot, _):
             path = Trajectory(*map(np.array, zip(*wave(points), strict=True)))
             requested = robot.time()
-            execution = robot.execute(path, way=way)
+            execution = robot.execute(path, mode=mode)
             state = robot.wait_until(lambda s: s.is_moving, 60)
             robot.stop()
             with pytest.raises(MotionStopped):
@@ -127,7 +127,7 @@ def test_stop_after_first_points_stops():
 def test_heartbeats_end_with_the_motion():
     with driven(timeouts=Timeouts(heartbeat=0.5)) as (robot, _):
         result = robot.execute(Trajectory(*[[0, 3], [[0.0] * 6, [0.1] * 6]])).result()
-        assert result.way == "download"
+        assert result.mode == "download"
         robot.sleep(10)
         path = Trajectory([0, 3], [[0.1] * 6, [0.0] * 6])
         robot.execute(path).result()

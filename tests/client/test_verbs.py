@@ -237,13 +237,13 @@ def mapping_of(name):
 
 
 @pytest.mark.parametrize(
-    ("words", "way"), [([], "stream"), (["--stream"], "stream"), (["--download"], "download")]
+    ("words", "mode"), [([], "stream"), (["--stream"], "stream"), (["--download"], "download")]
 )
-def test_move_tells_which_way_the_points_go(streaming, many, capsys, words, way):
+def test_move_tells_which_way_the_points_go(streaming, many, capsys, words, mode):
     streaming.script.mapping = mapping_of("irb120")
     streaming.script.capacity = 100
     call = ["move", "irb120", str(many), "--to", streaming.address, "-y", *words]
-    if way == "download":
+    if mode == "download":
         # as a whole it does not fit
         assert main(call) == 1
         assert "RG617" in capsys.readouterr().err
@@ -291,7 +291,7 @@ def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
     )
     with Robot(streaming.address) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.2] * 6], seconds=20)
-        result = motion_execution.follow(robot.execute(path, way="stream"))
+        result = motion_execution.follow(robot.execute(path, mode="stream"))
     assert result.points == 2
     assert "moving" in terminal.getvalue()
     assert "done" in terminal.getvalue()

@@ -45,7 +45,7 @@ def test_a_robot_moves(boot, client):
         with robot.recording() as recording:
             execution = robot.execute(path)
             result = execution.result(60)
-        assert (result.points, result.way) == (4, "download")
+        assert (result.points, result.mode) == (4, "download")
         assert result.deviation < 1e-3
         assert execution.progress.state is TrajectoryState.DONE
         reached = np.ptp(recording.positions, axis=0)
@@ -59,14 +59,14 @@ def test_a_driver_of_the_basic_profile(boot, client):
         assert Feature.STREAMING not in robot.driver.features
         path = wiggle(robot)
         execution = robot.execute(path)
-        assert (execution.result(60).points, execution.result(60).way) == (4, "download")
+        assert (execution.result(60).points, execution.result(60).mode) == (4, "download")
         # Slow: it must not be over before STOP comes.
         execution = robot.execute(Trajectory(path.times * 100, path.positions))
         robot.stop()
         with pytest.raises(MotionStopped):
             execution.result(60)
         with pytest.raises(NotSupported):
-            robot.execute(path, way="stream")
+            robot.execute(path, mode="stream")
 
 
 def test_a_stream(boot, client):
@@ -76,7 +76,7 @@ def test_a_stream(boot, client):
         with robot.stream() as stream:
             stream.extend((n * 0.1, [0.3 * np.sin(n * 0.02)] * 6) for n in range(400))
         result = stream.result()
-        assert (result.points, result.way) == (400, "stream")
+        assert (result.points, result.mode) == (400, "stream")
         assert result.deviation < 1e-5
         stream = robot.stream()
         here = np.array(result.state.joints)

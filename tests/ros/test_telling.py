@@ -107,8 +107,8 @@ def test_a_refusal_stays_visible():
     with station() as s:
         check = s.robot._core.check
 
-        def unchecked(trajectory, way=None):
-            made = check(trajectory, way)
+        def unchecked(trajectory, mode=None):
+            made = check(trajectory, mode)
             made.wire[-1, 0] = 9.0
             return made
 

@@ -36,7 +36,7 @@ from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE
 
-Way = Literal["download", "stream"]
+TransferMode = Literal["download", "stream"]
 """`download`: sent before the motion; `stream`: sent during the motion."""
 _SPEED_ROUNDING = 1 + 1e-4
 """Relative tolerance of speeds computed from float32 values."""
@@ -55,7 +55,7 @@ class CheckedTrajectory:
     wire: Array
     durations: Array
     warnings: tuple[Diagnostic, ...]
-    way: ClassVar[Way] = "download"
+    mode: ClassVar[TransferMode] = "download"
 
     @property
     def total(self) -> float:
@@ -87,7 +87,7 @@ class CheckedPoints:
     durations: Array
     last: LastPoint
     warnings: tuple[Diagnostic, ...]
-    way: ClassVar[Way] = "stream"
+    mode: ClassVar[TransferMode] = "stream"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -147,9 +147,9 @@ def require_trajectory(value: object) -> None:
 
 
 def require_mode(value: object) -> None:
-    """Raise ValueError for an unknown way, instead of choosing one."""
-    if value is not None and value not in get_args(Way):
-        raise ValueError(f"a way is 'download', 'stream' or None, not {value!r}")
+    """Raise ValueError for an unknown mode, instead of choosing one."""
+    if value is not None and value not in get_args(TransferMode):
+        raise ValueError(f"a mode is 'download', 'stream' or None, not {value!r}")
 
 
 def check_trajectory(

@@ -45,7 +45,7 @@ _EARLY = 0.25
 class Download(CommandedMotion):
     """A trajectory from its first byte to its end."""
 
-    way = "download"
+    mode = "download"
 
     def __init__(
         self, plan: CheckedTrajectory, group: Group, state_port: StatePort, *, silence: float

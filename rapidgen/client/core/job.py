@@ -9,7 +9,7 @@ from itertools import islice
 
 import numpy as np
 
-from rapidgen.client.core.checks import CheckedPoints, LastPoint, Way
+from rapidgen.client.core.checks import CheckedPoints, LastPoint, TransferMode
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.client.core.robot import Core
@@ -23,7 +23,7 @@ from rapidgen.wire.simple_message.spec import TrajectoryState
 class Job:
     """Points in their order.
 
-    The first points determine `way` and `motion`.
+    The first points determine `mode` and `motion`.
     """
 
     def __init__(self, core: Core, names: Sequence[str] = (), *, may_download: bool = True) -> None:
@@ -31,7 +31,7 @@ class Job:
         self.core = core
         self.names = tuple(names)
         self.may_download = may_download
-        self.way: Way | None = None
+        self.mode: TransferMode | None = None
         self.motion: CommandedMotion | None = None
         self.stream: PointStream | None = None
         """The motion, if it is streamed."""
@@ -47,17 +47,17 @@ class Job:
 
     def begin(self, checked: CheckedPoints) -> PointStream:
         """Begin with the first points of a stream."""
-        self.way, self.last = "stream", checked.last
+        self.mode, self.last = "stream", checked.last
         self.motion = self.stream = stream = self.core.begin_stream(checked)
         return stream
 
     def take(self, motion: Download) -> None:
         """Take all points of a complete trajectory."""
-        self.way, self.motion, self.is_ended = "download", motion, True
+        self.mode, self.motion, self.is_ended = "download", motion, True
 
     def keep(self, checked: CheckedPoints) -> None:
         """Collect points for a driver that accepts only whole trajectories."""
-        self.way, self.last = "download", checked.last
+        self.mode, self.last = "download", checked.last
         self._kept.append(checked.trajectory)
 
     def whole(self) -> Trajectory:
@@ -91,7 +91,7 @@ class Job:
             return f"ended: {motion.error}"
         if motion is not None and motion.result is not None:
             done = motion.result
-            return f"done: {done.points} {motion.noun}s in {done.seconds:.2f} s by {done.way}"
+            return f"done: {done.points} {motion.noun}s in {done.seconds:.2f} s by {done.mode}"
         reached = "" if progress.reached is None else f"{progress.reached} of "
         noun = motion.noun if motion is not None else "point"
         state = progress.state.name.lower()

@@ -24,7 +24,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
 
-from rapidgen.client.core.checks import Way
+from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Progress, State
 from rapidgen.client.core.state_port import StatePort
@@ -62,7 +62,7 @@ class Phase(Enum):
 class Result:
     """Result of a trajectory that was executed to its end.
 
-    `deviation` is the largest distance of a joint from the last point, rad or m; `way` is
+    `deviation` is the largest distance of a joint from the last point, rad or m; `mode` is
     `download` or `stream`; `starved` counts the stops because a stream ran out of points.
     """
 
@@ -71,7 +71,7 @@ class Result:
     planned_seconds: float
     deviation: float
     state: State
-    way: Way = "download"
+    mode: TransferMode = "download"
     starved: int = 0
 
 
@@ -81,7 +81,7 @@ class CommandedMotion(ABC):
     Its owner holds a lock or a loop.
     """
 
-    way: Way
+    mode: TransferMode
     noun = "point"
     """Noun of the counted items."""
     starved = 0
@@ -178,7 +178,7 @@ class CommandedMotion(ABC):
         """Record that the controller accepted the trajectory under this number."""
         if self.is_over:
             return
-        self._note(f"{self.total} {self.noun}s by {self.way} were accepted")
+        self._note(f"{self.total} {self.noun}s by {self.mode} were accepted")
         self._state_port.taken()
         self.phase = Phase.MOVING
         self.is_taken = True
@@ -356,7 +356,7 @@ class CommandedMotion(ABC):
             planned_seconds=self.planned_seconds,
             deviation=self._deviation(state),
             state=state,
-            way=self.way,
+            mode=self.mode,
             starved=self.starved,
         )
         self._note(f"done in {self.result.seconds:.2f} s")

@@ -108,7 +108,7 @@ def check_program(
         raise InvalidProgram.because(
             "RG617",
             f"{len(program)} instructions, the driver's ring holds {most}",
-            "`way='stream'`: the rest is sent while the robot moves",
+            "`mode='stream'`: the rest is sent while the robot moves",
         )
     values: list[list[int]] = []
     seconds: list[float] = []

@@ -29,7 +29,7 @@ from rapidgen import __version__
 from rapidgen.client.core.checks import (
     CheckedPoints,
     CheckedTrajectory,
-    Way,
+    TransferMode,
     check_points,
     check_trajectory,
     require_mode,
@@ -523,34 +523,36 @@ class Core:
             )
 
     def check(
-        self, trajectory: Trajectory, way: Way | None = None
+        self, trajectory: Trajectory, mode: TransferMode | None = None
     ) -> CheckedTrajectory | CheckedPoints:
         """Check a trajectory for download, or as points of a stream.
 
-        Without a `way`, a trajectory that exceeds the driver's ring buffer is streamed, so that
+        Without a `mode`, a trajectory that exceeds the driver's ring buffer is streamed, so that
         motion need not wait for the last point. Raises InvalidTrajectory, NotReady (no state yet),
         NotSupported (the driver does not stream).
         """
         require_trajectory(trajectory)
-        require_mode(way)
-        if way == "stream":
+        require_mode(mode)
+        if mode == "stream":
             self.require_streaming()
             return check_points(trajectory, self.known_group, before=None, start=self.start)
         hello = self.state_port.driver.hello
         fits = hello is None or len(trajectory) <= hello.ring
-        if way == "download" or fits or not self.can_stream:
+        if mode == "download" or fits or not self.can_stream:
             return self.check_whole(trajectory)
         complete = self.check_whole(trajectory, len(trajectory))
         return to_stream(complete, self.known_group, self.capacity)
 
-    def check_program(self, program: Program, way: Way | None = None) -> tuple[CheckedProgram, Way]:
-        """Check a program and choose its way.
+    def check_program(
+        self, program: Program, mode: TransferMode | None = None
+    ) -> tuple[CheckedProgram, TransferMode]:
+        """Check a program and choose its mode.
 
         It is downloaded if the ring buffer holds it. Raises InvalidProgram, NotReady (no state
         yet), NotSupported.
         """
         require_program(program)
-        require_mode(way)
+        require_mode(mode)
         hello = self.state_port.driver.hello
         if hello is None or Feature.PROGRAMS not in Feature(hello.features):
             raise NotSupported.because(
@@ -558,7 +560,7 @@ class Core:
                 "the driver does not accept programs",
                 "build and deploy a driver without `profile: basic` in its configuration",
             )
-        chosen = way or ("download" if len(program) <= hello.ring else "stream")
+        chosen = mode or ("download" if len(program) <= hello.ring else "stream")
         most = hello.ring if chosen == "download" else INDEX_WRAP - 1
         return check_program(program, self.known_group, start=self.start, most=most), chosen
 
@@ -662,10 +664,10 @@ class Core:
         stream.queue.put(pack_points(checked.durations, checked.wire))
         stream.goes_on(checked.durations.tolist(), checked.last.wire.tolist())
 
-    def begin_program(self, checked: CheckedProgram, way: Way) -> PointStream:
+    def begin_program(self, checked: CheckedProgram, mode: TransferMode) -> PointStream:
         """Start a program as the active motion."""
-        motion = self._begin(InstructionQueue(checked.instructions, complete=way == "download"))
-        motion.way, motion.noun, motion.warnings = way, "instruction", checked.notes
+        motion = self._begin(InstructionQueue(checked.instructions, complete=mode == "download"))
+        motion.mode, motion.noun, motion.warnings = mode, "instruction", checked.notes
         motion.goes_on(checked.seconds, checked.goal)
         motion.end()
         return motion

@@ -26,7 +26,7 @@ from typing import Protocol
 
 import numpy as np
 
-from rapidgen.client.core.checks import Way
+from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import CommandedMotion, place_of, refused
 from rapidgen.client.core.request_port import PendingReply
@@ -135,7 +135,7 @@ class InstructionQueue:
 class PointStream(CommandedMotion):
     """A stream from its first point, or instruction, to its end."""
 
-    way: Way = "stream"
+    mode: TransferMode = "stream"
 
     def __init__(
         self,
@@ -297,7 +297,7 @@ class PointStream(CommandedMotion):
         match reply:
             case messages.PointsAccepted() if reply.stream == self.stream:
                 # A program for download is accepted as a whole, with its last batch.
-                if self.number is None and (self.way == "stream" or end == self.total):
+                if self.number is None and (self.mode == "stream" or end == self.total):
                     self.accepted(reply.trajectory)
                 self._accepted = end
                 self._raise_limit(end + max(0, reply.room))
@@ -327,7 +327,7 @@ class PointStream(CommandedMotion):
     ) -> None:
         if self.refusal is None:
             self.refusal = reply
-        if self.way == "stream" and (self.number is not None or accepted):
+        if self.mode == "stream" and (self.number is not None or accepted):
             # Accepted points are executed, and PROGRESS reports the end.
             if self.number is None and isinstance(reply, messages.PointsRefused):
                 self.accepted(reply.trajectory)

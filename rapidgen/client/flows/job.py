@@ -6,7 +6,7 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
-from rapidgen.client.core.checks import CheckedTrajectory, Way, check_points
+from rapidgen.client.core.checks import CheckedTrajectory, TransferMode, check_points
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
@@ -23,11 +23,11 @@ _AHEAD = 2
 """Batches waiting in the client for space at the controller."""
 
 
-def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
+def execute(core: Core, trajectory: Trajectory, mode: TransferMode | None) -> Flow[Job]:
     """Execute a trajectory by stream or download; None: choose."""
     yield from ready(core)
     core.ready()
-    checked = core.check(trajectory, way)
+    checked = core.check(trajectory, mode)
     yield from armed(core)
     if isinstance(checked, CheckedTrajectory):
         return (yield from download(core, checked))
@@ -56,11 +56,11 @@ def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[Non
         raise InvalidTrajectory.because("RG624", "this stream has ended", "begin another one")
     if not len(points):
         return
-    if job.way is None:
+    if job.mode is None:
         yield from ready(core)
         if not job.may_download:
             core.require_streaming()
-    if job.way == "download" or (job.way is None and not core.can_stream):
+    if job.mode == "download" or (job.mode is None and not core.can_stream):
         _keep(job, points)
         return
     stream = job.stream

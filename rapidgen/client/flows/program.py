@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from rapidgen.axes.frames import Pose
-from rapidgen.client.core.checks import Way
+from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import CommandedMotion, Result
@@ -46,15 +46,15 @@ _ANY = 1e6
 """s permitted to a routine without a time-out."""
 
 
-def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
+def run(core: Core, program: Program, mode: TransferMode | None) -> Flow[Job]:
     """Run a program by download or stream; None: download if it fits."""
     yield from ready(core)
     core.ready()
-    checked, chosen = core.check_program(program, way)
+    checked, chosen = core.check_program(program, mode)
     yield from armed(core)
     job = Job(core)
     job.program = program
-    job.way, job.is_ended = chosen, True
+    job.mode, job.is_ended = chosen, True
     job.motion = job.stream = motion = core.begin_program(checked, chosen)
     yield from taken(core, motion)
     return job
