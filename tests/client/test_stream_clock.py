@@ -506,9 +506,8 @@ def test_lost_connection_without_waiter_stops_motion():
 
 def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
     with streamed() as (robot, driver):
-        assert robot.mode_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == (
-            "download"
-        )
+        short = Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)
+        assert robot.mode_for(short) == "download"
         long = Trajectory.from_points([[0.0] * 6] * 5000, seconds=0.1)
         robot.check(long)
         execution = robot.execute(long)
