@@ -4,7 +4,7 @@ import pytest
 
 from rapidgen.controller import VirtualController
 from rapidgen.rapid.switches import Switches
-from rapidgen.runtime.compiler import program
+from rapidgen.runtime.compiler import emitted, program
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 from tests.runtime.booting import boot
@@ -64,7 +64,8 @@ DIVIDED = "PROC main()\nVAR num n := -7;\nTPWrite ValToStr(n DIV 2);\nENDPROC"
 
 @pytest.fixture
 def emissions(monkeypatch) -> list[str]:
-    """Names of the routines that are emitted."""
+    """Names of the routines that are emitted, beginning with none known."""
+    emitted._known.cache_clear()
     result = []
 
     class Counted(program.RoutineCompiler):
