@@ -82,17 +82,19 @@ def marked(source: str, template: str) -> str:
     A line that holds only a block or a comment gets none: it would keep Jinja from trimming it.
     """
     inside: set[int] = set()
+    line = end = 0
     for tag in _TAG.finditer(source):
-        first = source.count("\n", 0, tag.start())
-        last = source.count("\n", 0, tag.end())
-        inside.update(range(first + 1, last + 1))
+        first = line + source.count("\n", end, tag.start())
+        end = tag.end()
+        line = first + source.count("\n", tag.start(), end)
+        inside.update(range(first + 1, line + 1))
     out = []
-    for number, line in enumerate(source.splitlines(keepends=True)):
-        bare = line.strip()
+    for number, text in enumerate(source.splitlines(keepends=True)):
+        bare = text.strip()
         if number in inside or bare.startswith(("{%", "{#")):
-            out.append(line)
+            out.append(text)
         else:
-            out.append(f"{_OPEN}{template}:{number + 1}{_CLOSE}{line}")
+            out.append(f"{_OPEN}{template}:{number + 1}{_CLOSE}{text}")
     return "".join(out)
 
 
