@@ -135,8 +135,10 @@ def _table(title: str, rows: "Sequence[UndeclaredName]") -> str:
     if not rows:
         return ""
     width = max(len(row.name) for row in rows)
+    kind = max(9, *(len(row.type) for row in rows))
     lines = (
-        f"  {row.name:{width}}  {row.type or '?':9}  {Path(row.span.path).name}:{row.span.line}\n"
+        f"  {row.name:{width}}  {row.type or '?':{kind}}  "
+        f"{Path(row.span.path).name}:{row.span.line}\n"
         for row in sorted(rows, key=lambda row: (row.type, row.name.casefold()))
     )
     return f"{title}:\n{''.join(lines)}"

@@ -14,7 +14,7 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "a robot cannot be guided by signals, nor its path corrected",
         "EGMSetupAI EGMSetupAO EGMSetupGI EGMSetupLTAPP EGMActMove EGMMoveL EGMMoveC",
     ),
-    ("the servo loops are not simulated", "TuneServo TuneReset"),
+    ("the servo loops are not simulated", "TuneServo"),
     (
         "there are no I/O buses: every signal is a virtual one",
         "IOBusStart IOBusState PackDNHeader",

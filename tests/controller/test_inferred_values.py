@@ -132,3 +132,33 @@ def test_a_disk_of_a_computer_is_an_empty_folder(tmp_path):
     with VirtualController.from_files([path], cycle="once") as controller:
         controller.run(max_time=5)
         assert controller.task("T_ROB1").fault is not None
+
+
+BUILT_IN = (
+    "ExecEngine;\nCSSAct \\RefFrame:=1;\nCSSDeact;\nCyclicBrakeCheck;\nLinked_m_exe;\n"
+    "LoadIdentify;\nTuneServo ROB_1, 1, 110;\nn := PMgrAtStation();\n"
+)
+
+
+def test_built_in_routines_that_are_not_simulated_do_nothing(tmp_path):
+    names = inferred(tmp_path, BUILT_IN, "VAR num n;")
+    assert set(names) == {
+        "ExecEngine", "CSSAct", "CSSDeact", "CyclicBrakeCheck", "Linked_m_exe", "LoadIdentify",
+        "TuneServo", "PMgrAtStation",
+    }  # fmt: skip
+    assert set(names.values()) == {"proc, not simulated", "func num, not simulated"}
+    with VirtualController.from_files([tmp_path / "m.mod"], cell="infer", cycle="once") as one:
+        assert one.run(max_time=5) == "finished"
+        assert one.task("T_ROB1").fault is None
+        assert not [d for d in one.diagnostics if d.code == "RG403"]
+    with VirtualController.from_files([tmp_path / "m.mod"], cycle="once") as one:
+        one.run(max_time=5)
+        assert "ExecEngine" in str(one.task("T_ROB1").fault)
+
+
+def test_tune_reset_has_nothing_to_reset(tmp_path):
+    path = tmp_path / "m.mod"
+    path.write_text("MODULE m\nPROC main()\nTuneReset;\nENDPROC\nENDMODULE\n")
+    with VirtualController.from_files([path], cycle="once") as controller:
+        assert controller.run(max_time=5) == "finished"
+        assert controller.task("T_ROB1").fault is None

@@ -185,7 +185,8 @@ def _has(kind: str, path: Sequence[str]) -> bool:
 #
 # Stubs for called routines that are in no file.
 #
-# Public modules call routines that remained on the controller. A stub takes the arguments of its
+# Public modules call routines that remained on the controller, and built-in ones that are not
+# simulated (ExecEngine, CSSAct, CyclicBrakeCheck). A stub takes the arguments of its
 # first call, by their types, and the optional ones of all further calls. It does nothing and
 # returns RAPID's default: 0, FALSE, an empty text, or the robot's position for a target. A call
 # whose arguments have an unknown type, or a type of the program, gets no stub: the task stops
@@ -225,11 +226,14 @@ class MissingRoutine:
     parameters: tuple[_Parameter, ...]
     span: Span
     is_trap: bool = False
+    is_builtin: bool = False
+    """A routine of RAPID or of an option that is not simulated."""
 
     @property
     def kind(self) -> str:
         """Display name of its kind: proc, func num, trap."""
-        return f"func {self.type}" if self.type else "trap" if self.is_trap else "proc"
+        kind = f"func {self.type}" if self.type else "trap" if self.is_trap else "proc"
+        return f"{kind}, not simulated" if self.is_builtin else kind
 
     def stub(self, value: str) -> str:
         """Return the declaration of a stub that returns `value`.
@@ -284,7 +288,9 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Mi
             is_function = isinstance(node, n.FunctionCall)
             if not is_function or type_class(given) is not None:
                 kind = given if is_function else ""
-                result[name.casefold()] = MissingRoutine(name, kind, parameters, at)
+                result[name.casefold()] = MissingRoutine(
+                    name, kind, parameters, at, is_builtin=_is_unsupported(name)
+                )
     return tuple(result.values())
 
 
@@ -327,8 +333,15 @@ def _unknown(node: n.Node, scope: Scope) -> str:
         name = node.trap
     if not isinstance(name, str) or _NAME.fullmatch(name) is None or name.upper() in KEYWORDS:
         return ""
-    known = scope.find(name) is not None or name.lower() in unsupported.option_routines()
-    return "" if known else name
+    symbol = scope.find(name)
+    if symbol is None or (symbol.module is None and _is_unsupported(name)):
+        return name
+    return ""
+
+
+def _is_unsupported(name: str) -> bool:
+    """Return True for a routine of RAPID or of an option that only stops a task here."""
+    return name.lower() in unsupported.names() | unsupported.option_routines()
 
 
 def _parameters(

@@ -301,6 +301,11 @@ def soft_act(task: Task, unit: Value, number: float, softness: float, ramp: floa
     data_of(task, group).extra[f"SoftAct {joint.axis}"] = softness
 
 
+@builtin("TuneReset")
+def tune_reset(_task: Task) -> None:
+    """Reset the tuning of the servo loops [DB TuneReset]: it is never changed here."""
+
+
 @builtin("SoftDeact")
 def soft_deact(task: Task, ramp: float | None) -> None:
     """Make all axes stiff. ERR_ARGVALERR: ramp below 100 %."""
