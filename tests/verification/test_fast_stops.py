@@ -14,7 +14,7 @@ from rapidgen.verification.worker_pool import run_in_fork
 
 @cache
 def booted(robot, *texts, stuck=False, overrides=()):
-    config = load_config(robot, overrides)
+    config = load_config(robot, overrides=overrides)
     system = make_system(config, build(config))
     if stuck:
         # A halt that is never answered is in force for ever.
