@@ -5,6 +5,7 @@ from itertools import pairwise
 from math import dist
 
 from rapidgen._json import Members
+from rapidgen.config.accelerations import ERROR_BAND
 from rapidgen.config.geometry import distance
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped, shipped_names
@@ -98,8 +99,10 @@ def variant_text(variant: Variant) -> str:
     lines.append(f"  payload {payload}")
     coupling = "not known" if variant.coupling is None else f"{variant.coupling:g}"
     lines.append(f"  coupling {coupling}")
-    measured = "accelerations" in dict(variant.sources)
-    lines.append(f"  accelerations {'measured' if measured else 'estimated from its size'}")
+    if "accelerations" in dict(variant.sources):
+        lines.append("  accelerations measured")
+    else:
+        lines.append(f"  accelerations estimated from its size: {ERROR_BAND}")
     lines += [f"  {what}: {source}" for what, source in variant.sources]
     if variant.unsure:
         lines.append(f"  without a second source: {', '.join(variant.unsure)}")
