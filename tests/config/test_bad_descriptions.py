@@ -140,3 +140,50 @@ def test_invalid_file_name_is_reported(tmp_path, name):
         new(tmp_path / "cell.yaml", urdf=path)
     assert [d.code for d in caught.value.diagnostics] == ["RG020"]
     assert not (tmp_path / "cell.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("part", "named"),
+    [
+        ('<xacro:a name="a"/>', "<xacro:a>"),
+        ("<gazebo><model:pose><joint/></model:pose></gazebo>", "<model:pose>"),
+        ('<link name="extra" model:kind="a"/>', "model:kind of <link>"),
+        ("<model:a/><model:b/>", "<model:a>"),
+    ],
+)
+def test_urdf_with_unbound_prefix_is_read_with_warning(tmp_path, part, named):
+    """The URDF parser of ROS (tinyxml2) knows no namespaces and skips such elements."""
+    text = robot(BASE, arm(), part)
+    (tmp_path / "robot.urdf").write_text(text)
+    (tmp_path / "cell.yaml").write_text("urdf: {file: robot.urdf}\n")
+    config = load_config(tmp_path / "cell.yaml")
+    assert len(config.groups[0].joints) == 6
+    (warning,) = [d for d in config.diagnostics if d.code == "RG060"]
+    assert warning.severity.value == "warning"
+    assert named in warning.message
+    assert warning.span.line == text[: text.index(part)].count("\n") + 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("<joint ", "<x:group><joint "),
+        ("<link ", "<x:link "),
+        ("<joint ", "<x:joint "),
+        ("<origin", "<x:origin"),
+        ("<axis", "<x:axis"),
+        ("<robot", "<x:robot"),
+    ],
+)
+def test_unbound_prefix_on_the_chain_is_refused(tmp_path, old, new):
+    text = robot(BASE, arm().replace("<axis", '<origin xyz="0 0 0.1"/><axis'))
+    tag = old.strip("<").strip()
+    before, found, after = text.partition(old)
+    assert found
+    if "group" in new:
+        after = after.replace("</joint>", "</joint></x:group>", 1)
+    elif f"</{tag}>" in after and "/>" not in after.split(">")[0] + ">":
+        after = after.replace(f"</{tag}>", f"</x:{tag}>", 1)
+    first, _ = refused(tmp_path, before + new + after)
+    assert set(first) == {"RG060"}
+    assert "has no namespace, and the element" in first["RG060"].message

@@ -241,3 +241,48 @@ def test_places_of_a_plain_urdf_are_its_own_lines(tmp_path):
     assert fault.span is not None
     assert (fault.span.path, fault.span.line) == (str(tmp_path / "robot.urdf"), 2)
     assert "decimal point" in fault.help
+
+
+COLOURED = (
+    f'<robot name="r" {XACRO}>'
+    '<xacro:include filename="$(find abb_resources)/urdf/common_materials.xacro"/>{}</robot>'
+)
+PAINTED = '<link name="hand"><visual><geometry><box size="1 1 1"/></geometry>{}</visual></link>'
+HAND = '<joint name="fixed" type="fixed"><parent link="l6"/><child link="hand"/></joint>'
+
+
+@pytest.mark.parametrize(
+    "colours",
+    [
+        "",
+        PAINTED.format("<xacro:material_abb_yellow/>") + HAND,
+        PAINTED.format('<material name="m"><xacro:yellow/></material>') + HAND,
+        PAINTED.format('<material name="m"><color rgba="${yellow} 1"/></material>') + HAND,
+        "<xacro:all_colours/>",
+    ],
+)
+def test_robot_without_the_package_of_its_colours_is_read(tmp_path, colours):
+    """Support packages of ROS-Industrial include abb_resources for their colours."""
+    (tmp_path / "robot.xacro").write_text(COLOURED.format(body() + colours))
+    config = load_config(configure(tmp_path))
+    assert len(config.groups[0].joints) == 6
+    (warning,) = [d for d in config.diagnostics if d.code == "RG032"]
+    assert warning.severity.value == "warning"
+    assert "abb_resources" in warning.message
+    assert "common_materials.xacro" in warning.message
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("common_materials", "common_parts"),
+        ('<link name="l0"/>', "<xacro:base/>"),
+        ('xyz="0 0 1"', 'xyz="${up}"'),
+        ('<link name="l0"/>', '<link name="l0"/><link name="$(find abb_resources)"/>'),
+    ],
+)
+def test_package_that_gives_more_than_colours_must_be_there(tmp_path, old, new):
+    text = COLOURED.format(body() + PAINTED.format("<xacro:material_abb_yellow/>") + HAND)
+    assert old in text
+    (tmp_path / "robot.xacro").write_text(text.replace(old, new, 1))
+    assert codes(configure(tmp_path)) == ["RG032"]

@@ -19,6 +19,7 @@ from rapidgen.config.urdf.packages import PackageNotFound, Packages
 from rapidgen.config.urdf.sandbox import restricted
 from rapidgen.config.urdf.source import (
     Macro,
+    bind_prefixes,
     declared_arguments,
     is_xacro,
     macros,
@@ -44,6 +45,10 @@ _NAMESPACE = "http://www.ros.org/wiki/xacro"
 _DEEPEST = 1000
 """Maximum nesting of Python calls in an expansion: that of a new interpreter."""
 _LONGEST_REASON = 300
+_APPEARANCE = re.compile(r"material|colou?r", re.IGNORECASE)
+"""Names of files and macros that only give colours."""
+_ABSENT = ".package-not-found"
+"""Folder that stands for the packages that were not found."""
 _MOST_BYTES = 4_000_000
 """Bytes of all files of a xacro description."""
 
@@ -95,7 +100,8 @@ def expand(request: Request) -> Description:
     """
     text, data = read_xml(request.path, place=request.place)
     if not is_xacro(request.path, text):
-        made = Description(request.path, text, False, [(request.path.name, data)])
+        text, found = bind_prefixes(request.path, text)
+        made = Description(request.path, text, False, [(request.path.name, data)], found)
         if request.arguments or request.macro:
             raise refusal(
                 "RG056",
@@ -138,6 +144,8 @@ def _expand_xacro(request: Request, text: str) -> Description:
         made.text = _run(request, document, made, texts)
     except DiagnosticError as fault:
         (failure,) = fault.diagnostics
+        if failure.code == "RG032":
+            failure = _without_colours(request, document, made, texts, failure)
     unknown = _unknown_arguments(request, declared_arguments([*texts, text]))
     if unknown or failure:
         raise DiagnosticError([*unknown, *([failure] if failure else [])])
@@ -157,12 +165,87 @@ def _expand_xacro(request: Request, text: str) -> Description:
     return made
 
 
-def _run(request: Request, document: str, made: Description, texts: list[str]) -> str:
+def _without_colours(
+    request: Request, document: str, made: Description, texts: list[str], failure: Diagnostic
+) -> Diagnostic | None:
+    """Expand a description without files of materials in packages that were not found.
+
+    Returns `failure` if more than colours depends on the packages.
+    """
+    again = Description(request.path, "", True, made.inputs[:1], sources=made.sources[:1])
+    if request.macro:
+        again.inputs, again.sources = [], []
+    absent: dict[str, str] = {}
+    try:
+        again.text = _run(request, document, again, texts, absent)
+    except DiagnosticError:
+        return failure
+    if _ABSENT in again.text:
+        return failure
+    made.text, made.inputs, made.sources = again.text, again.inputs, again.sources
+    for package, name in absent.items():
+        made.found.append(
+            error(
+                "RG032",
+                request.place,
+                f"package '{package}' was not found: the robot is read without the colours of "
+                f"its {name}",
+                f"add\n  urdf:\n    packages: {{{package}: FOLDER}}\nor give --package-path FOLDER",
+                severity=Severity.WARNING,
+            )
+        )
+    return None
+
+
+def _run(
+    request: Request,
+    document: str,
+    made: Description,
+    texts: list[str],
+    absent: dict[str, str] | None = None,
+) -> str:
+    """Expand a document.
+
+    With `absent`, files of materials in packages that were not found count as empty; `absent` then
+    has package and file name of each.
+    """
     import xacro
     from xacro import substitution_args
 
     reading = [request.path]
     bytes_read = 0
+
+    def find(name: str) -> str:
+        try:
+            return str(request.packages.find(name))
+        except PackageNotFound:
+            if absent is None:
+                raise
+            return str(request.path.absolute().parent / _ABSENT / name)
+
+    def is_absent(path: Path) -> bool:
+        """Note a file of materials in a package that was not found."""
+        if absent is None or _ABSENT not in path.parts:
+            return False
+        package = path.parts[path.parts.index(_ABSENT) + 1]
+        if not _APPEARANCE.search(path.name):
+            request.packages.find(package)
+        absent[package] = path.name
+        return True
+
+    def plain(document: minidom.Document) -> minidom.Document:
+        """Remove colours that are computed: their values may be in a file that is absent."""
+        for node in list(document.getElementsByTagName("color")) if absent is not None else []:
+            if "$" in node.getAttribute("rgba") and node.parentNode is not None:
+                node.parentNode.removeChild(node)
+        return document
+
+    def handle_unknown(node: minidom.Element) -> bool:
+        """Remove the call of an unknown macro that only gives a colour."""
+        if not absent or not _gives_colour(node):
+            return False
+        xacro.replace_node(node, by=None)
+        return True
 
     def read(path: Path) -> str:
         nonlocal bytes_read
@@ -187,10 +270,12 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
     def parse(value: object, filename: str | None = None) -> minidom.Document:
         if value is None and filename is not None:
             path = Path(filename)
+            if is_absent(path):
+                return minidom.parseString(f'<robot xmlns:xacro="{_NAMESPACE}"/>')
             content = read(path)
             texts.append(content)
             reading.append(path)
-            document = minidom.parseString(content)
+            document = plain(minidom.parseString(content))
             reading.pop()
             return document
         parsed: minidom.Document = original_parse(value, filename)
@@ -201,11 +286,9 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
         if len(document) > _MOST_BYTES:
             raise ExpressionError(f"it has more than {_MOST_BYTES:,} bytes")
         xacro.init_stacks(str(request.path))
-        tree = minidom.parseString(document)
+        tree = plain(minidom.parseString(document))
         with (
-            restricted(
-                lambda name: str(request.packages.find(name)), read, request.packages.allows
-            ),
+            restricted(find, read, request.packages.allows, handle_unknown),
             _bounded_depth(),
         ):
             xacro.process_doc(tree, mappings=dict(request.arguments), verbosity=0)
@@ -231,6 +314,17 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
         raise DiagnosticError(_translate(request, fault, at)) from None
     finally:
         xacro.parse = original_parse
+
+
+def _gives_colour(node: minidom.Element) -> bool:
+    """True if a macro call is part of what is seen of a link, or has the name of a material."""
+    name: str = node.tagName
+    around: minidom.Node | None = node.parentNode
+    while around is not None:
+        if getattr(around, "tagName", "") in ("visual", "material"):
+            return True
+        around = around.parentNode
+    return bool(_APPEARANCE.search(name))
 
 
 @contextmanager

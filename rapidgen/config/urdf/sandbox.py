@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
+from xml.dom import minidom
 
 from rapidgen.config.urdf.expressions import (
     MAX_TEXT,
@@ -41,12 +42,16 @@ _MACRO_PARAMETER = re.compile(
 
 @contextmanager
 def restricted(
-    find: Callable[[str], str], read: Callable[[Path], str], allowed: Callable[[Path], bool]
+    find: Callable[[str], str],
+    read: Callable[[Path], str],
+    allowed: Callable[[Path], bool],
+    handle_unknown: Callable[[minidom.Element], bool],
 ) -> Iterator[None]:
     """Run xacro with limits.
 
     `find` returns the folder of a package, `read` the text of a file, and `allowed` is True for a
-    file that may be read. The names of xacro are restored when the context ends.
+    file that may be read. `handle_unknown` gets the call of an unknown macro and returns True if
+    it has dealt with it. The names of xacro are restored when the context ends.
     """
     import xacro
     from xacro import substitution_args
@@ -133,13 +138,20 @@ def restricted(
         size_of(value)
         return value
 
-    def handle_macro_call(*given: object) -> object:
+    def handle_macro_call(node: minidom.Element, *tables: object) -> object:
         nonlocal calls
         calls += 1
         if calls > MAX_CALLS:
             raise ExpressionError(f"it calls more than {MAX_CALLS:,} macros")
         allowance.spend()
-        return original["handle_macro_call"](*given)
+        name: str = node.tagName
+        if name.startswith("xacro:") and name != "xacro:call":
+            try:
+                xacro.resolve_macro(name.removeprefix("xacro:"), *tables)
+            except KeyError:
+                if handle_unknown(node):
+                    return True
+        return original["handle_macro_call"](node, *tables)
 
     def list_files(pattern: str) -> list[str]:
         fixed = re.split(r"[*?\[]", pattern)[0]

@@ -11,7 +11,7 @@ from pathlib import Path
 from xml.parsers import expat
 
 from rapidgen._reading import TooLarge, read_foreign
-from rapidgen.diagnostics import Diagnostic, Span, error, refusal
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error, refusal
 
 MAX_BYTES = 20_000_000
 _ARG = re.compile(r"""<xacro:arg\s[^<>]*?name\s*=\s*["']([^"']+)["']""")
@@ -108,9 +108,86 @@ def xml_fault(data: bytes) -> str:
     return ""
 
 
+_OF_JOINT = frozenset(("parent", "child", "origin", "axis", "limit", "mimic"))
+_MOST_WARNINGS = 5
+
+
+def bind_prefixes(path: Path, text: str) -> tuple[str, list[Diagnostic]]:
+    """Declare prefixes that a URDF uses without a namespace, and return a warning for each.
+
+    URDF parsers of ROS know no namespaces: an element with a prefix has an unknown name, and they
+    skip it. Raises DiagnosticError (RG060): such an element is or holds a part of the chain.
+    """
+    parser = expat.ParserCreate("utf-8")
+    bound = [{"xml", "xmlns"}]
+    """The prefixes that are bound in each open element."""
+    holders: list[tuple[str, int]] = []
+    """For each open element the outermost one with an unbound prefix, or an empty name."""
+    unbound: dict[str, tuple[str, int]] = {}
+    root_end, section = -1, ""
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        nonlocal root_end, section
+        own = {word.removeprefix("xmlns:") for word in attributes if word.startswith("xmlns:")}
+        bound.append(bound[-1] | own if own else bound[-1])
+        prefix, _, local = name.rpartition(":")
+        line = parser.CurrentLineNumber
+        for word, what in ((name, f"<{name}>"), *((a, f"{a} of <{name}>") for a in attributes)):
+            used = word.rpartition(":")[0]
+            if used and used not in bound[-1]:
+                unbound.setdefault(used, (what, line))
+        holder = holders[-1] if holders else ("", 0)
+        if not holder[0] and prefix and prefix not in bound[-1]:
+            holder = name, line
+        if not holders:
+            root_end = parser.CurrentByteIndex + 1 + len(name.encode())
+        elif len(holders) == 1:
+            section = local if local in ("link", "joint") or not holder[0] else ""
+        is_part = local in ("link", "joint") and (len(holders) == 1 or not section)
+        if holder[0] and (is_part or (section == "joint" and local in _OF_JOINT)):
+            used = holder[0].rpartition(":")[0]
+            raise refusal(
+                "RG060",
+                Span(str(path), holder[1], 1),
+                f"the prefix of <{holder[0]}> has no namespace, and the element "
+                + (f"holds <{name}>," if holder != (name, line) else "is")
+                + " a part of the robot",
+                f"remove the prefix, or declare xmlns:{used} on <robot>",
+            )
+        holders.append(holder)
+
+    def end(_name: str) -> None:
+        bound.pop()
+        holders.pop()
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    data = text.encode()
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError:
+        return text, []  # reported where the text is read
+    if not unbound:
+        return text, []
+    declared = "".join(f' xmlns:{prefix}="unbound:{prefix}"' for prefix in unbound)
+    found = [
+        error(
+            "RG060",
+            Span(str(path), line, 1),
+            f"the prefix of {what} has no namespace, so it is skipped",
+            f"declare xmlns:{prefix} on <robot>, or remove it",
+            severity=Severity.WARNING,
+        )
+        for prefix, (what, line) in list(unbound.items())[:_MOST_WARNINGS]
+    ]
+    return (data[:root_end] + declared.encode() + data[root_end:]).decode(), found
+
+
 def is_xacro(path: Path, text: str) -> bool:
-    """True if xacro has to expand the file."""
-    return path.suffix == ".xacro" or "xmlns:xacro" in text or "<xacro:" in text
+    """True if xacro has to expand the file.
+
+    Without the namespace of xacro nothing can: the elements are unknown ones of a URDF.
+    """
+    return path.suffix == ".xacro" or "xmlns:xacro" in text
 
 
 def macros(text: str) -> tuple[Macro, ...]:
