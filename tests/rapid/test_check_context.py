@@ -395,3 +395,19 @@ def test_a_move_in_a_task_without_a_robot_is_reported(called, tasks, expected):
 def test_a_receiver_of_a_value_is_used():
     assert found(module("m", "a := CJointT();", "LOCAL VAR jointtarget a;")) == []
     assert found(module("m", "a := 1;", "LOCAL VAR num a;")) == [("warning", "RG324")]
+
+
+def test_the_source_of_an_alias_is_a_signal_of_the_configuration():
+    text = module("m", "AliasIO voClear, svoClear;\nSetDO svoClear, 1;", "VAR signaldo svoClear;")
+    assert found(text, strict=True) == [("info", "RG302")]
+    assert found(system(text)) == [("error", "RG302")]
+    assert found(module("m", "TPWrite Type(voClear);"), strict=True) == [("error", "RG302")]
+
+
+def test_a_return_behind_an_endless_loop_of_a_function_is_expected():
+    loop = "WHILE TRUE DO\nStop;\nENDWHILE\n%s\n"
+    function = f"FUNC num f()\n{loop}ENDFUNC\nENDMODULE"
+    text = module("m", "TPWrite ValToStr(f());").replace("ENDMODULE", function)
+    assert found(text % "RETURN 0;") == []
+    assert found(text % "Stop;\nRETURN 0;") == [("warning", "RG323")]
+    assert found(module("m", loop % "RETURN;")) == [("warning", "RG323")]

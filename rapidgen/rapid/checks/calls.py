@@ -1,7 +1,7 @@
 """Checks of arguments against the routine's parameters [K §3.10, 5.1]."""
 
 from collections.abc import Sequence
-from typing import Final, Protocol
+from typing import Final, Protocol, cast
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import (
@@ -306,6 +306,15 @@ class CallChecker:
         base = "anytype" if parameter.type.lower() == "anytype" else scope.base(parameter.type)
         expected = None if base is None else array(base, parameter.dimensions)
         place = f"the argument {parameter.name}"
+        if (
+            symbol.signature is not None
+            and symbol.name.lower() == "aliasio"
+            and parameter.mode == "REF"
+            and self._is_undeclared(value)
+        ):
+            # A signal of EIO.cfg, though the parameter has any type.
+            self.findings.unknown("datum", cast(Name, value).name, value, "signaldi")
+            return
         if parameter.mode == "":
             self.types.expect(value, expected, place)
             self._raw_index(symbol, parameter, argument)
@@ -324,6 +333,9 @@ class CallChecker:
             self.types.mismatch(value, expected or "", result or "", place)
         else:
             self._mode(parameter, argument, value)
+
+    def _is_undeclared(self, value: Expression) -> bool:
+        return isinstance(value, Name) and root(value, self.findings.here) is None
 
     def _mode(self, parameter: Parameter, argument: Argument, value: Name | Index | Member) -> None:
         datum = root(value, self.findings.here)

@@ -63,7 +63,9 @@ class FlowChecker:
             if type(statement) is Label:
                 alive = True
                 continue
-            if not alive and not is_reported:
+            # A function ends with RETURN, even behind a loop that never ends.
+            forced = type(statement) is Return and self.routine.kind == "FUNC"
+            if not alive and not is_reported and not forced:
                 is_reported = True
                 self.warn(
                     "RG323",
