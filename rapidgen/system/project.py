@@ -11,13 +11,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Final
+from typing import Final, TypeVar
 
 from rapidgen._json import Members
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, suggest
 from rapidgen.system.paths import inside, read_limited
 from rapidgen.system.releases import ANY_MINOR, release
 
+T = TypeVar("T")
 PROJECT_FILE: Final = "rapidgen.toml"
 _LARGEST: Final = 256 * 1024
 _TASK: Final = re.compile(r"[A-Za-z]\w{0,31}", re.ASCII)
@@ -100,15 +101,24 @@ class _Reader:
             if name not in _KEYS:
                 help = suggest(name, list(_KEYS)) or f"the keys are {', '.join(_KEYS)}"
                 self.fault(name, f"unknown key '{name}'", help)
-        values: dict[str, object] = {}
-        for name, key in _KEYS.items():
-            if name in data:
-                values[name] = key.read(self, name, data[name])
+
+        def value(name: str, read: Callable[[str, object], T], otherwise: T) -> T:
+            return read(name, data[name]) if name in data else otherwise
+
+        result = Project(
+            self.path,
+            folders=value("folders", self.paths, ()),
+            tasks=value("tasks", self.tasks, MappingProxyType({})),
+            cfg=value("cfg", self.paths, ()),
+            robot=value("robot", self.robot, ""),
+            robotware=value("robotware", self.robotware, ""),
+            strict=value("strict", self.switch, False),
+            ignore=value("ignore", self.codes, frozenset()),
+            places=MappingProxyType({name: self.place(name) for name in data}),
+        )
         if self.faults:
             raise DiagnosticError(self.faults)
-        places = {name: self.place(name) for name in data}
-        # Each reader returns the type of its field, or has added a fault.
-        return Project(self.path, places=MappingProxyType(places), **values)  # type: ignore[arg-type]
+        return result
 
     def _parsed(self) -> dict[str, object]:
         # Most runs have no project file, and need no reader of TOML.
@@ -257,9 +267,8 @@ class _Reader:
 
 @dataclass(frozen=True, slots=True)
 class _Key:
-    """A key of the file: how it is read, described and written."""
+    """A key of the file: its type, description and an example."""
 
-    read: Callable[[_Reader, str, object], object]
     schema: Members
     description: str
     example: str
@@ -268,45 +277,38 @@ class _Key:
 _TEXTS: Final[Members] = {"type": "array", "items": {"type": "string", "minLength": 1}}
 _KEYS: Final[Mapping[str, _Key]] = {
     "folders": _Key(
-        _Reader.paths,
         _TEXTS,
         "Folders that `check` and `fmt` read if no path is given; default: the project's folder.",
         '["src"]',
     ),
     "tasks": _Key(
-        _Reader.tasks,
         {"type": "object", "additionalProperties": _TEXTS},
         "Files and folders of each task. `run` and `sim` boot them if no target is given; `check` "
         "checks them together.",
         '{T_ROB1 = ["src"]}',
     ),
     "cfg": _Key(
-        _Reader.paths,
         _TEXTS,
         "cfg files (SYS.cfg, EIO.cfg) of the tasks: they declare tasks and signals.",
         '["EIO.cfg"]',
     ),
     "robot": _Key(
-        _Reader.robot,
         {"type": "string", "minLength": 1},
         "Robot of the programs: a shipped model, a known variant or a configuration. Same as "
         "`--robot`.",
         '"irb1200"',
     ),
     "robotware": _Key(
-        _Reader.robotware,
         {"type": "string", "pattern": r"^[5-8]\.\d+$"},
         "RobotWare version of the controller. Same as `--robotware`.",
         '"6.15"',
     ),
     "strict": _Key(
-        _Reader.switch,
         {"type": "boolean", "default": False},
         "Names that no module declares are errors, also for `run` and `sim`. Same as `--strict`.",
         "true",
     ),
     "ignore": _Key(
-        _Reader.codes,
         {"type": "array", "items": {"type": "string", "pattern": r"^RG\d{3}$"}},
         "Codes of findings that `check`, `run` and `sim` do not report.",
         '["RG324"]',
