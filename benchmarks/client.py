@@ -28,7 +28,7 @@ from rapidgen.wire.simple_message.numpy_codec import (
     encode_points,
     encode_trajectory,
 )
-from rapidgen.wire.simple_message.spec import Port
+from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Port
 
 HEAD = struct.Struct("<4i")
 JOINT = HEAD.pack(56, 10, 1, 0) + struct.pack("<i10f", 0, *[0.0] * 10)
@@ -41,8 +41,8 @@ BEAT = HEAD.pack(16, 1306, 2, 0)
 
 def hello(features):
     limits = [3.0] * 6 + [0.0] * 4
-    data = struct.pack("<4i12s12s4i4f", 2, 0, 1, 0, b"0" * 12, b"", features, 10**9, 6, 0,
-                       0.02, 0.1, 0.01, 0.005)  # fmt: skip
+    data = struct.pack("<4i12s12s4i4f", PROTOCOL_VERSION, 0, 1, 0, b"0" * 12, b"", features,
+                       10**9, 6, 0, 0.02, 0.1, 0.01, 0.005)  # fmt: skip
     data += struct.pack("<30f", *[-v for v in limits], *limits, *[9.0] * 10)
     data += struct.pack("<iifii", 1 if features & 2 else 0, RING, 0.5, 30, 0)
     return HEAD.pack(12 + len(data), 1300, 3, 1) + data

@@ -170,8 +170,13 @@ def test_fork_of_an_async_robot_leaves_the_parents_motion(fake, patient):
             short = Trajectory.from_points([[0.0] * 6, [0.1] * 6], seconds=1)
             execution = await robot.execute(short)
 
+            transports = [link.transport for link in robot._carrier._links.values()]
+            descriptors = [each.get_extra_info("socket").fileno() for each in transports]
+
             def child():
                 assert not robot.is_connected
+                kinds = {os.readlink(f"/proc/self/fd/{number}") for number in descriptors}
+                assert kinds == {os.devnull}
                 asyncio.new_event_loop().run_until_complete(robot.close())
 
             assert in_child(child) == 0
