@@ -181,7 +181,7 @@ def _sent(caller: Caller, request: tuple[str, str, bytes, dict[str, str]]) -> tu
     started = time.perf_counter()
     try:
         status = caller.send(method, target, body=body, **headers).status
-        caller.desk.handle(HttpRequest(method, target, {"authorization": target}, body))
+        caller.application.handle(HttpRequest(method, target, {"authorization": target}, body))
     except Exception as fault:  # noqa: BLE001 - reported, with the seed that makes it again
         return 0, repr(fault)
     if time.perf_counter() - started > SLOW:
