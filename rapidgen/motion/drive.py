@@ -46,7 +46,7 @@ class Drive:
         self.refresh = 1.0
         """Of the program (SpeedRefresh), 0 to 1."""
         self.refreshed = True
-        """The newest move heeds it."""
+        """True if `refresh` applies to the newest move."""
         self.tcp_limit = inf
         """m/s of the TCP (SpeedLimCheckPoint)."""
         self.reduced = False
@@ -158,7 +158,7 @@ class Drive:
         self.run(brake(path.pieces, *self.planned(), factor), path)
 
     def coast(self, path: Path, joints: Sequence[Joint]) -> None:
-        """Stop each axis by its brake; the law tells where on the path it should have been."""
+        """Stop each axis by its brake; the profile is the stop that the path should have had."""
         now, factor = self._scheduler.now, self.settings.quick_factor
         before = self.motion.posture(max(self.motion.since, moment_before(now)))
         stop = coast(now, self.commanded(), before, joints, factor)
@@ -167,7 +167,7 @@ class Drive:
         self.run(law, path, stop)
 
     def run(self, law: SpeedProfile, path: Path, stop: BrakingMotion | None = None) -> None:
-        """A law holds from now on; what was planned until now is still felt."""
+        """Follow a profile from now on; the mean still contains the one before."""
         now = self._scheduler.now
         before = self.motion
         if now < before.end:

@@ -75,7 +75,7 @@ class PathExecution:
         self.path = Path(start)
         self.drive = Drive(scheduler, planner.settings, start)
         self.stops: dict[str, None] = {}
-        """Who keeps the robot from moving."""
+        """Reasons of the stops in force."""
         self.changed = WaitSet()
         """Notified when a move is released or finished, and when motion begins or ends."""
         self.at_rest: Callable[[], None] | None = None

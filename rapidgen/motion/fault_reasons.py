@@ -30,7 +30,7 @@ class FaultReason(Enum):
 
 
 class MotionFault(Exception):
-    """A move, or another wish, that cannot be carried out. The path is as it was."""
+    """A move or request that cannot be executed. The path is unchanged."""
 
     def __init__(self, refusal: FaultReason, *facts: object) -> None:
         super().__init__(": ".join(map(str, (refusal.value, *facts))))

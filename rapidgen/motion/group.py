@@ -286,7 +286,7 @@ class MotionGroup:
             self.wait(waiter, leg, lambda: leg.released or leg.finished)
 
     def enqueue(self, move: Move) -> Leg | None:
-        """Put a move on the path without holding anybody; None when the robot is there."""
+        """Put a move on the path without waiting; None if the robot is at its target."""
         self._check(move)
         for listener in self.listeners:
             listener(move)
@@ -337,7 +337,7 @@ class MotionGroup:
 
     @property
     def stop_reasons(self) -> tuple[str, ...]:
-        """Who keeps the robot from moving."""
+        """Return the reasons of the stops in force."""
         return tuple(self._stops)
 
     def stop(self, reason: str, *, quick: bool = False, brakes: bool = False) -> None:

@@ -21,7 +21,7 @@ class ModalSettings:
     ramp: float = 1.0
     """AccSet: how quickly acceleration builds up, share."""
     corner_warning: bool = True
-    """CornerPathWarning: whether the log tells of corners that became stop points."""
+    """CornerPathWarning: whether the log reports corners that became stop points."""
     check_linear: bool = True
     """ConfL"""
     check_joint: bool = True

@@ -35,8 +35,8 @@ class Motion:
     """s over which the motion is smoothed (`smoothing.py`)."""
 
     coast: BrakingMotion | None = None
-    """The axes' own way to rest when the brakes stop them; the law then tells where on the path
-    the robot should have stopped."""
+    """The axes' own way to rest when the brakes stop them; the profile then ends where on the
+    path the robot should have stopped."""
 
     end: int = field(init=False)
     """When it stands still: asked for at every event."""

@@ -1,4 +1,4 @@
-"""What a move instruction asks for, in SI units: the seam between built-ins and planning."""
+"""Data of a move instruction in SI units: the interface of built-ins and planning."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -56,7 +56,7 @@ class Measure:
 
 @dataclass(frozen=True, slots=True)
 class MoveFrames:
-    """Tool and work object of a move: who holds what, and where the frames are.
+    """Tool and work object of a move: the holder of each, and their frames.
 
     A pose of the move is that of the TCP in the object (the displaced object frame). With a
     stationary tool the robot carries the object and `tool` is a frame of the world.
@@ -103,7 +103,7 @@ class Move:
     """s that the program waits after a stop point (\\Inpos with a stop time)."""
     carrier: MoveFrames = field(default_factory=MoveFrames)
     place: Callable[[], object] | None = None
-    """Tells where in the program it stands, for messages and the motion pointer."""
+    """Returns its location in the program, for messages and the motion pointer."""
     events: tuple["PathEvent", ...] = ()
 
 

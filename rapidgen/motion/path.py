@@ -186,7 +186,7 @@ class Path:
         return self._left if place <= self.end and not self.legs else None
 
     def forget(self) -> None:
-        """Nobody asks any more for the path that was cleared."""
+        """Drop the distance to a path that was cleared."""
         self._left = None
 
     def at(self, place: float) -> Posture:

@@ -74,7 +74,7 @@ def is_recording(path: Path) -> bool:
 
 def read_recording(path: Path) -> Recording:
     """What `Recording.write_csv` wrote. OSError; ValueError: something else."""
-    import numpy as np  # only who asks for arrays pays for them
+    import numpy as np  # slow to import, and needed for arrays only
 
     text = read_foreign(path, _LARGEST).decode()
     try:
@@ -138,7 +138,7 @@ class Recorder:
         return result
 
     def forget(self, before: int) -> None:
-        """Nobody asks for earlier times any more."""
+        """Drop motions that only concern earlier times."""
         lag = round(self._group.settings.servo_lag * S)
         index = bisect_right(self._motions, before - lag, key=_since) - 1
         del self._motions[: max(0, index)]
@@ -146,7 +146,7 @@ class Recorder:
 
     def recording(self, period: float = PERIOD) -> Recording:
         """Samples every `period` s from the start until now or the end."""
-        import numpy as np  # only who asks for arrays pays for them
+        import numpy as np  # slow to import, and needed for arrays only
 
         end = self._scheduler.now if self._end is None else self._end
         step = max(1, round(period * S))
@@ -163,7 +163,7 @@ class Recorder:
         kinematics = self._group.kinematics
         if kinematics is not None:
             rows = []
-            # Where no move is under way nobody names a tool: that of the last or first one.
+            # Without a move under way there is no tool: use that of the last or first move.
             carrying = next((move for move in moves if move is not None), None)
             for posture, move in zip(commanded, moves, strict=True):
                 pose = kinematics.forward(posture)

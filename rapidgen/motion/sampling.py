@@ -1,8 +1,8 @@
 """Limits along ways that only inverse kinematics knows: sampled at nodes, kept per interval.
 
 Second derivatives are differences of nodes, each a mean around its node; between two nodes the
-derivative may be larger than at both. How much is told by how the differences change from node to
-node: for a derivative that is a parabola over three intervals, 1/8 of that change between the
+derivative may be larger than at both. The change of the differences from node to node shows how
+much: for a derivative that is a parabola over three intervals, 1/8 of that change between the
 nodes, and 1/12 of it at them.
 """
 
@@ -27,9 +27,9 @@ def interval_limits(
     """
     axes = [_curvings(nodes, j, spacing) for j in range(len(nodes[0]))]
     seen = zip(*[curvings for curvings, _ in axes], strict=True)
-    feared = zip(*[margins for _, margins in axes], strict=True)
+    beyond = zip(*[margins for _, margins in axes], strict=True)
     result, close = [], True
-    for (a, b), curving, margin in zip(pairwise(nodes), seen, feared, strict=True):
+    for (a, b), curving, margin in zip(pairwise(nodes), seen, beyond, strict=True):
         least = [
             abs(y - x) / spacing + c * spacing / 2 for x, y, c in zip(a, b, curving, strict=True)
         ]
@@ -42,15 +42,15 @@ def interval_limits(
     return result, close
 
 
-def _close(own: Limits, bold: Limits) -> bool:
+def _close(own: Limits, without: Limits) -> bool:
     """Whether limits with the margin are about those without it."""
     speed, shares = own
-    bold_speed, bold_shares = bold
-    if speed < _CLOSE * bold_speed:
+    other_speed, other_shares = without
+    if speed < _CLOSE * other_speed:
         return False
-    if not bold_shares:
+    if not other_shares:
         return not shares
-    return shares[0][0] * _CLOSE <= bold_shares[0][0]
+    return shares[0][0] * _CLOSE <= other_shares[0][0]
 
 
 def _curvings(

@@ -33,7 +33,7 @@ class MotionSystem:
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
         self._moving = set(self._tasks)
         self.on_missed: Callable[[str, str], None] | None = None
-        """The robots are a guess: who is told (place in the program, how it went there) of targets
+        """With guessed robots: called with (place in the program, how it moved there) for targets
         that they do not reach as programmed. None: such a target stops the program."""
 
     @property

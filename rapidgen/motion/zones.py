@@ -124,7 +124,7 @@ class ZoneWatch:
         self.inside = False
 
     def start(self) -> None:
-        """Watch from now on, and tell what holds now."""
+        """Watch from now on, and report the present state."""
         self._group.observers.append(self._moved)
         self.inside = self._depth(self._group.motion, self._scheduler.now) <= 0.0
         self._act(self.inside)
@@ -137,7 +137,7 @@ class ZoneWatch:
             self._timer.cancel()
 
     def _moved(self, _motion: Motion) -> None:
-        """A motion begins: look at it once whoever made it has done."""
+        """Examine a new motion after the event that began it."""
         self._expect((self._scheduler.now, self._look))
 
     def _expect(self, due: tuple[int, Callable[[], None]] | None) -> None:
@@ -146,7 +146,7 @@ class ZoneWatch:
         self._timer = None if due is None else self._scheduler.at(*due)
 
     def _look(self) -> None:
-        """What holds at the beginning of a motion; in the zone that is told each time."""
+        """What holds at the beginning of a motion; inside the zone it is reported each time."""
         self._expect(None)
         inside = self._depth(self._group.motion, self._scheduler.now) <= 0.0
         if inside or self.inside:
@@ -161,7 +161,7 @@ class ZoneWatch:
             self._expect(self._next(motion))
 
     def _next(self, motion: Motion) -> tuple[int, Callable[[], None]] | None:
-        """The next moment at which the robot changes sides, and what is told then."""
+        """The next moment at which the robot changes sides, and its report."""
         before = self._scheduler.now
         fastest, depth = self._fastest(motion), self._depth(motion, before)
         while before < motion.end:
@@ -174,7 +174,7 @@ class ZoneWatch:
         return None
 
     def _crossing(self, motion: Motion, before: int, then: int) -> int:
-        """The last moment on this side: who stops then stays on it."""
+        """The last moment on this side: a robot that stops then stays on it."""
         while then - before > _CLOSE:
             middle = (before + then) // 2
             if (self._depth(motion, middle) <= 0.0) is self.inside:
