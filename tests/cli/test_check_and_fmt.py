@@ -240,7 +240,7 @@ def test_check_loads_against_payload_of_named_robot(folder, capsys):
 )
 def test_loads_are_compared_with_the_robot_of_a_backup(backup, capsys, kind, mass, robot):
     program = backup / "RAPID" / "TASK1" / "PROGMOD" / "Good.mod"
-    program.write_text(LOADED.format(mass))
+    program.write_text(LOADED.format(mass).replace("TPErase;", "TPErase; GripLoad carried;"))
     if kind:
         (backup / "SYSPAR" / "MOC.cfg").write_text(
             "MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n"

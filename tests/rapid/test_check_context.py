@@ -295,12 +295,16 @@ def tool(mass):
 @pytest.mark.parametrize(
     ("data", "body", "masses"),
     [
-        (f"PERS loaddata l := {LOAD.format(-1)};", "", ["-1"]),
+        (f"PERS loaddata l := {LOAD.format(-1)};", "GripLoad l;", ["-1"]),
         (f"LOCAL PERS tooldata t := {tool('-0.5')};", "GripLoad t.tload;", ["-0.5"]),
         (f"PERS tooldata t := {tool('3.5')};", "", ["3.5"]),
         (f"PERS tooldata t := {tool('1.2E3')};", "", ["1200"]),
         (f"CONST num kg := 2;\nCONST loaddata l := {LOAD.format('kg * 2')};", "", ["4"]),
-        (f"PERS loaddata l{{2}} := [{LOAD.format(-1)},{LOAD.format(5)}];", "", ["-1", "5"]),
+        (
+            f"PERS loaddata l{{2}} := [{LOAD.format(-1)},{LOAD.format(5)}];",
+            "GripLoad l{1};",
+            ["-1", "5"],
+        ),
         (
             f"RECORD part\nnum n;\nloaddata load;\nENDRECORD\nPERS part p := [1,{LOAD.format(9)}];",
             "",
@@ -311,7 +315,12 @@ def tool(mass):
         ("PERS tooldata t;", "t.tload.mass := 1200;", ["1200"]),
         ("PERS loaddata l{2};", "l{2}.mass := -3;", ["-3"]),
         ("PERS loaddata l;", "IF TRUE l.mass := -3;", ["-3"]),
-        ("ALIAS loaddata weight;\nPERS weight w := " + LOAD.format(-1) + ";", "", ["-1"]),
+        (
+            "ALIAS loaddata weight;\nPERS weight w := " + LOAD.format(-1) + ";",
+            "GripLoad w;",
+            ["-1"],
+        ),
+        (f"PERS loaddata unused := {LOAD.format(-1)};", "", []),
         # What is right, or not known before it runs.
         (f"PERS loaddata l := {LOAD.format(3)};", "", []),
         (f"PERS loaddata l := {LOAD.format(0)};", "", []),
@@ -340,8 +349,8 @@ def test_an_unknown_component_of_a_load_is_reported_once():
 
 def test_where_no_robot_is_known_only_a_negative_mass_is_wrong():
     data = f"PERS loaddata l := {LOAD.format('9E6')};\nPERS loaddata m := {LOAD.format(-1)};"
-    assert found(module("a", "", data)) == [("warning", "RG333")]
-    task = system(module("a", "", data))
+    assert found(module("a", "GripLoad m;", data)) == [("warning", "RG333")]
+    task = system(module("a", "GripLoad m;", data))
     assert found(task, payloads={"t_rob2": IRB}) == [("warning", "RG333")]
 
 
@@ -404,10 +413,11 @@ def test_the_source_of_an_alias_is_a_signal_of_the_configuration():
     assert found(module("m", "TPWrite Type(voClear);"), strict=True) == [("error", "RG302")]
 
 
-def test_a_return_behind_an_endless_loop_of_a_function_is_expected():
+def test_a_return_behind_an_endless_loop_is_expected():
     loop = "WHILE TRUE DO\nStop;\nENDWHILE\n%s\n"
     function = f"FUNC num f()\n{loop}ENDFUNC\nENDMODULE"
     text = module("m", "TPWrite ValToStr(f());").replace("ENDMODULE", function)
     assert found(text % "RETURN 0;") == []
     assert found(text % "Stop;\nRETURN 0;") == [("warning", "RG323")]
-    assert found(module("m", loop % "RETURN;")) == [("warning", "RG323")]
+    assert found(module("m", loop % "RETURN;")) == []
+    assert found(module("m", loop % "RETURN;\nStop;")) == [("warning", "RG323")]

@@ -33,6 +33,7 @@ from rapidgen.rapid.syntax.nodes import (
 )
 
 _MAX_DEGREE: Final = 3
+_LOADED: Final = frozenset(("tooldata", "loaddata"))
 
 
 def check_module(findings: Findings) -> None:
@@ -151,8 +152,17 @@ class _ModuleChecker:
         else:
             self._constant_expression(initial)
         expected = array(base, len(node.dimensions)) if base else None
+        self.types.is_placeholder = base in _LOADED and not self._is_named_elsewhere(node.name)
         self.types.expect(initial, expected, "the initial value")
+        self.types.is_placeholder = False
         self.types.members_of(initial, [self.types.constant(size) for size in node.dimensions])
+
+    def _is_named_elsewhere(self, name: str) -> bool:
+        """Return True if a module of the task names a datum outside its declaration."""
+        key = name.lower()
+        modules = self.scope.task.modules.values()
+        named = (m.tree.source.tokens for m in modules)
+        return sum(token.lower() == key for tokens in named for token in tokens) > 1
 
     def _persistent(self, node: DataDeclaration, *, routine: bool) -> None:
         if routine:

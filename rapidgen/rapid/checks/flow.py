@@ -63,9 +63,8 @@ class FlowChecker:
             if type(statement) is Label:
                 alive = True
                 continue
-            # A function ends with RETURN, even behind a loop that never ends.
-            forced = type(statement) is Return and self.routine.kind == "FUNC"
-            if not alive and not is_reported and not forced:
+            # A RETURN behind a loop that never ends changes nothing.
+            if not alive and not is_reported and type(statement) is not Return:
                 is_reported = True
                 self.warn(
                     "RG323",

@@ -68,6 +68,8 @@ class TypeChecker:
         self.findings = findings
         self.report, self.declared = findings.report, findings.declared
         self.calls = CallChecker(findings, self)
+        self.is_placeholder = False
+        """The initial value of a tool or load that no module uses: its mass may be -1."""
         self._depth = 0
 
     # -- reading -------------------------------------------------------------------------
@@ -485,6 +487,8 @@ class TypeChecker:
             return
         payload = self.findings.given.payload
         if mass < 0:
+            if self.is_placeholder:
+                return
             self.report(
                 "RG333",
                 f"a load of {mass:g} kg: its first move stops the program",
