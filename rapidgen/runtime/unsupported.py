@@ -116,7 +116,6 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "PPMovedInManMode ResetPPMoved PFRestart",
     ),
     ("UIMsgWrite is written, not shown: nothing is there to take away", "UIMsgWriteAbort"),
-    ("its values are in no public source", "GetModalPayLoadMode"),
     (
         "spot welding is not simulated",
         "SpotL SpotJ",

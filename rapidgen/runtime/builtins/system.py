@@ -244,6 +244,19 @@ def read_cfg_data(
         raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
 
 
+@builtin("GetModalPayLoadMode")
+def get_modal_payload_mode(task: Task) -> float:
+    """Return the system parameter ModalPayLoadMode: 1 if GripLoad decides on the payload.
+
+    Backups of RobotWare 6 have 1. RobotWare 5 does not have the parameter, and GripLoad decides.
+    """
+    for found in task.controller.configuration.find("/SYS/SYS_MISC/ModalPayLoadMode"):
+        value = found.get("value")
+        if isinstance(value, int | float | str) and str(value).strip().isdigit():
+            return float(value)
+    return 1.0
+
+
 @builtin("WriteCfgData", cost="socket")
 def write_cfg_data(
     task: Task, path: str, attribute: str, argument: object, number: Ref | None

@@ -144,6 +144,14 @@ MODULE parameters
         TRYNEXT;
     ENDPROC
 ENDMODULE
+!=== modal_payload_mode
+MODULE modal_payload_mode
+    ! source: SYS_MISC of backups with RobotWare 6: ModalPayLoadMode 1; ABB's StateMachine add-in compares with 1 [ABB]
+    ! expect: 1
+    PROC main()
+        TPWrite ValToStr(GetModalPayLoadMode());
+    ENDPROC
+ENDMODULE
 !=== persistent_of_a_module
 MODULE persistent_of_a_module
     ! source: [K §14.4] a system-global PERS is there while a module that declares it is loaded; only
