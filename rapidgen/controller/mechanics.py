@@ -3,6 +3,7 @@
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rapidgen.config import load_config, shipped_names
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 DEFAULT_ROBOT = "irb120"
 # MOC.cfg of backups: ROB1_4600_2.55_40, ROB_R_14000_05_05, ROB1_910SC_0.55_3, ROB1_15000_0_95_5.
 _TYPE = re.compile(r"ROB_?[A-Z0-9]+?_(\d{3,5}[A-Z]{0,3})", re.I)
+_VARIANT = re.compile(r"(?:IRB|CRB)\s+(\d{2,5})[^/\\.]*(?:/[\d.]+)?", re.I)
+"""Looks like the name of a robot, not of a file."""
 _HELP = "name the robot with `--robot NAME`; `rapidgen robots` lists the models"
 _SPEEDS = (
     "`rapidgen new robot.yaml --robot '{}'`, write the data sheet's speeds into it, and "
@@ -100,14 +103,31 @@ def mechanics(
 
 
 def robots_named(name: str) -> Sequence[GroupConfig]:
-    """Return the robots of a shipped model, configuration or variant."""
+    """Return the robots of a shipped model, configuration or variant.
+
+    DiagnosticError RG009: a robot that is not known, or whose geometry is no simple chain.
+    """
     if name in shipped_names():
         return shipped_groups(name)
-    from rapidgen.config.variant_group import group_of, variant_named
+    from rapidgen.config.variant_group import group_of, variant_named, variants_of
 
     variant = variant_named(name)
     group = group_of(variant) if variant is not None else None
-    return (group,) if group is not None else load_config(name).groups
+    if group is not None:
+        return (group,)
+    likely = _VARIANT.fullmatch(name)
+    if variant is None and (likely is None or Path(name).exists()):
+        return load_config(name).groups
+    reason = "is an unknown variant" if variant is None else "has axes that cannot be simulated"
+    _, kin = variants_of(f"ROB1_{likely[1]}" if likely is not None else "")
+    others = ", ".join(f"'{one.name}'" for one in kin if group_of(one) is not None)
+    raise refusal(
+        "RG009",
+        None,
+        f"'{name}' {reason}",
+        (f"choose a similar one: {others}; " if others else "")
+        + "`rapidgen robots --all` lists all",
+    )
 
 
 def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnostic]]:

@@ -6,7 +6,7 @@ from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
 from rapidgen.config.variant_group import group_of
 from rapidgen.config.variant_library import variants
-from rapidgen.controller.mechanics import groups_for, mechanics, model_of
+from rapidgen.controller.mechanics import groups_for, mechanics, model_of, robots_named
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.model import MechanicalUnitGroup, System, TaskSpec
 
@@ -158,3 +158,19 @@ def test_unknown_mechanics_are_reported():
     groups, (note,) = mechanics(system)
     assert [group.model for group in groups] == ["irb120"]
     assert note.code == "RG432"
+
+
+@pytest.mark.parametrize("name", ["IRB 1600-999/9.9", "irb 1600-999/9.9", "CRB 1600"])
+def test_unknown_variant_is_not_taken_for_a_file(name):
+    with pytest.raises(DiagnosticError) as caught:
+        robots_named(name)
+    (fault,) = caught.value.diagnostics
+    assert fault.code == "RG009"
+    assert f"'{name}' is an unknown variant" in fault.message
+    assert "'IRB 1600-" in fault.help
+
+
+def test_missing_configuration_is_a_missing_file():
+    with pytest.raises(DiagnosticError) as caught:
+        robots_named("irb1600.yaml")
+    assert [fault.code for fault in caught.value.diagnostics] == ["RG001"]
