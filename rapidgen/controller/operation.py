@@ -42,6 +42,8 @@ class Operation:
         self.mode: OperatingMode = "auto"
         self.motors_on = True
         self.e_stop = False
+        self.e_stop_pressed = False
+        """The button of the emergency stop; `e_stop` lasts until it is reset, too."""
         self.failed = False
         """SYS FAIL: a task of trust level SysFail stopped; no start is possible until a restart."""
         self.halted = False
@@ -103,8 +105,10 @@ class Operation:
         self.changed.notify()
 
     def set_e_stop(self, pressed: bool) -> None:
-        """Press or reset the emergency stop; motors stay off after a reset."""
+        """Press the emergency stop, or release and reset it; motors stay off after a reset."""
+        self.e_stop_pressed = pressed
         if pressed == self.e_stop:
+            self.changed.notify()
             return
         if pressed:
             self._host.log.record(10_012)
@@ -118,6 +122,18 @@ class Operation:
             self.e_stop = False
             self._host.log.record(10_010 if self.mode == "auto" else 10_012)
         self.changed.notify()
+
+    def release_e_stop(self) -> None:
+        """Release the button; the emergency stop lasts until it is reset."""
+        self.e_stop_pressed = False
+        self.changed.notify()
+
+    def reset_e_stop(self) -> None:
+        """Reset the emergency stop by a system input, which a pressed button prevents."""
+        if self.e_stop_pressed:
+            self._host.log.record(20_148, "ResetEstop")
+        else:
+            self.set_e_stop(False)
 
     def set_mode(self, mode: str) -> None:
         """Change the operating mode.
@@ -171,7 +187,7 @@ class Operation:
         for group in self._groups:
             group.stop("program", brakes=True)
         self.failed = self.halted = False
-        self.e_stop = False
+        self.e_stop = self.e_stop_pressed = False
         self.motors_on = False
         host.io.power_up()
         host.motion.zones.drop_all()
@@ -410,6 +426,7 @@ class Operation:
 
 ACTIONS: Mapping[str, Callable[[Operation], object]] = {
     "e-stop": lambda operation: operation.set_e_stop(True),
+    "release-e-stop": lambda operation: operation.release_e_stop(),
     "reset-e-stop": lambda operation: operation.set_e_stop(False),
     "motors-on": lambda operation: operation.set_motors(True),
     "motors-off": lambda operation: operation.set_motors(False),
@@ -464,7 +481,7 @@ class SystemSignals:
             case "PPMain" | "PpToMain":
                 operation.pp_to_main()
             case "ResetEstop":
-                operation.set_e_stop(False)
+                operation.reset_e_stop()
             case "ResetError":
                 operation.reset_error()
             case "LimitSpeed":
@@ -492,7 +509,8 @@ class SystemSignals:
         report("MotorOn", operation.motors_on)
         report("MotorOff", not operation.motors_on)
         report("AutoOn", operation.mode == "auto")
-        report("EmStop", operation.e_stop)
+        until_reset = self._host.dialect.e_stop_output == "reset"
+        report("EmStop", operation.e_stop if until_reset else operation.e_stop_pressed)
         report("RunchOk", not operation.e_stop)
         report("ExecError", operation.execution_error)
         report("Error", operation.execution_error or operation.failed)

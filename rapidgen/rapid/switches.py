@@ -50,6 +50,10 @@ class Switches:
     e_stop_routines: bool = True
     """An emergency stop runs the routines of QSTOP [mem]. False: it runs none."""
 
+    e_stop_output: Literal["reset", "button"] = "reset"
+    """The system output EmStop is high until the emergency stop is reset, or until its button is
+    released. No source; the state of the controller lasts until the reset."""
+
     after_error: Literal["statement", "main"] = "statement"
     """Effect of an unhandled error: the program pointer is at the failed statement, which a start
     of a NORMAL task executes again [S4 overview 3-23], or the task starts from main only."""

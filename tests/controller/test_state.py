@@ -1,10 +1,13 @@
 """I/O, faults, files, sockets and control commands of a controller."""
 
+from dataclasses import replace
+
 import pytest
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.faults import ControllerRule, FaultPlan, NetworkRule
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.rapid.switches import Switches
 from rapidgen.servers.control_commands import commands, subscribe
 from rapidgen.servers.control_socket import CommandError
 from rapidgen.system.model import (
@@ -396,3 +399,32 @@ def test_a_record_without_components_is_a_finding(tmp_path):
     with pytest.raises(DiagnosticError) as raised:
         VirtualController.from_files([path])
     assert raised.value.diagnostics[0].code == "RG201"
+
+
+@pytest.mark.parametrize(("output", "released"), [("reset", 1), ("button", 0)])
+def test_em_stop_is_high_until_the_emergency_stop_is_reset(output, released):
+    """No source: switch `e_stop_output`. 20148 is in the log of an IRB 120 with 5.15."""
+    system = System(
+        "cell",
+        (),
+        signals=(SignalSpec("doStop", "DO"), SignalSpec("diReset", "DI")),
+        outputs=(SystemOutput("EmStop", "doStop"),),
+        inputs=(SystemInput("ResetEstop", "diReset"),),
+    )
+    switches = replace(Switches(), e_stop_output=output)
+    with VirtualController(system, (), dialect=switches) as cell:
+
+        def reset():
+            cell.signals["diReset"] = 0
+            cell.signals["diReset"] = 1
+
+        cell.perform("e-stop")
+        reset()
+        assert cell.signals["doStop"] == 1
+        assert [event.code for event in cell.log][-1] == 20148
+        cell.perform("release-e-stop")
+        assert cell.signals["doStop"] == released
+        assert cell.operation.e_stop
+        reset()
+        assert cell.signals["doStop"] == 0
+        assert not cell.operation.e_stop
