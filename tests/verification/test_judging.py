@@ -181,6 +181,6 @@ def test_a_mutant_differs_in_one_place_and_is_still_rapid():
     data = file_of("ROS_motion").data
     result = list(mutants(data, "ROS_motion.mod"))
     assert len(result) > 60
-    for mutant in result:
-        assert mutant.text != data
+    assert all(mutant.text != data for mutant in result)
+    for mutant in result[::10]:
         assert not parse(mutant.text).diagnostics, mutant.change
