@@ -215,3 +215,14 @@ def test_raw_byte_index_out_of_range_is_warning():
 def test_numbers_beyond_num_where_no_dnum_is():
     assert codes("IF 1E39 > 1 TPErase;", dialect=Dialect((5, 0))) == ["RG319"]
     assert codes("IF 1E39 > 1 TPErase;", dialect=Dialect((6, 0))) == []
+
+
+def test_moves_are_followed_through_a_limited_depth_of_calls():
+    """Deeper calls are not followed, so that no program ends the checker."""
+    depth = 2000
+    procedures = "".join(f"PROC p{n}()\np{n + 1};\nENDPROC\n" for n in range(depth))
+    text = (
+        f"MODULE m\nVAR robtarget p;\nTRAP t\np{depth - 5};\nENDTRAP\nTRAP u\np0;\nENDTRAP\n"
+        f"{procedures}PROC p{depth}()\nMoveL p, v100, fine, tool0;\nENDPROC\nENDMODULE\n"
+    )
+    assert [(d.code, d.span.line) for d in check(text)] == [("RG334", 4)]

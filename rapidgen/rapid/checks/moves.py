@@ -28,6 +28,9 @@ _SYNCHRONISED: Final = {
 }
 """Instructions that change the state, and the state after them."""
 
+_DEEPEST = 30
+"""Calls within calls that are followed."""
+
 _Report = Callable[[ProcedureCall, RoutineSymbol], None]
 
 
@@ -115,6 +118,7 @@ class _Walk:
     ) -> None:
         self._after, self._safe, self._is_fault = after, safe, is_fault
         self._known: dict[tuple[RoutineSymbol, bool], tuple[bool, bool]] = {}
+        self._depth = 0
 
     def follow(
         self, body: Sequence[Statement], module: ModuleScope, state: bool, report: _Report
@@ -143,12 +147,16 @@ class _Walk:
             after = self._after.get(symbol.name.lower(), state)
             return is_fault and self._is_fault(call, signature), after
         key = (symbol, state)
+        if key not in self._known and self._depth == _DEEPEST:
+            return False, state
         if key not in self._known and symbol.node is not None and symbol.module is not None:
             self._known[key] = False, state  # a recursive call adds nothing
             faults: list[ProcedureCall] = []
+            self._depth += 1
             after = self.follow(
                 symbol.node.body, symbol.module, state, lambda inner, _: faults.append(inner)
             )
+            self._depth -= 1
             # Faults in a state that the procedure itself brings about are reported there.
             self._known[key] = bool(faults) and state != self._safe, after
         return self._known.get(key, (False, state))
