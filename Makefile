@@ -173,6 +173,9 @@ program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tools.motion_campaign
 
+motion-logs: $(STAMP) ## 3 min: simulated motion against the logs of a robot in the folder LOGS
+	$(BIN)/python benchmarks/motion_logs.py $(LOGS)
+
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py
 
