@@ -204,7 +204,7 @@ def test_a_routine_gets_poses_and_joints():
             assert robot.call("reach", target, [0.0] * 6, 1.0) == (3.0,)
         ways = [robot.pose_of(joints)[0] for joints in recording.positions]
         assert min(np.linalg.norm(np.subtract(way, target[0])) for way in ways) < 5e-3
-        assert robot.state.joints == pytest.approx([0.0] * 6, abs=1e-3)
+        assert robot.next_state().joints == pytest.approx([0.0] * 6, abs=1e-3)
         far = (9.0, 0.0, 0.0), target[1]
         for given in ((far, [0.0] * 6), (target, [9.0] * 6), (target, [0.0] * 5), (1.0, [0.0] * 6)):
             with pytest.raises(InvalidProgram):
@@ -258,7 +258,7 @@ def test_a_routine_of_a_module_that_is_not_there_is_refused_at_once():
 def test_the_controller_leaves_a_routine_that_takes_too_long():
     with with_routines() as (robot, controller):
         with pytest.raises(MotionFailed) as failed:
-            robot.call("go_home", timeout=1.0)
+            robot.call("go_home", timeout=0.5)
         assert failed.value.reason is Reason.OVERTIME
         assert controller.task("T_ROB1")["cell:undone"] is True
         here = robot.state.joints
