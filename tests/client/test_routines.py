@@ -258,8 +258,9 @@ def test_a_routine_of_a_module_that_is_not_there_is_refused_at_once():
 def test_the_controller_leaves_a_routine_that_takes_too_long():
     with with_routines() as (robot, controller):
         with pytest.raises(MotionFailed) as failed:
-            robot.call("go_home", timeout=0.5)
+            robot.call("go_home", timeout=1.0)
         assert failed.value.reason is Reason.OVERTIME
+        robot.wait_until(lambda state: not state.is_moving, 5)
         assert controller.task("T_ROB1")["cell:undone"] is True
         here = robot.state.joints
         robot.sleep(2)
