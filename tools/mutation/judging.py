@@ -338,6 +338,8 @@ def exchange(bench: Bench, path: str, data: bytes) -> None:
 def _exchange(program, module, tree):
     """Replace the routines of a module that differ in `tree`."""
     before, module.tree = module.tree, tree
+    # Code that is shared by programs belongs to the modules as they were loaded.
+    program.emitted = None
     known = {r.name.casefold(): r for r in before.routines}
     for node in tree.routines:
         old = known[node.name.casefold()]
