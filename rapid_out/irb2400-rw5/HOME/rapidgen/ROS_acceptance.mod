@@ -14,9 +14,11 @@ MODULE ROS_acceptance
     RECORD ROS_stop_counts
         num program;
         num control;
+        ! The same without stops for a lost client.
+        num commands;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "19ee5eb13cb3";
+    CONST string ROS_BUILD_ACCEPTANCE := "037a2d28e795";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;
@@ -62,6 +64,11 @@ MODULE ROS_acceptance
     VAR ROS_stop_counts ROS_stops_before;
     ! Stops that occurred before the first point of the trajectory was received.
     LOCAL VAR ROS_stop_counts stops_at_start;
+    ! TRUE while the motion server processes what a client sent before it replaced another one.
+    VAR bool ROS_is_replacing := FALSE;
+    ! TRUE if the trajectory replaces the one of another client. The end of that client is a stop, but not
+    ! one of this trajectory.
+    LOCAL VAR bool is_replacement := FALSE;
     ! At most one warning per second is written. The others are counted.
     LOCAL VAR clock clock_report;
     LOCAL VAR num unreported := 0;
@@ -77,7 +84,7 @@ MODULE ROS_acceptance
 
     ! Return the present counts of stops.
     FUNC ROS_stop_counts ROS_current_stops()
-        RETURN [ROS_program_stops,ROS_control_asked];
+        RETURN [ROS_program_stops,ROS_control_asked,ROS_control_commands];
     ENDFUNC
 
     ! Publish that everything that is received from now on, from any client, is newer than these stops.
@@ -91,6 +98,7 @@ MODULE ROS_acceptance
         ROS_point_count := 0;
         ROS_point_fault := ROS_REASON_NONE;
         stops_at_start := ROS_stops_before;
+        is_replacement := ROS_is_replacing;
         ! Write the number first and repeat it last (see ROS_trajectory in ROS_common).
         ROS_trajectory := ROS_next_count(ROS_trajectory);
         IF ROS_program_number = ROS_trajectory ROS_program_number := -1;
@@ -103,13 +111,19 @@ MODULE ROS_acceptance
         ROS_new_point.dwell := FALSE;
     ENDPROC
 
+    ! Return TRUE if the control server has asked for a stop since the first byte of the trajectory arrived.
+    LOCAL FUNC bool is_stopped_by_control()
+        IF is_replacement RETURN ROS_control_commands <> stops_at_start.commands;
+        RETURN ROS_control_asked <> stops_at_start.control;
+    ENDFUNC
+
     ! From now on the motion task executes the points of this trajectory and of no other.
     PROC ROS_start_motion()
         ROS_phase := ROS_TRAJ_MOVING;
         ROS_active_trajectory := ROS_trajectory;
         ! A later stop finds the trajectory active and halts it. A stop that came before this is handled
         ! here.
-        IF ROS_control_asked <> stops_at_start.control ROS_end_trajectory ROS_control_reason;
+        IF is_stopped_by_control() ROS_end_trajectory ROS_control_reason;
         IF ROS_program_stops <> stops_at_start.program THEN
             ROS_end_trajectory ROS_stop_cause(ROS_REASON_PROGRAM_STOPPED);
             ! The points are put into the ring buffer only after the robot has been stopped.
@@ -260,7 +274,9 @@ MODULE ROS_acceptance
     FUNC num ROS_blocker()
         FOR try FROM 1 TO 30 DO
             ! A stop after the first byte of the trajectory also applies to this trajectory.
-            IF ROS_control_asked <> stops_at_start.control RETURN ROS_control_reason;
+            IF is_stopped_by_control() RETURN ROS_control_reason;
+            ! The supervisor waits until such a stop is known to be older than what may move the robot.
+            IF is_replacement ROS_control_stops_seen := ROS_control_asked;
             ! The same holds for a condition that has forbidden motion meanwhile, even if it is over.
             ROS_check_asked := ROS_next_count(ROS_check_asked);
             IF ROS_supervisor_missing RETURN ROS_REASON_TASK_ENDED;

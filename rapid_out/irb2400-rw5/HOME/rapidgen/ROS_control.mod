@@ -10,7 +10,7 @@ MODULE ROS_control
     ! supervisor by an interrupt, because only one task may stop and restart the robot. If the
     ! supervisor does not answer, this task stops the robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "19ee5eb13cb3";
+    CONST string ROS_BUILD_CONTROL := "037a2d28e795";
 
     LOCAL CONST num PORT := 11001;
     ! Time between two checks for new clients and for the end of a trajectory, s.
@@ -229,6 +229,7 @@ MODULE ROS_control
     ! request, because the supervisor may have answered just an earlier one.
     LOCAL PROC request_stop(num reason)
         ROS_control_reason := reason;
+        IF reason <> ROS_REASON_CLIENT_LOST ROS_control_commands := ROS_next_count(ROS_control_commands);
         ROS_control_asked := ROS_next_count(ROS_control_asked);
         IF wait_answered(ROS_control_asked, ROS_control_done, ROS_STOP_TIMEOUT) RETURN;
         IF ROS_fallback_stop() ROS_control_asked := ROS_next_count(ROS_control_asked);

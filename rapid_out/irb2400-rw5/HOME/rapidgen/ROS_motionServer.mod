@@ -11,7 +11,7 @@ MODULE ROS_motionServer
     ! task therefore never waits for free places in the ring buffer: it reads, and feeds the ring buffer
     ! in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "19ee5eb13cb3";
+    CONST string ROS_BUILD_MOTION_SERVER := "037a2d28e795";
 
     LOCAL CONST num PORT := 11000;
     ! Time between two checks for bytes while the ring buffer is being fed, s. It is short compared with
@@ -85,6 +85,7 @@ MODULE ROS_motionServer
             ENDWHILE
         ENDIF
         is_taken_over := FALSE;
+        ROS_is_replacing := FALSE;
         is_connected := TRUE;
         ROS_partial_bytes := 0;
         ROS_start_clock clock_accept;
@@ -95,7 +96,9 @@ MODULE ROS_motionServer
         newcomer_bytes := 0;
         IF received > 0 THEN
             CopyRawBytes newcomer_data, 1, ROS_chunk, 1 \NoOfBytes:=received;
+            ROS_is_replacing := TRUE;
             handle_chunk client, received;
+            ROS_is_replacing := FALSE;
         ENDIF
         WHILE is_connected AND (NOT is_taken_over) DO
             was_active := ROS_is_active();

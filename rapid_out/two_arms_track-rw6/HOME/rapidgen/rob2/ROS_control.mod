@@ -10,7 +10,7 @@ MODULE ROS_control
     ! supervisor by an interrupt, because only one task may stop and restart the robot. If the
     ! supervisor does not answer, this task stops the robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "aa28722e070a";
+    CONST string ROS_BUILD_CONTROL := "a0f8452a413c";
 
     LOCAL CONST num PORT := 11011;
     ! Time between two checks for new clients and for the end of a trajectory, s.
@@ -242,6 +242,7 @@ MODULE ROS_control
     ! request, because the supervisor may have answered just an earlier one.
     LOCAL PROC request_stop(num reason)
         ROS_control_reason_2 := reason;
+        IF reason <> ROS_REASON_CLIENT_LOST ROS_control_commands_2 := ROS_next_count(ROS_control_commands_2);
         ROS_control_asked_2 := ROS_next_count(ROS_control_asked_2);
         IF wait_answered(ROS_control_asked_2, ROS_control_done_2, ROS_STOP_TIMEOUT) RETURN;
         IF ROS_fallback_stop() ROS_control_asked_2 := ROS_next_count(ROS_control_asked_2);

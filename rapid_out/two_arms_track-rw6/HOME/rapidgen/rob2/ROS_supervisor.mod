@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "aa28722e070a";
+    CONST string ROS_BUILD_SUPERVISOR := "a0f8452a413c";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;
