@@ -173,6 +173,9 @@ program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tools.motion_campaign
 
+seeded-faults: $(STAMP) ## 1 min: 100 faults in RAPID programs, and how many `check --strict` finds
+	$(BIN)/python tools/seeded_faults.py
+
 motion-logs: $(STAMP) ## 3 min: simulated motion against the logs of a robot in the folder LOGS
 	$(BIN)/python benchmarks/motion_logs.py $(LOGS)
 
