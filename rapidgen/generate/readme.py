@@ -7,8 +7,8 @@ from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.generate import layout
 from rapidgen.generate.context import to_rapid
 from rapidgen.generate.numbers import inward, literal
+from rapidgen.generate.parameters import OPEN_FILES
 from rapidgen.system import System
-from rapidgen.system.cfg_writer import SIGNALS_IN_SYS
 
 _TRUST = {"SysFail": "SysFail", "SysStop": "SysStop", "NoSafety": "None (no safety)"}
 
@@ -63,7 +63,7 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
             }
             for o in system.outputs
         ],
-        "opened": [f"{name}_open.cfg" for name in _open_files(config)],
+        "opened": OPEN_FILES if opened else (),
         "events": [{"event": e.event, "routine": e.routine, "task": e.task} for e in system.events],
         "groups": [_group(config, n) for n in range(len(config.groups))],
         "folder": layout.FOLDER,
@@ -88,13 +88,6 @@ def _elsewhere(group: GroupConfig) -> list[dict[str, str]]:
         result.append((group.payload.name, "PERS loaddata"))
     result += [(r.call, f"FUNC {r.returns}") for r in group.routines if r.returns]
     return [{"name": name, "what": what} for name, what in dict.fromkeys(result)]
-
-
-def _open_files(config: RobotConfig) -> tuple[str, ...]:
-    """Return domains with rows that the controller may reject."""
-    if not layout.open_signals(config):
-        return ()
-    return ("EIO", "SYS") if config.robotware[0] >= SIGNALS_IN_SYS else ("EIO",)
 
 
 def _group(config: RobotConfig, n: int) -> dict[str, object]:

@@ -101,7 +101,7 @@ class Switches:
     False: only after its end. No source."""
 
     alias_by_name: bool = True
-    """AliasIO takes the name of a signal as a string [mem]. False: event 194214 and stop."""
+    """AliasIO takes the name of a signal as a string [manual]. False: event 194214 and stop."""
 
     axis_limits_readable: bool = True
     """ReadCfgData finds the limits of the axes, MOC/ARM [code]. False: ERR_CFG_NOTFND."""

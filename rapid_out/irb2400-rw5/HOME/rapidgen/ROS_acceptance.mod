@@ -18,7 +18,7 @@ MODULE ROS_acceptance
         num commands;
     ENDRECORD
 
-    CONST string ROS_BUILD_ACCEPTANCE := "037a2d28e795";
+    CONST string ROS_BUILD_ACCEPTANCE := "e6da4508cd5b";
 
     ! Longest duration of a point, s.
     CONST num ROS_MAX_DURATION := 3600;

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! supervisor by an interrupt, because only one task may stop and restart the robot. If the
     ! supervisor does not answer, this task stops the robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "037a2d28e795";
+    CONST string ROS_BUILD_CONTROL := "e6da4508cd5b";
 
     LOCAL CONST num PORT := 11001;
     ! Time between two checks for new clients and for the end of a trajectory, s.

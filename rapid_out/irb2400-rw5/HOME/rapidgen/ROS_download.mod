@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it arrives. The trajectory starts only after -3 has arrived and all
     ! points were accepted. The points then go through the ring buffer to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "037a2d28e795";
+    CONST string ROS_BUILD_DOWNLOAD := "e6da4508cd5b";
 
     ! TRUE while a trajectory is being received that was not refused.
     VAR bool ROS_receiving := FALSE;

@@ -11,7 +11,7 @@ MODULE ROS_motionServer
     ! task therefore never waits for free places in the ring buffer: it reads, and feeds the ring buffer
     ! in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "037a2d28e795";
+    CONST string ROS_BUILD_MOTION_SERVER := "e6da4508cd5b";
 
     LOCAL CONST num PORT := 11000;
     ! Time between two checks for bytes while the ring buffer is being fed, s. It is short compared with

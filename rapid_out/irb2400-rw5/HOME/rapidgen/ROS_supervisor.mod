@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "037a2d28e795";
+    CONST string ROS_BUILD_SUPERVISOR := "e6da4508cd5b";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;
