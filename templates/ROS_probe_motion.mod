@@ -37,7 +37,7 @@ MODULE ROS_probe_motion
         tell_time_after_stop;
         tell_planning_lead;
         ask_stop_move_reset;
-        ask_range_error;
+        ask_unreachable_target;
         ask_stop;
         go_back;
         EXIT;
@@ -265,13 +265,13 @@ MODULE ROS_probe_motion
     ENDTRAP
 
     ! Can a target outside the axis ranges be handled?
-    LOCAL PROC ask_range_error()
+    LOCAL PROC ask_unreachable_target()
         place := turned(20000);
-        answer "! If the program stops now: range_error=fatal";
+        answer "! If the program stops now: unreachable_target=stop";
         MoveAbsJ place \NoEOffs, v100, fine, tool0;
     ERROR
         SkipWarn;
-        answer "range_error=recoverable";
+        answer "unreachable_target=handler";
         RETURN;
     ENDPROC
 ENDMODULE

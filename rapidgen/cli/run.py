@@ -252,6 +252,7 @@ def _event_warnings(controller: "VirtualController") -> list[Diagnostic]:
 
 def _help(fault: "FatalError", cell: str) -> str:
     """Help for undeclared names, unanswered dialogs and unreachable targets; else empty."""
+    from rapidgen.machine.event_table import OUT_OF_REACH
     from rapidgen.runtime.motion_interface import NOT_COMPATIBLE
 
     if "ERR_REFUNKDAT" in fault.arguments:
@@ -266,7 +267,7 @@ def _help(fault: "FatalError", cell: str) -> str:
             "`--answers FILE` answers dialogs (`rapidgen explain RG420`), `--cell infer` tries "
             "their choices"
         )
-    if {"ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"} & set(fault.arguments):
+    if fault.event == OUT_OF_REACH:
         return (
             "check the target, its tool and its work object; select the robot of the program with "
             "`--robot`"

@@ -59,14 +59,17 @@ def error_event(
             return code, (task.name, text or name)
         case 40706:
             return code, (task.name, reference, text, name)
-        case 50050:
-            axis = _AXIS.search(text)
-            group = task.controller.motion.of_task(task.name)
-            unit = group.config.mechanical_unit if group is not None else ""
-            return code, (axis[1] if axis else "", unit)
         case 194199:
             return code, (task.name, reference, name, text)
     return code, (task.name, reference, name)
+
+
+def reach_arguments(task: RapidTask, text: str) -> tuple[str, str]:
+    """Return the arguments of event 50050: number of the axis, and mechanical unit."""
+    axis = _AXIS.search(text)
+    group = task.controller.motion.of_task(task.name)
+    unit = group.config.mechanical_unit if group is not None else ""
+    return axis[1] if axis else "", unit
 
 
 class ControllerLog(EventLog):

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterator, Mapping
 from typing import Literal, Protocol, TypeAlias, get_args
 
-from rapidgen.controller.event_log import error_event
+from rapidgen.controller.event_log import error_event, reach_arguments
 from rapidgen.machine.event_log import EventType
 from rapidgen.machine.event_table import Domain, domain_of
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.errors import FatalError, MotionError
 from rapidgen.runtime.host import Host, RapidTask
 from rapidgen.runtime.task.interrupts import StopEvent
 from rapidgen.runtime.task.pointer import CannotStep
@@ -354,6 +354,7 @@ class Operation:
         if task.spec.type == "NORMAL":
             log.record(10_020, number, task.name, task=task.name)
             if is_motion_error:
+                self._fail_moving_tasks(task)
                 self._log_stop(10_125, task)
             else:
                 self._log_stop(10_126, task)
@@ -377,6 +378,13 @@ class Operation:
             self.motors_on = False
             log.record(10_010)
 
+    def _fail_moving_tasks(self, task: RapidTask) -> None:
+        """Put the other motion tasks of MultiMove into the error state, too (RobotWare 6.03)."""
+        for other in self._normal():
+            if other is not task and other.spec.motion and other.state == "running":
+                self.in_error.add(other.name)
+                self._host.log.record(10_020, self._number(other), other.name, task=other.name)
+
     def _log_error(self, task: RapidTask, fatal: FatalError) -> bool:
         """Record the error itself; return whether it is one of the motion system."""
         log = self._host.log
@@ -387,7 +395,9 @@ class Operation:
         if fatal.span is not None:
             place = f"{fatal.span.path}:{fatal.span.line}"
         code, arguments = fatal.event, (task.name, where.reference if where else "", *texts)
-        if fatal.cause is not None:
+        if isinstance(fatal.cause, MotionError):
+            arguments = reach_arguments(task, fatal.cause.text)
+        elif fatal.cause is not None:
             name, text = fatal.arguments[0], fatal.cause.text
             code, arguments = error_event(task, name, text, where.reference if where else "")
         is_motion_error = domain_of(code) is Domain.MOTION

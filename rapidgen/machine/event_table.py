@@ -396,6 +396,7 @@ KINDS: Final[Mapping[int, EventKind]] = {
     )
 }
 """Every number that the table knows."""
+OUT_OF_REACH: Final = 50_050
 RAPID_ERROR: Final = 194_199
 ERROR_CODES: Final[Mapping[str, int]] = {
     "ERR_REFUNKDAT": 40165,
@@ -404,7 +405,5 @@ ERROR_CODES: Final[Mapping[str, int]] = {
     "ERR_LOADED": 40706,
     "ERR_SOCK_TIMEOUT": 41581,
     "ERR_SOCK_CLOSED": 41595,
-    "ERR_OUTSIDE_REACH": 50050,
-    "ERR_ROBLIMIT": 50050,
 }
 """Event of an error of RAPID, where logs show it; `RAPID_ERROR` for all others."""

@@ -15,8 +15,6 @@ class FaultReason(Enum):
     NO_POSTURE_IN_RANGE = "no posture reaches it within the axis ranges"
     OUT_OF_RANGE = "an axis leaves its range"
     """The `axes.limits.LimitFault`."""
-    TARGET_OUT_OF_RANGE = "the target is outside an axis range"
-    """The same, where the settings ask for a stop."""
     SINGULARITY = "an axis would have to turn at once"
     NO_CIRCLE = "three points that make no circle"
     CIRCLE_TOO_LONG = "more than 240 degrees of a circle"

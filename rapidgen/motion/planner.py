@@ -96,9 +96,7 @@ class Planner:
             return
         faults = outside(self.config.joints, move.target)
         if faults:
-            fatal = self.settings.range_error == "fatal"
-            refusal = FaultReason.TARGET_OUT_OF_RANGE if fatal else FaultReason.OUT_OF_RANGE
-            raise MotionFault(refusal, faults[0])
+            raise MotionFault(FaultReason.OUT_OF_RANGE, faults[0])
 
     def has_zero_length(self, move: Move, ends: Posture) -> bool:
         """Whether a move asks for the place where the path ends anyhow."""

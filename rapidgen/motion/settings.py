@@ -49,9 +49,6 @@ class MotionSettings:
     as seen on a RobotWare 7.21 controller in two programs of one author
     (Nantaphat-Yoktaworn/node-red-contrib-abb-gofa), or it does."""
 
-    range_error: Literal["recoverable", "fatal"] = "recoverable"
-    """A target outside the axis ranges: ERR_ROBLIMIT (RobotWare 6), or event 50027 and stop."""
-
     undefined_load: Literal["stop", "report"] = "stop"
     """A negative mass of a tool or payload: event 41438 stops the program, or is a warning. Seen
     with EGM only (ros-industrial/abb_libegm, issue 73); at every move memory. The strict answer."""

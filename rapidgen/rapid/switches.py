@@ -195,6 +195,11 @@ class Switches:
     """True: the hands of a YuMi are calibrated at power-up, as after an earlier program. False:
     they are not [HandDriver.sys checks it]."""
 
+    unreachable_target: Literal["stop", "handler"] = "stop"
+    """A move to a place that the robot cannot reach: event 50050 stops the tasks, as in 9 of 9
+    cases in saved event logs (RobotWare 5.61, 6.03), or a handler receives ERR_ROBLIMIT or
+    ERR_OUTSIDE_REACH. These logs do not show whether a handler was there."""
+
     no_configuration: Literal["limit", "reach", "stop"] = "limit"
     """CalcJointT of a configuration that is impossible at the place: ERR_ROBLIMIT, because an axis
     would be outside its range [manual], ERR_OUTSIDE_REACH, or the task stops as with a move."""

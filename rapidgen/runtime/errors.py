@@ -87,6 +87,15 @@ class RapidError(Exception):
         return error_name(self.number)
 
 
+class MotionError(RapidError):
+    """A target that the robot cannot reach: an error of the motion system, not of the statement.
+
+    The switch `unreachable_target` decides if an ERROR handler receives it.
+    """
+
+    __slots__ = ()
+
+
 class FatalError(Exception):
     """An error without a number: it is logged and stops the task."""
 

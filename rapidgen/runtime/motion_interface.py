@@ -5,7 +5,9 @@ The planner (`rapidgen.motion`) knows neither RAPID nor its errors. It rejects a
 program:
 
 1. A RAPID error (`_Error`) with an ERR_ constant, which an ERROR handler may handle.
-2. An event (`_Stop`) with a number of the log, which stops the task. [mem] marks numbers without a
+2. A target that the robot cannot reach (`_OutOfReach`). It stops the tasks with event 50050; a
+   switch lets an ERROR handler receive it.
+3. An event (`_Stop`) with a number of the log, which stops the task. [mem] marks numbers without a
    public source.
 
 `planned` wraps built-ins that call the planner, so that no MotionFault leaves a built-in. Events on
@@ -20,7 +22,7 @@ from typing import ParamSpec, TypeVar
 
 from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.errors import FatalError, MotionError, RapidError
 from rapidgen.runtime.values import Record
 
 # -- Faults of the planner -------------------------------------------------------------------------
@@ -31,7 +33,6 @@ from rapidgen.runtime.values import Record
 
 
 SINGULARITY = 50_026
-OUT_OF_RANGE = 50_027
 CIRCLE_UNCERTAIN = 50_063
 NOT_COMPATIBLE = 50_080
 NO_UNIT = 194_900
@@ -59,6 +60,14 @@ class _Error:
 
 
 @dataclass(frozen=True, slots=True)
+class _OutOfReach(_Error):
+    """A place that the robot cannot reach."""
+
+    def made(self, *facts: object) -> RapidError:
+        return MotionError(self.name, self.text.format(*facts))
+
+
+@dataclass(frozen=True, slots=True)
 class _Stop:
     """An event that stops the task."""
 
@@ -71,14 +80,15 @@ class _Stop:
 
 
 _MEANINGS: dict[FaultReason, _Error | _Stop] = {
-    FaultReason.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "on the way; {}"),
-    FaultReason.OUT_OF_REACH_IN_CORNER: _Error("ERR_OUTSIDE_REACH", "in a corner"),
-    FaultReason.OUT_OF_REACH_WITH_WRIST: _Error("ERR_OUTSIDE_REACH", "with SingArea \\Wrist"),
-    FaultReason.OUT_OF_REACH_WITH_AXIS_4: _Error("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4"),
-    FaultReason.NO_POSTURE: _Error("ERR_OUTSIDE_REACH", "{}"),
-    FaultReason.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT", "{}"),
-    FaultReason.OUT_OF_RANGE: _Error("ERR_ROBLIMIT", "{}"),
-    FaultReason.TARGET_OUT_OF_RANGE: _Stop(OUT_OF_RANGE, "Joint out of range", "{}"),
+    FaultReason.OUT_OF_REACH: _OutOfReach("ERR_OUTSIDE_REACH", "on the way; {}"),
+    FaultReason.OUT_OF_REACH_IN_CORNER: _OutOfReach("ERR_OUTSIDE_REACH", "in a corner"),
+    FaultReason.OUT_OF_REACH_WITH_WRIST: _OutOfReach("ERR_OUTSIDE_REACH", "with SingArea \\Wrist"),
+    FaultReason.OUT_OF_REACH_WITH_AXIS_4: _OutOfReach(
+        "ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4"
+    ),
+    FaultReason.NO_POSTURE: _OutOfReach("ERR_OUTSIDE_REACH", "{}"),
+    FaultReason.NO_POSTURE_IN_RANGE: _OutOfReach("ERR_ROBLIMIT", "{}"),
+    FaultReason.OUT_OF_RANGE: _OutOfReach("ERR_ROBLIMIT", "{}"),
     FaultReason.SINGULARITY: _Stop(
         SINGULARITY, "Close to singularity", "an axis would have to turn at once"
     ),

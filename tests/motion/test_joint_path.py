@@ -305,19 +305,15 @@ def test_concurrent_moves_return_at_once_but_five_at_most(cell, joint):
 
 
 def test_a_target_outside_the_range_moves_nothing(make_cell, joint):
-    for settings, refusal in (
-        (MotionSettings(), FaultReason.OUT_OF_RANGE),
-        (MotionSettings(range_error="fatal"), FaultReason.TARGET_OUT_OF_RANGE),
-    ):
-        cell = make_cell(settings=settings)
+    cell = make_cell()
 
-        def program(task, cell=cell, refusal=refusal):
-            with pytest.raises(MotionFault) as fault:
-                cell.group.move(task, joint(166))
-            assert fault.value.refusal is refusal
+    def program(task):
+        with pytest.raises(MotionFault) as fault:
+            cell.group.move(task, joint(166))
+        assert fault.value.refusal is FaultReason.OUT_OF_RANGE
 
-        cell.run(program)
-        assert at_rest(cell, 0)
+    cell.run(program)
+    assert at_rest(cell, 0)
 
 
 def test_a_move_to_where_the_path_ends_takes_no_time(make_cell, joint):

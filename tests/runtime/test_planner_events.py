@@ -21,7 +21,7 @@ ENDPROC
 @pytest.mark.parametrize(
     ("refusal", "title"),
     [
-        (FaultReason.OUT_OF_REACH_IN_CORNER, "Unhandled error ERR_OUTSIDE_REACH"),
+        (FaultReason.OUT_OF_REACH_IN_CORNER, "Position out of reach"),
         (FaultReason.SINGULARITY, "Close to singularity"),
     ],
 )

@@ -1,7 +1,7 @@
 """The moving probe on the virtual controller reports its motion switches."""
 
 import re
-from dataclasses import replace
+from dataclasses import asdict, replace
 from functools import partial
 
 import pytest
@@ -13,25 +13,24 @@ from rapidgen.controller import VirtualController
 from rapidgen.machine.operator import Answer
 from rapidgen.motion.settings import MotionSettings
 from rapidgen.rapid import check, parse
-from rapidgen.verification.settings import assumption_choices, assumption_text
+from rapidgen.rapid.switches import Switches
+from rapidgen.verification.settings import assumed, assumption_choices, assumption_text
 from tests.verification.probing import answers, asked
 
 PROBE = data_folder("templates") / "ROS_probe_motion.mod"
 TEXT = PROBE.read_text(encoding="ascii")
 ASKED = asked(TEXT)
-CASES = [
-    (n, value)
-    for n, own in assumption_choices(MotionSettings()).items()
-    if n in ASKED
-    for value in own
-]
+CHOICES = assumption_choices(MotionSettings()) | assumption_choices(Switches())
+CASES = [(n, value) for n, own in CHOICES.items() if n in ASKED for value in own]
 
 
-def run(path, settings, places, consent="Yes"):
+def run(path, settings, places, consent="Yes", dialect=None):
     """Lines on the pendant, and whether an error stopped the program; axis 6 goes to `places`."""
     lines = []
     robots = load_config("irb120").groups
-    with VirtualController.from_files([path], robots=robots, answers=[Answer(consent)]) as it:
+    with VirtualController.from_files(
+        [path], robots=robots, answers=[Answer(consent)], dialect=dialect
+    ) as it:
         it.motion.settings = settings
         it.operator.subscribe(lambda _task, text: lines.append(text))
         for _ in range(180):
@@ -42,17 +41,19 @@ def run(path, settings, places, consent="Yes"):
 
 @pytest.mark.parametrize(("name", "value"), CASES)
 def test_an_answer_is_the_switch(name, value, tmp_path):
-    settings, places = replace(MotionSettings(), **{name: value}), []
-    reply = answers(TEXT, tmp_path / PROBE.name, partial(run, settings=settings, places=places))
+    setting, places = assumed([assumption_text(name, value)]), []
+    ask = partial(run, settings=setting.motion, places=places, dialect=setting.dialect)
+    reply = answers(TEXT, tmp_path / PROBE.name, ask)
     assert len(reply) == len(ASKED)
-    assert set(reply) == {assumption_text(asks, getattr(settings, asks)) for asks in ASKED}
+    chosen = asdict(setting.motion) | asdict(setting.dialect)
+    assert set(reply) == {assumption_text(asks, chosen[asks]) for asks in ASKED}
     assert max(places) < 0.19
     assert min(places) > -0.01
 
 
 def test_it_asks():
-    wanted = {"cleared_move", "stop_move_reset", "zero_length", "range_error", "velset_timed"}
-    wanted |= {"refresh_timed", "refresh_lasts", "refresh_standing"}
+    wanted = {"cleared_move", "stop_move_reset", "zero_length", "unreachable_target"}
+    wanted |= {"refresh_timed", "refresh_lasts", "refresh_standing", "velset_timed"}
     assert wanted <= set(ASKED)
 
 

@@ -22,12 +22,13 @@ from typing import NoReturn
 
 from greenlet import GreenletExit
 
-from rapidgen.machine.event_table import ERROR_CODES, RAPID_ERROR
+from rapidgen.machine.event_table import ERROR_CODES, KINDS, OUT_OF_REACH, RAPID_ERROR
 from rapidgen.runtime.compiler.symbols import CodeRole
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,
     FatalError,
+    MotionError,
     PointerMoved,
     RapidError,
     ResumeInside,
@@ -66,6 +67,7 @@ class Errors:
         self._stops = self._switches.unhandled_error == "stop"
         fatal = self._switches.argument_error == "fatal"
         self._fatal_number = errnum("ERR_ARGVALERR") if fatal else None
+        self._reach_stops = self._switches.unreachable_target == "stop"
         self._instead: RapidError | None = None
         self.kept_undo: list[Handler] = []
         """Of routines that an error left while the program can go on there."""
@@ -90,6 +92,8 @@ class Errors:
         frame = sys._getframe(1)
         known = self._settled(error, traceback, frame, budget)
         number = known.number
+        if self._reach_stops and isinstance(known, MotionError):
+            raise self.unhandled(known) from None
         if number == self._fatal_number and not known.raised:
             raise self.unhandled(known) from None
         way = None
@@ -441,10 +445,15 @@ class Errors:
     def unhandled(self, raised: Exception, *, restartable: bool = True) -> FatalError:
         """Return the fatal error of an unhandled error."""
         error = as_rapid_error(raised)
-        name = error_name(error.number)
-        title = f"Unhandled error {name}"
-        code = ERROR_CODES.get(name, RAPID_ERROR)
-        fatal = FatalError(code, title, name, error.text, cause=error, restartable=restartable)
+        if isinstance(error, MotionError):
+            # A start from such a place was refused with 10097 (saved event logs).
+            title = KINDS[OUT_OF_REACH].title
+            fatal = FatalError(OUT_OF_REACH, title, error.text, cause=error, restartable=False)
+        else:
+            name = error_name(error.number)
+            title = f"Unhandled error {name}"
+            code = ERROR_CODES.get(name, RAPID_ERROR)
+            fatal = FatalError(code, title, name, error.text, cause=error, restartable=restartable)
         fatal.stack = stack_of_error(self._task.program.codes, raised)
         return fatal
 

@@ -46,7 +46,6 @@ from rapidgen.runtime.motion_interface import (
     NO_OFFSETS,
     NOT_ALLOWED,
     NOT_COMPATIBLE,
-    OUT_OF_RANGE,
     SINGULARITY,
     in_rapid,
     planned,
@@ -192,7 +191,7 @@ Maker: TypeAlias = Callable[[Task, Arguments, tuple[PathEvent, ...]], tuple[Moti
 """joint_move or cartesian_move."""
 MISSING_STORE_PATH = 41_739
 _PLACES = frozenset(map(errnum, ("ERR_OUTSIDE_REACH", "ERR_ROBLIMIT")))
-_STOPS = frozenset((NOT_COMPATIBLE, OUT_OF_RANGE, SINGULARITY, CIRCLE_UNCERTAIN))
+_STOPS = frozenset((NOT_COMPATIBLE, SINGULARITY, CIRCLE_UNCERTAIN))
 
 
 def order(

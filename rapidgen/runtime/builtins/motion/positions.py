@@ -5,6 +5,7 @@ from typing import Final
 
 from rapidgen.config.plausibility import arm_of, mass_doubts
 from rapidgen.motion.events import overload
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import MoveFrames
 from rapidgen.rapid.builtins.signatures import constant
@@ -39,6 +40,10 @@ from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, 
 
 
 _NEXT_TO_NOTHING = single(0.001)
+_UNREACHABLE = {
+    FaultReason.NO_POSTURE: "ERR_OUTSIDE_REACH",
+    FaultReason.NO_POSTURE_IN_RANGE: "ERR_ROBLIMIT",
+}
 _CONFIGURATION_ERRORS = {"limit": "ERR_ROBLIMIT", "reach": "ERR_OUTSIDE_REACH", "stop": ""}
 
 
@@ -164,6 +169,9 @@ def calc_joint_t(
             if not name:
                 raise
             raise RapidError(name, " ".join(fault.arguments)) from fault
+        except MotionFault as fault:
+            # An error of the function, not of the motion system: a handler receives it.
+            raise RapidError(_UNREACHABLE[fault.refusal], *map(str, fault.facts)) from fault
     except RapidError as error:
         if number is None:
             raise

@@ -19,6 +19,7 @@ from rapidgen.axes.kinematics import (
 )
 from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.axes.reach_errors import unreached
+from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import MoveFrames, MoveSpeed, Zone
@@ -335,8 +336,8 @@ def joints_for(
 
     It has the required configuration, or is the closest one. External axes are those of `near`. The
     seventh value of a seven-axis arm is the arm angle of the target, or else that of `current`.
-    Raises ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis is outside its range in every posture) and
-    NoConfiguration.
+    Raises MotionFault NO_POSTURE, NO_POSTURE_IN_RANGE (an axis is outside its range in every
+    posture) and NoConfiguration.
     """
     place = kinematics.seventh
     arm_angle = None
@@ -353,7 +354,9 @@ def joints_for(
         result = kinematics.solutions(flange, near, expected)
     if not result:
         reached, why = unreached(kinematics, flange, near, arm_angle)
-        raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH", why)
+        raise MotionFault(
+            FaultReason.NO_POSTURE_IN_RANGE if reached else FaultReason.NO_POSTURE, why
+        )
     if expected is None:
         return result[0]
     posture = kinematics.fitting(result, expected, check)
