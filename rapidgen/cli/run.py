@@ -84,6 +84,22 @@ def run(
     ] = "",
     coverage: options.Coverage = None,
     plot: options.Plot = None,
+    cycle_report: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--cycle-report",
+            metavar="FILE.html|FILE.json",
+            help="Time and limits of moves, lines and routines; repeatable.",
+        ),
+    ] = None,
+    compare: Annotated[
+        Path | None,
+        typer.Option(
+            "--compare",
+            metavar="FILE.json",
+            help="Earlier cycle report to compare with.",
+        ),
+    ] = None,
     backup: options.TargetBackup = None,
     check: options.LoadCheck = True,
 ) -> None:
@@ -95,12 +111,23 @@ def run(
     memory.
     """
     from rapidgen.cli.boot_options import inference_report, load_boot_target
-    from rapidgen.cli.run_outputs import Observed, Outputs
+    from rapidgen.cli.run_outputs import Observed, Outputs, read_earlier
     from rapidgen.controller.controller import VirtualController
     from rapidgen.machine.operator import read_answers
 
     _limits(max_time, max_statements)
-    requested = Outputs(trace, profile, tuple(coverage or ()), tuple(plot or ()))
+    if compare is not None and not cycle_report:
+        message = "--compare needs --cycle-report"
+        raise refusal("RG901", None, message, "add --cycle-report FILE.html")
+    requested = Outputs(
+        trace,
+        profile,
+        tuple(coverage or ()),
+        tuple(plot or ()),
+        cycle=tuple(cycle_report or ()),
+        compared=compare.name if compare is not None else "",
+        earlier=read_earlier(compare) if compare is not None else (),
+    )
     requested.check_files_writable()
     _no_configuration(files)
     result = load_boot_target(

@@ -13,12 +13,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from rapidgen.controller.controller import VirtualController
+    from rapidgen.controller.cycle_report import CycleRecorder, EarlierRobot
     from rapidgen.controller.runner import ControllerRunner
     from rapidgen.controller.tracing import Coverage, Profile
     from rapidgen.motion.recorder import Recorder
 
 _SAMPLES = 5000
 """Maximum number of samples in a plot; the shortest period is 4 ms."""
+_PAGES = (".html", ".htm")
 _ROWS = 40
 """Number of rows of a profile on a terminal."""
 
@@ -31,15 +33,29 @@ class Outputs:
     profile: str = ""
     coverage: tuple[Path, ...] = ()
     plots: tuple[Path, ...] = ()
+    cycle: tuple[Path, ...] = ()
+    """Cycle-time reports, .html or .json."""
+    compared: str = ""
+    """Name of an earlier cycle-time report."""
+    earlier: "tuple[EarlierRobot, ...]" = ()
+    """Robots of that report."""
 
     @property
     def tracing(self) -> bool:
         """True if the controller has to report every statement."""
-        return self.trace or bool(self.profile) or bool(self.coverage)
+        return self.trace or bool(self.profile) or bool(self.coverage) or bool(self.cycle)
 
     def check_files_writable(self) -> None:
         """Refuse, before anything runs, a file that cannot be written behind it."""
-        files = list(self.coverage)
+        files = [*self.coverage, *self.cycle]
+        for path in self.cycle:
+            if path.suffix.lower() not in (*_PAGES, ".json"):
+                raise refusal(
+                    "RG901",
+                    None,
+                    f"--cycle-report {path}: the suffix is neither .html nor .json",
+                    "give the file one of these suffixes",
+                )
         if self.plots:
             from rapidgen.viewer.plotting import files_of
 
@@ -61,6 +77,7 @@ class Observed:
     _profile: "Profile | None" = None
     _coverage: "Coverage | None" = None
     _recorders: "dict[str, Recorder]" = field(default_factory=dict)
+    _cycle: "CycleRecorder | None" = None
 
     def __post_init__(self) -> None:
         from rapidgen.controller.tracing import Coverage, Profile, Trace
@@ -73,6 +90,10 @@ class Observed:
             self._coverage = Coverage(self.controller)
         if self.requested.plots:
             self._recorders = self.controller.record()
+        if self.requested.cycle:
+            from rapidgen.controller.cycle_report import CycleRecorder
+
+            self._cycle = CycleRecorder(self.controller)
 
     def write(self) -> None:
         """Write all requested outputs."""
@@ -80,11 +101,23 @@ class Observed:
             _write_profile(self._profile, self.requested.profile)
         if self._coverage is not None:
             for path in self.requested.coverage:
-                page = path.suffix.lower() in (".html", ".htm")
+                page = path.suffix.lower() in _PAGES
                 text = _page(self.controller, self._coverage) if page else self._coverage.lcov()
                 write_whole(path, text.encode("utf-8", "replace"))
         if self.requested.plots:
             self._draw(self.requested.plots)
+        if self._cycle is not None:
+            self._write_cycle(self._cycle)
+
+    def _write_cycle(self, recorder: "CycleRecorder") -> None:
+        from rapidgen.viewer.cycle_page import cycle_page, summary
+
+        report, earlier = recorder.report(), self.requested.earlier
+        for path in self.requested.cycle:
+            page = path.suffix.lower() in _PAGES
+            text = cycle_page(report, earlier, self.requested.compared) if page else report.json()
+            write_whole(path, text.encode("utf-8", "replace"))
+        sys.stderr.write(summary(report, earlier))
 
     def _draw(self, plots: tuple[Path, ...]) -> None:
         from rapidgen.motion.recorder import PERIOD
@@ -128,6 +161,22 @@ def observing(runner: "ControllerRunner", requested: Outputs) -> "Iterator[None]
         yield
     finally:
         now.write()
+
+
+def read_earlier(path: Path) -> "tuple[EarlierRobot, ...]":
+    """Return the robots of an earlier cycle-time report. Raises DiagnosticError RG901."""
+    from rapidgen.controller.cycle_report import read_report
+
+    try:
+        return tuple(read_report(path))
+    except (OSError, ValueError) as fault:
+        reason = (fault.strerror if isinstance(fault, OSError) else None) or fault
+        raise refusal(
+            "RG901",
+            None,
+            f"--compare {path}: {reason}",
+            "write the report of the earlier run with `--cycle-report FILE.json`",
+        ) from fault
 
 
 def check_files_writable(files: "Sequence[Path]") -> None:

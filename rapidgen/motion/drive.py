@@ -192,7 +192,7 @@ class Drive:
             later = [m for m in self._history if m.since > old]
             recent = self._history[-len(later) - 1 :] if self._history else []
             self._history = [*recent, self.motion]
-        legs = tuple((leg.end, leg.move) for leg in path.legs)
+        legs = tuple(path.legs)
         self.motion = Motion(now, start, law, path.pieces, remaining, legs, self.ramp, stop)
         for observer in self.observers:
             observer(self.motion)

@@ -300,7 +300,7 @@ class PathExecution:
             if not tail.released and self._scheduler.now >= ceil(self._release * S):
                 tail.released = changed = True
             if self._scheduler.now >= ceil(self._commit * S):
-                tail.committed = tail.released = changed = True
+                tail.committed = tail.late = tail.released = changed = True
                 self._warn_of_corner(tail.move)
         self._events.fire(self.motion, now)
         self._end_refresh()

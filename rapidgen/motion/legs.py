@@ -71,6 +71,8 @@ class Leg:
     """The program may go on."""
     committed: bool = False
     """No successor came in time: the point is a stop."""
+    late: bool = False
+    """Committed because the program asked for the next move too late."""
     finished: bool = False
     """Reached (a stop point) or passed."""
     cleared: bool = False

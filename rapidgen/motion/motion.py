@@ -7,6 +7,7 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import smoothing
 from rapidgen.motion.braking import BrakingMotion
+from rapidgen.motion.legs import Leg
 from rapidgen.motion.moves import Move
 from rapidgen.motion.path import posture_at
 from rapidgen.motion.pieces import Piece
@@ -29,8 +30,8 @@ class Motion:
     pieces: tuple[Piece, ...]
     rest: Posture
     """Where it ends."""
-    legs: tuple[tuple[float, Move], ...] = ()
-    """The moves on the path and where they end."""
+    legs: tuple[Leg, ...] = ()
+    """The moves on the path that are not finished when it begins."""
     ramp: float = 0.0
     """s over which the motion is smoothed (`smoothing.py`)."""
 
@@ -77,7 +78,7 @@ class Motion:
     def move(self, now: int) -> Move | None:
         """The move under way at a time, or the last one that was."""
         place = self.place(now)
-        for end, move in self.legs:
-            if place <= end:
-                return move
-        return self.legs[-1][1] if self.legs else None
+        for leg in self.legs:
+            if place <= leg.end:
+                return leg.move
+        return self.legs[-1].move if self.legs else None

@@ -70,6 +70,8 @@ class Path:
                 if start < fixed:
                     continue
                 leg = Leg(move, path, tail.end, tail.end + path.duration)
+                for piece in between:
+                    piece.corner = True
                 before = self._until(start)
                 after = limits.slow(path.pieces(leg.begin, end, leg.end))
                 pieces = (*before, *limits.slow(between), *after)

@@ -27,6 +27,7 @@ class Piece:
 
     __slots__ = (
         "at",
+        "corner",
         "end",
         "programmed",
         "shares",
@@ -61,6 +62,8 @@ class Piece:
         """Path speed that is as programmed."""
         self.stop = False
         """Whether the robot stands at the end."""
+        self.corner = False
+        """True for a part of the corner at a fly-by point."""
 
     def until(self, end: float, *, stop: bool = False) -> "Piece":
         """The part of this piece before `end`."""
