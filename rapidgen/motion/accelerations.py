@@ -9,7 +9,17 @@ from collections.abc import Callable, Sequence
 from math import cos, sin
 
 from rapidgen.axes.kinematics import Posture
+from rapidgen.config.accelerations import ESTIMATED_BAND, MEASURED_BAND
 from rapidgen.config.model import AxisInertia, GroupConfig
+
+
+def duration_error_band(group: GroupConfig) -> tuple[bool, float]:
+    """Return whether accelerations are measured, and the relative error of durations.
+
+    90 % of the durations are within that error.
+    """
+    measured = bool(group.acceleration_source)
+    return measured, MEASURED_BAND if measured else ESTIMATED_BAND
 
 
 def of_posture(group: GroupConfig) -> Callable[[Posture], Sequence[float]] | None:

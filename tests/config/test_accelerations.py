@@ -7,7 +7,7 @@ import pytest
 from rapidgen.config import load_config
 from rapidgen.config.accelerations import usual_time
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.motion.accelerations import of_posture
+from rapidgen.motion.accelerations import duration_error_band, of_posture
 
 
 def times(config):
@@ -55,3 +55,10 @@ def test_impossible_accelerations_are_rejected(tmp_path, value):
     with pytest.raises(DiagnosticError) as fault:
         load_config(path)
     assert value.rstrip("9") in str(fault.value) or "deg/s²" in str(fault.value)
+
+
+def test_error_band_of_durations():
+    """Wider where accelerations are estimated; the figures are those of error_bands.py."""
+    measured = duration_error_band(load_config("irb1200").groups[0])
+    assert measured == (True, 0.03)
+    assert duration_error_band(load_config("irb120").groups[0]) == (False, 0.16)
