@@ -190,6 +190,18 @@ class Positioner:
 
 
 @dataclass(frozen=True, slots=True)
+class ExternalUnit:
+    """A mechanical unit of external axes, as the cfg of a controller describes it."""
+
+    name: str
+    axes: tuple[str, ...]
+    """Such as `eax_a`."""
+    active: bool = True
+    """Active after the start of the controller."""
+    may_deactivate: bool = True
+
+
+@dataclass(frozen=True, slots=True)
 class GroupConfig:
     """One motion task with its mechanical unit: `joints` in wire order (1 to 10)."""
 
@@ -209,6 +221,8 @@ class GroupConfig:
     """m/s"""
     external_units: tuple[str, ...] = ()
     """Mechanical units of the external axes."""
+    units: tuple[ExternalUnit, ...] = field(default=(), metadata=SPARSE)
+    """Their axes, if the cfg of a controller gives them."""
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
     tools: tuple[Tool, ...] = field(default=(), metadata=SPARSE)
     """Additional tools for motion programs."""

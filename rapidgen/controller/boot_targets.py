@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
     from rapidgen.controller.inference.cell import InferredCell
     from rapidgen.controller.inference.robot import RobotCandidate
-    from rapidgen.system.controller_cfg import ControllerCfg
 
 # Descriptions, inference, generated drivers and backups are imported on demand: the run of a small
 # program takes little longer than its imports.
@@ -69,8 +68,6 @@ class Bootable:
     guessed: "InferredCell | None" = None
     likely: "RobotCandidate | None" = None
     """The inferred robot."""
-    cfg: "ControllerCfg | None" = None
-    """All domains of a backup."""
     described: Mapping[str, Path] = field(default_factory=dict)
     """Configurations with the visual models of groups."""
     overrides: Sequence[str] = ()
@@ -103,15 +100,11 @@ def load_target(targets: Sequence[Source], options: BootOptions | None = None) -
         return _driver(config, system, tuple(notes), options)
     _only_of_folders(" ".join(map(str, targets)), options)
     if folder is not None and files.is_backup(folder):
-        from rapidgen.system.backup import backup_cfg
-
         _only_of_files(str(first), options, "leave it out")
         system = _entered(files.read_backup(folder, notes=notes), options.entry)
-        result = _foreign(system, notes, options)
-        return replace(result, cfg=backup_cfg(folder, system.robotware, []))
+        return _foreign(system, notes, options)
     # Loose files do not describe their mechanics.
-    result = _foreign(_loose(targets, options), None, options)
-    return replace(result, cfg=_delivered(result))
+    return _foreign(_loose(targets, options), None, options)
 
 
 def is_configuration(target: Path) -> bool:
@@ -143,18 +136,6 @@ def _loose(targets: Sequence[Source], options: BootOptions) -> System:
 def _read(tasks: Mapping[str, Sequence[Source]], name: str, options: BootOptions) -> System:
     entry, robotware = options.entry or "main", options.robotware or UNKNOWN_ROBOTWARE
     return files.read_files(tasks, entry=entry, name=name, robotware=robotware)
-
-
-def _delivered(result: Bootable) -> "ControllerCfg":
-    """Return the cfg of a controller with these robots, tasks, signals."""
-    from rapidgen.system.base import Robot, base_system
-    from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
-
-    robots = [Robot(g.task, g.mechanical_unit, tuple(g.external_units)) for g in result.groups]
-    base = base_system(result.system.robotware, robots)
-    own = (sys_cfg(result.system), eio_cfg(result.system))
-    domains = {text.domain: text for text in (*base.domains, *own)}
-    return replace(base, domains=tuple(domains.values()))
 
 
 def _entered(system: System, entry: str) -> System:

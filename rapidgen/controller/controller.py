@@ -3,6 +3,7 @@
 import logging
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
 from os import PathLike
 from pathlib import Path
 from typing import Literal, TypedDict, TypeVar, get_args
@@ -32,7 +33,7 @@ from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Scheduler, SyncPoints
 from rapidgen.machine.sensors import ForceSensors, cameras
 from rapidgen.machine.smart_gripper import Hands
-from rapidgen.machine.system_parameters import SystemParameters, TextTables
+from rapidgen.machine.text_tables import TextTables
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
@@ -43,6 +44,8 @@ from rapidgen.runtime.motion_interface import RobotData
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.task.statement_hooks import Statements
 from rapidgen.runtime.task.task import Task
+from rapidgen.system.cfg_composition import database_of
+from rapidgen.system.cfg_database import CfgDatabase
 from rapidgen.system.model import System
 
 _LOG = logging.getLogger("rapidgen.controller")
@@ -180,7 +183,6 @@ class VirtualController:
         """Externally guided motion, without partners."""
         self.force = ForceSensors(surroundings.force)
         """Of the robots."""
-        self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
             statement=self.costs.statement,
@@ -222,6 +224,11 @@ class VirtualController:
             schedule_faults(faults, self)
         if autostart:
             self.start_program()
+
+    @cached_property
+    def cfg(self) -> CfgDatabase:
+        """The cfg database: all domains, instances and defaults."""
+        return database_of(self.system, [g.config for g in self.motion.groups.values()])
 
     def _connect_background_tasks(self) -> None:
         """Connect background tasks to the robot of UseMechanicalUnitGroup."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.model_cache import shipped_groups
+from rapidgen.controller.external_axes import with_cfg
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.system.model import System
 
@@ -98,6 +99,8 @@ def mechanics(
                 mechanical_unit=keys.mechanical_unit or group.mechanical_unit,
                 external_units=tuple(keys.external_units) or group.external_units,
             )
+        group, report = with_cfg(group, system.cfg)
+        notes += report
         groups.append(group)
     return tuple(groups), tuple(dict.fromkeys(notes))
 

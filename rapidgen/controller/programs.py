@@ -14,7 +14,7 @@ from rapidgen.runtime.compiler.program import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.loading import LARGEST_MODULE, module_text
 from rapidgen.runtime.task.task import Task
-from rapidgen.system.cfg import write_cfg
+from rapidgen.system.cfg import cfg_bytes
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import ModuleFile
 
@@ -276,4 +276,4 @@ def back_up(
     (folder / "BACKINFO" / "backinfo.txt").write_text("".join(lines), encoding="ascii")
     for domain in cfg.domains:
         path = folder / "SYSPAR" / f"{domain.domain}.cfg"
-        path.write_text(write_cfg(domain), encoding="utf-8")
+        path.write_bytes(cfg_bytes(domain))

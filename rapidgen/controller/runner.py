@@ -19,7 +19,6 @@ from rapidgen.diagnostics import Diagnostic
 from rapidgen.machine.files import copy_files
 from rapidgen.system import read_backup
 from rapidgen.system.backup import backup_cfg
-from rapidgen.system.cfg_writer import eio_cfg, sys_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import System
 
@@ -46,23 +45,18 @@ class ControllerRunner:
     """A controller and its restarts.
 
     `controller` is the current one. All methods except `post`, `ask_restart` and `close` belong to
-    the thread that runs it. `cfg` is the database of all domains: changes take effect at the next
-    restart. DiagnosticError: the system cannot be booted.
+    the thread that runs it. DiagnosticError: the system cannot be booted.
     """
 
     def __init__(
         self,
         system: System,
-        *,
-        cfg: ControllerCfg | None = None,
         **options: Unpack[ControllerOptions],
     ) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="rapidgen-controller-"))
         self._remove = weakref.finalize(self, shutil.rmtree, self.folder, ignore_errors=True)
         self._options = options
         self._options["folder"] = self.folder
-        composed = ControllerCfg(system.robotware, (sys_cfg(system), eio_cfg(system)))
-        self.cfg = composed if cfg is None else cfg
         self.id = str(uuid.uuid5(uuid.NAMESPACE_DNS, system.name)).upper()
         """Identifier of this controller, equal in every run."""
         self.restarts = 0
@@ -87,7 +81,16 @@ class ControllerRunner:
         """Boot a target of `load_target`, as `VirtualController.boot`."""
         options.setdefault("robots", result.groups)
         options.setdefault("surroundings", result.surroundings)
-        return cls(result.system, cfg=result.cfg, **options)
+        return cls(result.system, **options)
+
+    @property
+    def cfg(self) -> ControllerCfg:
+        """The cfg database of all domains; changes take effect at the next restart."""
+        return self.controller.cfg.cfg
+
+    @cfg.setter
+    def cfg(self, cfg: ControllerCfg) -> None:
+        self.controller.cfg.cfg = cfg
 
     @property
     def now(self) -> float:
@@ -138,16 +141,16 @@ class ControllerRunner:
         old, programs = self.controller, self.programs
         self._restart_asked = False
         self._before += old.scheduler.now
-        persisted = programs.kept()
+        persisted, cfg = programs.kept(), self.cfg
         old.close()
         if self._restored is not None:
-            persisted, self.cfg, files = self._restored
+            persisted, cfg, files = self._restored
             home = old.files.path("HOME:")
             shutil.rmtree(home)
             copy_files(files, home)
             self._restored = None
         self.restarts += 1
-        self.controller, self.programs = boot(old, persisted, self.cfg, self._options)
+        self.controller, self.programs = boot(old, persisted, cfg, self._options)
         self._set_going()
         with self._lock:
             self._up = True

@@ -46,7 +46,7 @@ def boot(
     system failure.
     """
     events: list[tuple[int, str, str, str]] = []
-    before = replace(old.system, home=None, home_below=None)
+    before = replace(old.system, home=None, home_below=None, cfg=cfg)
     sys, eio = cfg.domain("SYS"), cfg.domain("EIO")
     entries, home = modules_of(sys), old.files.path("HOME:")
     try:

@@ -60,7 +60,9 @@ class MotionGroup:
         self._io = io
         self._stored: list[StoredPath] = []
         self._concurrent = 0
-        self.inactive: set[str] = set()
+        self.inactive: set[str] = {
+            axis for unit in config.units if not unit.active for axis in unit.axes
+        }
         """External axes of deactivated units (DeactUnit)."""
         self.listeners: list[Callable[[Move], None]] = []
         """Called with every move that the program asks for."""

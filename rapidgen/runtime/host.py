@@ -21,7 +21,7 @@ from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler, SyncPoints
 from rapidgen.machine.sensors import Camera, ForceSensors
 from rapidgen.machine.smart_gripper import Hands
-from rapidgen.machine.system_parameters import SystemParameters, TextTables
+from rapidgen.machine.text_tables import TextTables
 from rapidgen.motion.group import MotionWaiter
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches
@@ -33,6 +33,7 @@ from rapidgen.runtime.motion_interface import RobotData
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.signals import CyclicBools
 from rapidgen.runtime.task.statement_hooks import Statements
+from rapidgen.system.cfg_database import CfgDatabase
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
 TaskState: TypeAlias = Literal["ready", "running", "stopped", "finished", "error", "empty"]
@@ -74,7 +75,6 @@ class Host(Protocol):
     sockets: SocketTable
     files: FileSystem
     operator: Operator
-    configuration: SystemParameters
     texts: TextTables
     queues: QueueSystem
     robot_data: dict[str, RobotData]
@@ -98,6 +98,10 @@ class Host(Protocol):
     # What runs.
     statements: Statements
     """Tracers and breakpoints."""
+
+    @property
+    def cfg(self) -> CfgDatabase:
+        """The cfg database."""
 
     @property
     def rapid_tasks(self) -> "Mapping[str, RapidTask]":

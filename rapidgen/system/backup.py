@@ -76,20 +76,27 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
     collected += _of_options(entries, tasks, sys_cfg.path)
-    proc, sio = _further(folder, "PROC", collected), _further(folder, "SIO", collected)
+    further = {
+        text.domain: text
+        for domain in DOMAINS
+        if domain not in _READ and (text := _further(folder, domain, collected)) is not None
+    }
+    proc, sio, moc = further.get("PROC"), further.get("SIO"), further.get("MOC")
     report = _robotware(info)
     if report is None:
         collected.append(_unknown_release(sys_cfg))
+    robotware = report or (_main(sys_cfg), 0)
     result = System(
         name=folder.resolve().name,
         tasks=tasks,
-        robotware=report or (_main(sys_cfg), 0),
+        robotware=robotware,
         is_robotware_known=report is not None,
         home=home if home.is_dir() else None,
-        robot_types=_robot_types(folder, collected),
+        robot_types=() if moc is None else _robot_types(moc),
         arc=() if proc is None else arc_signals(proc),
         cameras=() if sio is None else _cameras(sio),
         udp_devices=None if sio is None else _udp_devices(sio),
+        cfg=ControllerCfg(robotware, (sys_cfg, eio_cfg, *further.values())),
     )
     return with_cfg(result, sys_cfg, eio_cfg)
 
@@ -120,10 +127,14 @@ def _of_options(
     ]
 
 
-def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str], ...]:
-    moc = _further(folder, "MOC", notes)
-    robots = moc.instances("ROBOT") if moc is not None else ()
-    return tuple((robot.text("Name"), robot.text("use_robot_type")) for robot in robots)
+def _robot_types(moc: CfgText) -> tuple[tuple[str, str], ...]:
+    """Return the robots with a TCP; a gantry that carries one is an external unit."""
+    units = {unit.text("use_robot").casefold() for unit in moc.instances("MECHANICAL_UNIT")}
+    return tuple(
+        (robot.text("Name"), robot.text("use_robot_type"))
+        for robot in moc.instances("ROBOT")
+        if robot.text("Name").casefold() not in units
+    )
 
 
 def _cameras(sio: CfgText) -> tuple[str, ...]:

@@ -123,7 +123,8 @@ def onto(
     for task in tasks_of(sys):
         known = replace(task, modules=before.get(task.name.casefold(), under.common))
         tasks.append(replace(task, modules=load(known, entries, own[0].path if own else "")))
-    return with_cfg(replace(under.system, tasks=tuple(tasks)), sys, eio)
+    system = replace(under.system, tasks=tuple(tasks), cfg=loaded.cfg)
+    return with_cfg(system, sys, eio)
 
 
 def bad_manifest(path: Path, label: str) -> DiagnosticError:

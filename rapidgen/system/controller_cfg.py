@@ -62,6 +62,24 @@ class ControllerCfg:
         others = tuple(text for text in self.domains if text.domain != file.domain)
         return replace(self, domains=(*others, merged))
 
+    def with_instances(
+        self, domain: str, section: str, instances: tuple[Instance, ...]
+    ) -> "ControllerCfg":
+        """Return the cfg with the instances of a type replaced; without any, the type is gone."""
+        own = self.domain(domain)
+        at = [i for i, s in enumerate(own.sections) if s.name.casefold() == section.casefold()]
+        sections = [None if i in at else s for i, s in enumerate(own.sections)]
+        if instances and at:
+            sections[at[0]] = Section(own.sections[at[0]].name, instances)
+        elif instances:
+            sections.append(Section(section, instances))
+        changed = replace(own, sections=tuple(s for s in sections if s is not None))
+        if any(text.domain == domain for text in self.domains):
+            domains = tuple(changed if t.domain == domain else t for t in self.domains)
+        else:
+            domains = (*self.domains, changed)
+        return replace(self, domains=domains)
+
     def without(self, domain: str, gone: Collection[Instance]) -> "ControllerCfg":
         """Return the cfg without these instances of a domain."""
         own = self.domain(domain)

@@ -3,11 +3,14 @@
 Names and values are those of ABB's cfg files (domains SYS and EIO).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from rapidgen.system.releases import UNKNOWN_ROBOTWARE
+
+if TYPE_CHECKING:
+    from rapidgen.system.controller_cfg import ControllerCfg
 
 TaskType = Literal["NORMAL", "STATIC", "SEMISTATIC"]
 TrustLevel = Literal["SysFail", "SysHalt", "SysStop", "NoSafety"]
@@ -190,3 +193,5 @@ class System:
     """Names of cameras: COM_APP of SIO.cfg, or of a cell."""
     udp_devices: tuple[UdpDevice, ...] | None = None
     """Of SIO.cfg; None: there is no SIO configuration."""
+    cfg: "ControllerCfg | None" = field(default=None, compare=False, repr=False)
+    """All domains that the system was read from; None: it was composed."""

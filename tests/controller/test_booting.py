@@ -12,6 +12,7 @@ from rapidgen.controller.cell_setup import INFERRED_INPUT
 from rapidgen.controller.inference.robot import RobotCandidate
 from rapidgen.controller.inference.start_poses import shown
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.system.cfg_composition import database_of
 from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 PROGRAM = r"""MODULE work
@@ -361,10 +362,11 @@ def test_loose_files_run_on_given_release(program, cell):
     """An OmniCore as delivered: tasks, robot, firewall (backups of 7.5, 7.6)."""
     result = load_target([program], BootOptions(robotware=(7, 6), cell=cell))
     assert result.system.robotware == (7, 6)
-    assert result.cfg.tasks == {"t_rob1"}
-    assert result.cfg.units == {"rob_1"}
-    assert "rapidsockets" in result.cfg.names("SIO", "FIREWALL_MANAGEMENT")
-    assert result.cfg.signal("doGrip").text("SignalType") == "DO"
+    cfg = database_of(result.system, result.groups).cfg
+    assert cfg.tasks == {"t_rob1"}
+    assert cfg.units == {"rob_1"}
+    assert "rapidsockets" in cfg.names("SIO", "FIREWALL_MANAGEMENT")
+    assert cfg.signal("doGrip").text("SignalType") == "DO"
 
 
 def test_target_with_release_rejects_robotware(program):

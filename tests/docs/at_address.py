@@ -53,7 +53,9 @@ def _empty(stack, folder, model, generation, release) -> str:
     cfg = base_system(release, [Robot("T_ROB1", "ROB_1")])
     robots = load_config(model).groups
     options = {"autostart": False, "entry_needed": False, "clock": "real", "host": HOST}
-    runner = stack.enter_context(ControllerRunner(system, cfg=cfg, robots=robots, **options))
+    runner = stack.enter_context(
+        ControllerRunner(replace(system, cfg=cfg), robots=robots, **options)
+    )
     runner.start()
     service = serve_rws(runner, generation, HOST)
     stack.callback(service.close)

@@ -7,8 +7,8 @@ import pytest
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
 from rapidgen.machine.event_log import EventType
-from rapidgen.machine.system_parameters import arm_name
 from rapidgen.system import parse_cfg, read_folder
+from rapidgen.system.base.mechanics_cfg import arm_name
 from rapidgen.verification.messages import MAX_JOINTS, RawJointPosition
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.testbench import Bench

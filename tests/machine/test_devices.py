@@ -11,7 +11,7 @@ from rapidgen.machine.event_log import Domain, EventLog, EventType
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.scheduler import FIRST_DAY, S, Scheduler, SyncPoints, date_time
 from rapidgen.machine.sensors import Camera, ForceSensors, Measured, Seen, cameras
-from rapidgen.machine.system_parameters import TextTables
+from rapidgen.machine.text_tables import TextTables
 from rapidgen.system.model import ArcSignals, SignalSpec, System, UdpDevice
 
 

@@ -1,5 +1,7 @@
 """Controllers from RAPID text."""
 
+from dataclasses import replace
+
 from rapidgen.controller import VirtualController
 from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 
@@ -27,12 +29,11 @@ def system(tasks: dict[str, str], *, signals: tuple[SignalSpec, ...] = (), **spe
     )
 
 
-def boot(*texts: str, signals: tuple[SignalSpec, ...] = (), specs=None, **options):
+def boot(*texts: str, signals: tuple[SignalSpec, ...] = (), specs=None, cfg=None, **options):
     """A controller with tasks T1, T2, ... and the list that TPWrite fills."""
     tasks = {f"T{i}": text for i, text in enumerate(texts, start=1)}
-    controller = VirtualController(
-        system(tasks, signals=signals, **(specs or {})), autostart=False, **options
-    )
+    parts = replace(system(tasks, signals=signals, **(specs or {})), cfg=cfg)
+    controller = VirtualController(parts, autostart=False, **options)
     printed: list[str] = []
     controller.operator.subscribe(lambda _task, text: printed.append(text))
     return controller, printed

@@ -14,6 +14,8 @@ from rapidgen.runtime.signals import target_of, value_of
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import limited
 from rapidgen.runtime.values import Ref, Value, register_type
+from rapidgen.system.cfg import Instance
+from rapidgen.system.cfg_database import value_of as value_of_cfg
 
 # -- Clocks ----------------------------------------------------------------------------------------
 #
@@ -202,43 +204,45 @@ builtin("IsBrakeCheckActive")(lambda _task: False)  # The virtual controller has
 # The switch `list_number` selects the first number.
 
 
-def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | int | float | bool]:
-    """Return attributes of an instance; advance `number`.
+def _instance(task: Task, path: str, number: Ref | None) -> tuple[str, str, Instance]:
+    """Return domain, type and instance of a path; advance `number`.
 
     ERR_CFG_NOTFND, ERR_CFG_OUTOFBND: the list has no such instance.
     """
-    configuration = task.controller.configuration
-    result = configuration.find(path)
+    domain, section, result = task.controller.cfg.find(path)
     hidden = path.strip("/").lower().startswith("moc/arm/")
     if not result or (hidden and not task.controller.dialect.axis_limits_readable):
         raise RapidError("ERR_CFG_NOTFND", path)
     if number is None:
-        return result[0]
+        return domain, section, result[0]
     first = 0 if task.controller.dialect.list_number == "zero" else 1
     at = number.get() - first
     if at not in range(len(result)):
         raise RapidError("ERR_CFG_OUTOFBND", f"{number.get():g} of {len(result)}")
     number.set(first + at + 1 if at + 1 < len(result) else first - 1)
-    return result[int(at)]
+    return domain, section, result[int(at)]
 
 
 @builtin("ReadCfgData", cost="socket")
 def read_cfg_data(
     task: Task, path: str, attribute: str, argument: object, number: Ref | None
 ) -> None:
-    """Read a system parameter; an absent flag is FALSE."""
+    """Read a system parameter or its default; an absent flag is FALSE."""
     target = target_of(argument)
-    value = _attributes(task, path, number).get(attribute.lower())
+    domain, section, instance = _instance(task, path, number)
+    value = value_of_cfg(domain, section, instance, attribute)
     kind = target.type.kind
     if kind == "bool" and value is None:
         target.set(False)
     elif value is None:
-        raise RapidError("ERR_CFG_NOTFND", f"{path} {attribute}")
+        raise RapidError(
+            "ERR_CFG_NOTFND", f"{path}: {attribute} is not in the file, and its default is unknown"
+        )
     elif kind == "bool":
         target.set(value is True or value == 1)
     elif kind == "string" and isinstance(value, str):
         target.set(value[:MAX_STRING])
-    elif kind in ("num", "dnum") and isinstance(value, int | float):
+    elif kind in ("num", "dnum") and isinstance(value, int | float) and value is not True:
         target.set(value)
     else:
         raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
@@ -250,33 +254,40 @@ def get_modal_payload_mode(task: Task) -> float:
 
     Backups of RobotWare 6 have 1. RobotWare 5 does not have the parameter, and GripLoad decides.
     """
-    for found in task.controller.configuration.find("/SYS/SYS_MISC/ModalPayLoadMode"):
-        value = found.get("value")
-        if isinstance(value, int | float | str) and str(value).strip().isdigit():
-            return float(value)
-    return 1.0
+    mode = task.controller.cfg.instance("SYS", "SYS_MISC", "ModalPayLoadMode")
+    value = 1 if mode is None else value_of_cfg("SYS", "SYS_MISC", mode, "Value")
+    text = str(value).strip()
+    return float(text) if text.isdigit() else 1.0
 
 
 @builtin("WriteCfgData", cost="socket")
 def write_cfg_data(
     task: Task, path: str, attribute: str, argument: object, number: Ref | None
 ) -> None:
-    """Write a system parameter, visible to ReadCfgData only."""
-    attributes = _attributes(task, path, number)
-    before = attributes.get(attribute.lower())
+    """Write a system parameter. It takes effect at the next restart.
+
+    ERR_CFG_INTERNAL: the instance is not saved by the controller, so it cannot be changed.
+    """
+    domain, section, instance = _instance(task, path, number)
+    before = value_of_cfg(domain, section, instance, attribute)
     value, _ = value_of(argument)
     if before is not None and isinstance(before, str) is not isinstance(value, str):
         raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
-    attributes[attribute.lower()] = value
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
+    try:
+        task.controller.cfg.change(domain, section, instance, {attribute: value})
+    except ValueError as error:
+        raise RapidError("ERR_CFG_INTERNAL", f"{path}: {error}") from error
 
 
 @builtin("SaveCfgData", cost="socket")
 def save_cfg_data(task: Task, path: str, file: str | None, domain: str) -> None:
     """Write a domain to a file."""
-    configuration = task.controller.configuration
-    if domain.upper() not in configuration.domains:
+    cfg = task.controller.cfg
+    if domain.upper() not in cfg.domains:
         raise RapidError("ERR_CFG_ILL_DOMAIN", domain)
-    text = configuration.text(domain.upper())
+    text = cfg.text(domain)
     spend(task, len(text))
     try:
         file_path(task, words_of(path, file)).write_text(text, encoding="latin-1")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from rapidgen.config.model import Joint
 from rapidgen.machine.event_log import EventType
-from rapidgen.machine.system_parameters import arm_name
+from rapidgen.system.base.mechanics_cfg import arm_name
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
 from rapidgen.verification.messages import RawComm, RawReason, decode
@@ -107,12 +107,10 @@ class _Cell:
         """Start with other limits; check that the event log names the differences."""
         bench = self._bench
         for joint, one in zip(bench.group.joints, reply, strict=True):
-            path = f"/MOC/ARM/{arm_name(bench.group, joint)}"
-            for values in bench.controller.configuration.find(path):
-                for name, value in (("lower", one.lower), ("upper", one.upper)):
-                    values.pop(f"{name}_joint_bound", None)
-                    if value is not None:
-                        values[f"{name}_joint_bound"] = value
+            arm = bench.controller.cfg.instance("MOC", "ARM", arm_name(bench.group, joint))
+            if arm is not None:
+                limits = {"lower_joint_bound": one.lower, "upper_joint_bound": one.upper}
+                bench.controller.cfg.change("MOC", "ARM", arm, limits)
         self._newest = bench.last_event
         for action in ("power-loss", "pp-to-main", "auto", "motors-on", "start"):
             bench.controller.perform(action)

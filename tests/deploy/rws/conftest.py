@@ -37,7 +37,7 @@ def empty_runner(folder, generation, **options):
     system = replace(read_files([path]), robotware=RELEASES[generation], name="cell")
     cfg = base_system(system.robotware, [Robot("T_ROB1", "ROB_1")])
     chosen = {"robots": load_config("irb120").groups, "autostart": False, **options}
-    return ControllerRunner(system, cfg=cfg, **chosen)
+    return ControllerRunner(replace(system, cfg=cfg), **chosen)
 
 
 def overrides_of(generation):

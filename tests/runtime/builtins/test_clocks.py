@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from rapidgen.machine.system_parameters import TextTables
+from rapidgen.machine.text_tables import TextTables
 from rapidgen.runtime.builtins.system import StopWatch
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.system.model import System

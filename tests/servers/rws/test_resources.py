@@ -507,11 +507,22 @@ def test_options_and_mechanics_are_in_the_cfg_of_every_controller(caller):
     assert float(first("moc/arm")["upper_joint_bound"]) > 1
     assert first("MOC/JOINT")["use_arm"] == "rob1_1"
     assert caller.get("/rw/cfg/MMC") == ()
+
+
+def test_the_joints_of_a_robot_cannot_be_changed_its_limits_can(caller):
+    """JOINT of a robot model is in no backup: the controller has it and does not save it."""
     edit(caller)
-    form = {"upper_joint_bound": "9" if caller.is_one else "[9,1]"}
-    path = "/rw/cfg/MOC/ARM/instances/rob1_1"
-    assert caller.post(f"{path}?action=set" if caller.is_one else path, form) == 403
-    assert float(first("moc/arm")["upper_joint_bound"]) < 9
+    for section, attribute, reply in (
+        ("JOINT", "logical_axis", 403),
+        ("ARM", "upper_joint_bound", 204),
+    ):
+        path = f"/rw/cfg/MOC/{section}/instances/rob1_1"
+        form = {attribute: "2" if caller.is_one else "[2,1]"}
+        assert caller.post(f"{path}?action=set" if caller.is_one else path, form) == reply
+    database = caller.application.context.controller.cfg
+    joint, arm = (database.instance("MOC", kind, "rob1_1") for kind in ("JOINT", "ARM"))
+    assert (joint.text("logical_axis"), arm.text("upper_joint_bound")) == ("1", "2")
+    assert "JOINT" not in database.text("MOC")
 
 
 def test_opmode_links_to_its_lock(two):

@@ -24,9 +24,12 @@ from rapidgen.runtime.values import Ref, Value
 def _axes_of(group: MotionGroup, unit: str) -> tuple[str, ...] | None:
     """Return external axes of a mechanical unit, None if unknown.
 
-    The configuration lists units and axes in order. If each unit has one axis, they correspond;
-    otherwise the last unit has all remaining axes.
+    Without a cfg, the configuration lists units and axes in order. If each unit has one axis, they
+    correspond; otherwise the last unit has all remaining axes.
     """
+    known = next((u for u in group.config.units if u.name.lower() == unit.lower()), None)
+    if known is not None:
+        return known.axes
     names = [name.lower() for name in group.config.external_units]
     if unit.lower() not in names:
         return None
@@ -45,6 +48,12 @@ def _external(task: Task, unit: Value) -> tuple[MotionGroup, tuple[str, ...]]:
         if axes is not None:
             return group, axes
     raise FatalError(NOT_ALLOWED, "Not a unit that can be switched", unit.value)
+
+
+def _may_deactivate(group: MotionGroup, unit: str) -> bool:
+    """Return False if the cfg of a unit forbids it (deactivation_forbidden)."""
+    known = (u.may_deactivate for u in group.config.units if u.name.lower() == unit.lower())
+    return next(known, True)
 
 
 def unit_group(task: Task, unit: Value) -> MotionGroup:
@@ -86,6 +95,10 @@ def deact_unit(task: Task, unit: Value) -> None:
     ERR_AXIS_ACT: the path is a stored one.
     """
     group, axes = _external(task, unit)
+    if not _may_deactivate(group, unit.value):
+        raise FatalError(
+            NOT_ALLOWED, "Not a unit that can be deactivated", f"{unit.value}: MECHANICAL_UNIT"
+        )
     if group.path_level > 1:
         raise RapidError("ERR_AXIS_ACT", "between StorePath and RestoPath")
     group.wait_standing(task)
@@ -144,7 +157,7 @@ def get_next_mech_unit(
         (planner, place),
         (active, own is None or not group.inactive.intersection(own)),
         (drive, place),
-        (may_deactivate, own is not None),
+        (may_deactivate, own is not None and _may_deactivate(group, unit)),
     ):
         if where is not None:
             where.set(value)

@@ -3,17 +3,16 @@
 Changes take effect after a restart.
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rapidgen._reading import read_foreign
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.servers.rws.context import disk_path
-from rapidgen.servers.rws.default_cfg import DOMAINS, built_in
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, page, show
 from rapidgen.servers.rws.routing import serves
-from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, scalar, write_cfg
+from rapidgen.system.cfg import Attribute, CfgText, Instance, parse_cfg, scalar, write_cfg
+from rapidgen.system.cfg_database import with_defaults
 from rapidgen.system.cfg_loading import CfgFileLoad, LoadResult, add, identity_text
 from rapidgen.system.paths import MAX_FILE
 from rapidgen.wire.rws import operations as ops
@@ -26,11 +25,8 @@ if TYPE_CHECKING:
 
 def _domain(context: "RwsContext", request: RwsRequest) -> CfgText:
     name = request.names["domain"].upper()
-    for text in context.runner.cfg.domains:
-        if text.domain == name:
-            return text
-    if name in DOMAINS:
-        return CfgText(name, context.runner.cfg.domains[0].version, ())
+    if name in context.controller.cfg.domains:
+        return context.runner.cfg.domain(name)
     raise RequestDenied(400 if request.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
 
 
@@ -42,7 +38,7 @@ def _title(section: str, instance: Instance) -> str:
 def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Return the domains."""
     return show(
-        *(Item("cfg-domain-li", name) for name in DOMAINS),
+        *(Item("cfg-domain-li", name) for name in context.controller.cfg.domains),
         collection=True,
     )
 
@@ -51,8 +47,7 @@ def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 def get_types(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Return the types of a domain."""
     text = _domain(context, request)
-    names = dict.fromkeys(section.name for section in text.sections)
-    names |= dict.fromkeys(kind for domain, kind in built_in(context) if domain == text.domain)
+    names = context.controller.cfg.types(text.domain)
     return show(*(Item("cfg-dt-li", name) for name in names), collection=True)
 
 
@@ -72,15 +67,10 @@ def get_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     return show(_item(request, _one(context, request)))
 
 
-def _instances(context: "RwsContext", request: RwsRequest) -> Iterator[Instance]:
-    """Return the database's instances of a type, else the default ones."""
-    text, kind = _domain(context, request), request.names["type"]
-    result = tuple(text.instances(kind))
-    return iter(result or built_in(context).get((text.domain, kind.upper()), ()))
-
-
-def _is_built_in(context: "RwsContext", text: CfgText, kind: str) -> bool:
-    return (text.domain, kind.upper()) in built_in(context)
+def _instances(context: "RwsContext", request: RwsRequest) -> tuple[Instance, ...]:
+    """Return the instances of a type."""
+    text = _domain(context, request)
+    return context.controller.cfg.instances(text.domain, request.names["type"])
 
 
 def _one(context: "RwsContext", request: RwsRequest) -> Instance:
@@ -93,10 +83,12 @@ def _one(context: "RwsContext", request: RwsRequest) -> Instance:
 
 def _item(request: RwsRequest, instance: Instance) -> Item:
     kind = request.kind("cfg-ia-t-li", "cfg-ia-t")
+    section = request.names["type"]
     within = tuple(
-        Item(kind, a.name, {"value": _value(a), "rdonly": "false"}) for a in instance.attributes
+        Item(kind, a.name, {"value": _value(a), "rdonly": "false"})
+        for a in with_defaults(request.names["domain"], section, instance)
     )
-    title = _title(request.names["type"], instance)
+    title = _title(section, instance)
     return Item("cfg-dt-instance-li", title, {"rdonly": "false"}, within=within)
 
 
@@ -108,7 +100,10 @@ def _value(attribute: Attribute) -> str:
 @serves(ops.CFG_ATTRIBUTES)
 def get_attributes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     """Return the attributes of a type's instances."""
-    names = dict.fromkeys(a.name for i in _instances(context, request) for a in i.attributes)
+    domain, section = request.names["domain"], request.names["type"]
+    names = dict.fromkeys(
+        a.name for i in _instances(context, request) for a in with_defaults(domain, section, i)
+    )
     result = (
         Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names
     )
@@ -119,22 +114,22 @@ def get_attributes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 def _with(context: "RwsContext", request: RwsRequest, instances: tuple[Instance, ...]) -> None:
-    """Return the database with the instances of a type replaced."""
+    """Replace the instances of a type in the database."""
     text, name = _domain(context, request), request.names["type"]
-    if not any(True for _ in text.instances(name)) and _is_built_in(context, text, name):
-        raise RequestDenied(403, "E_REJECT", f"{name} is read only", -2)
-    at = [i for i, s in enumerate(text.sections) if s.name.casefold() == name.casefold()]
-    sections = [None if i in at else s for i, s in enumerate(text.sections)]
-    if not at:
-        sections.append(Section(name, instances))
-    elif instances:
-        sections[at[0]] = Section(text.sections[at[0]].name, instances)
-    changed = replace(text, sections=tuple(s for s in sections if s is not None))
-    cfg = context.runner.cfg
-    domains = tuple(changed if d.domain == text.domain else d for d in cfg.domains)
-    if changed not in domains:
-        domains = (*domains, changed)
-    context.runner.cfg = replace(cfg, domains=domains)
+    context.runner.cfg = context.runner.cfg.with_instances(text.domain, name, instances)
+
+
+def _saved(context: "RwsContext", request: RwsRequest) -> tuple[Instance, ...]:
+    """Return the instances of a type that can be changed."""
+    return tuple(_domain(context, request).instances(request.names["type"]))
+
+
+def _one_saved(context: "RwsContext", request: RwsRequest) -> Instance:
+    """Return an instance that can be changed."""
+    instance, text = _one(context, request), _domain(context, request)
+    if context.controller.cfg.is_internal(text.domain, request.names["type"], instance):
+        raise RequestDenied(403, "E_REJECT", f"{request.names['type']} is read only", -2)
+    return instance
 
 
 def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
@@ -156,7 +151,7 @@ def set_instance(context: "RwsContext", request: RwsRequest) -> None:
     """Set attributes of an instance."""
     if not request.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
         context.masters.need(request, "cfg")
-    old = _one(context, request)
+    old = _one_saved(context, request)
     attributes = {a.name.casefold(): a for a in old.attributes}
     for name, value in request.pairs:
         made = _attribute(name, value, is_one=request.is_one)
@@ -164,7 +159,7 @@ def set_instance(context: "RwsContext", request: RwsRequest) -> None:
         if made is not None:
             attributes[name.casefold()] = made
     new = replace(old, attributes=tuple(attributes.values()))
-    _with(context, request, tuple(new if i is old else i for i in _instances(context, request)))
+    _with(context, request, tuple(new if i is old else i for i in _saved(context, request)))
 
 
 @serves(ops.CFG_CREATE)
@@ -173,10 +168,9 @@ def create_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     if not request.is_one:
         context.masters.need(request, "cfg")
     name, section = request.field("name"), request.names["type"]
-    present = tuple(_instances(context, request))
-    if any(_title(section, i).casefold() == name.casefold() for i in present):
+    if any(_title(section, i).casefold() == name.casefold() for i in _instances(context, request)):
         raise RequestDenied(400, "E_CFG_NAME_EXIST", name)
-    _with(context, request, (*present, Instance((Attribute("Name", (name,)),))))
+    _with(context, request, (*_saved(context, request), Instance((Attribute("Name", (name,)),))))
     return RwsResponse(201)
 
 
@@ -185,8 +179,8 @@ def delete_instance(context: "RwsContext", request: RwsRequest) -> None:
     """Delete an instance."""
     if not request.is_one:
         context.masters.need(request, "cfg")
-    old = _one(context, request)
-    _with(context, request, tuple(i for i in _instances(context, request) if i is not old))
+    old = _one_saved(context, request)
+    _with(context, request, tuple(i for i in _saved(context, request) if i is not old))
 
 
 # -- whole files ---------------------------------------------------------------------------------

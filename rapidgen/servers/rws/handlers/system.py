@@ -3,9 +3,9 @@
 from typing import TYPE_CHECKING
 
 from rapidgen.machine.scheduler import date_time
-from rapidgen.servers.rws.default_cfg import OPTIONS
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.servers.rws.routing import serves, services
+from rapidgen.system.base.mechanics_cfg import OPTIONS
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
 
