@@ -99,8 +99,8 @@ def mechanics(
                 mechanical_unit=keys.mechanical_unit or group.mechanical_unit,
                 external_units=tuple(keys.external_units) or group.external_units,
             )
-        group, report = with_cfg(group, system.cfg)
-        notes += report
+        group, of_units = with_cfg(group, system.cfg)
+        notes += of_units
         groups.append(group)
     return tuple(groups), tuple(dict.fromkeys(notes))
 
