@@ -258,7 +258,7 @@ def _event_warnings(controller: "VirtualController") -> list[Diagnostic]:
     handled = {RAPID_ERROR, *ERROR_CODES.values()}
     failed = {(e.code, e.task) for e in controller.log if e.type is EventType.ERROR}
     counts = Counter(
-        (event.code, event.title, event.texts)
+        (event.code, event.title, event.texts, event.span)
         for event in controller.log
         if event.type is EventType.WARNING
         and event.code not in handled
@@ -267,13 +267,13 @@ def _event_warnings(controller: "VirtualController") -> list[Diagnostic]:
     return [
         error(
             "RG409",
-            None,
+            span,
             f"event {code}: {title}" + (f" ({count} times)" if count > 1 else ""),
             f"`rapidgen explain {code}` names causes and remedies",
             notes=tuple(text for text in texts if text),
             severity=Severity.WARNING,
         )
-        for (code, title, texts), count in counts.most_common(_MOST_WARNINGS)
+        for (code, title, texts, span), count in counts.most_common(_MOST_WARNINGS)
     ]
 
 

@@ -9,6 +9,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from rapidgen.diagnostics import Span
 from rapidgen.machine.event_log import Event, EventLog, EventType, TimeSource
 from rapidgen.machine.event_table import ERROR_CODES, KINDS, RAPID_ERROR
 from rapidgen.runtime.errors import RapidError, error_name
@@ -43,6 +44,7 @@ class _Handled:
             (kind.filled(arguments), *filter(None, (name, self.text))),
             self.task.name,
             arguments,
+            where.span if where is not None else None,
         )
 
 
@@ -106,10 +108,11 @@ class ControllerLog(EventLog):
         texts: tuple[str, ...],
         task: str = "",
         arguments: tuple[str, ...] = (),
+        span: Span | None = None,
     ) -> Event:
         """Add an event with all its parts and return it."""
         self._catch_up()
-        return super().add(type, code, title, texts, task, arguments)
+        return super().add(type, code, title, texts, task, arguments, span)
 
     def subscribe(self, listener: Callable[[Event], None]) -> Callable[[], None]:
         """Call `listener` for each new event; the returned function ends that."""

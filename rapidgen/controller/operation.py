@@ -497,7 +497,7 @@ class SystemSignals:
             case "LimitSpeed":
                 self._limit_speed(True)
             case _:
-                self._host.log.warning(71_103, "System input not simulated", action, argument)
+                self._host.log.record(197_103, action, argument)
 
     def _fell(self, action: str) -> None:
         if action == "LimitSpeed":

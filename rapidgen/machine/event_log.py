@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Protocol
 
+from rapidgen.diagnostics import Span
 from rapidgen.machine.event_table import KINDS, Domain, domain_of
 
 
@@ -37,6 +38,8 @@ class Event:
     task: str = ""
     arguments: tuple[str, ...] = ()
     """As a controller gives them, in its order."""
+    span: Span | None = None
+    """Where it is in the source of the program."""
 
     @property
     def domain(self) -> Domain:
@@ -88,11 +91,12 @@ class EventLog:
         texts: tuple[str, ...],
         task: str = "",
         arguments: tuple[str, ...] = (),
+        span: Span | None = None,
     ) -> Event:
         """Add an event with all its parts and return it."""
         self._sequence += 1
         now = self._clock.now * 1e-9
-        event = Event(self._sequence, now, code, type, title, texts, task, arguments)
+        event = Event(self._sequence, now, code, type, title, texts, task, arguments, span)
         self._events.append(event)
         for listener in tuple(self._listeners):
             listener(event)
@@ -105,6 +109,7 @@ class EventLog:
         task: str = "",
         type: EventType | None = None,
         texts: tuple[str, ...] = (),
+        span: Span | None = None,
     ) -> Event:
         """Add an event of the event table and return it.
 
@@ -118,6 +123,7 @@ class EventLog:
             (kind.filled(arguments), *texts),
             task,
             arguments,
+            span,
         )
 
     def info(self, code: int, title: str, *texts: str, task: str = "") -> Event:

@@ -384,6 +384,7 @@ _OWN: Final[tuple[tuple[int, str, str, str], ...]] = (
     (197100, "E", "Cross connection refused", "{1}: it closes a loop."),
     (197101, "W", "System output not simulated", "{1} on signal {2}."),
     (197102, "E", "Signal not defined", "{1} names {2}."),
+    (197103, "W", "System input not simulated", "{1} with argument '{2}'."),
 )
 _OWN_SOURCE: Final = "rapidgen's virtual controller; the number of a real controller is not known"
 

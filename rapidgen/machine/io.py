@@ -349,9 +349,7 @@ class IOSystem:
             result = connection.result.lower()
             actors = {name.lower() for name, _ in connection.actors}
             if result in actors or actors & _reachable(result, targets):
-                self._log.error(
-                    197_100, "Cross connection refused", connection.name, "it closes a loop"
-                )
+                self._log.record(197_100, connection.name)
                 continue
             for actor in actors:
                 targets.setdefault(actor, set()).add(result)
@@ -392,9 +390,7 @@ class IOSystem:
             signal = self._configured(entry.signal, f"system output {entry.status}")
             status = status_name(entry.status)
             if status is None:
-                self._log.warning(
-                    197_101, "System output not simulated", entry.status, f"signal {entry.signal}"
-                )
+                self._log.record(197_101, entry.status, entry.signal)
             elif signal is not None:
                 yield _Output(status, (entry.unit or entry.task).lower(), signal)
 
@@ -418,7 +414,7 @@ class IOSystem:
     def _configured(self, name: str, user: str) -> Signal | None:
         signal = self.get(name)
         if signal is None:
-            self._log.error(197_102, "Signal not defined", f"{user} names '{name}'")
+            self._log.record(197_102, user, f"'{name}'")
         return signal
 
 

@@ -139,7 +139,7 @@ class PathExecution:
 
     def _warn_of_corner(self, move: Move) -> None:
         if self._planner.modal.corner_warning:
-            events.corner_failure(self._log, self._name, move)
+            events.corner_failure(self._log, self._planner.config.task, move)
 
     def stay(self, move: Move) -> Leg | None:
         """A move to where the path ends: a stop point makes the end a stop. Its events are due

@@ -4,11 +4,26 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import inf, sqrt
+from typing import Protocol
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
 from rapidgen.axes.kinematics import AxisConfiguration, MovingFrame, Posture
 from rapidgen.axes.path_shapes import CircleMode
+from rapidgen.diagnostics import Span
 from rapidgen.motion.fault_reasons import FaultReason, MotionFault
+
+
+class Place(Protocol):
+    """The location of a move in the program."""
+
+    @property
+    def reference(self) -> str:
+        """The location as the event log of a controller names it."""
+
+    @property
+    def span(self) -> Span:
+        """The location in the source."""
+
 
 NO_WAY = 1e-7
 """m of TCP way that count as none."""
@@ -102,7 +117,7 @@ class Move:
     dwell: float = 0.0
     """s that the program waits after a stop point (\\Inpos with a stop time)."""
     carrier: MoveFrames = field(default_factory=MoveFrames)
-    place: Callable[[], object] | None = None
+    place: Callable[[], Place | None] | None = None
     """Returns its location in the program, for messages and the motion pointer."""
     events: tuple["PathEvent", ...] = ()
 

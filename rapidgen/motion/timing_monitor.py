@@ -45,11 +45,10 @@ class TimingMonitor:
     def report(self, log: EventLog, name: str) -> None:
         """Say what was late since the last report."""
         if self._moves:
-            log.warning(
+            log.record(
                 events.TIME_NOT_MET,
-                "Programmed time not met",
                 f"{name}: {self._moves} moves with \\T took {self._late:.3f} s longer",
-                "the axes' limits, the override or a stop",
+                texts=("the axes' limits, the override or a stop",),
             )
         self._late, self._moves = 0.0, 0
 

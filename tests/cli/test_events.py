@@ -90,6 +90,7 @@ def test_run_prints_each_warning_of_the_event_log_once(tmp_path, capsys):
     assert main(["run", str(path)]) == 0
     lines = capsys.readouterr().err.splitlines()
     assert [line for line in lines if line.startswith("warning")] == [
-        "warning[RG409]: event 50024: Corner path failure (3 times)"
+        "warning[RG409]: event 50024: Corner path executed as a stop point (3 times)"
     ]
-    assert any("corner/main/6" in line for line in lines)
+    assert f" --> {path}:6:7" in lines
+    assert "  = note: Task T_ROB1: the corner at /corner/main/MoveL/6 became a stop." in lines

@@ -77,7 +77,7 @@ def test_a_tool_above_the_payload_is_reported_and_moves(rapid, move):
     (event,) = events(program, 195_902)
     assert event.type.name == "WARNING"
     assert f"1200 kg is more than the {PAYLOAD:g} kg payload of irb120" in event.texts[0]
-    assert "Probe/main/12" in event.texts[0]
+    assert (event.span.line, event.texts[1][:13]) == (12, "/Probe/main/M")
 
 
 @pytest.mark.parametrize(

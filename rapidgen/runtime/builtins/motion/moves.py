@@ -235,7 +235,7 @@ def _start(task: Task, group: MotionGroup, move: Move, identity: float | None) -
         at = place() if place is not None else None
         if isinstance(at, Location):
             arguments = (task.name, at.instruction, "StorePath", at.reference)
-            task.controller.log.record(MISSING_STORE_PATH, *arguments, task=task.name)
+            task.controller.log.record(MISSING_STORE_PATH, *arguments, task=task.name, span=at.span)
     group.move(task, together(task, group, move, identity))
 
 

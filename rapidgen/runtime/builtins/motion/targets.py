@@ -24,7 +24,7 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import MoveFrames, MoveSpeed, Zone
 from rapidgen.rapid.numbers import single
-from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.errors import FatalError, Location, RapidError
 from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.motion_interface import (
     FRAMES_CONTRADICT,
@@ -54,7 +54,7 @@ from rapidgen.runtime.values import (
 # How a built-in finds the motion group of its task.
 
 
-def here(task: Task) -> Callable[[], object] | None:
+def here(task: Task) -> Callable[[], Location | None] | None:
     """Return a function that looks up the task's location on demand."""
     codes = task.program.codes
     frame: FrameType | None = sys._getframe(1)
