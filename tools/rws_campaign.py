@@ -28,8 +28,8 @@ from test_hostile import FLOWS, NOWHERE, run  # noqa: E402
 
 from rapidgen.client.rws.address import parse_address  # noqa: E402
 from rapidgen.client.rws.core import Login, RwsCore  # noqa: E402
-from rapidgen.servers.rws import routing  # noqa: E402
-from rapidgen.servers.rws.context import VOLUMES  # noqa: E402
+from rapidgen.servers.rws.application import served  # noqa: E402
+from rapidgen.servers.rws.handlers.files import VOLUMES  # noqa: E402
 from rapidgen.servers.rws.messages import HttpRequest  # noqa: E402
 from rapidgen.wire.rws import media  # noqa: E402
 from rapidgen.wire.rws.bodies import Generation  # noqa: E402
@@ -109,7 +109,7 @@ def answers(number: int, first: int) -> int:
 @cache
 def _routes(generation: Generation) -> tuple[tuple[Route, str], ...]:
     """Return the routes of a generation, with the modules that serve them."""
-    result = ((o.route(generation), h.__module__) for o, h in routing.served())
+    result = ((o.route(generation), h.__module__) for o, h in served())
     return tuple((route, module) for route, module in result if route)
 
 

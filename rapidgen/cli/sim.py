@@ -308,7 +308,7 @@ def _servers(
             text[name] = login
         generation, port, strict, denied = rws
         if generation is not None:
-            from rapidgen.servers.rws.context import Accounts
+            from rapidgen.servers.rws.application import Accounts
             from rapidgen.servers.rws.server import KNOWN, serve_rws
             from rapidgen.wire.rws.bodies import Generation
 

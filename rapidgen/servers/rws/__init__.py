@@ -1,1 +1,5 @@
 """Robot Web Services of a virtual controller."""
+
+from rapidgen.servers.rws import handlers
+
+__all__ = ["handlers"]

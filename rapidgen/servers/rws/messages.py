@@ -1,9 +1,8 @@
 """Requests, responses and refusals of Robot Web Services."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from rapidgen.servers.rws.sessions import Session
 from rapidgen.wire.rws.bodies import Body, Generation, Item
 from rapidgen.wire.rws.codes import CODES
 
@@ -12,27 +11,45 @@ from rapidgen.wire.rws.codes import CODES
 class HttpRequest:
     """A received request. Names of headers are in lower case.
 
-    `connection` numbers its TCP connection.
+    `target` is as it was sent; `connection` numbers the TCP connection.
     """
 
     method: str
     target: str
     headers: Mapping[str, str] = field(default_factory=dict)
     body: bytes = b""
+    cookies: Mapping[str, str] = field(default_factory=dict)
     connection: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class HttpResponse:
-    """An HTTP response. Header names may repeat (`Set-Cookie`)."""
+    """An HTTP response; its cookies are to be set."""
 
     status: int
     headers: tuple[tuple[str, str], ...] = ()
     body: bytes = b""
+    cookies: Mapping[str, str] = field(default_factory=dict)
 
     def header(self, name: str) -> str:
         """Return the first header of a name, or an empty text."""
         return next((v for k, v in self.headers if k.lower() == name.lower()), "")
+
+
+@dataclass(slots=True, eq=False)
+class Session:
+    """Session of one client."""
+
+    key: str
+    user: str
+    number: int
+    seen: float
+    application: str = ""
+    location: str = ""
+    alias: str = ""
+    station: str = ""
+    """Control station of RobotWare 8 to which it belongs."""
+    on_end: list[Callable[[], None]] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +64,6 @@ class RwsRequest:
     query: Mapping[str, str]
     pairs: tuple[tuple[str, str], ...] = ()
     body: bytes = b""
-    content_type: str = ""
     host: str = ""
 
     @property

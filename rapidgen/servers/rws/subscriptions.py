@@ -1,24 +1,33 @@
 """Subscriptions: groups of resources with events over a websocket.
 
 Priority 0 is 5 s, 1 is 200 ms, 2 at once and only for signals and persistents [RWS manual]. Events
-are XHTML in either generation; a signal's event repeats the text that was subscribed.
+are XHTML in either generation; a signal's event repeats the text that was subscribed. Sources of
+events are beside the handlers of the same resources, with `@subscribable(...)`.
 """
 
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Protocol
+from urllib.parse import unquote
 
-from rapidgen.machine.scheduler import Scheduler, Timer
-from rapidgen.servers.rws.messages import RequestDenied, RwsRequest
-from rapidgen.servers.rws.sessions import Session
-from rapidgen.wire.rws.bodies import Generation, Item
+from rapidgen.machine.scheduler import Timer
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, Session
+from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.events import WantedResource, write_events
+
+if TYPE_CHECKING:
+    from rapidgen.servers.rws.application import RwsApplication
 
 _PERIODS = {0: 5_000_000_000, 1: 200_000_000, 2: 0}
 MOST_RESOURCES, MOST_GROUPS, MOST_HIGH = 1000, 2, 64
 MOST_SOCKETS = 19
 """Sessions that may hold a websocket [RWS 2.0 manual]."""
-Send = Callable[[bytes], None]
+Send = Callable[[bytes | None], None]
+"""Callback of a websocket: an event, or None to close it."""
 
+
+# -- sources -------------------------------------------------------------------------------------
 
 Notify = Callable[[Item | None], None]
 """Callback for a change.
@@ -40,12 +49,80 @@ class EventSource:
     has_state: bool = True
 
 
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """A resource that a client subscribes: its text, and parts of it."""
+
+    request: RwsRequest
+    text: str
+    suffix: str
+    names: Mapping[str, str]
+
+
+Make = Callable[["RwsApplication", Topic], EventSource]
+_TABLE: list[tuple[re.Pattern[str], tuple[str, ...], Make]] = []
+
+
+def subscribable(path: str, *suffixes: str) -> Callable[[Make], Make]:
+    """Register the decorated function as the source of paths.
+
+    `suffixes` are the texts that may follow a `;`; none: any.
+    """
+
+    def put(make: Make) -> Make:
+        _TABLE.append((re.compile(path), suffixes, make))
+        return make
+
+    return put
+
+
+class _Notifier(Protocol):
+    """Something that calls functions when it changes."""
+
+    def add(self, look: Callable[[], None], /) -> None: ...
+    def remove(self, look: Callable[[], None], /) -> None: ...
+
+
+def every_change(of: _Notifier, item: Callable[[], Item]) -> EventSource:
+    """Return a source with an event for each notification, at once."""
+
+    def watch(notify: Notify) -> Callable[[], None]:
+        def look() -> None:
+            notify(None)
+
+        of.add(look)
+        return lambda: of.remove(look)
+
+    return EventSource(item, watch, fast=True)
+
+
+def new_values(of: _Notifier, now: Callable[[], object], item: Callable[[], Item]) -> EventSource:
+    """Return a source with an event for each notification that changed `now`."""
+
+    def watch(notify: Notify) -> Callable[[], None]:
+        last = now()
+
+        def look() -> None:
+            nonlocal last
+            if (value := now()) != last:
+                last = value
+                notify(None)
+
+        of.add(look)
+        return lambda: of.remove(look)
+
+    return EventSource(item, watch)
+
+
+# -- groups --------------------------------------------------------------------------------------
+
+
 @dataclass(slots=True, eq=False)
 class _Watch:
     """One resource of a group."""
 
     wanted: WantedResource
-    seen: EventSource
+    source: EventSource
     timer: Timer | None = None
     end: Callable[[], None] = lambda: None
 
@@ -58,7 +135,6 @@ class EventGroup:
     session: Session
     watches: list[_Watch] = field(default_factory=list)
     send: Send | None = None
-    hang_up: Callable[[], None] = lambda: None
     spent: bool = False
     """RWS 2.0: its websocket has existed; it cannot be opened again."""
     waiting: list[Item] = field(default_factory=list)
@@ -66,18 +142,10 @@ class EventGroup:
 
 
 class Groups:
-    """All subscriptions of a server."""
+    """All subscriptions of an application."""
 
-    def __init__(
-        self,
-        generation: Generation,
-        scheduler: Callable[[], Scheduler],
-        watched: Callable[[RwsRequest, WantedResource], EventSource],
-    ) -> None:
-        """`watched` returns the source of a resource, or refuses it."""
-        self._generation = generation
-        self._scheduler = scheduler
-        self._watched = watched
+    def __init__(self, app: "RwsApplication") -> None:
+        self._app = app
         self._groups: dict[str, EventGroup] = {}
         self._made = 0
 
@@ -110,16 +178,29 @@ class Groups:
         self, request: RwsRequest, group: EventGroup, requested: Iterable[WantedResource]
     ) -> None:
         """Add resources to a group, all or none. Raises RequestDenied."""
-        result = [_Watch(one, self._watched(request, one)) for one in requested]
+        result = [_Watch(one, self._source(request, one.resource)) for one in requested]
         every = [*group.watches, *result]
         high = sum(w.wanted.priority == 2 for w in every)
         if len(every) > MOST_RESOURCES or high > MOST_HIGH:
             raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "too many resources")
-        if any(w.wanted.priority == 2 and not w.seen.fast for w in result):
+        if any(w.wanted.priority == 2 and not w.source.fast for w in result):
             raise RequestDenied(400, "E_INVALIDARG", "high priority is for signals and persistents")
         for watch in result:
             group.watches.append(watch)
-            watch.end = watch.seen.watch(self._changed(group, watch))
+            watch.end = watch.source.watch(self._changed(group, watch))
+
+    def _source(self, request: RwsRequest, text: str) -> EventSource:
+        """Return the event source of a path such as `/rw/panel/ctrlstate`.
+
+        RequestDenied: there is none.
+        """
+        path, _, suffix = text.partition(";")
+        path = unquote(path).rstrip("/")
+        for pattern, suffixes, make in _TABLE:
+            match = pattern.fullmatch(path)
+            if match is not None and (not suffixes or suffix in suffixes):
+                return make(self._app, Topic(request, text, suffix, match.groupdict()))
+        raise RequestDenied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def remove(self, group: EventGroup, resource: str) -> None:
         """Remove one resource; the last one ends the group.
@@ -137,15 +218,16 @@ class Groups:
 
     def initial(self, group: EventGroup) -> list[Item]:
         """Return the current events of a group."""
-        return [w.seen.item() for w in group.watches if w.seen.has_state]
+        return [w.source.item() for w in group.watches if w.source.has_state]
 
     def end(self, group: EventGroup) -> None:
-        """End a group."""
+        """End a group and its websocket."""
         if self._groups.pop(str(group.number), None) is None:
             return
         for watch in group.watches:
             self._end_watch(watch)
-        group.hang_up()
+        if group.send is not None:
+            group.send(None)
 
     def end_all(self) -> None:
         """End all groups, for a restart."""
@@ -160,19 +242,23 @@ class Groups:
 
     # -- events ----------------------------------------------------------------------------------
 
-    def listen(self, group: EventGroup, send: Send, hang_up: Callable[[], None]) -> None:
-        """Connect the websocket.
+    def listen(self, number: str, session: Session, send: Send) -> None:
+        """Connect a websocket to a group of a session.
 
-        RequestDenied: RWS 2.0 uses a poll URL once.
+        RequestDenied: there is no such group, or too many websockets, or RWS 2.0 has used its poll
+        URL.
         """
-        if group.spent and self._generation is not Generation.ONE:
+        group = self.find(number, session)
+        if group.spent and not self._app.is_one:
             raise RequestDenied(404, "E_UNRESOLVED_URL", "used already")
         listening = sum(g.send is not None for g in self._groups.values())
         if listening >= MOST_SOCKETS:
             raise RequestDenied(503, "E_MAX_LIMIT_REACHED", "19 websockets are the most")
-        group.send, group.hang_up, group.spent = send, hang_up, True
+        if group.send is not None:
+            group.send(None)
+        group.send, group.spent = send, True
         for item in group.waiting:
-            self._tell(group, item)
+            send(write_events([item]))
         group.waiting.clear()
 
     def leave(self, number: str, send: Send) -> None:
@@ -180,11 +266,11 @@ class Groups:
         group = self._groups.get(number)
         if group is None or group.send is not send:
             return
-        group.send, group.hang_up = None, lambda: None
-        if self._generation is not Generation.ONE:
+        group.send = None
+        if not self._app.is_one:
             self.end(group)
 
-    def _changed(self, group: EventGroup, watch: _Watch) -> Callable[[Item | None], None]:
+    def _changed(self, group: EventGroup, watch: _Watch) -> Notify:
         """Return the callback for a change.
 
         It receives the event if a later read would miss it.
@@ -195,22 +281,18 @@ class Groups:
                 group.waiting.append(item)
                 del group.waiting[:-MOST_RESOURCES]
             else:
-                self._tell(group, item)
+                # One message an event: a public client expects this.
+                group.send(write_events([item]))
 
         def later() -> None:
             watch.timer = None
-            now(watch.seen.item())
+            now(watch.source.item())
 
         def changed(item: Item | None) -> None:
             period = _PERIODS[watch.wanted.priority]
             if item is not None or not period:
-                now(item or watch.seen.item())
+                now(item or watch.source.item())
             elif watch.timer is None:
-                watch.timer = self._scheduler().after(period, later)
+                watch.timer = self._app.controller.scheduler.after(period, later)
 
         return changed
-
-    def _tell(self, group: EventGroup, item: Item) -> None:
-        """Send one message an event: a public client expects this."""
-        assert group.send is not None
-        group.send(write_events([item]))

@@ -20,8 +20,7 @@ from rapidgen.client.rws.effects import (
     resume,
 )
 from rapidgen.deploy.transports.rws import RwsTransport
-from rapidgen.servers.rws.application import SESSION, RwsApplication
-from rapidgen.servers.rws.context import Accounts
+from rapidgen.servers.rws.application import SESSION, Accounts, RwsApplication
 from rapidgen.servers.rws.messages import HttpRequest, HttpResponse
 from rapidgen.wire.rws.bodies import Generation
 
@@ -144,15 +143,10 @@ class AtDesk:
             else:
                 session = self.line.app.sessions.begin(self.core.user)
                 self.cookies[SESSION] = session.key
-        if self.cookies:
-            headers["cookie"] = "; ".join(f"{k}={v}" for k, v in self.cookies.items())
         reply = self.line.request(
-            HttpRequest(effect.method, effect.target, headers, effect.body, 1)
+            HttpRequest(effect.method, effect.target, headers, effect.body, dict(self.cookies), 1)
         )
-        for name, value in reply.headers:
-            if name == "Set-Cookie":
-                key, _, remaining = value.partition("=")
-                self.cookies[key] = remaining.partition(";")[0]
+        self.cookies |= reply.cookies
         if reply.status == 401:
             self.cookies.pop(SESSION, None)
         text = {name.lower(): value for name, value in reply.headers}

@@ -14,7 +14,7 @@ from rapidgen.deploy import Access, connect, parse_target
 from rapidgen.deploy.command_run import FleetJob, apply_all, plan_all
 from rapidgen.deploy.fleet import parse_targets
 from rapidgen.diagnostics import DiagnosticError, render
-from rapidgen.servers.rws.context import Accounts
+from rapidgen.servers.rws.application import Accounts
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws.bodies import Generation
 from tests.refusal import refusal

@@ -143,8 +143,8 @@ def test_what_the_pendant_denies_changes_nothing(rws, cell, wanted):
 
 def test_missing_grant_is_refused_before_changes(rws, cell, wanted):
     controller_runner, transport = cell
-    office = transport.services._carrier.line.app.context
-    office.login = replace(office.login, denied=frozenset({"UAS_CFG_WRITE"}))
+    app = transport.services._carrier.line.app
+    app.accounts = replace(app.accounts, denied=frozenset({"UAS_CFG_WRITE"}))
     plan = make_plan(transport, wanted)
     assert "! you: give the user UAS_CFG_WRITE in RobotStudio" in plan_text(plan)
     text = refused(rws.run, transport, wanted)

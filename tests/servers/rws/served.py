@@ -4,8 +4,7 @@ from dataclasses import replace
 
 from rapidgen.config import load_config
 from rapidgen.controller.runner import ControllerRunner
-from rapidgen.servers.rws.application import SESSION, RwsApplication
-from rapidgen.servers.rws.context import Accounts
+from rapidgen.servers.rws.application import SESSION, Accounts, RwsApplication
 from rapidgen.servers.rws.messages import HttpRequest
 from rapidgen.system import read_files
 from rapidgen.system.model import SignalSpec
@@ -66,7 +65,7 @@ class Caller:
     def send(self, method, target, form=None, body=None, **headers):
         """A request of this session; its HttpResponse."""
         one = self.application.generation is Generation.ONE
-        sent = {"host": "h", "cookie": f"{SESSION}={self.session.key}"}
+        sent = {"host": "h"}
         if not one:
             sent["accept"] = self.accept
         if method in ("POST", "DELETE", "PUT"):
@@ -74,7 +73,8 @@ class Caller:
         data = body if body is not None else write_form(form or {})
         given = {name.replace("_", "-"): value for name, value in headers.items()}
         sent = {k: v for k, v in {**sent, **given}.items() if v is not None}
-        return self.application.handle(HttpRequest(method, target, sent, data, 1))
+        cookies = {SESSION: self.session.key}
+        return self.application.handle(HttpRequest(method, target, sent, data, cookies, 1))
 
     def get(self, target, **headers):
         """The items of a GET that succeeds."""

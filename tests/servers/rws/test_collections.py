@@ -37,7 +37,7 @@ def two(tmp_path_factory):
     [*((path, True) for path in COLLECTIONS), *((path, False) for path in SINGLE)],
 )
 def test_what_is_many_is_a_collection(two, path, is_one):
-    two.application.context.runner.controller.run_for(1.0)
+    two.application.runner.controller.run_for(1.0)
     reply = two.send("GET", path)
     assert reply.status == 200
     assert media.read(reply.body, reply.header("content-type")).collection is is_one

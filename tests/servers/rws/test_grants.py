@@ -98,11 +98,11 @@ def polled(caller):
 
 
 def question(caller):
-    return caller.application.context.controller.operator.questions[0]
+    return caller.application.controller.operator.questions[0]
 
 
 def answer(caller, text):
-    operator = caller.application.context.controller.operator
+    operator = caller.application.controller.operator
     operator.answer(question(caller).number, text)
 
 
@@ -118,7 +118,7 @@ def test_granted_at_the_pendant(manual):
     (item,) = manual.get("/users/rmmp")
     assert (item.text("privilege"), item.text("rmmpheldbyme")) == ("modify", "true")
     assert wants(manual) == 204
-    assert not manual.application.context.controller.operator.questions
+    assert not manual.application.controller.operator.questions
     started = {
         "regain": "continue", "execmode": "continue", "cycle": "asis", "condition": "none",
         "stopatbp": "disabled", "alltaskbytsp": "false",
@@ -134,7 +134,7 @@ def test_denied_at_the_pendant(manual):
 
 
 def test_a_question_stands_for_ten_seconds_after_the_last_poll(manual):
-    controller_runner = manual.application.context.runner
+    controller_runner = manual.application.runner
     manual.post("/users/rmmp", {"privilege": "modify"})
     for _ in range(3):
         pass_time(controller_runner, 6)
@@ -146,7 +146,7 @@ def test_a_question_stands_for_ten_seconds_after_the_last_poll(manual):
 
 @pytest.mark.parametrize("end", ["cancel", "logout", "mode", "restart"])
 def test_what_was_granted_ends(manual, end):
-    app, controller_runner = manual.application, manual.application.context.runner
+    app, controller_runner = manual.application, manual.application.runner
     manual.post("/users/rmmp", {"privilege": "exec"})
     answer(manual, "Grant")
     assert wants(manual) == 204

@@ -81,7 +81,7 @@ def test_a_host_that_is_no_text(caller):
 
 def test_a_file_whose_name_is_no_text(caller):
     """HOME of a backup that was unpacked on another system."""
-    home = caller.application.context.controller.files.path("HOME:")
+    home = caller.application.controller.files.path("HOME:")
     os.close(os.open(os.fsencode(home) + b"/a\xff.mod", os.O_CREAT))
     for accept in (media.HAL, media.XHTML):
         caller.accept = accept
@@ -121,7 +121,7 @@ def test_a_program_file_does_not_lead_out(caller, tmp_path):
     """A link in a HOME that the user gave."""
     outside = tmp_path / "outside.mod"
     outside.write_text("MODULE Outside\nENDMODULE\n")
-    home = caller.application.context.controller.files.path("HOME:")
+    home = caller.application.controller.files.path("HOME:")
     (home / "a.mod").symlink_to(outside)
     (home / "p.pgf").write_text("<Program><Module>a.mod</Module></Program>")
     edit(caller)
@@ -183,7 +183,7 @@ def test_a_text_that_names_its_module_anew_keeps_main(caller):
 def test_a_message_to_a_task_has_a_whole_number(caller, number):
     target = "/rw/dipc/RMQ_T_ROB1" + spelled(caller, "?action=dipc-send", "")
     assert caller.post(target, {"dipc-data": "num;1", "dipc-userdef": number}) == 400
-    assert not caller.application.context.controller.queues.queue("T_ROB1").messages
+    assert not caller.application.controller.queues.queue("T_ROB1").messages
 
 
 @pytest.mark.parametrize(

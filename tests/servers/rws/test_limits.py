@@ -55,14 +55,14 @@ def test_a_group_has_so_many_resources(caller, monkeypatch, limit, priority):
 
 
 def test_so_many_sessions_have_a_websocket(caller):
-    groups = caller.application.context.groups
+    groups = caller.application.groups
     made = []
     for _ in range(subscriptions.MOST_SOCKETS + 1):
         session = Caller(caller.application)
         made.append(groups.find(number(ask(session, (SPEED, 1))), session.session))
     for group in made[:-1]:
-        groups.listen(group, lambda data: None, lambda: None)
+        groups.listen(str(group.number), group.session, lambda event: None)
     assert len(made) == 20
     with pytest.raises(subscriptions.RequestDenied) as denied:
-        groups.listen(made[-1], lambda data: None, lambda: None)
+        groups.listen(str(made[-1].number), made[-1].session, lambda event: None)
     assert denied.value.status == 503

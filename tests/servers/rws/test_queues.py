@@ -55,7 +55,7 @@ def read(caller, name):
 
 
 def test_a_message_reaches_the_program_which_answers(caller):
-    controller = caller.application.context.runner.controller
+    controller = caller.application.runner.controller
     assert create(caller, "mine").status == 201
     assert (
         caller.post(
@@ -116,8 +116,7 @@ def test_an_event_brings_the_message(caller):
     form = {"resources": "1", "1": "/rw/dipc/mine", "1-p": "1"}
     assert caller.post("/subscription", form) == 201
     events = []
-    group = caller.application.groups.find("1", caller.session)
-    caller.application.groups.listen(group, events.append, lambda: None)
+    caller.application.groups.listen("1", caller.session, events.append)
     assert send(caller, "mine", "hello").status == 204
     (event,) = events
     assert b'href="/rw/dipc/mine"' in event

@@ -157,22 +157,22 @@ def caller(request, tmp_path_factory):
 
 def state_of(caller):
     """State that a request could have changed."""
-    controller = caller.application.context.controller
+    controller = caller.application.controller
     home = controller.files.path("HOME:")
     return (
         sorted(str(path) for path in home.rglob("*")),
         controller.tasks["T_ROB1"]["x"],
         [signal.value for signal in controller.io.signals.values()],
-        [module.name for module in caller.application.context.runner.programs.modules(
+        [module.name for module in caller.application.runner.programs.modules(
             controller.rapid_tasks["T_ROB1"])],
-        caller.application.context.runner.cfg,
+        caller.application.runner.cfg,
         len(caller.get("/subscription")),
     )  # fmt: skip
 
 
 def refused(caller, method, path, form, status, code):
     # RobotWare 6 takes twenty requests a second.
-    caller.application.context.runner.controller.run_for(1.0)
+    caller.application.runner.controller.run_for(1.0)
     before = state_of(caller)
     reply = caller.send(method, path, form)
     fault = media.read(reply.body, reply.header("content-type")).fault

@@ -34,9 +34,9 @@ def act(caller, path, name, form=None, two=""):
 
 
 def stop(caller):
-    caller.application.context.runner.controller.run_for(0.1)
+    caller.application.runner.controller.run_for(0.1)
     assert act(caller, "/rw/rapid/execution", "stop", {"stopmode": "stop"}) == 204
-    caller.application.context.runner.controller.run_for(0.5)
+    caller.application.runner.controller.run_for(0.5)
 
 
 # -- positions -----------------------------------------------------------------------------------
@@ -107,7 +107,7 @@ def test_leading_by_hand_takes_a_standing_program(two):
     assert two.get(path)[0].text("status") == "Active"
     assert two.post(path, {"status": "inactive"}) == 204
     assert two.post("/rw/rapid/execution/start", STARTED) == 204
-    two.application.context.runner.controller.run_for(0.1)
+    two.application.runner.controller.run_for(0.1)
     assert two.post(path, {"status": "active"}) == 204
     assert two.get(path)[0].text("status") == "Inactive"
 
@@ -121,7 +121,7 @@ def module(caller, remaining):
 
 
 def test_a_text_that_is_written_is_what_runs(caller):
-    controller = caller.application.context.runner.controller
+    controller = caller.application.runner.controller
     (read,) = caller.get(module(caller, ("resource=module-text", "text")))
     text = read.text("module-text").replace("WaitTime 0.1", 'name := "new"; WaitTime 0.1')
     target = module(caller, ("action=set-module-text", "text"))
@@ -163,16 +163,16 @@ def test_a_program_is_saved_taken_out_and_loaded(caller):
     assert act(caller, program, "loadprog", form, "load") == 204
     (loaded,) = caller.get(program)
     assert loaded.text("name") == "T_ROB1"
-    assert caller.application.context.runner.controller.tasks["T_ROB1"]["x"] == 1
+    assert caller.application.runner.controller.tasks["T_ROB1"]["x"] == 1
     missing = {"progpath": f"{volume}/else.pgf"}
     assert act(caller, program, "loadprog", missing, "load") in (400, 404)
 
 
 def test_load_program_replaces_or_adds_modules(caller):
     """System modules are no part of a program."""
-    programs = caller.application.context.runner.programs
-    task = caller.application.context.controller.rapid_tasks["T_ROB1"]
-    home = caller.application.context.controller.files.path("HOME:")
+    programs = caller.application.runner.programs
+    task = caller.application.controller.rapid_tasks["T_ROB1"]
+    home = caller.application.controller.files.path("HOME:")
     edit(caller)
     for name, attributes in (("Own", ""), ("Sys", "(SYSMODULE)")):
         (home / f"{name}.mod").write_text(f"MODULE {name}{attributes}\nENDMODULE\n")
@@ -193,7 +193,7 @@ def test_load_program_replaces_or_adds_modules(caller):
 
 def test_a_pointer_is_not_put_while_the_program_runs(caller):
     assert act(caller, "/rw/rapid/execution", "start", STARTED) == 204
-    caller.application.context.controller.run_for(0.15)
+    caller.application.controller.run_for(0.15)
     edit(caller)
     form = {"module": "MainModule", "routine": "main", "userlevel": "FALSE"}
     where = caller.get("/rw/rapid/tasks/T_ROB1/pcp")
@@ -234,15 +234,13 @@ def test_the_stack_and_the_pointer_of_a_stopped_program(caller):
 
 
 def test_a_step_is_for_manual_mode(caller):
-    controller = caller.application.context.runner.controller
+    controller = caller.application.runner.controller
     form = {**STARTED, "execmode": "stepover"}
     assert act(caller, "/rw/rapid/execution", "start", form) == 403
     controller.set_mode("manual_reduced")
     controller.set_motors(True)
     lenient = Caller(
-        make_application(
-            caller.application.context.runner, caller.application.generation, strict=False
-        )
+        make_application(caller.application.runner, caller.application.generation, strict=False)
     )
     for _ in range(2):
         assert act(lenient, "/rw/rapid/execution", "start", form) == 204
@@ -363,7 +361,7 @@ def test_jogging_is_refused_with_its_reason(caller):
     jog = "/rw/motionsystem" + ("?action=jog" if caller.is_one else "/jog")
     form = {"jogmode": "AxisGroup1", "mechunit": "ROB_1", "ccount": "0"}
     assert code_of(caller.send("POST", jog, form)) == CODES["E_MODE_REJECT"]
-    caller.application.context.controller.set_mode("manual_reduced")
+    caller.application.controller.set_mode("manual_reduced")
     assert code_of(caller.send("POST", jog, form)) == CODES["E_REJECT"]
     assert caller.post(jog, {"jogmode": "AxisGroup1"}) == 400
 
@@ -380,7 +378,7 @@ def test_backup_existing_name_or_broken_folder_is_refused(caller):
     assert code_of(caller.send("POST", again, form)) == CODES["E_DIR_EXIST"]
     if caller.is_one:
         return
-    folder = caller.application.context.controller.files.path("BACKUP:/first")
+    folder = caller.application.controller.files.path("BACKUP:/first")
     for broken, wanted in ((False, 0), (True, CODES["E_FAIL"])):
         if broken:
             (folder / "SYSPAR" / "SYS.cfg").write_text("nothing\n")
@@ -409,7 +407,7 @@ def test_a_literal_is_judged(caller):
 
 
 def test_a_backup_is_restored_with_modules_and_files(caller):
-    controller_runner = caller.application.context.runner
+    controller_runner = caller.application.runner
     volume = "$BACKUP" if caller.is_one else "BACKUP"
     saved = controller_runner.controller.files.path("HOME:") / "kept.txt"
     saved.write_text("kept")
@@ -455,8 +453,7 @@ def test_events_have_the_manuals_fields(caller, resource, kind):
     assert reply.status == 201
     assert kind in reply.body
     events = []
-    group = caller.application.groups.find("1", caller.session)
-    caller.application.groups.listen(group, events.append, lambda: None)
+    caller.application.groups.listen("1", caller.session, events.append)
     motion = "motion?action=request" if caller.is_one else "motion/request"
     assert caller.post(f"/rw/mastership/{motion}") == 204
     edit(caller)
@@ -485,7 +482,7 @@ def test_controller_resources_have_expected_fields(caller, path, name):
 
 def test_the_log_is_saved_and_cleared(caller):
     volume = "$TEMP" if caller.is_one else "TEMP"
-    log = caller.application.context.controller.log
+    log = caller.application.controller.log
     log.info(10_000, "a title of its own")
     assert act(caller, "/rw/elog", "saveraw", {"path": f"/fileservice/{volume}/log.txt"}) == 202
     assert b"a title of its own" in caller.send("GET", f"/fileservice/{volume}/log.txt").body

@@ -74,14 +74,14 @@ def test_titles_of_modules_begin_with_the_task(caller):
 
 def test_start_with_motors_off(tmp_path, one, two):
     for caller in (one, two):
-        caller.application.context.controller.set_motors(False)
+        caller.application.controller.set_motors(False)
     # RWS 2.0 accepts a start that has no effect [real 7.21, VC 7.21].
     assert two.post("/rw/rapid/execution/start", STARTED) == 204
     reply = one.send("POST", "/rw/rapid/execution?action=start", STARTED)
     assert (reply.status, code_of(reply)) == (400, CODES["E_EXEC_STATE"])
     for caller in (one, two):
         assert caller.get("/rw/rapid/execution")[0].text("ctrlexecstate") == "stopped"
-        caller.application.context.controller.set_motors(True)
+        caller.application.controller.set_motors(True)
     assert one.post("/rw/rapid/execution?action=start", STARTED) == 204
     with make_runner(tmp_path) as runner:
         runner.controller.set_motors(False)

@@ -11,7 +11,7 @@ from served import make_runner
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
-from rapidgen.servers.rws.application import SESSION
+from rapidgen.servers.rws.application import CONNECTION, SESSION
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
@@ -101,6 +101,15 @@ def test_websocket_of_unknown_client_is_refused(subscribe, changed, status):
     assert caught.value.response.status_code == status
 
 
+def test_cookies_are_not_sent_to_pages_of_others(port):
+    link = http.client.HTTPSConnection("127.0.0.1", port, context=trusting())
+    link.request("GET", "/rw/system", headers={"Authorization": BASIC, "Accept": media.HAL})
+    cookies = link.getresponse().headers.get_all("Set-Cookie")
+    link.close()
+    assert [c.partition("=")[0] for c in cookies] == [SESSION, CONNECTION]
+    assert all(c.endswith("; HttpOnly; Path=/; SameSite=Strict") for c in cookies)
+
+
 def test_pages_of_other_servers_get_no_events(subscribe):
     wanted = subscribe("/rw/panel/opmode")
     headers = {**wanted["additional_headers"], "Origin": "https://other"}
@@ -148,13 +157,13 @@ def test_who_leaves_late_takes_nothing_from_who_came_since(one):
     assert one.post("/subscription", form) == 201
     groups, old, new = one.application.groups, [], []
     group = groups.find("1", one.session)
-    groups.listen(group, old.append, lambda: None)
+    groups.listen("1", one.session, old.append)
     first = group.send
-    groups.listen(group, new.append, lambda: None)
+    groups.listen("1", one.session, new.append)
     groups.leave("1", first)
     assert one.post("/rw/iosystem/signals/aoSpeed?action=set", {"lvalue": "2"}) == 204
     assert len(new) == 1
-    assert not old
+    assert old == [None]  # it is closed
 
 
 def test_what_public_clients_subscribe_to_can_be(one, two):

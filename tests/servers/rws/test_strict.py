@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from served import STARTED, Caller, code_of, make_application, make_runner
 
+from rapidgen.servers.rws.application import IDLE, MOST_SESSIONS, RATE
 from rapidgen.servers.rws.messages import HttpRequest
-from rapidgen.servers.rws.sessions import IDLE, MOST, RATE
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES
@@ -71,11 +71,11 @@ def test_verbs_of_another_generation_are_refused(one, two):
 
 def test_there_are_seventy_sessions_which_end_when_they_are_idle(one):
     app = one.application
-    for _ in range(MOST - len(app.sessions)):
+    for _ in range(MOST_SESSIONS - len(app.sessions)):
         assert app.sessions.begin("Admin") is not None
     login = {"authorization": f"Basic {base64.b64encode(b'Admin:robotics').decode()}"}
     assert app.sessions.begin("Admin") is None
-    app.context.runner.controller.run_for(IDLE + 1)
+    app.runner.controller.run_for(IDLE + 1)
     assert app.sessions.begin("Admin") is not None
     assert len(app.sessions) == 1
     assert app.handle(HttpRequest("GET", "/rw/system", login)).status == 401
@@ -94,7 +94,7 @@ def test_twenty_requests_a_second_of_the_controllers_clock_are_the_most(one, two
     assert statuses == [200] * RATE + [503]
     # [RWS 1.0 manual]; public clients of RobotWare 7 ask faster [code: abb-rws-client].
     assert {two.send("GET", "/rw/panel/opmode").status for _ in range(2 * RATE)} == {200}
-    one.application.context.runner.controller.run_for(1.01)
+    one.application.runner.controller.run_for(1.01)
     assert one.send("GET", "/rw/panel/opmode").status == 200
 
 
@@ -155,7 +155,7 @@ def test_robotware_8_has_write_access_of_a_control_station(eight):
 
 
 def test_modes_and_grants_are_held(one):
-    controller = one.application.context.controller
+    controller = one.application.controller
     controller.set_mode("manual_reduced")
     assert one.post("/rw/panel/ctrlstate?action=setctrlstate", {"ctrl-state": "motoron"}) == 403
     assert one.post("/rw/rapid/execution?action=start", STARTED) == 403

@@ -38,7 +38,7 @@ def restart(caller):
     if one:
         caller.post("/rw/mastership/cfg?action=request")
     assert caller.post(target, {"restart-mode": "restart"}) == 204
-    controller_runner = caller.application.context.runner
+    controller_runner = caller.application.runner
     before = controller_runner.restarts
     controller_runner.run(lambda: controller_runner.restarts > before)
     assert caller.send("GET", "/rw/panel/opmode").status == 401
@@ -54,7 +54,7 @@ def put(caller, path, data):
 
 
 def test_what_is_written_is_what_the_running_task_sees(one):
-    controller = one.application.context.controller
+    controller = one.application.controller
     assert one.post("/rw/rapid/execution?action=start", STARTED) == 204
     controller.run_for(1.0)
     first = controller.tasks["T_ROB1"]["MainModule:count"]
@@ -73,7 +73,7 @@ def test_what_is_written_is_what_the_running_task_sees(one):
 
 
 def test_signals_have_names_with_blanks_and_semicolons_and_levels_of_access(one):
-    controller = one.application.context.controller
+    controller = one.application.controller
     assert one.post("/rw/iosystem/signals/do%20x%3B1?action=set", {"lvalue": "1"}) == 204
     assert controller.signals["do x;1"] == 1
     refused = one.send("POST", "/rw/iosystem/signals/doDefault?action=set", {"lvalue": "1"})
@@ -86,7 +86,7 @@ def test_signals_have_names_with_blanks_and_semicolons_and_levels_of_access(one)
 
 
 def test_motors_speed_and_stops_are_those_of_the_controller(two):
-    controller = two.application.context.controller
+    controller = two.application.controller
     assert two.post("/rw/panel/ctrl-state", {"ctrl-state": "motoroff"}) == 204
     assert not controller.motors_on
     assert two.post("/rw/rapid/execution/start", STARTED) == 204  # and it does not run
@@ -113,13 +113,13 @@ def test_a_module_is_loaded_replaced_and_taken_out(one):
     put(one, "HOME/a.mod", b"MODULE Helper\n    PERS num h := 6;\nENDMODULE\n")
     assert one.post(f"{tasks}?action=loadmod", {**form, "replace": "true"}) == 204
     assert one.get("/rw/rapid/symbol/data/RAPID/T_ROB1/h?json=1")[0].text("value") == "6"
-    one.application.context.controller.run_for(1.1)
+    one.application.controller.run_for(1.1)
     names = [i.text("name") for i in one.get("/rw/rapid/modules?task=T_ROB1")]
     assert names == ["MainModule", "Helper"]
-    one.application.context.controller.start_program()
+    one.application.controller.start_program()
     running = one.send("POST", f"{tasks}?action=unloadmod", {"module": "Helper"})
     assert (running.status, code_of(running)) == (400, CODES["E_EXEC_STATE"])
-    one.application.context.controller.stop_program()
+    one.application.controller.stop_program()
     assert one.post(f"{tasks}?action=unloadmod", {"module": "Helper"}) == 204
     assert one.post(f"{tasks}?action=unloadmod", {"module": "Helper"}) == 400
 
@@ -181,7 +181,7 @@ def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation
 
 
 def test_missing_module_is_sysfail_until_restart(one):
-    controller_runner = one.application.context.runner
+    controller_runner = one.application.runner
     put(one, "TEMP/a.cfg", TASK.format(6, "Back").encode())
     one.post("/rw/mastership/cfg?action=request")
     load = {"filepath": "$TEMP/a.cfg", "action-type": "add"}
@@ -216,7 +216,7 @@ def test_single_instances_are_made_changed_and_deleted(two):
         "SignalType": "DO",
         "Access": "All",
     }
-    assert two.application.context.controller.io.get("doNew") is None
+    assert two.application.controller.io.get("doNew") is None
     caller = restart(two)
     assert caller.post("/rw/iosystem/signals/doNew/set-value", {"lvalue": "1"}) == 204
     assert caller.send("DELETE", f"{instances}/doNew{edit}").status == 204
@@ -240,7 +240,7 @@ def test_add_with_reset_wipes_a_domain_and_replace_only_what_has_the_name(one):
 
 
 def test_a_backup_holds_what_the_controller_is_and_boots(one):
-    controller = one.application.context.controller
+    controller = one.application.controller
     put(one, "HOME/notes.txt", b"n")
     controller.tasks["T_ROB1"]["MainModule:x"] = 7
     form = {"backup": "/fileservice/$BACKUP/b"}
@@ -281,7 +281,7 @@ def test_files_stay_within_their_volumes(one):
         "$HOME/a/../../..",
     ):
         assert one.send("GET", f"/fileservice/{path}").status in (400, 404)
-    one.application.context.controller.run_for(1.1)
+    one.application.controller.run_for(1.1)
     assert one.send("DELETE", "/fileservice/$HOME").status == 403
     assert one.send("DELETE", "/fileservice/$HOME/d").status == 204
     assert one.send("DELETE", "/fileservice/$HOME/d").status == 404

@@ -4,13 +4,12 @@ Changes take effect after a restart.
 """
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from rapidgen._reading import read_foreign
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.servers.rws.context import disk_path
+from rapidgen.servers.rws.application import RwsApplication, serves
+from rapidgen.servers.rws.handlers.files import disk_path, write_file
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, page, show
-from rapidgen.servers.rws.routing import serves
 from rapidgen.system.cfg import Attribute, CfgText, Instance, parse_cfg, scalar, write_cfg
 from rapidgen.system.cfg_database import with_defaults
 from rapidgen.system.cfg_loading import CfgFileLoad, LoadResult, add, identity_text
@@ -19,14 +18,11 @@ from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 from rapidgen.wire.rws.codes import OK
 
-if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import RwsContext
 
-
-def _domain(context: "RwsContext", request: RwsRequest) -> CfgText:
+def _domain(app: RwsApplication, request: RwsRequest) -> CfgText:
     name = request.names["domain"].upper()
-    if name in context.controller.cfg.domains:
-        return context.runner.cfg.domain(name)
+    if name in app.controller.cfg.domains:
+        return app.runner.cfg.domain(name)
     raise RequestDenied(400 if request.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
 
 
@@ -35,47 +31,47 @@ def _title(section: str, instance: Instance) -> str:
 
 
 @serves(ops.CFG)
-def get_domains(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_domains(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the domains."""
     return show(
-        *(Item("cfg-domain-li", name) for name in context.controller.cfg.domains),
+        *(Item("cfg-domain-li", name) for name in app.controller.cfg.domains),
         collection=True,
     )
 
 
 @serves(ops.CFG_DOMAIN)
-def get_types(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_types(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the types of a domain."""
-    text = _domain(context, request)
-    names = context.controller.cfg.types(text.domain)
+    text = _domain(app, request)
+    names = app.controller.cfg.types(text.domain)
     return show(*(Item("cfg-dt-li", name) for name in names), collection=True)
 
 
 @serves(ops.CFG_INSTANCES)
-def get_instances(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_instances(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return instances of a type with their attributes.
 
     RWS 2.0 returns seventy at a time [VC 7.21].
     """
-    result = [_item(request, i) for i in _instances(context, request)]
+    result = [_item(request, i) for i in _instances(app, request)]
     return page(request, result, 70, "instances", always=True)
 
 
 @serves(ops.CFG_INSTANCE)
-def get_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_instance(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return one instance."""
-    return show(_item(request, _one(context, request)))
+    return show(_item(request, _one(app, request)))
 
 
-def _instances(context: "RwsContext", request: RwsRequest) -> tuple[Instance, ...]:
+def _instances(app: RwsApplication, request: RwsRequest) -> tuple[Instance, ...]:
     """Return the instances of a type."""
-    text = _domain(context, request)
-    return context.controller.cfg.instances(text.domain, request.names["type"])
+    text = _domain(app, request)
+    return app.controller.cfg.instances(text.domain, request.names["type"])
 
 
-def _one(context: "RwsContext", request: RwsRequest) -> Instance:
+def _one(app: RwsApplication, request: RwsRequest) -> Instance:
     name, section = request.names["instance"], request.names["type"]
-    for instance in _instances(context, request):
+    for instance in _instances(app, request):
         if _title(section, instance).casefold() == name.casefold():
             return instance
     raise RequestDenied(400 if request.is_one else 404, "E_CFG_INSTANCE_INVALID", name)
@@ -98,11 +94,11 @@ def _value(attribute: Attribute) -> str:
 
 
 @serves(ops.CFG_ATTRIBUTES)
-def get_attributes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_attributes(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the attributes of a type's instances."""
     domain, section = request.names["domain"], request.names["type"]
     names = dict.fromkeys(
-        a.name for i in _instances(context, request) for a in with_defaults(domain, section, i)
+        a.name for i in _instances(app, request) for a in with_defaults(domain, section, i)
     )
     result = (
         Item("cfg-dt-attribute", name, {"name": name, "mandatory": "false"}) for name in names
@@ -113,21 +109,21 @@ def get_attributes(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 # -- single instances ----------------------------------------------------------------------------
 
 
-def _with(context: "RwsContext", request: RwsRequest, instances: tuple[Instance, ...]) -> None:
+def _with(app: RwsApplication, request: RwsRequest, instances: tuple[Instance, ...]) -> None:
     """Replace the instances of a type in the database."""
-    text, name = _domain(context, request), request.names["type"]
-    context.runner.cfg = context.runner.cfg.with_instances(text.domain, name, instances)
+    text, name = _domain(app, request), request.names["type"]
+    app.runner.cfg = app.runner.cfg.with_instances(text.domain, name, instances)
 
 
-def _saved(context: "RwsContext", request: RwsRequest) -> tuple[Instance, ...]:
+def _saved(app: RwsApplication, request: RwsRequest) -> tuple[Instance, ...]:
     """Return the instances of a type that can be changed."""
-    return tuple(_domain(context, request).instances(request.names["type"]))
+    return tuple(_domain(app, request).instances(request.names["type"]))
 
 
-def _one_saved(context: "RwsContext", request: RwsRequest) -> Instance:
+def _one_saved(app: RwsApplication, request: RwsRequest) -> Instance:
     """Return an instance that can be changed."""
-    instance, text = _one(context, request), _domain(context, request)
-    if context.controller.cfg.is_internal(text.domain, request.names["type"], instance):
+    instance, text = _one(app, request), _domain(app, request)
+    if app.controller.cfg.is_internal(text.domain, request.names["type"], instance):
         raise RequestDenied(403, "E_REJECT", f"{request.names['type']} is read only", -2)
     return instance
 
@@ -147,11 +143,11 @@ def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
 
 
 @serves(ops.CFG_SET)
-def set_instance(context: "RwsContext", request: RwsRequest) -> None:
+def set_instance(app: RwsApplication, request: RwsRequest) -> None:
     """Set attributes of an instance."""
     if not request.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
-        context.masters.need(request, "cfg")
-    old = _one_saved(context, request)
+        app.masterships.need(request, "cfg")
+    old = _one_saved(app, request)
     attributes = {a.name.casefold(): a for a in old.attributes}
     for name, value in request.pairs:
         made = _attribute(name, value, is_one=request.is_one)
@@ -159,34 +155,34 @@ def set_instance(context: "RwsContext", request: RwsRequest) -> None:
         if made is not None:
             attributes[name.casefold()] = made
     new = replace(old, attributes=tuple(attributes.values()))
-    _with(context, request, tuple(new if i is old else i for i in _saved(context, request)))
+    _with(app, request, tuple(new if i is old else i for i in _saved(app, request)))
 
 
 @serves(ops.CFG_CREATE)
-def create_instance(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def create_instance(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Create an instance with a name and default attributes."""
     if not request.is_one:
-        context.masters.need(request, "cfg")
+        app.masterships.need(request, "cfg")
     name, section = request.field("name"), request.names["type"]
-    if any(_title(section, i).casefold() == name.casefold() for i in _instances(context, request)):
+    if any(_title(section, i).casefold() == name.casefold() for i in _instances(app, request)):
         raise RequestDenied(400, "E_CFG_NAME_EXIST", name)
-    _with(context, request, (*_saved(context, request), Instance((Attribute("Name", (name,)),))))
+    _with(app, request, (*_saved(app, request), Instance((Attribute("Name", (name,)),))))
     return RwsResponse(201)
 
 
 @serves(ops.CFG_DELETE)
-def delete_instance(context: "RwsContext", request: RwsRequest) -> None:
+def delete_instance(app: RwsApplication, request: RwsRequest) -> None:
     """Delete an instance."""
     if not request.is_one:
-        context.masters.need(request, "cfg")
-    old = _one_saved(context, request)
-    _with(context, request, tuple(i for i in _saved(context, request) if i is not old))
+        app.masterships.need(request, "cfg")
+    old = _one_saved(app, request)
+    _with(app, request, tuple(i for i in _saved(app, request) if i is not old))
 
 
 # -- whole files ---------------------------------------------------------------------------------
 
 
-def _load(context: "RwsContext", request: RwsRequest) -> LoadResult:
+def _load(app: RwsApplication, request: RwsRequest) -> LoadResult:
     """Return the database with a file loaded.
 
     With `add` any conflict rejects the whole file. Raises RequestDenied.
@@ -195,7 +191,7 @@ def _load(context: "RwsContext", request: RwsRequest) -> LoadResult:
     words = request.field("filepath")
     if words.startswith("/fileservice"):
         raise RequestDenied(400, "E_INVALID_PATH", f"{words}: a bare path is wanted")
-    path = disk_path(context, words, request)
+    path = disk_path(app, words, request)
     try:
         data = read_foreign(path, MAX_FILE)
         text = parse_cfg(data, path=words)
@@ -203,7 +199,7 @@ def _load(context: "RwsContext", request: RwsRequest) -> LoadResult:
         raise RequestDenied(400 if request.is_one else 404, "E_FILE_NOT_FOUND", words) from error
     except DiagnosticError as error:
         raise RequestDenied(400, "E_CFG_DATA_INCORRECT", str(error)) from error
-    base = context.runner.cfg
+    base = app.runner.cfg
     if mode == "add-with-reset":
         saved = tuple(d for d in base.domains if d.domain != text.domain)
         base = replace(base, domains=(*saved, CfgText(text.domain, text.version, ())))
@@ -218,35 +214,35 @@ def _why(loaded: LoadResult) -> tuple[str, str]:
 
 
 @serves(ops.CFG_LOAD)
-def load(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
+def load(app: RwsApplication, request: RwsRequest) -> RwsResponse | None:
     """Load a file; RWS 2.0 returns the address of the job's result."""
-    context.masters.need(request, "cfg")
-    loaded = _load(context, request)
+    app.masterships.need(request, "cfg")
+    loaded = _load(app, request)
     if loaded.faults:
         for fault in loaded.faults:
-            context.controller.log.error(120_003, "Configuration file not loaded", fault.message)
+            app.controller.log.error(120_003, "Configuration file not loaded", fault.message)
         name, why = _why(loaded)
         if request.is_one:
             raise RequestDenied(400, name, why)
-        return context.started(name)
-    context.runner.cfg = loaded.cfg
-    return None if request.is_one else context.started("")
+        return app.started(name)
+    app.runner.cfg = loaded.cfg
+    return None if request.is_one else app.started("")
 
 
 @serves(ops.CFG_VALIDATE)
-def validate(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def validate(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the result of a load without changing the database."""
-    loaded = _load(context, request)
+    loaded = _load(app, request)
     if loaded.faults:
         raise RequestDenied(400, *_why(loaded))
     return show(Item("cfg-validate", "validate", {"code": str(OK)}))
 
 
 @serves(ops.CFG_SAVE)
-def save(context: "RwsContext", request: RwsRequest) -> None:
+def save(app: RwsApplication, request: RwsRequest) -> None:
     """Write a domain to a file, whose path begins with /fileservice."""
     text = request.field("filepath")
     if not text.startswith("/fileservice/"):
         raise RequestDenied(400, "E_INVALID_PATH", f"{text}: /fileservice/... is wanted")
-    data = write_cfg(_domain(context, request)).encode()
-    context.write_file(disk_path(context, text, request), data)
+    data = write_cfg(_domain(app, request)).encode()
+    write_file(app, disk_path(app, text, request), data)

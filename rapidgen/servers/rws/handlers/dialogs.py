@@ -4,21 +4,19 @@
 the others by `Result`.
 """
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from rapidgen.machine.operator import Question
+from rapidgen.servers.rws.application import RwsApplication, serves
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
-from rapidgen.servers.rws.routing import serves
+from rapidgen.servers.rws.subscriptions import EventSource, Notify, Topic, subscribable
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
-if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import RwsContext
 
-
-def active(context: "RwsContext") -> Question | None:
+def active(app: RwsApplication) -> Question | None:
     """Return the newest open dialog of a task; None if there is none."""
-    result = [q for q in context.controller.operator.questions if q.task]
+    result = [q for q in app.controller.operator.questions if q.task]
     return result[-1] if result else None
 
 
@@ -39,18 +37,18 @@ def dialog_fields(question: Question, event: str = "SEND") -> dict[str, str]:
 
 
 @serves(ops.DIALOG)
-def get_dialog(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_dialog(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the open dialog; 404 without one [VC 6.16]."""
-    question = active(context)
+    question = active(app)
     if question is None:
         raise RequestDenied(404, "E_NO_DATA", "no active UI instruction")
     links = {"params": f"active/params/{stack_of(question)}".replace("%", "%25")}
     return show(Item("rap-uiactive-li", question.dialog, dialog_fields(question), links))
 
 
-def _asked_for(context: "RwsContext", request: RwsRequest) -> Question:
+def _asked_for(app: RwsApplication, request: RwsRequest) -> Question:
     stack = request.names["stack"].lower()
-    for question in context.controller.operator.questions:
+    for question in app.controller.operator.questions:
         if question.task and stack_of(question).lower() in (stack, stack.replace("/$", "/%$")):
             return question
     raise RequestDenied(404, "E_NO_DATA", f"no UI instruction {stack}")
@@ -60,9 +58,9 @@ def _quoted(text: str) -> str:
     return '"' + text.replace('"', '""') + '"'
 
 
-def _parameters(context: "RwsContext", question: Question) -> dict[str, str]:
+def _parameters(app: RwsApplication, question: Question) -> dict[str, str]:
     """Return values by name, as RAPID literals."""
-    chosen = context.dialogs.get(question.number, "")
+    chosen = app.dialogs.get(question.number, "")
     if question.dialog.startswith("TP"):
         keys = {f"TPFK{i}": _quoted(text) for i, text in enumerate(question.choices, 1)}
         first = {"TPAnswer": chosen or "0", "TPText": _quoted(question.text)}
@@ -79,51 +77,85 @@ def _parameters(context: "RwsContext", question: Question) -> dict[str, str]:
 
 
 @serves(ops.DIALOG_PARAMETERS)
-def get_parameters(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_parameters(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return all parameters of a dialog."""
-    result = _parameters(context, _asked_for(context, request)).items()
+    result = _parameters(app, _asked_for(app, request)).items()
     items = (Item("rap-uiparams-li", name, {"value": value}) for name, value in result)
     return show(*items, collection=True)
 
 
 @serves(ops.DIALOG_PARAMETER)
-def get_parameter(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_parameter(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return one parameter of a dialog."""
-    question, name = _asked_for(context, request), request.names["parameter"]
-    match = {k.lower(): v for k, v in _parameters(context, question).items()}.get(name.lower())
+    question, name = _asked_for(app, request), request.names["parameter"]
+    match = {k.lower(): v for k, v in _parameters(app, question).items()}.get(name.lower())
     if match is None:
         raise RequestDenied(404, "E_NO_DATA", f"no parameter {name}")
     return show(Item("rap-uiparam", f"{stack_of(question)}/{name}", {"value": match}))
 
 
 @serves(ops.SET_DIALOG_PARAMETER)
-def set_parameter(context: "RwsContext", request: RwsRequest) -> None:
+def set_parameter(app: RwsApplication, request: RwsRequest) -> None:
     """Set a parameter; a complete answer closes the dialog.
 
     The program continues then.
     """
-    context.masters.need_mode(request.session)
-    question, name = _asked_for(context, request), request.names["parameter"].lower()
+    app.masterships.need_mode(request.session)
+    question, name = _asked_for(app, request), request.names["parameter"].lower()
     value = request.field("value").strip()
     if name == "tpcompleted":
         if value.upper() == "TRUE":
-            _answer(context, question, context.dialogs.get(question.number, ""))
+            _answer(app, question, app.dialogs.get(question.number, ""))
     elif name in ("tpanswer", "result"):
-        context.dialogs[question.number] = value
+        app.dialogs[question.number] = value
         if name == "result":
-            _answer(context, question, value)
-    elif name not in {k.lower() for k in _parameters(context, question)}:
+            _answer(app, question, value)
+    elif name not in {k.lower() for k in _parameters(app, question)}:
         raise RequestDenied(404, "E_NO_DATA", f"no parameter {name}")
     else:
         raise RequestDenied(400, "E_INVALIDARG", f"{name} is no answer")
 
 
-def _answer(context: "RwsContext", question: Question, value: str) -> None:
+def _answer(app: RwsApplication, question: Question, value: str) -> None:
     text = value
     if len(value) > 1 and value[0] == value[-1] == '"':
         text = value[1:-1].replace('""', '"')
     try:
-        context.controller.operator.answer(question.number, text)
+        app.controller.operator.answer(question.number, text)
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", str(error)) from error
-    context.dialogs.pop(question.number, None)
+    app.dialogs.pop(question.number, None)
+
+
+@subscribable("/rw/rapid/uiinstr", "uievent")
+def dialog_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Dialogs that open or are withdrawn, and lines of TPWrite."""
+    operator = app.controller.operator
+
+    def watch(notify: Notify) -> Callable[[], None]:
+        seen = {q.number: q for q in operator.questions if q.task}
+
+        def look() -> None:
+            now = {q.number: q for q in operator.questions if q.task}
+            gone = [q for number, q in seen.items() if number not in now and not q.answered]
+            new = [q for number, q in now.items() if number not in seen]
+            seen.clear()
+            seen.update(now)
+            for event, questions in (("ABORT", gone), ("SEND", new)):
+                for question in questions:
+                    notify(Item("rap-ui-ev", "uiinstruction", dialog_fields(question, event)))
+
+        def written(task: str, line: str) -> None:
+            stack = {"stack": f"RAPID/{task}/", "execlv": "NORMAL", "msg": f'"{line}"'}
+            fields = {"instr": "TPWrite", "event": "POST", **stack}
+            notify(Item("rap-ui-ev", "uiinstruction", fields))
+
+        def end() -> None:
+            operator.asked.remove(look)
+            no_more()
+
+        operator.asked.add(look)
+        no_more = operator.subscribe(written)
+        return end
+
+    return EventSource(lambda: Item("rap-ui-ev"), watch, has_state=False)

@@ -4,30 +4,64 @@ A message to a task is `type;value` [doc: PC SDK, RAPID message queue], as one f
 between clients it is any text of at most 444 bytes.
 """
 
-from typing import TYPE_CHECKING
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 from rapidgen.runtime.compiler.link import find_type
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.queues import Message
-from rapidgen.runtime.text import NotALiteral, parse_value
-from rapidgen.servers.rws.context import MESSAGE_KINDS, ClientQueue, ClientText
+from rapidgen.runtime.queues import Message, Queue
+from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
+from rapidgen.servers.rws.application import RwsApplication, serves
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
-from rapidgen.servers.rws.routing import serves
+from rapidgen.servers.rws.subscriptions import EventSource, Notify, Topic, subscribable
 from rapidgen.system.model import QueueSpec
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
-if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import RwsContext
-
 LARGEST = 444
 """Largest message [RWS manual], bytes."""
 _OF_A_TASK = "rmq_"
+MESSAGE_KINDS = ("IPC_SEND", "IPC_PACKAGE")
+"""Kinds of messages, by `dipc-msgtype`."""
 
 
-def find(context: "RwsContext", name: str) -> ClientQueue:
+@dataclass(frozen=True, slots=True)
+class ClientText:
+    """Message from one client to another."""
+
+    sender: str
+    data: str
+    command: str
+    user: str
+    kind: str
+
+
+@dataclass(slots=True, eq=False)
+class ClientQueue:
+    """A queue that a client has made; tasks put their answers into `queue`."""
+
+    name: str
+    queue: Queue
+    texts: deque[ClientText] = field(default_factory=deque)
+
+    def __len__(self) -> int:
+        return len(self.texts) + len(self.queue.messages)
+
+    def take(self) -> ClientText | None:
+        """Remove and return the first message; None if the queue is empty."""
+        if self.texts:
+            return self.texts.popleft()
+        if not self.queue.messages:
+            return None
+        message = self.queue.messages.popleft()
+        data = f"{message.type.name};{literal_text(message.value, message.type)}"
+        return ClientText(message.sender, data, "0", f"{message.user:g}", MESSAGE_KINDS[1])
+
+
+def find(app: RwsApplication, name: str) -> ClientQueue:
     """Return a client's queue. RequestDenied: there is none."""
-    match = context.queues.get(name.lower())
+    match = app.queues.get(name.lower())
     if match is None:
         raise RequestDenied(404, "E_INVALIDSLOTID", f"no queue {name}")
     return match
@@ -48,20 +82,20 @@ def _item(kind: str, queue: ClientQueue) -> Item:
 
 
 @serves(ops.QUEUES)
-def get_queues(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_queues(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the queues of clients."""
-    result = (_item("dipc-queue-li", queue) for queue in context.queues.values())
+    result = (_item("dipc-queue-li", queue) for queue in app.queues.values())
     return show(*result, collection=True)
 
 
 @serves(ops.QUEUE)
-def get_queue(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_queue(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return one queue of a client."""
-    return show(_item("dipc-queue", find(context, request.names["queue"])))
+    return show(_item("dipc-queue", find(app, request.names["queue"])))
 
 
 @serves(ops.CREATE_QUEUE)
-def create(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def create(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Create a queue of this client; it ends with the session."""
     name = request.field("dipc-queue-name")
     size = whole("dipc-queue-size", request.field("dipc-queue-size"), 1, 10_000)
@@ -70,28 +104,28 @@ def create(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     if not name or "/" in name:
         raise RequestDenied(400, "E_INVALIDARG", f"dipc-queue-name: {name}")
     try:
-        made = ClientQueue(name, context.controller.queues.open(name, spec))
+        made = ClientQueue(name, app.controller.queues.open(name, spec))
     except ValueError as error:
         raise RequestDenied(400, "E_INVALIDARG", f"queue {name} exists") from error
-    context.queues[name.lower()] = made
-    request.session.on_end.append(lambda: _close(context, made))
+    app.queues[name.lower()] = made
+    request.session.on_end.append(lambda: _close(app, made))
     return RwsResponse(201)
 
 
-def _close(context: "RwsContext", queue: ClientQueue) -> None:
-    if context.queues.get(queue.name.lower()) is queue:
-        del context.queues[queue.name.lower()]
-        context.controller.queues.close(queue.name)
+def _close(app: RwsApplication, queue: ClientQueue) -> None:
+    if app.queues.get(queue.name.lower()) is queue:
+        del app.queues[queue.name.lower()]
+        app.controller.queues.close(queue.name)
 
 
 @serves(ops.DELETE_QUEUE)
-def delete(context: "RwsContext", request: RwsRequest) -> None:
+def delete(app: RwsApplication, request: RwsRequest) -> None:
     """Delete a queue."""
-    _close(context, find(context, request.names["queue"]))
+    _close(app, find(app, request.names["queue"]))
 
 
 @serves(ops.SEND_MESSAGE)
-def send(context: "RwsContext", request: RwsRequest) -> None:
+def send(app: RwsApplication, request: RwsRequest) -> None:
     """Put a message into a queue of a client or a task.
 
     The task's program receives it.
@@ -104,9 +138,9 @@ def send(context: "RwsContext", request: RwsRequest) -> None:
     if len(data.encode()) > LARGEST:
         raise RequestDenied(400, "E_BUFFER_OVERFLOW", f"{len(data)} characters")
     if name.lower().startswith(_OF_A_TASK):
-        _to_task(context, name, data, sender, user)
+        _to_task(app, name, data, sender, user)
         return
-    queue = find(context, name)
+    queue = find(app, name)
     if len(queue) >= queue.queue.spec.max_messages:
         raise RequestDenied(400, "E_QUEUEFULL", name)
     kind = MESSAGE_KINDS[request.form.get("dipc-msgtype", "1") != "0"]
@@ -114,10 +148,10 @@ def send(context: "RwsContext", request: RwsRequest) -> None:
     queue.queue.changed.notify()
 
 
-def _to_task(context: "RwsContext", name: str, data: str, sender: str, user: str) -> None:
+def _to_task(app: RwsApplication, name: str, data: str, sender: str, user: str) -> None:
     kind, _, literal = data.partition(";")
     result = find_type(kind.strip().lower())
-    queue = context.controller.queues.named(name)
+    queue = app.controller.queues.named(name)
     if queue is None or not queue.spec.open:
         raise RequestDenied(404, "E_INVALIDSLOTID", f"no queue {name}")
     try:
@@ -125,7 +159,7 @@ def _to_task(context: "RwsContext", name: str, data: str, sender: str, user: str
             raise RequestDenied(400, "E_INVALIDARG", f"no type {kind}")
         value = parse_value(literal, result, (), escaped=True)
         number = whole("dipc-userdef", user or "0")
-        context.controller.queues.send(name, Message(result, (), value, sender, float(number)))
+        app.controller.queues.send(name, Message(result, (), value, sender, float(number)))
     except (NotALiteral, ValueError) as error:
         raise RequestDenied(400, "E_INVALIDARG", f"no message {data}") from error
     except RapidError as error:
@@ -134,12 +168,12 @@ def _to_task(context: "RwsContext", name: str, data: str, sender: str, user: str
 
 
 @serves(ops.READ_MESSAGE)
-def read(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
+def read(app: RwsApplication, request: RwsRequest) -> RwsResponse | None:
     """Remove and return the first message.
 
     Without one the answer is an empty list, or 204.
     """
-    queue = find(context, request.names["queue"])
+    queue = find(app, request.names["queue"])
     notify = taken(queue)
     if notify is None:
         return show() if request.is_one else None
@@ -161,3 +195,22 @@ def taken(queue: ClientQueue) -> dict[str, str] | None:
         "dipc-data": result.data,
         "dipc-userdef": result.user,
     }
+
+
+@subscribable("/rw/dipc/(?P<queue>[^/]+)", "", "nomessage")
+def queue_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Messages of a client's queue, which an event takes; `nomessage` leaves them there."""
+    queue = find(app, topic.names["queue"])
+
+    def watch(notify: Notify) -> Callable[[], None]:
+        def look() -> None:
+            if topic.suffix:
+                notify(Item("dipc-msg-ev", "msg", {}, {"self": topic.text}))
+                return
+            while (fields := taken(queue)) is not None:  # those from before, too
+                notify(Item("dipc-msg-ev", "msg", fields, {"self": topic.text}))
+
+        queue.queue.changed.add(look)
+        return lambda: queue.queue.changed.remove(look)
+
+    return EventSource(lambda: Item("dipc-msg-ev"), watch, has_state=False)

@@ -5,22 +5,19 @@ import warnings
 from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from rapidgen.controller.views import TaskView
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.link import find_type
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
-from rapidgen.runtime.values import Type, Value
+from rapidgen.runtime.values import PersistentCell, Type, Value
+from rapidgen.servers.rws.application import RwsApplication, serves
 from rapidgen.servers.rws.handlers.tasks import find_task
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
-from rapidgen.servers.rws.routing import serves
+from rapidgen.servers.rws.subscriptions import EventSource, Topic, every_change, subscribable
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
-
-if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import RwsContext
 
 _ELEMENT = re.compile(r"(\w+)\{\s*(\d{1,9}(?:\s*,\s*\d{1,9})*)\s*\}")
 _KINDS = {"PERS": ("per", "pers"), "VAR": ("var", "var"), "CONST": ("con", "constant")}
@@ -52,7 +49,7 @@ class Datum:
         return value
 
 
-def find(context: "RwsContext", path: str, request: RwsRequest) -> Datum:
+def find(app: RwsApplication, path: str, request: RwsRequest) -> Datum:
     """Return the datum of `TASK/MODULE/NAME` or `TASK/NAME`.
 
     RequestDenied: there is none.
@@ -60,7 +57,7 @@ def find(context: "RwsContext", path: str, request: RwsRequest) -> Datum:
     parts = path.split("/")
     if len(parts) not in (2, 3):
         raise _unknown(request, path)
-    task = context.controller.tasks[find_task(context, parts[0], request).name]
+    task = app.controller.tasks[find_task(app, parts[0], request).name]
     match = _ELEMENT.fullmatch(parts[-1])
     own = match[1] if match else parts[-1]
     name = ":".join((*parts[1:-1], own))
@@ -87,9 +84,9 @@ def _unknown(request: RwsRequest, path: str) -> RequestDenied:
 
 
 @serves(ops.SYMBOL)
-def get_symbol(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_symbol(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the value as a RAPID literal."""
-    result = find(context, request.names["symbol"], request)
+    result = find(app, request.names["symbol"], request)
     text = literal_text(result.value, result.type)
     name = request.names["symbol"].rpartition("/")[2]
     if len(text) > LARGEST:
@@ -99,13 +96,13 @@ def get_symbol(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.SET_SYMBOL)
-def set_symbol(context: "RwsContext", request: RwsRequest) -> None:
+def set_symbol(app: RwsApplication, request: RwsRequest) -> None:
     """Set a datum, effective at once for every reader."""
     if request.is_one:
-        context.masters.need_mode(request.session)  # RobotWare 6 takes mastership by itself
+        app.masterships.need_mode(request.session)  # RobotWare 6 takes mastership by itself
     else:
-        context.masters.need(request, "rapid")
-    result = find(context, request.names["symbol"], request)
+        app.masterships.need(request, "rapid")
+    result = find(app, request.names["symbol"], request)
     text = request.field("value")
     try:
         value = parse_value(text, result.type, result.dims, escaped=True)
@@ -128,9 +125,9 @@ def set_symbol(context: "RwsContext", request: RwsRequest) -> None:
 
 
 @serves(ops.VALIDATE_VALUE)
-def validate(context: "RwsContext", request: RwsRequest) -> None:
+def validate(app: RwsApplication, request: RwsRequest) -> None:
     """Check whether a text is a value of a type: 204, or 400."""
-    find_task(context, request.names.get("task") or request.field("task"), request)
+    find_task(app, request.names.get("task") or request.field("task"), request)
     name, text = request.field(request.kind("datatype", "dattyp")), request.field("value")
     result = find_type(name.lower())
     try:
@@ -142,10 +139,10 @@ def validate(context: "RwsContext", request: RwsRequest) -> None:
 
 
 @serves(ops.SYMBOL_PROPERTIES)
-def get_properties(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_properties(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the properties of a datum."""
     path = request.names["symbol"]
-    result = find(context, path, request)
+    result = find(app, path, request)
     for item, _ in _data(result.task, ""):
         if item.fields["name"].lower() == path.rpartition("/")[2].lower():
             return show(Item(item.kind, item.title, item.fields))
@@ -153,7 +150,7 @@ def get_properties(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.SEARCH_SYMBOLS)
-def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def search(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return data of a task or a module by kind, type and name pattern."""
     form = request.form
     if not request.is_one and "task" in form:
@@ -161,9 +158,9 @@ def search(context: "RwsContext", request: RwsRequest) -> RwsResponse:
     parts = form.get("blockurl", "RAPID").split("/")
     if parts[0].upper() != "RAPID" or len(parts) > 3:
         raise RequestDenied(400, "E_INVALIDARG", "blockurl")
-    tasks = list(context.controller.tasks.values())
+    tasks = list(app.controller.tasks.values())
     if len(parts) > 1:
-        tasks = [context.controller.tasks[find_task(context, parts[1], request).name]]
+        tasks = [app.controller.tasks[find_task(app, parts[1], request).name]]
     module = parts[2] if len(parts) > 2 else ""
     try:
         with warnings.catch_warnings():
@@ -223,3 +220,21 @@ def _property_fields(
         "taskvar": "false",
         "typurl": f"RAPID/{type_.name}",
     }
+
+
+@subscribable("/rw/rapid/symbol/data/RAPID/(?P<symbol>.+)", "value")
+@subscribable("/rw/rapid/symbol/RAPID/(?P<symbol>.+)/data", "value")
+def value_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Values of a persistent."""
+    result = find(app, topic.names["symbol"], topic.request)
+    cell = result.task.cell(result.name)
+    if not isinstance(cell, PersistentCell) or cell.cell is None:
+        raise RequestDenied(400, "E_INVALIDARG", f"no persistent: {topic.text}")
+    # RWS 2.0 gives the address without the part after the semicolon [code: App SDK].
+    href = topic.text if topic.request.is_one else topic.text.partition(";")[0]
+
+    def item() -> Item:
+        value = literal_text(result.value, result.type)
+        return Item("rap-value-ev", result.name, {"value": value}, {"self": href})
+
+    return every_change(cell, item)

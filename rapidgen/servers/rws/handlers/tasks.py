@@ -1,20 +1,159 @@
-"""Tasks, their modules and program pointers."""
+"""Execution, tasks and their program pointers."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rapidgen.controller.programs import CannotLoad
+from rapidgen.runtime.errors import Location
 from rapidgen.runtime.loading import module_text
+from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.task.task import Task
-from rapidgen.servers.rws.context import disk_path
-from rapidgen.servers.rws.handlers.execution import execution
-from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
-from rapidgen.servers.rws.routing import serves
+from rapidgen.servers.rws.application import RwsApplication, serves
+from rapidgen.servers.rws.handlers.files import disk_path, write_file
+from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
+from rapidgen.servers.rws.subscriptions import EventSource, Topic, new_values, subscribable
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.servers.rws.context import RwsContext
+    from rapidgen.controller.controller import VirtualController
+
+
+# -- execution -------------------------------------------------------------------------------------
+
+_START = {
+    "regain": ("continue", "regain", "clear", "enterconsume"),
+    "execmode": (
+        "continue", "stepin", "stepover", "stepout", "stepback", "steplast", "stepmotion",
+    ),
+    "cycle": ("forever", "asis", "once"),
+    "condition": ("none", "callchain"),
+    "stopatbp": ("enabled", "disabled"),
+    "alltaskbytsp": ("true", "false"),
+}  # fmt: skip
+
+
+def execution(controller: "VirtualController") -> str:
+    """Return `running` while a NORMAL task runs."""
+    normal = (t for t in controller.rapid_tasks.values() if t.spec.type == "NORMAL")
+    return "running" if any(t.state == "running" for t in normal) else "stopped"
+
+
+@serves(ops.EXECUTION)
+def get_execution(app: RwsApplication, request: RwsRequest) -> RwsResponse:
+    """Return whether the program runs, and whether it repeats at its end."""
+    state = {"ctrlexecstate": execution(app.controller), "cycle": app.controller.cycle}
+    return show(Item("rap-execution", "execution", state))
+
+
+@serves(ops.START)
+def start(app: RwsApplication, request: RwsRequest) -> None:
+    """Start the program.
+
+    A success of RWS 2.0 means that the request was accepted: the program may not run, for example
+    with motors off [real 7.21, VC 7.21]. RWS 1.0 rejects it, as in any wrong state [VC 6.16].
+    """
+    notify = {name: request.field(name, text) for name, text in _START.items()}
+    controller = app.controller
+    app.masterships.need_start(request)
+    app.masterships.need_mode(request.session, "exec")
+    if notify["execmode"] != "continue":
+        _step(app, notify["execmode"])
+        return
+    _may_start(app, request)
+    if notify["cycle"] != "asis":
+        controller.cycle = "once" if notify["cycle"] == "once" else "forever"
+    _start(app, request)
+
+
+def _start(app: RwsApplication, request: RwsRequest) -> None:
+    if not app.controller.start_program() and request.is_one and app.strict:
+        raise RequestDenied(400, "E_EXEC_STATE", "start is not allowed in this state", -508)
+
+
+def _may_start(app: RwsApplication, request: RwsRequest) -> None:
+    if app.masterships.is_editing and app.strict:
+        # A client with mastership prevents RAPID from taking it [real 7.21].
+        raise RequestDenied(
+            403, "E_RESOURCE_HELD", "start is blocked while mastership is held", -13
+        )
+    if any(app.runner.programs.faults(t) for t in app.controller.rapid_tasks.values()):
+        raise RequestDenied((request.is_one and 400) or 403, "E_NO_PP", "errors in the program")
+
+
+def _step(app: RwsApplication, mode: str) -> None:
+    """Execute one statement of each selected task.
+
+    In manual mode only [VC 7.21].
+    """
+    controller = app.controller
+    if controller.mode == "auto":
+        raise RequestDenied(403, "E_MODE_REJECT", "steps are for manual mode", -2)
+    if mode not in ("stepin", "stepover", "stepback"):
+        raise RequestDenied(403, "E_REJECT", f"{mode} is not offered here", -2)
+    for task in controller.rapid_tasks.values():
+        if task.spec.type != "NORMAL" or task.name in controller.operation.omitted:
+            continue
+        try:
+            controller.tasks[task.name].step(back=mode == "stepback", over=mode == "stepover")
+        except CannotStep as error:
+            raise RequestDenied(403, "E_EXEC_STATE", str(error), -508) from error
+
+
+@serves(ops.START_ENTRY)
+def start_entry(app: RwsApplication, request: RwsRequest) -> None:
+    """Start at the entry routine, with the program pointer at main."""
+    app.masterships.need_start(request)
+    app.masterships.need_mode(request.session, "exec")
+    _may_start(app, request)
+    reset_pp(app, request)
+    _start(app, request)
+
+
+@serves(ops.STOP)
+def stop(app: RwsApplication, request: RwsRequest) -> None:
+    """Stop the program; `alltsk` also stops background tasks [real 7.21]."""
+    mode = request.field("stopmode", ("cycle", "instr", "stop", "qstop"))
+    tasks = request.form.get("usetsp", "normal")
+    if tasks not in ("normal", "alltsk", "alltask"):
+        raise RequestDenied(400, "E_INVALIDARG", f"usetsp {tasks}")
+    controller = app.controller
+    if mode == "cycle":
+        controller.cycle = "once"
+        return
+    controller.operation.stop_program(quick=mode == "qstop")
+    if tasks != "normal":
+        for task in controller.rapid_tasks.values():
+            task.stop()
+
+
+@serves(ops.RESET_PP)
+def reset_pp(app: RwsApplication, request: RwsRequest) -> None:
+    """Set program pointers of all tasks to main."""
+    # RobotWare 6 takes mastership by itself [code: abb_librws, abb_robot_client].
+    app.masterships.need(request, "rapid", by_itself=request.is_one)
+    controller = app.controller
+    if execution(controller) == "running":
+        raise RequestDenied(
+            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
+        )
+    faults = [d for t in controller.rapid_tasks.values() for d in app.runner.programs.faults(t)]
+    if faults:
+        syntax = any(d.code.startswith("RG2") for d in faults)
+        name = "E_RAPID_SYNTAX_ERROR" if syntax else "E_RAPID_SEMANTIC_ERROR"
+        raise RequestDenied(400 if request.is_one else 403, name, faults[0].message, -507)
+    controller.pp_to_main()
+
+
+@serves(ops.SET_CYCLE)
+def set_cycle(app: RwsApplication, request: RwsRequest) -> None:
+    """Set whether the program repeats at its end."""
+    cycle = request.field("cycle", ("forever", "asis", "once"))
+    if cycle != "asis":
+        app.controller.cycle = "once" if cycle == "once" else "forever"
+
+
+# -- tasks -----------------------------------------------------------------------------------------
 
 _EXECUTION = {
     "running": "started", "stopped": "stopped", "error": "stopped", "finished": "stopped",
@@ -28,12 +167,12 @@ _STATUS = {
 }  # fmt: skip
 
 
-def find_task(context: "RwsContext", name: str, request: RwsRequest) -> Task:
+def find_task(app: RwsApplication, name: str, request: RwsRequest) -> Task:
     """Return a task by name.
 
     RequestDenied: there is none (400 on RobotWare 6, 404 on 7).
     """
-    for task in context.controller.rapid_tasks.values():
+    for task in app.controller.rapid_tasks.values():
         if task.name.lower() == name.lower():
             return task
     raise RequestDenied(400 if request.is_one else 404, "E_INVALIDARG", f"no task {name}")
@@ -48,9 +187,9 @@ def execution_state(task: Task, request: RwsRequest) -> str:
     return word[:4] if request.is_one else word
 
 
-def _item(context: "RwsContext", task: Task, kind: str, request: RwsRequest) -> Item:
+def _item(app: RwsApplication, task: Task, kind: str, request: RwsRequest) -> Item:
     kind_of_task = task.spec.type.lower()
-    modules = context.runner.programs.modules(task)
+    modules = app.runner.programs.modules(task)
     state = "linked" if task.state != "empty" else "loaded" if modules else "empty"
     notify = {
         "name": task.name,
@@ -59,7 +198,7 @@ def _item(context: "RwsContext", task: Task, kind: str, request: RwsRequest) -> 
         "excstate": execution_state(task, request),
     }
     if task.spec.type == "NORMAL":
-        notify["active"] = "Off" if task.name in context.controller.operation.omitted else "On"
+        notify["active"] = "Off" if task.name in app.controller.operation.omitted else "On"
         notify["motiontask"] = "TRUE" if task.spec.motion else "FALSE"
     if kind == "rap-task":
         notify |= {"trust": task.spec.trust, "prodentrypt": task.spec.entry}
@@ -67,32 +206,30 @@ def _item(context: "RwsContext", task: Task, kind: str, request: RwsRequest) -> 
 
 
 @serves(ops.TASKS)
-def get_tasks(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_tasks(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return all tasks."""
-    tasks = context.controller.rapid_tasks.values()
-    return show(*(_item(context, t, "rap-task-li", request) for t in tasks), collection=True)
+    tasks = app.controller.rapid_tasks.values()
+    return show(*(_item(app, t, "rap-task-li", request) for t in tasks), collection=True)
 
 
 @serves(ops.TASK)
-def get_task(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_task(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return one task."""
-    return show(
-        _item(context, find_task(context, request.names["task"], request), "rap-task", request)
-    )
+    return show(_item(app, find_task(app, request.names["task"], request), "rap-task", request))
 
 
 @serves(ops.ACTIVATE_ALL, ops.DEACTIVATE_ALL)
-def activate_all(context: "RwsContext", request: RwsRequest) -> None:
+def activate_all(app: RwsApplication, request: RwsRequest) -> None:
     """Select all NORMAL tasks at once."""
-    for task in context.controller.rapid_tasks.values():
+    for task in app.controller.rapid_tasks.values():
         if task.spec.type == "NORMAL":
-            activate(context, replace(request, names={"task": task.name}))
+            activate(app, replace(request, names={"task": task.name}))
 
 
 @serves(ops.TASK_SELECTION)
-def selection(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def selection(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the task selection panel [VC 7.21]."""
-    left_out = context.controller.operation.omitted
+    left_out = app.controller.operation.omitted
     result = [
         Item(
             "rap-taskselection",
@@ -104,37 +241,37 @@ def selection(context: "RwsContext", request: RwsRequest) -> RwsResponse:
                 "usermodify": "TRUE",
             },
         )
-        for task in context.controller.rapid_tasks.values()
+        for task in app.controller.rapid_tasks.values()
         if task.spec.type == "NORMAL"
     ]
     return show(*result, collection=True)
 
 
 @serves(ops.CHANGE_COUNT)
-def change_count(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def change_count(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the number of changes of a task's program."""
-    task = find_task(context, request.names["task"], request)
-    count = str(context.runner.programs.changes[task.name])
+    task = find_task(app, request.names["task"], request)
+    count = str(app.runner.programs.changes[task.name])
     notify = {"struc-change-count": count, "change-count": count}
     return show(Item("rap-task-struc-change-count", task.name, notify))
 
 
 @serves(ops.ACTIVATE, ops.DEACTIVATE)
-def activate(context: "RwsContext", request: RwsRequest) -> None:
+def activate(app: RwsApplication, request: RwsRequest) -> None:
     """Select the NORMAL tasks that start with the program.
 
     This is the task selection panel.
     """
     # RobotWare 6 takes mastership by itself [RWS manual].
-    context.masters.need(request, "rapid", by_itself=request.is_one)
-    task = find_task(context, request.names.get("task") or request.field("task"), request)
+    app.masterships.need(request, "rapid", by_itself=request.is_one)
+    task = find_task(app, request.names.get("task") or request.field("task"), request)
     if task.spec.type != "NORMAL":
         raise RequestDenied(403, "E_REJECT", f"{task.name} is a background task", -2)
-    if execution(context.controller) == "running":
+    if execution(app.controller) == "running":
         raise RequestDenied(
             400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
         )
-    left_out = context.controller.operation.omitted
+    left_out = app.controller.operation.omitted
     if "deactivate" in (request.query.get("action"), request.path.rpartition("/")[2]):
         left_out.add(task.name)
     else:
@@ -144,23 +281,23 @@ def activate(context: "RwsContext", request: RwsRequest) -> None:
 # -- modules -------------------------------------------------------------------------------------
 
 
-def task_to_boot(context: "RwsContext", request: RwsRequest) -> Task:
+def task_to_boot(app: RwsApplication, request: RwsRequest) -> Task:
     """Return the task of a path, or of `?task=` in RWS 1.0.
 
     Raises RequestDenied.
     """
     name = request.names.get("task") or request.query.get("task", "")
-    return find_task(context, name, request)
+    return find_task(app, name, request)
 
 
 @serves(ops.MODULES)
-def get_modules(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_modules(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the modules of a task.
 
     HAL has them in `state`, though they are many [VC 7.21].
     """
-    task = task_to_boot(context, request)
-    result = context.runner.programs.modules(task)
+    task = task_to_boot(app, request)
+    result = app.runner.programs.modules(task)
     return show(
         *(
             Item(
@@ -174,10 +311,10 @@ def get_modules(context: "RwsContext", request: RwsRequest) -> RwsResponse:
 
 
 @serves(ops.MODULE)
-def get_module(context: "RwsContext", request: RwsRequest) -> RwsResponse:
+def get_module(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the file of one module."""
-    task, name = task_to_boot(context, request), request.names["module"]
-    result = [m for m in context.runner.programs.modules(task) if m.name.lower() == name.lower()]
+    task, name = task_to_boot(app, request), request.names["module"]
+    result = [m for m in app.runner.programs.modules(task) if m.name.lower() == name.lower()]
     if not result:
         raise no_module(request, name)
     file = result[0].file
@@ -193,18 +330,18 @@ def no_module(request: RwsRequest, name: str) -> RequestDenied:
 
 
 @serves(ops.LOAD_MODULE)
-def load_module(context: "RwsContext", request: RwsRequest) -> RwsResponse | None:
+def load_module(app: RwsApplication, request: RwsRequest) -> RwsResponse | None:
     """Load a module; `builderror` reports its errors, not this answer.
 
     [VC 7.21]
     """
-    context.masters.need(request, "rapid")
-    task = find_task(context, request.names["task"], request)
+    app.masterships.need(request, "rapid")
+    task = find_task(app, request.names["task"], request)
     text = request.field("modulepath")
     replaced = request.form.get("replace", "false").lower() == "true"
-    path = disk_path(context, text, request)
+    path = disk_path(app, text, request)
     try:
-        name = context.runner.programs.load(task, path, text, replaced=replaced)
+        name = app.runner.programs.load(task, path, text, replaced=replaced)
     except CannotLoad as fault:
         raise load_refused(request, fault, text) from fault
     if request.is_one:
@@ -213,13 +350,13 @@ def load_module(context: "RwsContext", request: RwsRequest) -> RwsResponse | Non
 
 
 @serves(ops.UNLOAD_MODULE)
-def unload_module(context: "RwsContext", request: RwsRequest) -> None:
+def unload_module(app: RwsApplication, request: RwsRequest) -> None:
     """Unload a module of a task."""
-    context.masters.need(request, "rapid")
-    task = find_task(context, request.names["task"], request)
+    app.masterships.need(request, "rapid")
+    task = find_task(app, request.names["task"], request)
     name = request.field("module")
     try:
-        context.runner.programs.unload(task, name)
+        app.runner.programs.unload(task, name)
     except CannotLoad as fault:
         raise load_refused(request, fault, name) from fault
 
@@ -231,12 +368,12 @@ def load_refused(request: RwsRequest, fault: CannotLoad, what: str) -> RequestDe
 
 
 @serves(ops.SAVE_MODULE)
-def save_module(context: "RwsContext", request: RwsRequest) -> None:
+def save_module(app: RwsApplication, request: RwsRequest) -> None:
     """Save a module with its current persistents.
 
     The file name gets an extension.
     """
-    task, name = task_to_boot(context, request), request.names["module"]
+    task, name = task_to_boot(app, request), request.names["module"]
     module = task.program.modules.get(name.lower())
     if module is None:
         raise no_module(request, name)
@@ -244,6 +381,219 @@ def save_module(context: "RwsContext", request: RwsRequest) -> None:
     if not request.is_one and not folder.endswith(":"):
         raise RequestDenied(400, "E_INVALID_PATH", folder)  # the root of a volume only [VC 7.21]
     ending = ".mod" if request.is_one else ".modx"
-    path = disk_path(context, f"{folder.rstrip('/')}/{request.field('name')}{ending}", request)
+    path = disk_path(app, f"{folder.rstrip('/')}/{request.field('name')}{ending}", request)
     text = module_text(task, module)
-    context.write_file(path, text.encode(module.tree.source.encoding, "replace"))
+    write_file(app, path, text.encode(module.tree.source.encoding, "replace"))
+
+
+# -- pointers --------------------------------------------------------------------------------------
+
+
+def place_of(task: Task) -> Location | None:
+    """Return the position of a task; None before its start."""
+    stack = task.stack()
+    return task.pointer.next_statement() or (stack[-1] if stack else None)
+
+
+@serves(ops.POINTER)
+def get_pointer(app: RwsApplication, request: RwsRequest) -> RwsResponse:
+    """Return program and motion pointer of a task.
+
+    Both are equal here.
+    """
+    task = find_task(app, request.names["task"], request)
+    place = place_of(task)
+    if place is None:
+        return show(Item("pcp-info", "progpointer", {"modulemame": "", "routinename": ""}))
+    at = f"{place.span.line},{place.span.column}"
+    notify = {
+        "beginposition": at,
+        "endposition": at,
+        "modulemame": place.module,
+        "routinename": place.routine,
+        "changecount": str(app.runner.programs.changes[task.name]),
+        "executiontype": "normal",
+    }
+    return show(Item("pcp-info", "progpointer", notify), Item("pcp-info", "motionpointer", notify))
+
+
+@serves(ops.COUNTER)
+def get_counter(app: RwsApplication, request: RwsRequest) -> RwsResponse:
+    """Return the program pointer as execution data of a task.
+
+    The manual of RWS 1.0 has it in this form too.
+    """
+    place = place_of(find_task(app, request.names["task"], request))
+    row, column = (place.span.line, place.span.column) if place else (0, 0)
+    notify = {"module": place.module if place else "", "routine": place.routine if place else ""}
+    notify |= {"startline": str(row), "startcol": str(column)}
+    return show(Item("rap-pcp", "pcp", {**notify, "endline": str(row), "endcol": str(column)}))
+
+
+def _movable(app: RwsApplication, request: RwsRequest) -> Task:
+    app.masterships.need(request, "rapid")
+    task = find_task(app, request.names["task"], request)
+    if task.state == "running" or execution(app.controller) == "running":
+        raise RequestDenied(
+            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
+        )
+    return task
+
+
+@serves(ops.POINTER_TO_ROUTINE)
+def pointer_to_routine(app: RwsApplication, request: RwsRequest) -> None:
+    """Set one task's program pointer to a routine."""
+    task = _movable(app, request)
+    try:
+        app.controller.tasks[task.name].pp_to_routine(request.field("routine"))
+    except CannotStep as error:
+        raise RequestDenied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
+
+
+@serves(ops.POINTER_TO_MAIN)
+def pointer_to_main(app: RwsApplication, request: RwsRequest) -> None:
+    """Set one task's program pointer to main."""
+    app.controller.tasks[_movable(app, request).name].pp_to_main()
+
+
+@serves(ops.POINTER_TO_CURSOR)
+def pointer_to_cursor(app: RwsApplication, request: RwsRequest) -> None:
+    """Set one task's program pointer to a statement of its routine."""
+    task = _movable(app, request)
+    request.field("module")
+    field = request.kind("line", "begin-position-row")
+    row = whole(field, request.field(field))
+    try:
+        app.controller.tasks[task.name].pp_to_statement(row)
+    except CannotStep as error:
+        raise RequestDenied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error
+
+
+@serves(ops.ACTIVATION_RECORD)
+def get_frame(app: RwsApplication, request: RwsRequest) -> RwsResponse:
+    """Return one frame of the stack, from the innermost on.
+
+    400 if there is none [VC 6.16].
+    """
+    task = find_task(app, request.names["task"], request)
+    frames = task.stack()[::-1]
+    number = whole("stackframe", request.query.get("stackframe", "1"), 1, len(frames))
+    place = frames[number - 1]
+    row, column = str(place.span.line), str(place.span.column)
+    notify = {
+        "execlevel": "Normal",
+        "beg-row": row,
+        "beg-col": column,
+        "end-row": row,
+        "end-col": column,
+        "stack-url": f"RAPID/{task.name}/%{number}",
+        "routine-url": f"RAPID/{task.name}/{place.module}/{place.routine}",
+    }
+    return show(Item("rap-stackframe", "stackframe", notify))
+
+
+@serves(ops.ROUTINES)
+def get_routines(app: RwsApplication, request: RwsRequest) -> RwsResponse:
+    """Return procedures without parameters, callable as service routines."""
+    task = find_task(app, request.names["task"], request)
+    name, url = (
+        request.kind("routine-name", "routine_name"),
+        request.kind("url-to-routine", "url_to_routine"),
+    )
+    result = [
+        Item(
+            "rap-task-routine",
+            node.name,
+            {name: node.name, url: f"RAPID/{task.name}/{module.name}/{node.name}"},
+        )
+        for module in task.program.modules.values()
+        for node in module.tree.routines
+        if node.kind == "PROC" and not node.parameters and node.scope != "LOCAL"
+    ]
+    return show(*result, collection=True)
+
+
+# -- events --------------------------------------------------------------------------------------
+
+
+@subscribable("/rw/rapid/execution", "ctrlexecstate", "rapidexeccycle")
+def execution_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Execution state, or cycle."""
+    controller, name = app.controller, topic.suffix
+    kind = {"ctrlexecstate": "rap-ctrlexecstate-ev", "rapidexeccycle": "rap-execcycle-ev"}[name]
+
+    def read() -> str:
+        return execution(controller) if name == "ctrlexecstate" else controller.cycle
+
+    def item() -> Item:
+        return Item(kind, name, {name: read()}, {"self": topic.text})
+
+    return new_values(controller.operation.changed, read, item)
+
+
+@subscribable("/rw/rapid/tasks", "buildlogchange")
+def build_log_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Changes of any task's program."""
+    programs = app.runner.programs
+
+    def read() -> int:
+        return sum(programs.changes.values())
+
+    def item() -> Item:
+        count = {"change-count": str(read())}
+        return Item("rap-buildlog-ev", "buildlogchange", count, {"self": topic.text})
+
+    return new_values(programs.changed, read, item)
+
+
+@subscribable("/rw/rapid/tasks/(?P<task>[^/]+)", "taskchange")
+def program_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Changes of a task's program."""
+    task, programs = find_task(app, topic.names["task"], topic.request), app.runner.programs
+
+    def item() -> Item:
+        count = str(programs.changes[task.name])
+        fields = {"change-count": count, "task-name": task.name, "changetype": "module"}
+        return Item("rap-task-ev", "taskchange", fields, {"self": topic.text})
+
+    return new_values(programs.changed, lambda: programs.changes[task.name], item)
+
+
+@subscribable("/rw/rapid/tasks/(?P<task>[^/]+)", "excstate")
+def task_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Execution states of a task."""
+    task = find_task(app, topic.names["task"], topic.request)
+
+    def item() -> Item:
+        state = execution_state(task, topic.request)
+        fields = {"task-name": task.name, "pgmtaskexec-state": state}
+        return Item("rap-execstate-ev", "execstatechange", fields, {"self": topic.text})
+
+    return new_values(app.controller.operation.changed, lambda: task.state, item)
+
+
+_POINTERS = {
+    "programpointerchange": ("rap-pp-ev", "pp"), "motionpointerchange": ("rap-mp-ev", "mp"),
+}  # fmt: skip
+
+
+@subscribable("/rw/rapid/tasks/(?P<task>[^/]+)/pcp", *_POINTERS)
+def pointer_events(app: RwsApplication, topic: Topic) -> EventSource:
+    """Program or motion pointers of a task."""
+    task = find_task(app, topic.names["task"], topic.request)
+    kind, title = _POINTERS[topic.suffix]
+
+    def item() -> Item:
+        place = place_of(task)
+        row, column = (place.span.line, place.span.column) if place else (0, 0)
+        fields = {
+            "module-name": place.module if place else "",
+            "routine-name": place.routine if place else "",
+            "BegPosLine": str(row),
+            "BegPosCol": str(column),
+            "EndPosLine": str(row),
+            "EndPosCol": str(column),
+        }
+        return Item(kind, title, fields, {"self": topic.text})
+
+    return new_values(app.controller.operation.changed, lambda: place_of(task), item)
