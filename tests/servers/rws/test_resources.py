@@ -516,7 +516,7 @@ def test_the_joints_of_a_robot_cannot_be_changed_its_limits_can(caller):
         path = f"/rw/cfg/MOC/{section}/instances/rob1_1"
         form = {attribute: "2" if caller.is_one else "[2,1]"}
         assert caller.post(f"{path}?action=set" if caller.is_one else path, form) == reply
-    database = caller.application.context.controller.cfg
+    database = caller.application.controller.cfg
     joint, arm = (database.instance("MOC", kind, "rob1_1") for kind in ("JOINT", "ARM"))
     assert (joint.text("logical_axis"), arm.text("upper_joint_bound")) == ("1", "2")
     assert "JOINT" not in database.text("MOC")
