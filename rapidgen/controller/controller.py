@@ -3,7 +3,7 @@
 import logging
 import threading
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from os import PathLike
 from pathlib import Path
 from typing import Literal, TypedDict, TypeVar, get_args
@@ -15,7 +15,7 @@ from rapidgen.controller.cell_setup import CellSetup, place_robots
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
-from rapidgen.controller.loading import ParseCache, configured, load
+from rapidgen.controller.loading import configured, load
 from rapidgen.controller.operation import OperatingMode, Operation, SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView, unknown
@@ -37,7 +37,10 @@ from rapidgen.machine.text_tables import TextTables
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
+from rapidgen.rapid import Dialect
+from rapidgen.rapid.module_trees import tree_of
 from rapidgen.rapid.switches import Switches
+from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.runtime.compiler.emit.access import Options
 from rapidgen.runtime.compiler.link import Shared
 from rapidgen.runtime.motion_interface import RobotData
@@ -46,7 +49,7 @@ from rapidgen.runtime.task.statement_hooks import Statements
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.cfg_composition import database_of
 from rapidgen.system.cfg_database import CfgDatabase
-from rapidgen.system.model import System
+from rapidgen.system.model import ModuleFile, System
 
 _LOG = logging.getLogger("rapidgen.controller")
 
@@ -194,7 +197,8 @@ class VirtualController:
             dialect=self.dialect,
         )
         self.shared = Shared(configured(system, robots, self.io))
-        self.parse_module = ParseCache(system.robotware).parse
+        release = Dialect(system.robotware)
+        self.parse_module: Callable[[ModuleFile], Module] = partial(tree_of, dialect=release)
         self.recovered = self.log.recovered
         self.operation: Operation = Operation(self)
         signals = SystemSignals(self, self.operation)

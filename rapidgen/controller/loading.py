@@ -2,44 +2,17 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import lru_cache
 
 from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
 from rapidgen.machine.io import IOSystem
-from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.link import SMALL, find_type
+from rapidgen.runtime.compiler.link import find_type
 from rapidgen.runtime.compiler.program import missing_routines
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Type, Value
 from rapidgen.system.model import ModuleFile, System
-
-
-class ParseCache:
-    """Cache of module trees: equal bytes are parsed once.
-
-    All controllers of the process share the trees of small modules.
-    """
-
-    def __init__(self, robotware: tuple[int, int]) -> None:
-        self._dialect = Dialect(robotware=robotware)
-        self._parsed: dict[tuple[bytes, str], n.Module] = {}
-
-    def parse(self, file: ModuleFile) -> n.Module:
-        """Return the tree of a module file; callers must not change it."""
-        if len(file.data) <= SMALL:
-            return _tree(file.data, file.path, self._dialect)
-        key = file.data, file.path
-        if key not in self._parsed:
-            self._parsed[key] = _tree.__wrapped__(*key, self._dialect)
-        return self._parsed[key]
-
-
-@lru_cache(maxsize=128)
-def _tree(data: bytes, path: str, dialect: Dialect) -> n.Module:
-    return parse(data, path=path, dialect=dialect)
 
 
 def load(

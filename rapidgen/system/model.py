@@ -17,8 +17,14 @@ TrustLevel = Literal["SysFail", "SysHalt", "SysStop", "NoSafety"]
 SignalType = Literal["DI", "DO", "GI", "GO", "AI", "AO"]
 
 
+class _Referable:
+    """A base with slots that permits weak references."""
+
+    __slots__ = ("__weakref__",)
+
+
 @dataclass(frozen=True, slots=True)
-class ModuleFile:
+class ModuleFile(_Referable):
     """One module file as bytes.
 
     `path` is for messages; `target` is its HOME: path, if any.

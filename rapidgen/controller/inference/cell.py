@@ -36,6 +36,7 @@ from rapidgen.controller.inference.names import (
     absent,
     accessed_components,
     find_defaulted_persistents,
+    has_numbers,
     passed,
     read,
     record_of,
@@ -43,7 +44,7 @@ from rapidgen.controller.inference.names import (
 )
 from rapidgen.controller.inference.peers import ExpectedMessages, expected_messages
 from rapidgen.diagnostics import Span
-from rapidgen.rapid import Dialect, parse
+from rapidgen.rapid import Dialect
 from rapidgen.rapid.binding import (
     ModuleScope,
     RoutineSymbol,
@@ -56,6 +57,7 @@ from rapidgen.rapid.binding import (
 from rapidgen.rapid.binding.expressions import declared_type
 from rapidgen.rapid.binding.names import NUMBER, called
 from rapidgen.rapid.builtins.signatures import type_class
+from rapidgen.rapid.module_trees import tree_of
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.system.model import System
@@ -144,8 +146,7 @@ def infer_cell(
         task = TaskScope(installed_objects(known))
         dialect = Dialect(system.robotware, some=not system.is_robotware_known)
         scopes = [
-            task.add(parse(f.data, path=f.path, dialect=dialect), installed=f.installed or f.shared)
-            for f in spec.modules
+            task.add(tree_of(f, dialect), installed=f.installed or f.shared) for f in spec.modules
         ]
         tasks.append(scopes)
         for scope in scopes:
@@ -236,6 +237,7 @@ def infer_cell(
     named += [UndeclaredName(row.name, kind, span) for row, (kind, span) in blank.items()]
     listens = expected_messages((scope for scopes in tasks for scope in scopes), frames)
     routines = "".join(s.stub(frames.get(s.type, "")) for s in stubs.values())
+    scoped.cache_clear()  # the nodes of this system are not needed again
     return InferredCell(
         cell,
         tuple(named),
@@ -295,7 +297,7 @@ def _persistent(module: ModuleScope) -> Iterator[str]:
 def _in_initial_values(module: ModuleScope) -> Iterator[str]:
     """Iterate over names in the initial values of a module's data."""
     for declared in module.tree.data:
-        if declared.initial is not None:
+        if declared.initial is not None and not has_numbers(declared.initial):
             for node in walk(declared.initial):
                 if isinstance(node, n.Name):
                     yield node.name.casefold()

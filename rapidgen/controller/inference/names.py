@@ -3,6 +3,7 @@
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Final
 
 from rapidgen.diagnostics import Span
@@ -24,18 +25,32 @@ _RULED: Mapping[str, str] = {"AND": "bool", "OR": "bool", "XOR": "bool", "DIV": 
 """Types of operands, from the operator alone."""
 
 
-def scoped(module: ModuleScope) -> Iterator[tuple[n.Node, Scope]]:
-    """Iterate over every node of a module, in the order of the text."""
+@lru_cache(maxsize=64)
+def scoped(module: ModuleScope) -> Sequence[tuple[n.Node, Scope]]:
+    """Return the nodes of a module, in the order of the text.
+
+    Initial values that are numbers alone are left out: most of a module with targets.
+    """
+    result: list[tuple[n.Node, Scope]] = []
     stack: list[tuple[n.Node, Scope]] = [(d, module) for d in reversed(module.tree.declarations)]
     while stack:
         node, scope = stack.pop()
-        yield node, scope
+        result.append((node, scope))
+        if isinstance(node, n.DataDeclaration) and has_numbers(node.initial):
+            stack += [(size, scope) for size in reversed(node.dimensions)]
+            continue
         inside = scope
         if isinstance(node, n.RoutineDeclaration):
             inside = module.routine(node)
         elif isinstance(node, n.For) and not isinstance(scope, ModuleScope):
             inside = scope.loop(node)
-        stack += [(child, inside) for child in reversed(list(children(node)))]
+        stack += [(child, inside) for child in reversed(children(node))]
+    return result
+
+
+def has_numbers(initial: n.Expression | None) -> bool:
+    """Return True for an initial value that is an aggregate of numbers alone."""
+    return isinstance(initial, n.Aggregate) and initial.shape is not None
 
 
 def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
@@ -59,7 +74,7 @@ def read(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
             yield from ((end, "num") for end in (node.start, node.end))
         case n.DataDeclaration():
             yield from ((size, "num") for size in node.dimensions)
-            if node.initial is not None:
+            if node.initial is not None and not has_numbers(node.initial):
                 name = n.Name(node.name_token, node.name_token, node.name)
                 yield node.initial, declared_type(name, scope) or ""
         case n.Index():

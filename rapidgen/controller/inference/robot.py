@@ -14,7 +14,7 @@ from rapidgen.config.model import GroupConfig
 from rapidgen.config.model_cache import shipped_groups
 from rapidgen.config.variant_group import group_of
 from rapidgen.config.variant_library import variants
-from rapidgen.rapid import Dialect, parse
+from rapidgen.rapid import Dialect
 from rapidgen.rapid.binding import (
     DataSymbol,
     ModuleScope,
@@ -27,6 +27,7 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.binding.names import RoutineSymbol, called
 from rapidgen.rapid.builtins.signatures import Value
+from rapidgen.rapid.module_trees import tree_of
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.system.model import System
@@ -254,7 +255,7 @@ def aims(system: System) -> Iterator[FlangeTarget]:
     for spec in system.tasks:
         task = TaskScope()
         dialect = Dialect(system.robotware, some=not system.is_robotware_known)
-        scopes = [task.add(parse(f.data, path=f.path, dialect=dialect)) for f in spec.modules]
+        scopes = [task.add(tree_of(f, dialect)) for f in spec.modules]
         for scope in scopes:
             yield from map(_aim, move_targets(scope, roughly=True))
 

@@ -21,6 +21,7 @@ from rapidgen.rapid.checks.declarations import check_module
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.motion_tasks import moves_without_robot
 from rapidgen.rapid.dialect import Dialect
+from rapidgen.rapid.module_trees import tree_of
 from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse
 from rapidgen.system import System, TaskSpec
@@ -148,17 +149,13 @@ def _check_system(
     configured: bool,
 ) -> list[Diagnostic]:
     objects = installed_objects(_installed(system))
-    parsed: dict[tuple[str, int], Module] = {}
     findings: list[Diagnostic] = []
     has_robot = any(spec.motion for spec in system.tasks)
     for spec in system.tasks:
         task = TaskScope(objects)
         scopes = []
         for file in spec.modules:
-            key = (file.path, len(file.data))
-            module = parsed.get(key)
-            if module is None:
-                module = parsed[key] = parse(file.data, path=file.path, dialect=dialect)
+            module = tree_of(file, dialect)
             scopes.append(task.add(module, installed=file.installed or file.shared))
         modules = [scope.tree for scope in scopes]
         given = CheckContext(

@@ -199,9 +199,8 @@ class _ModuleChecker:
     def _literal(self, node: Expression) -> None:
         """A PERS starts from a literal, or an aggregate of literals [K §3.2]."""
         if isinstance(node, Aggregate):
-            for member in node.members:
-                if type(member) is not NumberLiteral:
-                    self._literal(member)
+            for member in node.members if node.shape is None else ():
+                self._literal(member)
             return
         if isinstance(node, Unary) and node.operator in ("+", "-"):
             node = node.operand
@@ -222,7 +221,7 @@ class _ModuleChecker:
         if isinstance(node, NumberLiteral | StringLiteral | BoolLiteral | Placeholder):
             return
         if isinstance(node, Aggregate):
-            for member in node.members:
+            for member in node.members if node.shape is None else ():
                 self._constant_expression(member)
         elif isinstance(node, Unary):
             self._constant_expression(node.operand)

@@ -4,7 +4,9 @@
 its place, which also gives an aggregate its type.
 """
 
+import re
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import Final, cast
 
 from rapidgen.diagnostics import Severity
@@ -51,6 +53,7 @@ from rapidgen.rapid.syntax.nodes import (
     NumberLiteral,
     Parenthesis,
     Placeholder,
+    Shape,
     Star,
     StringLiteral,
     Unary,
@@ -59,6 +62,12 @@ from rapidgen.rapid.syntax.nodes import (
 _LOADED: Final = ("the error comes when it is executed",)
 """Two controllers' backups hold a module with an index outside its array: it is loaded."""
 _MAX_DEPTH: Final = 50
+_GEOMETRIC: Final = frozenset(
+    ("num", "pos", "orient", "pose", "confdata", "extjoint", "robjoint", "robtarget", "jointtarget")
+)
+"""Types of which a num that can hold its value is all that the checks require."""
+_MANY_DIGITS: Final = re.compile(r"\d{8,}\Z|\d{31}|0[xXoObB]|[\d.]+[eE]\+?(?:[3-9]\d|\d{3})")
+"""Numbers that a num perhaps cannot hold."""
 
 
 class TypeChecker:
@@ -71,6 +80,8 @@ class TypeChecker:
         self.is_placeholder = False
         """The initial value of a tool or load that no module uses: its mass may be -1."""
         self._depth = 0
+        self._sound: set[tuple[str, Shape | None]] = set()
+        """Types and shapes of aggregates that were checked without a finding."""
 
     # -- reading -------------------------------------------------------------------------
 
@@ -389,7 +400,7 @@ class TypeChecker:
         if expected is None or expected == "anytype":
             return self.type_of(node)
         if isinstance(node, Aggregate):
-            self._members(node, expected, place)
+            self._aggregate_of(node, expected, place)
             return expected
         if expected == "pos" and isinstance(node, Binary) and node.has_type_of_place:
             self.expect(node.left, expected, place)
@@ -505,6 +516,27 @@ class TypeChecker:
                 help="the unit is kg",
                 severity=Severity.WARNING,
             )
+
+    def _aggregate_of(self, node: Aggregate, expected: str, place: str) -> None:
+        """Check an aggregate; of those of numbers with equal types and shapes the first one."""
+        key = expected, node.shape
+        if key in self._sound:
+            return
+        count = len(self.findings.found)
+        self._members(node, expected, place)
+        if (
+            node.shape is not None
+            and element(expected) in _GEOMETRIC
+            and len(self.findings.found) == count
+            and self._has_plain_numbers
+        ):
+            self._sound.add(key)
+
+    @cached_property
+    def _has_plain_numbers(self) -> bool:
+        """True if a num can hold each number that is written in the module."""
+        distinct = set(self.findings.module.tree.source.tokens)
+        return not any(_MANY_DIGITS.match(token) for token in distinct)
 
     def _members(self, node: Aggregate, expected: str, place: str) -> None:
         """Check the members of an aggregate against its type."""

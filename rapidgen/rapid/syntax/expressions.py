@@ -27,6 +27,7 @@ from rapidgen.rapid.syntax.nodes import (
     NumberLiteral,
     Parenthesis,
     Placeholder,
+    Shape,
     Star,
     StringLiteral,
     Unary,
@@ -343,6 +344,7 @@ class ExpressionParser:
             raise self.too_deep(i)
         members: list[Expression] = []
         append = members.append
+        is_row = True
         at = i
         # Positions are most of many files: numbers and rows of numbers go without a call.
         while True:
@@ -357,7 +359,7 @@ class ExpressionParser:
                     if following == ",":
                         continue
                     self.depth -= 1
-                    return Aggregate(i, at, members)
+                    return Aggregate(i, at, members, len(members) if is_row else _shape(members))
             elif kind == "-" and kinds[at + 1] is NUMBER:
                 following = kinds[at + 2]
                 if following == "," or following == "]":
@@ -368,7 +370,8 @@ class ExpressionParser:
                     if following == ",":
                         continue
                     self.depth -= 1
-                    return Aggregate(i, at, members)
+                    return Aggregate(i, at, members, len(members) if is_row else _shape(members))
+            is_row = False
             value = self.expression(at)
             append(value)
             at = value.last + 1
@@ -377,7 +380,7 @@ class ExpressionParser:
                 continue
             if kind == "]":
                 self.depth -= 1
-                return Aggregate(i, at, members)
+                return Aggregate(i, at, members, _shape(members))
             raise SyntaxFault(at, "',', ']' or an operator")
 
     def arguments(self, i: int, close: str) -> list[Argument]:
@@ -453,3 +456,20 @@ class ExpressionParser:
 
     def _holder(self, i: int, text: str) -> bool:
         return self.kinds[i] is HOLDER and self.texts[i].upper() == text
+
+
+def _shape(members: list[Expression]) -> "Shape | None":
+    """Return the shape of an aggregate with these members; None: not of numbers alone."""
+    result: list[Shape] = []
+    for member in members:
+        if type(member) is Aggregate:
+            if member.shape is None:
+                return None
+            result.append(member.shape)
+        elif type(member) is NumberLiteral or (
+            type(member) is Unary and type(member.operand) is NumberLiteral
+        ):
+            result.append(0)
+        else:
+            return None
+    return tuple(result)

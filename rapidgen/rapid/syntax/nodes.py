@@ -9,7 +9,7 @@ Names keep the spelling of the source; RAPID compares them without case.
 """
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from rapidgen.diagnostics import Diagnostic
 
@@ -86,11 +86,18 @@ class FunctionCall(Node):
     arguments: "list[Argument]"
 
 
+Shape: TypeAlias = "int | tuple[Shape, ...]"
+"""Shape of an aggregate of numbers: their count in a row of numbers, else the shapes of the
+members, where 0 is a number. Equal shapes fit equal types."""
+
+
 @dataclass(slots=True, eq=False)
 class Aggregate(Node):
     """`[a, b, [c, d]]`, with the type of its place."""
 
     members: "list[Expression]"
+    shape: "Shape | None" = None
+    """Of an aggregate of numbers alone; None: it has other members."""
 
 
 @dataclass(slots=True, eq=False)

@@ -48,6 +48,7 @@ TOUCHING: Final = re.compile(rf"[0-9.](?=[ADMOSTXadmostx]){_GOING_ON}")
 """A number and the word touching it; the look-ahead for letters makes the search fast."""
 HEADER: Final = re.compile(r"\s*%%%(?:.*?)%%%[^\r\n]*", re.DOTALL)
 LEAD: Final = re.compile(_TRIVIA)
+_LINE_END: Final = re.compile(r"\r\n?|\n")
 
 
 # -- Source ----------------------------------------------------------------------------------------
@@ -102,17 +103,7 @@ class Source:
     def lines(self) -> list[int]:
         """Offset of each line; LF, CRLF and CR end a line."""
         if not self._lines:
-            result, text, at = [0], self.text, 0
-            while at < len(text):
-                lf, cr = text.find("\n", at), text.find("\r", at)
-                if cr != -1 and (lf == -1 or cr < lf):
-                    at = cr + 2 if text.startswith("\r\n", cr) else cr + 1
-                elif lf != -1:
-                    at = lf + 1
-                else:
-                    break
-                result.append(at)
-            self._lines = result
+            self._lines = [0, *(end.end() for end in _LINE_END.finditer(self.text))]
         return self._lines
 
     def position(self, offset: int) -> tuple[int, int]:

@@ -33,6 +33,7 @@ from rapidgen.rapid.binding.names import (
     installed_objects,
 )
 from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.module_trees import SMALL
 from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
@@ -235,9 +236,6 @@ def predefined_routine(name: str) -> Routine | None:
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
 
-SMALL = 64_000
-"""Bytes of a module whose tree and code are kept for the next controller."""
-
 MOST_ELEMENTS = 4_000_000
 """Elements of an array: about 400 MB. The program memory of a controller is smaller [mem]."""
 
@@ -309,6 +307,8 @@ class Linker:
         self._types: dict[TypeSymbol, Type | None] = {}
         self._data: dict[DataSymbol, Data | None] = {}
         self._routines: dict[RoutineSymbol, Routine | None] = {}
+        self._sound: set[tuple[str, str, n.Shape]] = set()
+        """Modules, types and shapes of constants that were evaluated without an error."""
 
     # -- what generated code names ---------------------------------------------------------------
 
@@ -369,9 +369,30 @@ class Linker:
         for module, symbol in own:
             if isinstance(symbol, RoutineSymbol):
                 self._link_routine(module, symbol)
-        for _, symbol in own:
-            if isinstance(symbol, DataSymbol):
+        for module, symbol in own:
+            if isinstance(symbol, DataSymbol) and not self._can_wait(module, symbol):
                 self.datum(symbol)
+
+    def _can_wait(self, module: LoadedModule, symbol: DataSymbol) -> bool:
+        """Return True for a constant whose value can be made on first need, without an error.
+
+        The first constant of its type and shape is evaluated. A module with thousands of targets
+        begins sooner, and most programs need few of them. The code of small programs is kept for
+        others, which bind all their data.
+        """
+        d = symbol.node
+        if self.small or not isinstance(d, n.DataDeclaration) or d.kind != "CONST" or d.dimensions:
+            return False
+        if type(d.initial) is not n.Aggregate or d.initial.shape is None:
+            return False
+        key = module.name, d.type.lower(), d.initial.shape
+        if key in self._sound:
+            return True
+        faults = len(self.faults)
+        data = self.datum(symbol)
+        if data is not None and len(self.faults) == faults:
+            self._sound.add(key)
+        return True
 
     def remove(self, name: str) -> None:
         """Remove a module."""
