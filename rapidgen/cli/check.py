@@ -159,14 +159,49 @@ def _reported(findings: "Iterable[Diagnostic]", settings: _Settings) -> list[Dia
 
 
 def _without_repetitions(findings: list[Diagnostic]) -> list[Diagnostic]:
-    """Report the encoded modules of a folder in one finding."""
+    """Report findings of equal files, and the encoded modules of a folder, once."""
     encoded = [d for d in findings if d.code == "RG219" and d.span is not None]
-    if len(encoded) < 2:
-        return findings
-    names = tuple(d.span.path for d in encoded if d.span is not None)
-    message = f"{len(encoded)} modules are encoded: only a controller can read them"
-    one = replace(encoded[0], message=message, notes=names)
-    return [one if d is encoded[0] else d for d in findings if d is encoded[0] or d not in encoded]
+    if len(encoded) > 1:
+        names = tuple(d.span.path for d in encoded if d.span is not None)
+        message = f"{len(encoded)} modules are encoded: only a controller can read them"
+        one = replace(encoded[0], message=message, notes=names)
+        findings = [
+            one if d is encoded[0] else d for d in findings if d is encoded[0] or d not in encoded
+        ]
+    return _of_different_files(findings)
+
+
+def _of_different_files(findings: list[Diagnostic]) -> list[Diagnostic]:
+    """Merge findings that are the same in equal files, such as copies in several backups."""
+    paths = {d.span.path for d in findings if d.span is not None}
+    contents = {path: _content(path) for path in paths} if len(paths) > 1 else {}
+    first: dict[object, Diagnostic] = {}
+    further: dict[object, int] = {}
+    for d in findings:
+        content = contents.get(d.span.path, b"") if d.span is not None else b""
+        key = (d.code, d.message, content, replace(d.span, path="")) if content and d.span else d
+        if key in first:
+            further[key] = further.get(key, 0) + 1
+        else:
+            first[key] = d
+    return [
+        d if key not in further else replace(d, notes=(*d.notes, _also_in(further[key])))
+        for key, d in first.items()
+    ]
+
+
+def _content(path: str) -> bytes:
+    """Return a digest of a file; empty if it cannot be read."""
+    from hashlib import sha256
+
+    try:
+        return sha256(Path(path).read_bytes()).digest()
+    except OSError:
+        return b""
+
+
+def _also_in(count: int) -> str:
+    return f"also in {count} equal file{'' if count == 1 else 's'}"
 
 
 def _dialect(robotware: str | None) -> "Dialect | None":

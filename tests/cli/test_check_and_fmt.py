@@ -262,7 +262,7 @@ def test_loads_are_compared_with_the_robot_of_a_generated_folder(folder, capsys)
     assert overloads(capsys, "out") == ["a load of 9 kg is more than irb120 carries, 3 kg"]
 
 
-def test_encoded_modules_of_a_folder_are_one_warning(tmp_path, capsys):
+def test_encoded_modules_of_a_folder_are_one_note(tmp_path, capsys):
     (tmp_path / "good.mod").write_text(GOOD)
     for name in ("a.sys", "b.sys", "c.sys"):
         (tmp_path / name).write_bytes(b"\xfc\x01\x02\x03" * 100)
@@ -270,4 +270,17 @@ def test_encoded_modules_of_a_folder_are_one_warning(tmp_path, capsys):
     out, err = capsys.readouterr()
     assert out.count("RG219") == 1
     assert all(name in out for name in ("a.sys", "b.sys", "c.sys"))
-    assert "1 warning(s)" in err
+    assert "0 warning(s)" in err
+
+
+def test_findings_of_equal_files_are_reported_once(tmp_path, capsys):
+    text = "MODULE part\nPROC part1()\nRAISE 1;\nTPErase;\nENDPROC\nENDMODULE\n"
+    for name in ("old", "new", "other"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "part.mod").write_text(text)
+    (tmp_path / "other" / "part.mod").write_text("\n" + text)
+    assert main(["check", str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    assert out.count("RG323") == 2
+    assert "also in 1 equal file" in out
+    assert "2 warning(s)" in err

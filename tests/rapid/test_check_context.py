@@ -65,6 +65,12 @@ def test_a_slip_in_a_lone_file_is_a_warning(body, code, suggestion):
     assert suggestion in diagnostics[0].help
 
 
+def test_other_prefix_of_a_type_is_no_slip():
+    data = "VAR num nSpeed;\nVAR num nCount;"
+    assert found(module("a", "vSpeed := 1;", data)) == [("info", "RG302")]
+    assert found(module("a", "nCuont := 1;", data)) == [("warning", "RG302")]
+
+
 def test_suggestion_skips_other_types():
     frame = "[[0,0,0],[1,0,0,0]]"
     data = f'VAR robtarget p1;\nPERS wobjdata wCamera := [FALSE,TRUE,"",{frame},{frame}];'
@@ -133,7 +139,7 @@ def test_a_signal_may_have_the_name_of_a_predefined_type(body):
 def test_unreadable_module_may_declare_any_name():
     one = parse(module("a", "Missing;"), path="a.mod")
     encoded = parse(b"\xfc\x00\x01", path="b.mod")
-    assert found([one, encoded]) == [("info", "RG301"), ("warning", "RG219")]
+    assert found([one, encoded]) == [("info", "RG301"), ("info", "RG219")]
 
 
 def test_loading_program_may_get_names_of_modules():
@@ -226,7 +232,7 @@ def test_duplicate_module_gives_single_finding():
         ("PROC MAIN()\nENDPROC", []),
         ("PROC other()\nENDPROC", [("warning", "RG331")]),
         ("VAR num main;", [("warning", "RG331")]),
-        ("LOCAL PROC main()\nENDPROC", [("warning", "RG324"), ("warning", "RG331")]),
+        ("LOCAL PROC main()\nENDPROC", [("info", "RG324"), ("warning", "RG331")]),
         ("PROC main(num speed)\nENDPROC", [("error", "RG331")]),
         ("PROC main(\\num speed)\nENDPROC", [("error", "RG331")]),
         ("FUNC num main()\nRETURN 1;\nENDFUNC", [("error", "RG331")]),
@@ -403,7 +409,40 @@ def test_a_move_in_a_task_without_a_robot_is_reported(called, tasks, expected):
 
 def test_a_receiver_of_a_value_is_used():
     assert found(module("m", "a := CJointT();", "LOCAL VAR jointtarget a;")) == []
-    assert found(module("m", "a := 1;", "LOCAL VAR num a;")) == [("warning", "RG324")]
+    unused = module("m", "a := 1;", "LOCAL VAR num a;")
+    assert found(unused) == [("info", "RG324")]
+    assert found(unused, strict=True) == [("warning", "RG324")]
+
+
+def test_unused_data_of_a_routine_are_one_note():
+    (note,) = check(module("m", "VAR num a;\nVAR num b;\nVAR num c;\nb := c;"))
+    assert (note.code, note.message) == ("RG324", "'a', 'b' are never read")
+
+
+def test_a_task_with_system_modules_alone_has_no_program():
+    modules = system("MODULE user(SYSMODULE)\nENDMODULE\n")
+    assert found(modules) == [("info", "RG331")]
+
+
+@pytest.mark.parametrize(
+    ("body", "severity"),
+    [
+        ("TPErase;\nRETURN;\nMoveAbsJ home, v100, fine, tool0;", "info"),
+        ("IF n = 1 THEN\nRETURN;\nTPErase;\nENDIF", "warning"),
+        ("RAISE 1;\nTPErase;", "warning"),
+        ("EXIT;\nTPErase;", "warning"),
+    ],
+)
+def test_statements_disabled_by_a_return_are_a_note(body, severity):
+    text = module("m", body, "VAR num n := 1;\nVAR jointtarget home;")
+    assert found(text) == [(severity, "RG323")]
+    assert found(text, strict=True) == [("warning", "RG323")]
+
+
+@pytest.mark.parametrize("leaving", ["RETRY;", "TRYNEXT;", "RETURN;", "RAISE;"])
+def test_leaving_twice_is_no_finding(leaving):
+    text = module("m", f"TPErase;\nERROR\nExitCycle;\n{leaving}")
+    assert found(text) == []
 
 
 def test_the_source_of_an_alias_is_a_signal_of_the_configuration():
@@ -418,6 +457,6 @@ def test_a_return_behind_an_endless_loop_is_expected():
     function = f"FUNC num f()\n{loop}ENDFUNC\nENDMODULE"
     text = module("m", "TPWrite ValToStr(f());").replace("ENDMODULE", function)
     assert found(text % "RETURN 0;") == []
-    assert found(text % "Stop;\nRETURN 0;") == [("warning", "RG323")]
+    assert found(text % "Stop;\nRETURN 0;") == [("info", "RG323")]
     assert found(module("m", loop % "RETURN;")) == []
-    assert found(module("m", loop % "RETURN;\nStop;")) == [("warning", "RG323")]
+    assert found(module("m", loop % "RETURN;\nStop;")) == [("info", "RG323")]

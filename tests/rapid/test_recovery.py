@@ -308,9 +308,9 @@ def test_depth_limits_are_reached_without_harm():
     assert parse(routine("x := " + "(1+" * 199 + "1" + ")" * 199 + ";")).diagnostics == []
 
 
-def test_an_encoded_module_is_a_warning():
+def test_an_encoded_module_is_a_note():
     result = parse(ENDLESS["encoded"]).diagnostics
-    assert [(d.code, d.severity) for d in result] == [("RG219", Severity.WARNING)]
+    assert [(d.code, d.severity) for d in result] == [("RG219", Severity.INFO)]
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,9 @@
     python -m tools.interop.mains FOLDER [RESULTS.jsonl]
 
 FOLDER has one subfolder for each repository. Each main, backups included, runs as with
-`rapidgen run --cell infer`, at most 12 of a repository, each in a process of its own with a limit
-of CPU time. Mains that are equal to an earlier one are left out. RESULTS.jsonl receives one line
+`rapidgen run --cell infer`, at most 4 of a repository, each in a process of its own with a limit
+of CPU time. Mains that are equal to an earlier one are left out. The first mains of all
+repositories come first. RESULTS.jsonl receives one line
 for each main; mains that are in it already are not repeated.
 
 "waits for a peer" is a main that waits at a named socket, file, dialog or guide. A main that ends
@@ -18,15 +19,18 @@ import re
 import resource
 import sys
 from collections import Counter
+from collections.abc import Iterator
+from itertools import islice, zip_longest
 from pathlib import Path
 
 from tools.interop.programs import Program, programs
 from tools.interop.trial import Outcome, trial
 
-_MOST = 12
+_MOST = 4
 """Mains of one repository."""
-_CPU = 90
+_CPU = 40
 """Seconds of CPU of one main."""
+_STATEMENTS = 200_000
 _FIRST_WORD = re.compile(r"(?:[A-Z]+_[A-Z0-9_]+|RG\d+|\b\d{5}\b)")
 GROUPS = {
     "whole": "finishes",
@@ -43,7 +47,7 @@ def run(program: Program) -> dict[str, object]:
 
     def work() -> None:
         resource.setrlimit(resource.RLIMIT_CPU, (_CPU, _CPU + 5))
-        sending.send(trial(program))
+        sending.send(trial(program, statements=_STATEMENTS))
 
     process = context.Process(target=work)
     process.start()
@@ -60,6 +64,13 @@ def run(program: Program) -> dict[str, object]:
         "reached": outcome.reached,
         "notes": outcome.notes,
     }
+
+
+def sorted_programs(repositories: list[Path]) -> Iterator[tuple[Path, Program]]:
+    """Iterate over the mains: the first of each repository, then the second."""
+    lists = [list(islice(programs(repository), _MOST)) for repository in repositories]
+    for row in zip_longest(*lists):
+        yield from ((r, p) for r, p in zip(repositories, row, strict=True) if p is not None)
 
 
 def digest(program: Program) -> str:
@@ -87,29 +98,23 @@ def main(folder: Path, results: Path) -> None:
     """Run all mains that are not in the results; print the table."""
     rows = [json.loads(line) for line in results.open()] if results.exists() else []
     known = {row["key"] for row in rows}
+    repositories = sorted(p for p in folder.iterdir() if p.is_dir())
     with results.open("a", encoding="utf-8") as file:
-        for repository in sorted(p for p in folder.iterdir() if p.is_dir()):
-            count = 0
-            seen: set[str] = set()
-            for program in programs(repository):
-                key = digest(program)
-                if key in seen or count >= _MOST:
-                    continue
-                seen.add(key)
-                count += 1
-                if key in known:
-                    continue
-                known.add(key)
-                row = {
-                    "key": key,
-                    "repository": repository.name,
-                    "main": program.name,
-                    "backup": program.is_backup,
-                    **run(program),
-                }
-                rows.append(row)
-                file.write(json.dumps(row) + "\n")
-                file.flush()
+        for repository, program in sorted_programs(repositories):
+            key = digest(program)
+            if key in known:
+                continue
+            known.add(key)
+            row = {
+                "key": key,
+                "repository": repository.name,
+                "main": program.name,
+                "backup": program.is_backup,
+                **run(program),
+            }
+            rows.append(row)
+            file.write(json.dumps(row) + "\n")
+            file.flush()
     names = {p.name for p in folder.iterdir()}
     rows = [row for row in rows if row["repository"] in names]
     ends = Counter(row["end"] for row in rows)

@@ -61,19 +61,19 @@ class Outcome:
         return self.reached / self.lines if self.lines else 0.0
 
 
-def trial(program: Program, robot: str = "") -> Outcome:
-    """Run one cycle of main.
+def trial(program: Program, robot: str = "", statements: int = _STATEMENTS) -> Outcome:
+    """Run one cycle of main, with a limit of statements.
 
     If that reaches little, and reads inputs, more cycles follow.
     """
-    once = cycles(program, robot, "once")
+    once = cycles(program, robot, "once", statements)
     if once.end == "whole" and once.share < _LITTLE:
-        more = cycles(program, robot, "forever")
+        more = cycles(program, robot, "forever", statements)
         return replace(more, end="whole" if more.end == "goes round" else more.end)
     return once
 
 
-def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
+def cycles(program: Program, robot: str, cycle: Cycle, statements: int) -> Outcome:
     """Load, start, run until it ends, or for some time."""
     try:
         result = load_target(program.files, BootOptions(cell="infer", robot=robot))
@@ -93,7 +93,7 @@ def cycles(program: Program, robot: str, cycle: Cycle) -> Outcome:
         covered = Coverage(controller)
         controller.operator.attach()
         controller.start_program()
-        finished = run_past_stops(controller, max_time=_TIME, max_statements=_STATEMENTS)
+        finished = run_past_stops(controller, max_time=_TIME, max_statements=statements)
         by_file = covered.lines()
         lines = [hits for file in by_file.values() for hits in file.values()]
         called = lines_called(controller)

@@ -184,13 +184,16 @@ def _entry(spec: TaskSpec, task: TaskScope, given: CheckContext) -> list[Diagnos
     if not isinstance(symbol, RoutineSymbol) or symbol.module is None or symbol.node is None:
         if given.gaps or not spec.modules:
             return []
+        # A backup of a task without a program has system modules alone.
+        modules = [scope.tree for scope in task.modules.values()]
+        has_program = any("SYSMODULE" not in module.attributes for module in modules)
         return [
             error(
                 "RG331",
                 Span(spec.modules[0].path, 1, 1),
                 f"the task {spec.name} has no procedure '{spec.entry}' to start in",
                 f"declare PROC {spec.entry}() in one of its modules, or name another entry",
-                severity=Severity.WARNING,
+                severity=Severity.WARNING if has_program else Severity.INFO,
             )
         ]
     if symbol.kind == "PROC" and not symbol.node.parameters:

@@ -1,5 +1,6 @@
 """Input of the checker, which decides on the treatment of unknown names."""
 
+import re
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from typing import Final
@@ -8,6 +9,8 @@ from rapidgen.rapid.dialect import Dialect
 
 _SHORT: Final = 3
 _LONG: Final = 7
+_PREFIXED: Final = re.compile(r"([a-z]{1,3})([A-Z_].+)")
+"""A name with its type in front: nCount, di_Start."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +50,8 @@ def closest(keyword: str, known: Iterable[str]) -> str:
     """Return the known name that `keyword` may be a typing error of.
 
     Returns "" without one. It accepts one slip, or two in a long name: a letter too many, too few,
-    wrong, or two swapped. Names that differ only in digits (p10, p20) are not slips.
+    wrong, or two swapped. Names that differ only in digits (p10, p20) are not slips, nor are those
+    that differ only in the letters before the first capital (diGripper, doGripper).
     """
     folded = keyword.lower()
     allowed = 1 if len(folded) < _LONG else 2
@@ -60,6 +64,7 @@ def closest(keyword: str, known: Iterable[str]) -> str:
             abs(len(other) - len(folded)) > allowed
             or len(letters.symmetric_difference(other)) > 2 * allowed
             or (bare != folded and _without_digits(other) == bare)
+            or _have_other_prefixes(keyword, name)
         ):
             continue
         slips = _slips(folded, other, best)
@@ -84,6 +89,17 @@ def _slips(one: str, other: str, limit: int) -> int:
         if min(row) >= limit:
             return limit
     return min(row[-1], limit)
+
+
+def _have_other_prefixes(one: str, other: str) -> bool:
+    """Return True for names that have different prefixes of a type, and are else equal."""
+    first, second = _PREFIXED.fullmatch(one), _PREFIXED.fullmatch(other)
+    return (
+        first is not None
+        and second is not None
+        and first[1] != second[1]
+        and first[2].lower() == second[2].lower()
+    )
 
 
 def _without_digits(text: str) -> str:

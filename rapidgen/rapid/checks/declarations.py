@@ -1,5 +1,6 @@
 """Checks of types, records, data, parameters, routines [K §2.11-2.24, 5]."""
 
+from collections.abc import Sequence
 from typing import Final
 
 from rapidgen.diagnostics import Severity
@@ -33,6 +34,8 @@ from rapidgen.rapid.syntax.nodes import (
 )
 
 _MAX_DEGREE: Final = 3
+_LISTED: Final = 5
+"""Names in one finding."""
 _LOADED: Final = frozenset(("tooldata", "loaddata"))
 
 
@@ -269,14 +272,13 @@ class _ModuleChecker:
             alive = flow.statements(body)
             if part == "body" and node.kind == "FUNC" and alive:
                 self._no_return(node, flow.returns)
-        for symbol in current.names.values():
-            if symbol not in self.findings.used and isinstance(symbol.node, DataDeclaration):
-                self.warn(
-                    "RG324",
-                    f"'{symbol.name}' is never read",
-                    symbol.token,
-                    help="remove its declaration",
-                )
+        self._unused(
+            [
+                symbol
+                for symbol in current.names.values()
+                if symbol not in self.findings.used and isinstance(symbol.node, DataDeclaration)
+            ]
+        )
         self.findings.here = self.scope
 
     def _declare(self, current: RoutineScope, symbol: DataSymbol) -> None:
@@ -351,6 +353,21 @@ class _ModuleChecker:
                 severity=Severity.INFO,
             )
 
+    def _unused(self, symbols: Sequence[DataSymbol]) -> None:
+        """Report data of a routine that no statement reads."""
+        if not symbols:
+            return
+        names = [f"'{symbol.name}'" for symbol in symbols]
+        listed = ", ".join(names[:_LISTED])
+        more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
+        is_one = len(names) == 1
+        self.findings.remark(
+            "RG324",
+            f"{listed}{more} {'is' if is_one else 'are'} never read",
+            symbols[0].token,
+            help=f"remove {'its declaration' if is_one else 'their declarations'}",
+        )
+
     def _unused_local(self) -> None:
         """Report LOCAL objects without a use in the module.
 
@@ -367,6 +384,10 @@ class _ModuleChecker:
                 continue
             node = symbol.node
             if isinstance(node, RoutineDeclaration) and not late:
-                self.warn("RG324", f"the LOCAL '{symbol.name}' is never called", node.name_token)
+                self.findings.remark(
+                    "RG324", f"the LOCAL '{symbol.name}' is never called", node.name_token
+                )
             elif isinstance(node, DataDeclaration):
-                self.warn("RG324", f"the LOCAL '{symbol.name}' is never read", node.name_token)
+                self.findings.remark(
+                    "RG324", f"the LOCAL '{symbol.name}' is never read", node.name_token
+                )

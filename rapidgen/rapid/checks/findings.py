@@ -95,6 +95,11 @@ class Findings:
         """Add a warning."""
         self.report(code, message, node, label=label, help=help, severity=Severity.WARNING)
 
+    def remark(self, code: str, message: str, node: Node | int, *, help: str = "") -> None:
+        """Add what is no fault, but superfluous: a warning of a strict check, else a note."""
+        severity = Severity.WARNING if self.given.strict else Severity.INFO
+        self.report(code, message, node, help=help, severity=severity)
+
     def add_warnings(self, judge: Callable[[], None], note: str) -> None:
         """Add the findings of a check as warnings.
 

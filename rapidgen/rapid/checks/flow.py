@@ -42,6 +42,8 @@ from rapidgen.rapid.syntax.nodes import (
     While,
 )
 
+_LEAVING: Final = (Return, Raise, Retry, TryNext, Exit, Goto)
+
 
 class FlowChecker:
     """Checks the statements of one routine."""
@@ -59,21 +61,37 @@ class FlowChecker:
     def statements(self, body: Sequence[Statement]) -> bool:
         """Check a list; return True if its end is reachable."""
         alive, is_reported = True, False
+        leaving: Statement | None = None
         for statement in body:
             if type(statement) is Label:
                 alive = True
                 continue
-            # A RETURN behind a loop that never ends changes nothing.
-            if not alive and not is_reported and type(statement) is not Return:
+            # To leave again, as by a RETURN behind a loop that never ends, changes nothing.
+            if not alive and not is_reported and not isinstance(statement, _LEAVING):
                 is_reported = True
-                self.warn(
-                    "RG323",
-                    "this statement cannot be reached",
-                    statement.first,
-                    help="remove it, or what leaves before it",
-                )
-            alive = _CHECKS[type(statement)](self, statement) and alive
+                self._unreachable(statement, leaving, body)
+            goes_on = _CHECKS[type(statement)](self, statement)
+            if alive and not goes_on:
+                leaving = statement
+            alive = goes_on and alive
         return alive
+
+    def _unreachable(
+        self, statement: Statement, leaving: Statement | None, body: Sequence[Statement]
+    ) -> None:
+        """Report the first statement that cannot be reached.
+
+        Statements after an endless loop, and those that a RETURN disables at the end of a routine,
+        such as moves for teaching, are usually meant to be there.
+        """
+        is_meant = type(leaving) is While or (type(leaving) is Return and body is self.routine.body)
+        report = self.findings.remark if is_meant else self.warn
+        report(
+            "RG323",
+            "this statement cannot be reached",
+            statement.first,
+            help="remove it, or what leaves before it",
+        )
 
     # -- simple --------------------------------------------------------------------------
 

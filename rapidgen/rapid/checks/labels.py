@@ -118,4 +118,4 @@ def check_labels(findings: Findings, routine: RoutineDeclaration) -> None:
             )
     for key, (label, _) in labels.items():
         if key not in reached:
-            findings.warn("RG324", f"nothing jumps to the label '{label.name}'", label)
+            findings.remark("RG324", f"nothing jumps to the label '{label.name}'", label)

@@ -64,7 +64,7 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
             span,
             "the module is encoded: only a controller can read it",
             "ask its maker for the source, or leave it out",
-            severity=Severity.WARNING,
+            severity=Severity.INFO,
         )
     return error("RG218", span, "the file is binary, not RAPID text")
 

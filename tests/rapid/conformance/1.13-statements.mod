@@ -532,7 +532,7 @@ ENDMODULE
 MODULE Demo
     PROC main()
         RETURN;
-        TPErase;  ! -> RG323?
+        TPErase;  ! -> RG323~
     ENDPROC
 ENDMODULE
 !=== while
