@@ -278,3 +278,29 @@ def test_interrupted_move_stops_and_prints_position(cell, capsys, ignored, numbe
     # Two decimals, and a state is a message old.
     assert float(match[1]) == pytest.approx(degrees, abs=0.05)
     assert degrees < 90
+
+
+def test_calibrate_moves_only_the_chosen_axis(cell, capsys, tmp_path):
+    at_home(cell, capsys)
+    log = tmp_path / "log.csv"
+    words = ("--amplitude", "joint_1=40", "--speed", "0.5", "--record", str(log))
+    displayed = run_command(capsys, "calibrate", cell[0], *words, "--to", "sim")
+    # The acceleration of the simulated robot is that of the configuration.
+    acceleration = float(re.search(r"joint_1: (\d+) deg", displayed.out)[1])
+    assert acceleration == pytest.approx(2500, rel=0.05)
+    assert displayed.out.count("not measured") == 5
+    recorded = Trajectory.from_csv(log)
+    turned = recorded.positions[:, 0]
+    assert math.degrees(turned.min()) == pytest.approx(-40, abs=0.1)
+    assert math.degrees(turned.max()) == pytest.approx(40, abs=0.1)
+    others = recorded.positions[:, [1, 2, 3, 5]]
+    assert abs(others).max() < 1e-4
+
+
+def test_calibrate_does_not_move_without_confirmation(cell, capsys):
+    address = cell[1].ready["address"]["rob1"]
+    before = positions(cell[1])
+    words = ("calibrate", cell[0], "--amplitude", "5", "--speed", "1", "--to")
+    assert "RG641" in run_command(capsys, *words, address, code=2).err
+    assert "RG640" in run_command(capsys, *words, "192.0.2.1", "--yes", code=2).err
+    assert positions(cell[1]) == before
