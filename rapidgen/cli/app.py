@@ -39,7 +39,7 @@ COMMANDS = {
     "probe": ("verification", "Write a RAPID module that tests a controller's behaviour."),
     "move": ("motion", "Move a robot to joint values, to a pose or along a file."),
     "jog": ("motion", "Move joints or the tool by a small step."),
-    "calibrate": ("calibration", "Measure the accelerations of a robot's axes (THE ROBOT MOVES)."),
+    "calibrate": ("calibration", "Measure the axes' accelerations (THE ROBOT MOVES)."),
     "pose": ("observation", "Show the pose of the tool and the joint values."),
     "stop": ("motion", "Stop all motion groups of a robot, or one."),
     "monitor": ("observation", "Show the joints, mode and message rate of a robot live."),

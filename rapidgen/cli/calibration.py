@@ -76,7 +76,7 @@ def calibrate(
     move_real_robot: options.RealRobot = "",
     as_json: options.AsJson = False,
 ) -> int:
-    """Measure the accelerations of a robot's axes (THE ROBOT MOVES).
+    """Measure the axes' accelerations (THE ROBOT MOVES).
 
     Moves single axes from the current position in three postures and fits the accelerations. No
     axis is ever further from its start than its amplitude. Values are deg and mm. Ctrl-C stops
