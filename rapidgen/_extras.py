@@ -8,6 +8,7 @@ from rapidgen.diagnostics import Diagnostic, error
 EXTRAS = {
     "aiohttp": "web",
     "distributed": "cluster",
+    "google": "egm",
     "httpx2": "web",
     "matplotlib": "plot",
     "mcap": "recording",

@@ -21,7 +21,6 @@ from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView, unknown
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cost_model import Costs
-from rapidgen.machine.egm import EgmSessions
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.network.fault_injection import FaultyNetwork
@@ -34,6 +33,7 @@ from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Schedule
 from rapidgen.machine.sensors import ForceSensors, cameras
 from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.text_tables import TextTables
+from rapidgen.motion.egm.sessions import Conditions, EgmSessions
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
@@ -182,8 +182,14 @@ class VirtualController:
         """Hands of a YuMi: `hands["L"].part = 12.0` puts a part between the fingers."""
         self.cameras = cameras(system.cameras, surroundings.cameras)
         """By lower-case name."""
-        self.egm = EgmSessions(system.udp_devices)
-        """Externally guided motion, without partners."""
+        self.egm = EgmSessions(
+            self.scheduler,
+            self.log,
+            system.robotware,
+            system.udp_devices,
+            self._guided_state,
+        )
+        """Externally guided motion: `egm.connect(device, partner)` gives a device a partner."""
         self.force = ForceSensors(surroundings.force)
         """Of the robots."""
         self.options = Options(
@@ -233,6 +239,10 @@ class VirtualController:
     def cfg(self) -> CfgDatabase:
         """The cfg database: all domains, instances and defaults."""
         return database_of(self.system, [g.config for g in self.motion.groups.values()])
+
+    def _guided_state(self, task: str) -> Conditions:
+        """Return the state that messages of externally guided motion contain."""
+        return Conditions(self.operation.motors_on, self.rapid_tasks[task].state == "running")
 
     def _connect_background_tasks(self) -> None:
         """Connect background tasks to the robot of UseMechanicalUnitGroup."""

@@ -7,6 +7,7 @@ returns to the point of the path where it should have stopped.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
+from typing import TypeAlias
 
 from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
@@ -41,6 +42,35 @@ class BrakingMotion:
             t = min(time, abs(v) / a)
             result.append(q + v * t - (a if v > 0 else -a) * t * t / 2)
         return tuple(result)
+
+
+@dataclass(frozen=True, slots=True)
+class GuidedStep:
+    """A cycle of externally guided motion at constant axis speeds. Times are scheduler ns.
+
+    It lasts half a cycle longer than its way, so that the robot does not count as standing between
+    two cycles.
+    """
+
+    since: int
+    origin: Posture
+    target: Posture
+    length: int
+
+    @property
+    def end(self) -> int:
+        """When the robot stands if no further step follows."""
+        return self.since + self.length + (0 if self.origin == self.target else self.length // 2)
+
+    def posture(self, now: int) -> Posture:
+        """Axis values at a time."""
+        part = min(1.0, (now - self.since) / self.length)
+        ways = zip(self.origin, self.target, strict=True)
+        return tuple(q + (end - q) * part for q, end in ways)
+
+
+AxisMotion: TypeAlias = BrakingMotion | GuidedStep
+"""A motion of axes that follows no path."""
 
 
 def coast(

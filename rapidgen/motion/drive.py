@@ -6,7 +6,7 @@ from math import inf
 from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.motion.braking import BrakingMotion, coast, moment_before
+from rapidgen.motion.braking import AxisMotion, coast, moment_before
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import Path
 from rapidgen.motion.pieces import Piece
@@ -166,7 +166,7 @@ class Drive:
         law = brake(path.pieces, *self.planned(), factor)
         self.run(law, path, stop)
 
-    def run(self, law: SpeedProfile, path: Path, stop: BrakingMotion | None = None) -> None:
+    def run(self, law: SpeedProfile, path: Path, stop: AxisMotion | None = None) -> None:
         """Follow a profile from now on; the mean still contains the one before."""
         now = self._scheduler.now
         before = self.motion
@@ -180,7 +180,7 @@ class Drive:
         start: int,
         path: Path,
         remaining: Posture | None = None,
-        stop: BrakingMotion | None = None,
+        stop: AxisMotion | None = None,
     ) -> None:
         """A law that began at `start` and ends at a place of the path, unless at `remaining`."""
         if remaining is None:

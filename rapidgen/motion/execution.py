@@ -12,6 +12,7 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
 from rapidgen.motion import events
+from rapidgen.motion.braking import GuidedStep
 from rapidgen.motion.corners import zone_entry
 from rapidgen.motion.drive import Drive
 from rapidgen.motion.legs import Leg
@@ -159,6 +160,23 @@ class PathExecution:
         self.path = path
         self._refreshed = None
         self.drive.put(SpeedProfile(0.0), self._scheduler.now, path)
+        self._rearm()
+        self.settle()
+
+    def guide(self, posture: Posture, time: float) -> None:
+        """Leave the path for a step of externally guided motion; the path begins at its end."""
+        now = self._scheduler.now
+        step = GuidedStep(now, self.drive.commanded(), posture, round(time * S))
+        self.path = Path(posture)
+        self._refreshed = None
+        self.drive.put(SpeedProfile(0.0), now, self.path, posture, step)
+        self._rearm()
+        self.settle()
+
+    def brake_guided(self) -> None:
+        """End externally guided motion: each axis slows down by itself."""
+        self.coast()
+        self.path = Path(self.motion.rest)
         self._rearm()
         self.settle()
 

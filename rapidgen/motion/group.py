@@ -196,6 +196,21 @@ class MotionGroup:
         self._execution.come_back(tuple(posture), self.motion.law.place)
         self._execution.settle()
 
+    def guide(self, posture: Posture, time: float) -> None:
+        """Go to a posture at constant axis speeds within a time in s (externally guided motion).
+
+        It is called anew when that time is over; the robot otherwise stays there. ValueError: a
+        path is under way.
+        """
+        if self.legs:
+            raise ValueError("a path is under way")
+        self._execution.guide(tuple(posture), time)
+
+    def brake_guided(self) -> None:
+        """Bring a guided robot to rest, each axis by itself."""
+        if not self.is_standing and self.motion.coast is not None:
+            self._execution.brake_guided()
+
     def touch(self) -> None:
         """The robot touches something (a test): ContactL stops."""
         self.contacts.notify()

@@ -6,7 +6,7 @@ from math import ceil
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import smoothing
-from rapidgen.motion.braking import BrakingMotion
+from rapidgen.motion.braking import AxisMotion
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.moves import Move
 from rapidgen.motion.path import posture_at
@@ -35,7 +35,7 @@ class Motion:
     ramp: float = 0.0
     """s over which the motion is smoothed (`smoothing.py`)."""
 
-    coast: BrakingMotion | None = None
+    coast: AxisMotion | None = None
     """The axes' own way to rest when the brakes stop them; the profile then ends where on the
     path the robot should have stopped."""
 

@@ -11,7 +11,6 @@ from typing import Literal, Protocol, TypeAlias
 
 from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.cost_model import Costs
-from rapidgen.machine.egm import EgmSessions
 from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -22,6 +21,7 @@ from rapidgen.machine.scheduler import Scheduler, SyncPoints
 from rapidgen.machine.sensors import Camera, ForceSensors
 from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.text_tables import TextTables
+from rapidgen.motion.egm.sessions import EgmSessions
 from rapidgen.motion.group import MotionWaiter
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches

@@ -1,0 +1,1 @@
+"""Externally guided motion: law, messages in each cycle, sessions and their loops."""

@@ -1,0 +1,290 @@
+"""One side of a session, without clock and sockets: what happens in each cycle.
+
+A cycle of 4 ms executes these steps:
+
+1. read one datagram of the partner, if there is one (ABB: one is read in a cycle),
+2. let the guide order the position at the end of the cycle,
+3. send the present state to the partner.
+
+So an answer to a message has an effect in the next cycle. An exchange contains values only: it runs
+on the virtual clock, or in a process of its own that serves a partner in real time.
+"""
+
+from collections import Counter
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
+
+from rapidgen._extras import named
+from rapidgen.axes.kinematics import Posture
+from rapidgen.motion.egm.guide import (
+    Activation,
+    Guide,
+    GuidedRobot,
+    OutOfBounds,
+    Run,
+    axis_positions,
+)
+from rapidgen.motion.egm.law import CYCLE, Profile
+from rapidgen.wire.egm.values import EgmMessageError, RobotMessage
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+Outcome: TypeAlias = Literal["", "converged", "stopped", "silent", "unreachable", "bounds"]
+"""How a run ended; empty: it has not."""
+_LATE: Final = 1e-9
+
+
+class Link(Protocol):
+    """Datagrams to and from a partner. No method waits."""
+
+    def send(self, data: bytes) -> None:
+        """Send a datagram. ConnectionRefusedError: nothing listens there."""
+
+    def receive(self) -> bytes | None:
+        """Return the next datagram of the partner; None: none is there."""
+
+    def close(self) -> None:
+        """Release what the link uses."""
+
+
+# -- Orders and results ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Activate:
+    """EGMActJoint or EGMActPose."""
+
+    activation: Activation
+
+
+@dataclass(frozen=True, slots=True)
+class Stream:
+    """Start or end the position stream."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class StartRun:
+    """Execute positions of the partner from now on."""
+
+    run: Run
+
+
+@dataclass(frozen=True, slots=True)
+class StopRun:
+    """Brake within a time in s, or return to the start (EGMStop)."""
+
+    hold: bool
+    ramp_out: float
+
+
+@dataclass(frozen=True, slots=True)
+class Finish:
+    """End run and stream at once."""
+
+
+Order: TypeAlias = Activate | Stream | StartRun | StopRun | Finish
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs:
+    """State of the controller in a cycle."""
+
+    measured: Posture
+    commanded: Posture
+    motors_on: bool
+    program_runs: bool
+    stopped: bool = False
+    """The robot must come to rest, and stay."""
+    braking: bool = False
+    """The brakes bring it to rest."""
+    standing: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What a cycle did."""
+
+    position: Posture | None = None
+    """Of a guided robot at the end of the cycle."""
+    outcome: Outcome = ""
+    """Of a run that ended in this cycle."""
+    reason: str = ""
+    rejected: str = ""
+    """Why a datagram was rejected, the first time for this reason."""
+    reference: Posture | None = None
+    """Where the partner wants a guided robot to be (Joint)."""
+    age: float | None = None
+    """s since the last message of the partner."""
+
+
+@dataclass(slots=True)
+class Exchange:
+    """The controller's side of a session."""
+
+    robot: GuidedRobot
+    release: tuple[int, int]
+    """RobotWare, which decides about the fields of messages."""
+    profile: Profile
+    partner: str
+    """Name for diagnostics."""
+    comm_timeout: float | None = None
+    """s without a datagram after which a run ends; None: never."""
+    activation: Activation = field(default_factory=lambda: Activation("Joint"))
+    streaming: bool = False
+    run: Run | None = None
+    guide: Guide | None = None
+    sequence: int = 0
+    rejected: Counter[str] = field(default_factory=Counter)
+    """Datagrams by the reason of their rejection."""
+    _ending: Outcome = ""
+    _heard: float = 0.0
+    """When the last message came, or the run began, s."""
+    _next_message: float = 0.0
+    _now: float = 0.0
+
+    @property
+    def running(self) -> bool:
+        """True while messages are exchanged."""
+        return self.streaming or self.run is not None
+
+    def execute(self, order: Order) -> None:
+        """Execute an order between two cycles."""
+        match order:
+            case Activate(activation):
+                self.activation = activation
+            case Stream(on):
+                self.streaming = on
+            case StartRun(run):
+                self.run, self.guide, self._ending = run, None, ""
+                # A run is a new session for its partner (abb_libegm: sequence number 0).
+                self.sequence, self._heard, self._next_message = 0, self._now, self._now
+            case StopRun(hold, ramp_out):
+                if self.guide is None:
+                    self._end()
+                else:
+                    self._ending = "stopped"
+                    self.guide.leave(hold=hold, ramp_out=ramp_out)
+            case Finish():
+                self._end()
+
+    def _end(self) -> None:
+        self.run = self.guide = None
+        # The end of EGMRun ends the stream, too; programs start it again.
+        self.streaming = False
+
+    # -- cycle ------------------------------------------------------------------------------
+
+    def cycle(self, link: Link, inputs: Inputs, now: float) -> Result:
+        """Execute a cycle; `now` is the time of the controller in s."""
+        self._now = now
+        if not self.running:
+            return Result()
+        fresh, rejected = self._receive(link)
+        position: Posture | None = None
+        outcome: Outcome = ""
+        reason = ""
+        if self.run is not None:
+            position, outcome, reason = self._guided(inputs, fresh=fresh)
+        guide = self.guide
+        reference = None if guide is None else guide.reference
+        if self.running and now >= self._next_message - _LATE:
+            try:
+                self._send(link, inputs, now)
+            except ConnectionRefusedError:
+                self._end()
+                outcome, reason = "unreachable", self.partner
+        return Result(position, outcome, reason, rejected, reference, now - self._heard)
+
+    def _receive(self, link: Link) -> tuple[bool, str]:
+        """Read one datagram; return if it has a reference, and why it was rejected."""
+        data = link.receive()
+        if data is None:
+            return False, ""
+        try:
+            message = _codec().decode_sensor(data)
+        except EgmMessageError as fault:
+            self.rejected[str(fault)] += 1
+            return False, str(fault) if self.rejected[str(fault)] == 1 else ""
+        self._heard = self._now
+        # Partners answer also while nothing is to be guided; that is no fault.
+        return self.guide is not None and self.guide.read(message), ""
+
+    def _guided(self, inputs: Inputs, *, fresh: bool) -> tuple[Posture | None, Outcome, str]:
+        """Return the next position, and how the run ended."""
+        if inputs.stopped:
+            return self._come_to_rest(inputs), "", ""
+        guide = self.guide
+        if guide is None:
+            # At the start, and after a stop: from where the robot stands.
+            if not inputs.standing:
+                return None, "", ""
+            assert self.run is not None
+            guide = self.guide = Guide(self.robot, self.activation, self.run, inputs.commanded)
+            self._heard = self._now
+        if guide.is_standing:
+            self._end()
+            return guide.position, self._ending or "converged", ""
+        try:
+            position = guide.cycle()
+        except OutOfBounds as fault:
+            self._end()
+            return None, "bounds", str(fault)
+        if guide.is_stopping:
+            return position, "", ""
+        if guide.count(fresh=fresh):
+            self._ending = "converged"
+            # The robot is there: nothing is to be reduced over the ramp-out time.
+            ramp_out = CYCLE if guide.run.hold else guide.run.ramp_out
+            guide.leave(hold=guide.run.hold, ramp_out=ramp_out)
+        elif self.comm_timeout is not None and self._now - self._heard >= self.comm_timeout:
+            self._end()
+            return position, "silent", f"no datagram of {self.partner}"
+        return position, "", ""
+
+    def _come_to_rest(self, inputs: Inputs) -> Posture | None:
+        """Let a robot whose program stops come to rest where it is."""
+        guide = self.guide
+        if guide is None:
+            return None
+        if inputs.braking or not inputs.motors_on:
+            self.guide = None
+            if self.profile.stands_after_motors_off:
+                self._end()
+            return None
+        if guide.is_standing:
+            self.guide = None
+            return guide.position
+        if not guide.is_stopping:
+            guide.hold(self.profile.ramp_time)
+        return guide.cycle()
+
+    def _send(self, link: Link, inputs: Inputs, now: float) -> None:
+        guide, activation = self.guide, self.activation
+        self._next_message = now + max(CYCLE, activation.sample_time)
+        ordered = inputs.commanded if guide is None else guide.ordered
+        measured = inputs.measured if guide is None else guide.position
+        message = RobotMessage(
+            sequence=self.sequence,
+            milliseconds=round(now * 1000),
+            measured=axis_positions(self.robot, activation, measured, now),
+            planned=axis_positions(self.robot, activation, ordered, now),
+            motors_on=inputs.motors_on,
+            state="running" if guide is not None else "stopped",
+            program_runs=inputs.program_runs,
+            converged=guide is not None and guide.in_tolerance,
+            utilization=0.0,
+            move_index=0,
+            collision=False,
+        )
+        self.sequence += 1
+        link.send(_codec().encode_robot(message, self.release))
+
+
+def _codec() -> "ModuleType":
+    """Return the codec, which needs an extra; only a partner makes it necessary."""
+    with named():
+        from rapidgen.wire.egm import codec
+    return codec
