@@ -90,6 +90,13 @@ def sim(
         list[str] | None,
         typer.Option(help="UAS grant to deny to `Default User`; repeatable.", metavar="GRANT"),
     ] = None,
+    egm: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Partner of an EGM device; repeatable. Others are on this computer.",
+            metavar="DEVICE=HOST:PORT",
+        ),
+    ] = None,
     view: Annotated[
         bool,
         typer.Option("--view", help="Serve a page that shows the robot; `ready` contains its URL."),
@@ -151,6 +158,7 @@ def sim(
     _check_host(host)
     _check_release(result, rws)
     denied = _denied(rws_deny or ())
+    partners = _partners(egm or ())
     if ports is None and result.driver:
         _check_ports(result, host, port_offset)
     look = _look(result) if view or record is not None else None
@@ -170,6 +178,7 @@ def sim(
             _start_background_tasks(runner.controller)
         with (
             _control(runner) as control,
+            _guided(runner, partners),
             _servers(runner, host, ftp, sftp, (rws, rws_port, not rws_lenient, denied)) as servers,
             _page(runner, look if view else None, host, view_port) as page,
             _recording(runner, look, record, watch or ()),
@@ -323,6 +332,45 @@ def _servers(
             if service.host_key:
                 text["fingerprint"] = service.host_key
         yield text
+
+
+def _partners(texts: "Iterable[str]") -> dict[str, tuple[str, int]]:
+    """Return addresses by device of DEVICE=HOST:PORT."""
+    import socket
+
+    result = {}
+    for text in texts:
+        device, _, address = text.partition("=")
+        host, _, port = address.rpartition(":")
+        if not (device and host and port.isdecimal() and 0 < int(port) < 65_536):
+            raise typer.BadParameter(f"--egm takes DEVICE=HOST:PORT, not '{text}'")
+        try:
+            result[device.lower()] = (socket.gethostbyname(host), int(port))
+        except OSError as fault:
+            raise typer.BadParameter(f"--egm {text}: {fault.strerror}") from fault
+    return result
+
+
+@contextmanager
+def _guided(runner: "ControllerRunner", partners: "dict[str, tuple[str, int]]") -> "Iterator[None]":
+    """Exchange datagrams of externally guided motion, also after each restart."""
+    from rapidgen.servers.egm import serve_egm
+
+    end = serve_egm(runner.controller, partners)
+
+    def begin() -> None:
+        nonlocal end
+        end = serve_egm(runner.controller, partners)
+
+    def stop() -> None:
+        end()
+
+    runner.on_restart.append(stop)
+    runner.on_boot.append(begin)
+    try:
+        yield
+    finally:
+        end()
 
 
 def _look(target: "Bootable") -> "Appearance":

@@ -43,7 +43,8 @@ def load(
         else:
             task.state = "ready"
         findings += missing_routines(task.program)
-    findings += _unguided(tasks)
+    if all(task.scheduler.clock == "virtual" for task in tasks):
+        findings += _unguided(tasks)
     if not entries_wanted or any(task.state == "ready" for task in tasks):
         findings = [
             replace(d, severity=Severity.WARNING) if d.code == "RG402" else d for d in findings
@@ -72,9 +73,10 @@ def _unguided(tasks: Iterable[Task]) -> list[Diagnostic]:
                     error(
                         "RG408",
                         source.span(at, at),
-                        "the virtual controller has no EGM partner",
-                        label="a robot under guidance stands still, and its task waits",
-                        notes=("no datagram is sent or read, and no position is corrected",),
+                        "an EGM partner needs the real clock, or one that a test connects",
+                        "`rapidgen sim` exchanges datagrams with it; tests call "
+                        "`controller.egm.connect(device, partner)`",
+                        label="without a partner the robot stands still, and its task waits",
                         severity=Severity.WARNING,
                     )
                 ]

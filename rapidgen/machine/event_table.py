@@ -382,6 +382,7 @@ _OWN: Final[tuple[tuple[int, str, str, str], ...]] = (
     (194910, "E", "Synchronised movement refused", "{1}"),
     (194911, "E", "Robot is guided", "{1}"),
     (194912, "W", "Datagram of the EGM partner rejected", "{1}"),
+    (194914, "W", "EGM needs the real clock at speed 1", "{1} gets no datagrams."),
     (194913, "E", "EGM input out of bounds", "{1}"),
     (195900, "E", "No geometry", "{1}"),
     (195901, "W", "Programmed time not met", "{1}"),

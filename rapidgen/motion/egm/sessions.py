@@ -325,8 +325,17 @@ class EgmSessions:
         if loop is None or group is None:
             return
         inputs = self._inputs(session, group)
-        for result in loop.cycle(inputs, self._scheduler.now / S):
-            self._apply(session, group, inputs, result)
+        results = loop.cycle(inputs, self._scheduler.now / S)
+        for result in results:
+            if result.rejected:
+                text = f"{session.partner}: {result.rejected}"
+                self._log.record(_REJECTED, text, task=session.task)
+        if results:
+            session.latest = results[-1]
+            self._move(session, group, inputs, results)
+        for result in results:
+            if result.outcome:
+                self._finish(session, result.outcome, result.reason)
         if session.loop is loop and session.running:
             session.timer = self._scheduler.after(round(CYCLE * S), lambda: self._cycle(session))
 
@@ -342,20 +351,17 @@ class EgmSessions:
             standing=group.is_standing,
         )
 
-    def _apply(
-        self, session: EgmSession, group: MotionGroup, inputs: Inputs, result: Result
+    def _move(
+        self, session: EgmSession, group: MotionGroup, inputs: Inputs, results: Sequence[Result]
     ) -> None:
-        session.latest = result
-        if result.rejected:
-            text = f"{session.partner}: {result.rejected}"
-            self._log.record(_REJECTED, text, task=session.task)
-        if session.guided:
-            if result.position is not None and not inputs.braking:
-                group.guide(result.position, CYCLE)
-            elif inputs.stopped and not inputs.braking:
-                group.brake_guided()
-        if result.outcome:
-            self._finish(session, result.outcome, result.reason)
+        """Put the position of the last cycle on the robot."""
+        position = results[-1].position
+        if inputs.braking or not session.guided:
+            return
+        if position is not None:
+            group.guide(position, len(results) * CYCLE)
+        elif inputs.stopped:
+            group.brake_guided()
 
 
 def _robot(group: MotionGroup) -> GuidedRobot:
