@@ -16,6 +16,8 @@ EXTRAS = {
     "zstandard": "recording",
 }
 """Extras by import name, as in pyproject.toml (a test compares them)."""
+_DISTRIBUTIONS = {"google": "protobuf"}
+"""Names of distributions that differ from the import name."""
 
 
 def missing(fault: ModuleNotFoundError) -> Diagnostic | None:
@@ -26,7 +28,7 @@ def missing(fault: ModuleNotFoundError) -> Diagnostic | None:
     return error(
         "RG905",
         None,
-        f"this needs {package}, which is not installed",
+        f"this needs {_DISTRIBUTIONS.get(package, package)}, which is not installed",
         f"pip install 'rapidgen[{EXTRAS[package]}]', or 'rapidgen[all]'",
     )
 

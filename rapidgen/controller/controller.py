@@ -33,7 +33,8 @@ from rapidgen.machine.scheduler import AdvanceEnd, ClockKind, Schedule, Schedule
 from rapidgen.machine.sensors import ForceSensors, cameras
 from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.text_tables import TextTables
-from rapidgen.motion.egm.sessions import Conditions, EgmSessions
+from rapidgen.motion.egm.law import Profile
+from rapidgen.motion.egm.sessions import Conditions, EgmSessions, profile_of
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
@@ -188,6 +189,7 @@ class VirtualController:
             system.robotware,
             system.udp_devices,
             self._guided_state,
+            self._egm_profiles,
         )
         """Externally guided motion: `egm.connect(device, partner)` gives a device a partner."""
         self.force = ForceSensors(surroundings.force)
@@ -243,6 +245,11 @@ class VirtualController:
     def _guided_state(self, task: str) -> Conditions:
         """Return the state that messages of externally guided motion contain."""
         return Conditions(self.operation.motors_on, self.rapid_tasks[task].state == "running")
+
+    def _egm_profiles(self) -> dict[str, Profile]:
+        """Return the external motion data of the configuration (MOC)."""
+        rows = self.cfg.instances("MOC", "EXT_MOTION_DATA")
+        return {row.text("name"): profile_of(row) for row in rows}
 
     def _connect_background_tasks(self) -> None:
         """Connect background tasks to the robot of UseMechanicalUnitGroup."""

@@ -33,18 +33,22 @@ _IP_RECVERR: Final = 11
 class UdpLink:
     """Datagrams with a partner; those of other addresses are dropped, as by a controller."""
 
-    def __init__(self, address: Address, host: str = "") -> None:
+    def __init__(self, address: Address) -> None:
         self._address = address
+        self._refused = False
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setblocking(False)
         self._socket.setsockopt(socket.IPPROTO_IP, _IP_RECVERR, 1)
-        self._socket.bind((host, 0))
+        # Other computers reach the port only if the partner is one of them.
+        self._socket.bind(("127.0.0.1" if address[0].startswith("127.") else "", 0))
 
     def send(self, data: bytes) -> None:
         """Send a datagram.
 
         ConnectionRefusedError: nothing listens there, which the answer to an earlier one showed.
         """
+        if self._refused:
+            raise ConnectionRefusedError(*self._address)
         try:
             self._socket.sendto(data, self._address)
         except BlockingIOError:
@@ -55,7 +59,10 @@ class UdpLink:
         while True:
             try:
                 data, source = self._socket.recvfrom(65_536)
-            except (BlockingIOError, ConnectionRefusedError):
+            except BlockingIOError:
+                return None
+            except ConnectionRefusedError:
+                self._refused = True
                 return None
             if source[0] == self._address[0]:
                 return data

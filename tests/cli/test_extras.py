@@ -24,6 +24,7 @@ BEYOND = {
     "rapidgen.servers.aiohttp_thread": "web",
     "rapidgen.verification.cluster": "cluster",
     "rapidgen.viewer.auth": "web",
+    "rapidgen.wire.egm.codec": "egm",
     "rapidgen.viewer.matplotlib_charts": "plot",
     "rapidgen.viewer.recording": "recording",
     "rapidgen.viewer.server": "web",
@@ -63,6 +64,8 @@ def test_missing_package_names_its_extra():
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))
     extras = dict(project["project"]["optional-dependencies"])
     every = extras.pop("all")
+    # The import name of protobuf is google.protobuf.
+    extras["egm"] = [line.replace("protobuf", "google") for line in extras["egm"]]
     listed = {line.partition(">=")[0]: extra for extra, lines in extras.items() for line in lines}
     assert listed == EXTRAS
     assert every == [f"rapidgen[{','.join(sorted(extras))}]"]

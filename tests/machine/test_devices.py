@@ -6,13 +6,12 @@ import pytest
 
 from rapidgen.machine.arc_equipment import REFERENCES, ArcEquipment
 from rapidgen.machine.cost_model import Costs
-from rapidgen.machine.egm import MAX_IDENTITIES, EgmSessions
 from rapidgen.machine.event_log import Domain, EventLog, EventType
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.scheduler import FIRST_DAY, S, Scheduler, SyncPoints, date_time
 from rapidgen.machine.sensors import Camera, ForceSensors, Measured, Seen, cameras
 from rapidgen.machine.text_tables import TextTables
-from rapidgen.system.model import ArcSignals, SignalSpec, System, UdpDevice
+from rapidgen.system.model import ArcSignals, SignalSpec, System
 
 
 def test_events_have_numbers_domains_and_the_controllers_time():
@@ -143,45 +142,6 @@ def test_force_sensors_read_in_turn_and_keep_the_last():
     assert sensors.of("L") is left
     assert [left.read()[0] for _ in range(3)] == [1.0, 2.0, 2.0]
     assert (right.read()[0], left.taken, right.taken) == (1.0, 3, 1)
-
-
-def test_egm_identities_are_taken_and_freed():
-    sessions = EgmSessions((UdpDevice("UCdevice"),))
-    assert sessions.device("ucdevice:") is sessions.device("UCdevice") is not None
-    assert sessions.device("other") is None
-    assert EgmSessions(None).device("any:") == UdpDevice("any")
-    # [manual 3HAC073318 5.2: four at a time]
-    in_use = [sessions.take(task) for task in ("A", "B", "A", "A")]
-    assert len(in_use) == MAX_IDENTITIES
-    assert sessions.take("B") is None
-    sessions.close_task("A")
-    free = [sessions.take("C") for _ in range(4)]
-    assert [s is None for s in free] == [False, False, False, True]
-    sessions.free(in_use[1])
-    sessions.free(in_use[1])
-    assert sessions.take("D") is not None
-
-
-def test_egm_ends():
-    session = EgmSessions(None).take("A")
-    report, scheduler = [], Scheduler()
-    session.changed.add(lambda: report.append(1))
-    assert not session.running
-    session.streaming = True
-    assert session.running
-    session.streaming, session.guided = False, True
-    session.limit = timer = scheduler.after(S, lambda: report.append("late"))
-    assert session.running
-    session.end()
-    assert not session.running
-    assert not timer.active
-    assert session.limit is None
-    session.streaming = True
-    session.end()
-    assert not session.streaming
-    assert report == [1, 1]
-    session.device = UdpDevice("there")
-    assert "there" in session.partner
 
 
 class Welder(ArcEquipment):

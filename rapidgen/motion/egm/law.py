@@ -29,7 +29,6 @@ _NOTHING: Final = 1e-12
 class Profile:
     """An instance of EXT_MOTION_DATA; the defaults are those of the manual (chapter 4)."""
 
-    name: str = "default"
     level: int = 1
     stands_after_motors_off: bool = False
     """do_not_restart_after_motors_off"""

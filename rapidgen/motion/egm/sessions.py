@@ -28,6 +28,7 @@ from rapidgen.motion.egm.exchange import (
 from rapidgen.motion.egm.guide import Activation, GuidedRobot, Run
 from rapidgen.motion.egm.law import CYCLE, Profile
 from rapidgen.motion.group import MotionGroup
+from rapidgen.system.cfg import Instance
 from rapidgen.system.model import UdpDevice
 
 MAX_IDENTITIES: Final = 4
@@ -153,7 +154,7 @@ class EgmSessions:
         release: RobotWare, which decides about the fields of messages.
         devices: UDP devices; None: unknown configuration.
         conditions: Returns the state of the controller for a task.
-        profiles: Instances of EXT_MOTION_DATA.
+        profiles: Returns the instances of EXT_MOTION_DATA by name.
     """
 
     def __init__(
@@ -163,15 +164,14 @@ class EgmSessions:
         release: tuple[int, int],
         devices: tuple[UdpDevice, ...] | None,
         conditions: Callable[[str], Conditions],
-        profiles: Mapping[str, Profile] | None = None,
+        profiles: Callable[[], Mapping[str, Profile]] = dict,
     ) -> None:
         self._scheduler = scheduler
         self._log = log
         self._release = release
         self._devices = devices
         self._conditions = conditions
-        self._profiles = {name.lower(): p for name, p in (profiles or {}).items()}
-        self._profiles.setdefault("default", Profile())
+        self._profiles = profiles
         self._sessions: list[EgmSession] = []
         self._partners: dict[str, Partner] = {}
         self.open_loop: Callable[[UdpDevice, Exchange], Loop | None] | None = None
@@ -194,8 +194,10 @@ class EgmSessions:
 
         Without a configuration every name means the default.
         """
-        known = self._profiles.get(name.lower())
-        return Profile() if known is None and self._devices is None else known
+        known = {key.lower(): profile for key, profile in self._profiles().items()}
+        if self._devices is None or name.lower() == "default":
+            return known.get(name.lower(), Profile())
+        return known.get(name.lower())
 
     def connect(self, device: str, partner: Partner) -> None:
         """Let a function be the partner of a device, in lock-step with the clock."""
@@ -362,6 +364,18 @@ class EgmSessions:
             group.guide(position, len(results) * CYCLE)
         elif inputs.stopped:
             group.brake_guided()
+
+
+def profile_of(row: Instance) -> Profile:
+    """Return an instance of EXT_MOTION_DATA; what it leaves out has the default."""
+    default = Profile()
+    return Profile(
+        level=int(row.number("ext_motion_level", default.level)),
+        stands_after_motors_off=row.flag("do_not_restart_after_motors_off"),
+        ramp_time=row.number("ramp_time", default.ramp_time),
+        gain=row.number("ext_motion_Kp", default.gain),
+        bandwidth=row.number("ext_motion_filter_bandwidth", default.bandwidth),
+    )
 
 
 def _robot(group: MotionGroup) -> GuidedRobot:

@@ -6,14 +6,14 @@ in numbers and types; fields that only newer releases have carry the release.
 """
 
 from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias
+from typing import Final, Literal, TypeAlias, cast, get_args
 
 PACKAGE: Final = "abb.egm"
 Label: TypeAlias = Literal["required", "optional", "repeated"]
 Release: TypeAlias = tuple[int, int]
 """RobotWare, such as (6, 10)."""
-Kind: TypeAlias = Literal["uint32", "uint64", "double", "bool", "enum", "message"]
-_SCALARS: Final = ("uint32", "uint64", "double", "bool")
+Scalar: TypeAlias = Literal["uint32", "uint64", "double", "bool"]
+Kind: TypeAlias = Scalar | Literal["enum", "message"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,8 +29,9 @@ class Field:
     @property
     def kind(self) -> Kind:
         """Return the kind of the type."""
-        if self.type in _SCALARS:
-            return self.type  # type: ignore[return-value]
+        for scalar in get_args(Scalar):
+            if self.type == scalar:
+                return cast(Scalar, scalar)
         return "enum" if self.type in ENUMERATIONS else "message"
 
 

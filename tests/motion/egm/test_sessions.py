@@ -10,6 +10,10 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
+from rapidgen.machine.event_log import EventLog
+from rapidgen.machine.scheduler import Scheduler
+from rapidgen.motion.egm.sessions import MAX_IDENTITIES, EgmSessions
+from rapidgen.system.model import UdpDevice
 from rapidgen.wire.egm.codec import decode_robot, encode_sensor
 from rapidgen.wire.egm.values import CartesianPose, SensorMessage
 
@@ -272,3 +276,25 @@ EGMStreamStop id;
     assert joints[-1] == pytest.approx(20, abs=0.1)
     assert {m.state for m in partner.messages} == {"stopped"}
     assert degrees(group.positions())[0] == pytest.approx(20)
+
+
+def sessions_with(devices):
+    scheduler = Scheduler()
+    return EgmSessions(scheduler, EventLog(scheduler), (7, 0), devices, lambda _task: None)
+
+
+def test_egm_identities_are_taken_and_freed():
+    sessions = sessions_with((UdpDevice("UCdevice"),))
+    assert sessions.device("ucdevice:") is sessions.device("UCdevice") is not None
+    assert sessions.device("other") is None
+    assert sessions_with(None).device("any:") == UdpDevice("any")
+    # [manual 3HAC073318 5.2: four at a time]
+    in_use = [sessions.take(task) for task in ("A", "B", "A", "A")]
+    assert len(in_use) == MAX_IDENTITIES
+    assert sessions.take("B") is None
+    sessions.close_task("A")
+    free = [sessions.take("C") for _ in range(4)]
+    assert [s is None for s in free] == [False, False, False, True]
+    sessions.free(in_use[1])
+    sessions.free(in_use[1])
+    assert sessions.take("D") is not None

@@ -3,6 +3,7 @@
 import pytest
 
 from rapidgen.controller.controller import VirtualController
+from rapidgen.motion.egm.law import Profile
 from rapidgen.system.backup import read_backup
 from rapidgen.system.model import UdpDevice
 
@@ -40,14 +41,26 @@ ENDMODULE
 """
 
 
+# As the low-latency profile of rpiRobotics/abb_motion_program_exec has them.
+MOC = r"""MOC:CFG_1.0:6:1::
+#
+EXT_MOTION_DATA:
+      -name "default" -ext_motion_level 0\
+      -do_not_restart_after_motors_off -ramp_time 0.005 -ext_motion_Kp 20\
+      -ext_motion_filter_bandwidth 100
+"""
+
+
 @pytest.fixture
 def backup(tmp_path):
-    def make(sio, device="EGMsensor:"):
+    def make(sio, device="EGMsensor:", moc=""):
         for folder in ("SYSPAR", "RAPID/TASK1/PROGMOD"):
             (tmp_path / folder).mkdir(parents=True)
         (tmp_path / "SYSPAR/SYS.cfg").write_text(SYS)
         if sio:
             (tmp_path / "SYSPAR/SIO.cfg").write_text(sio)
+        if moc:
+            (tmp_path / "SYSPAR/MOC.cfg").write_text(moc)
         module = MODULE.replace("{device}", device)
         (tmp_path / "RAPID/TASK1/PROGMOD/m.mod").write_text(module)
         return tmp_path
@@ -96,3 +109,19 @@ def test_main_begins_without_identities(backup):
             task.pp_to_main()
             controller.run_for(0.1)
             controller.start_program()
+
+
+def test_profile_of_a_backup(backup):
+    with VirtualController.from_folder(backup(SIX, moc=MOC)) as controller:
+        profile = Profile(0, True, 0.005, 20.0, 100.0)
+        assert controller.egm.profile("DEFAULT") == profile
+        assert controller.egm.profile("other") is None
+
+
+def test_unknown_profile_stops_task(backup):
+    folder = backup(SIX)
+    module = folder / "RAPID/TASK1/PROGMOD/m.mod"
+    module.write_text(module.read_text().replace('"default"', '"fast"'))
+    with VirtualController.from_folder(folder) as controller:
+        controller.run_for(1)
+        assert "fast" in controller.task("T_ROB1").fault.arguments[0]
