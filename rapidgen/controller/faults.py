@@ -16,8 +16,8 @@ from rapidgen.machine.network.fault_injection import NetworkRule
 from rapidgen.machine.scheduler import S, Scheduler
 
 ControllerAction = Literal[
-    "e-stop", "reset-e-stop", "motors-on", "motors-off", "auto", "manual", "start", "stop",
-    "power-loss",
+    "e-stop", "release-e-stop", "reset-e-stop", "motors-on", "motors-off", "auto", "manual",
+    "start", "stop", "power-loss",
 ]  # fmt: skip
 
 

@@ -139,6 +139,9 @@ class PanelState(MessageModel):
     mode: Literal["auto", "manual_reduced", "manual_full"] | None
     motors_on: bool | None
     e_stop: bool | None
+    """The emergency stop lasts until it is reset."""
+    e_stop_pressed: bool | None = None
+    """The button of the emergency stop is pressed; None: not known."""
     execution_error: bool
     failed: bool
     running: bool | None
@@ -239,6 +242,7 @@ class PendantAction(MessageModel):
     do: Literal["act"] = "act"
     action: Literal[
         "e-stop",
+        "release-e-stop",
         "reset-e-stop",
         "motors-on",
         "motors-off",

@@ -1,11 +1,13 @@
 """I/O, faults, files, sockets and control commands of a controller."""
 
 from dataclasses import replace
+from typing import get_args, get_type_hints
 
 import pytest
 
 from rapidgen.controller.controller import VirtualController
-from rapidgen.controller.faults import ControllerRule, FaultPlan, NetworkRule
+from rapidgen.controller.faults import ControllerAction, ControllerRule, FaultPlan, NetworkRule
+from rapidgen.controller.operation import ACTIONS
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.rapid.switches import Switches
 from rapidgen.servers.control_commands import commands, subscribe
@@ -18,6 +20,7 @@ from rapidgen.system.model import (
     SystemOutput,
     TaskSpec,
 )
+from rapidgen.viewer.messages import PendantAction
 
 LOOP = """MODULE work
     VAR num passes := 0;
@@ -179,6 +182,26 @@ def test_a_plan_acts_at_its_time_and_at_its_statement():
         assert not c.e_stop
         c.run_for(2)
         assert c.e_stop
+
+
+def test_every_action_of_the_controller_is_one_of_a_plan_or_of_the_page():
+    """The page has buttons for each; a plan starts with motors and mode set."""
+    page = set(get_args(get_type_hints(PendantAction)["action"]))
+    plan = set(get_args(ControllerAction))
+    assert {"release-e-stop", "reset-e-stop", "e-stop"} <= page & plan
+    assert page <= set(ACTIONS)
+    assert plan <= set(ACTIONS)
+
+
+def test_a_plan_releases_the_button_before_the_reset():
+    plan = FaultPlan(
+        controller=(ControllerRule("e-stop", at=1.0), ControllerRule("release-e-stop", at=2.0))
+    )
+    with make(faults=plan) as c:
+        c.run_for(1.5)
+        assert (c.e_stop, c.operation.e_stop_pressed) == (True, True)
+        c.run_for(1)
+        assert (c.e_stop, c.operation.e_stop_pressed) == (True, False)
 
 
 def test_a_plan_reaches_the_network():

@@ -54,6 +54,7 @@ class PendantProvider:
             mode=c.mode,
             motors_on=c.motors_on,
             e_stop=c.e_stop,
+            e_stop_pressed=c.operation.e_stop_pressed,
             execution_error=c.execution_error,
             failed=c.failed,
             running=any(

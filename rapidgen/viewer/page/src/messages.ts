@@ -191,6 +191,7 @@ export interface PanelState {
   readonly mode: "auto" | "manual_reduced" | "manual_full" | null;
   readonly motors_on: boolean | null;
   readonly e_stop: boolean | null;
+  readonly e_stop_pressed: boolean | null;
   readonly execution_error: boolean;
   readonly failed: boolean;
   readonly running: boolean | null;
@@ -203,7 +204,7 @@ export interface PanelState {
 /** A button of the pendant, or an injected fault. */
 export interface PendantAction {
   readonly do: "act";
-  readonly action: "e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
+  readonly action: "e-stop" | "release-e-stop" | "reset-e-stop" | "motors-on" | "motors-off" | "start" | "stop" | "pp-to-main" | "power-loss";
 }
 
 /** Play at so many seconds in a second; 0 pauses. */

@@ -18,6 +18,9 @@ export const pendantPanel: MakePanel = (view) => {
     type: "button", class: "emergency",
     onclick: () => order({ do: "act", action: status?.e_stop ? "reset-e-stop" : "e-stop" }),
   }, "Emergency stop");
+  // The button can be released before the emergency stop is reset, by a signal for example.
+  const release = button("Release button", "release-e-stop");
+  release.hidden = true;
   const mode = new Choice<NonNullable<PanelState["mode"]>>("Mode",
     [["auto", "Auto"], ["manual_reduced", "Manual"], ["manual_full", "Full speed"]],
     (value) => order({ do: "mode", mode: value }));
@@ -72,6 +75,7 @@ export const pendantPanel: MakePanel = (view) => {
     status = now;
     stop.classList.toggle("pressed", now.e_stop === true);
     say(stop, now.e_stop ? "Reset emergency stop" : "Emergency stop");
+    release.hidden = now.e_stop_pressed !== true;
     mode.show(now.mode);
     motors.show(now.motors_on === null ? null : now.motors_on ? "motors-on" : "motors-off");
     speeds.report(now.override ?? 1);
@@ -86,7 +90,7 @@ export const pendantPanel: MakePanel = (view) => {
 
   const element = h("div", { class: "panel" },
     dialogs,
-    h("div", { class: "commands" }, stop),
+    h("div", { class: "commands" }, stop, release),
     section("Mode", mode.element),
     section("Motors", motors.element),
     section("Program", h("div", { class: "row" },
