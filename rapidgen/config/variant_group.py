@@ -6,16 +6,19 @@ configuration file of the robot that gives every figure with its source (`rapidg
 
 import math
 import re
+from dataclasses import replace
 from itertools import pairwise
 
 from rapidgen.config.accelerations import usual_time
+from rapidgen.config.geometry import compare
 from rapidgen.config.model import ChainLink, GroupConfig, Joint, Ports
-from rapidgen.config.variant_library import KnownAxis, Variant, variants
+from rapidgen.config.variant_library import SAME_PLACE, SAME_TURN, KnownAxis, Variant, variants
 
 _TYPE = re.compile(
-    r"ROB_?[A-Z0-9]+?_(\d{2,5}[A-Z]{0,3})(?:_[A-Z]+)?(?:_(\d+)[._](\d+)_(\d+))?", re.I
+    r"ROB_?[A-Z0-9]+?_(\d{2,5}[A-Z]{0,3})(?:_[A-Z]+)?(?:_(?:(\d+)[._](\d+)_)?(\d+))?", re.I
 )
-"""-use_robot_type of MOC.cfg: ROB1_4600_2.55_40, ROB1_910SC_0.55_3, ROB1_15000_0_95_5."""
+"""-use_robot_type of MOC.cfg: ROB1_4600_2.55_40, ROB1_910SC_0.55_3, ROB1_15000_0_95_5; without a
+reach, ROB1_660_250."""
 _NAME = re.compile(r"[IC]RB (\w+)-([\d.]+)/([\d.]+)")
 ASSUMED_SPEED = 100.0
 """deg/s of an axis without a source for its speed: typical of large arms.
@@ -35,11 +38,10 @@ def variants_of(robot_type: str) -> tuple[Variant | None, tuple[Variant, ...]]:
         if own is None or own[1].lower() != requested[1].lower():
             continue
         kin.append(variant)
-        if requested[2] and (float(own[3]), float(own[2])) == (
-            float(f"{requested[2]}.{requested[3]}"),
-            float(requested[4]),
-        ):
-            very = variant
+        if requested[4] and float(own[2]) == float(requested[4]):
+            reach = float(f"{requested[2]}.{requested[3]}") if requested[2] else float(own[3])
+            if float(own[3]) == reach:
+                very = variant
     return very, tuple(kin)
 
 
@@ -97,6 +99,46 @@ def group_of(variant: Variant, name: str = "rob1") -> GroupConfig | None:
         max_payload=variant.max_payload,
         inertias=variant.inertias,
         acceleration_source=dict(variant.sources).get("accelerations", ""),
+    )
+
+
+def group_like(variant: Variant, shipped: Variant, group: GroupConfig) -> GroupConfig | None:
+    """Return the group of a shipped model with the dimensions and figures of another variant.
+
+    It is for arms with four axes, which `group_of` does not create. None: the arms differ, and the
+    chain has passive steps, of which the lines of the axes do not give the lengths.
+    """
+    difference = compare(variant.skeleton, shipped.skeleton)
+    if difference is None or difference.angle > SAME_TURN:
+        return None
+    chain = group.chain
+    if difference.distance > SAME_PLACE or difference.end > SAME_PLACE:
+        if any(link.follows for link in chain):
+            return None
+        places = {line.axis: line.point for line in variant.skeleton.lines}
+        axes = {joint.name: joint.axis for joint in group.joints}
+        before, links = (0.0, 0.0, 0.0), []
+        for link in chain:
+            at = places[axes[link.joint]] if link.joint else variant.skeleton.end
+            links.append(replace(link, xyz=_between(before, at)))
+            before = at
+        chain = tuple(links)
+    joints = tuple(_with_figures(joint, variant.axis(joint.axis)) for joint in group.joints)
+    return replace(
+        group, joints=joints, chain=chain, model=variant.name, max_payload=variant.max_payload
+    )
+
+
+def _with_figures(joint: Joint, known: KnownAxis | None) -> Joint:
+    """Return a joint with the range and speed of a variant, where they are known."""
+    if known is None or known.lower is None or known.upper is None:
+        return joint
+    unit = math.radians(1.0) if joint.kind == "revolute" else 0.001
+    return replace(
+        joint,
+        lower=known.lower * unit,
+        upper=known.upper * unit,
+        speed=known.speed * unit if known.speed is not None else joint.speed,
     )
 
 

@@ -15,6 +15,7 @@ from rapidgen.system.model import System
 
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellRobotKeys
+    from rapidgen.config.variant_library import Variant
 
 DEFAULT_ROBOT = "irb120"
 # MOC.cfg of backups: ROB1_4600_2.55_40, ROB_R_14000_05_05, ROB1_910SC_0.55_3, ROB1_15000_0_95_5.
@@ -144,11 +145,16 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
     very, kin = variants_of(name)
     model = model_of(name)
     if very is not None and not very.model:
+        guessed = any(axis.speed is None for axis in very.axes)
+        no_speeds = f"no source has the speeds of a {name}: "
         group = group_of(very)
         if group is not None:
-            guessed = any(axis.speed is None for axis in very.axes)
-            note = f"no source has the speeds of a {name}: {ASSUMED_SPEED:g} deg/s are used"
+            note = no_speeds + f"{ASSUMED_SPEED:g} deg/s are used"
             return (group,), [_replacement_note(note, _SPEEDS.format(very.name))] if guessed else []
+        group = _like_model(very, model) if model else None
+        if group is not None:
+            note = no_speeds + f"those of an {model_description(model)} are used"
+            return (group,), [_replacement_note(note)] if guessed else []
     if not model:
         others = [f"'{variant.name}'" for variant in kin if group_of(variant) is not None]
         help = f"choose a similar one with `--robot`: {', '.join(others)}" if others else _HELP
@@ -157,6 +163,16 @@ def _of_type(name: str, unit: str) -> tuple[Sequence[GroupConfig], list[Diagnost
         return shipped_groups(model), []
     message = f"the controller has a {name}, moving an {model_description(model)}"
     return of_unknown_payload(shipped_groups(model)), [_replacement_note(message)]
+
+
+def _like_model(variant: "Variant", model: str) -> GroupConfig | None:
+    """Return the shipped model of the same family with the figures of a variant."""
+    from rapidgen.config.variant_group import group_like
+    from rapidgen.config.variant_library import of_model
+
+    (group, *_) = shipped_groups(model)
+    shipped = of_model(model, group.name)
+    return group_like(variant, shipped, group) if shipped is not None else None
 
 
 def of_unknown_payload(groups: Sequence[GroupConfig]) -> tuple[GroupConfig, ...]:

@@ -106,6 +106,26 @@ def test_unshipped_variant_moves_as_in_library():
     assert "1300" in note.message
 
 
+@pytest.mark.parametrize(
+    ("robot_type", "model", "reach", "payload", "note"),
+    [
+        # Public backups name these types; figures: robots/variants.json.
+        ("ROB1_4400_1.95_60", "IRB 4400-60/1.95", 1.22, 60, ""),
+        ("ROB1_660_250", "irb660", 1.91, 250, ""),
+        ("ROB1_660_180", "IRB 660-180/3.15", 1.91, 180, "speeds"),
+        ("ROB1_910SC_0.55_3", "IRB 910SC-3/0.55", 0.55, 6, ""),
+        ("ROB1_910SC_0.65_3", "IRB 910SC-3/0.65", 0.65, 6, ""),
+    ],
+)
+def test_types_that_public_backups_name(robot_type, model, reach, payload, note):
+    tasks = (TaskSpec("T_ROB1", motion=True),)
+    (group,), notes = mechanics(System("one", tasks, robot_types=(("ROB_1", robot_type),)))
+    assert (group.model, group.max_payload) == (model, payload)
+    place, _ = Kinematics.of(group).forward((0.0,) * len(group.joints))
+    assert place[0] == pytest.approx(reach)
+    assert [d.message.find(note) > 0 for d in notes] == [True] * bool(note)
+
+
 def test_a_variant_becomes_the_very_arm_of_a_shipped_file():
     """Their chains were written from different sources; the arm is the same."""
     for variant in variants():
