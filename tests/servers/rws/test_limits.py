@@ -1,7 +1,9 @@
 """How much a client may subscribe to [RWS 1.0 and 2.0 manuals, subscription service]."""
 
+from itertools import pairwise
+
 import pytest
-from served import Caller, code_of
+from served import Caller, code_of, make_application, make_runner
 
 from rapidgen.servers.rws import subscriptions
 from rapidgen.wire.rws.codes import CODES
@@ -66,3 +68,44 @@ def test_so_many_sessions_have_a_websocket(caller):
     with pytest.raises(subscriptions.RequestDenied) as denied:
         groups.listen(str(made[-1].number), made[-1].session, lambda event: None)
     assert denied.value.status == 503
+
+
+RECORDED = [(2, 400, 0.05), (1, 50, 0.4), (0, 3, 5.25)]
+"""Priority, events in 20 s, s between them: two persistents changed every 50 ms, RobotWare 6, real
+controller (Clement-RACINET/abb-rws-client-python-rw6, result of example 8)."""
+CHANGING = """MODULE MainModule
+    PERS num x := 0;
+    PERS num y := 0;
+    PROC main()
+        WHILE TRUE DO
+            x := x + 1;
+            y := y + 1;
+            WaitTime 0.05;
+        ENDWHILE
+    ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize(("priority", "count", "apart"), RECORDED)
+def test_events_come_as_often_as_recorded(tmp_path, priority, count, apart):
+    with make_runner(tmp_path, program=CHANGING) as runner:
+        caller = Caller(make_application(runner))
+        names = [f"/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule/{n};value" for n in "xy"]
+        subscribed = ask(caller, *((name, priority) for name in names))
+        groups = caller.application.context.groups
+        times = {"/x": [], "/y": []}
+
+        def received(data):
+            for end, own in times.items():
+                if f"MainModule{end}" in data.decode():
+                    own.append(runner.now)
+
+        groups.listen(groups.find(number(subscribed), caller.session), received, lambda: None)
+        runner.controller.start_program()
+        runner.controller.run_for(20)
+        for own in times.values():
+            gaps = [b - a for a, b in pairwise(own)]
+            assert abs(len(own) - count) <= 2
+            # The program's own statements take some µs between two waits.
+            assert gaps == pytest.approx([apart] * len(gaps), abs=0.003)
