@@ -267,9 +267,9 @@ def test_unknown_system_output_is_reported(plant):
     bench, _ = plant(
         outputs=(SystemOutput("Levitating", "do1"), SystemOutput("MotorOn", "doMissing"))
     )
-    assert [(e.title, e.texts[0]) for e in bench.controller.log] == [
-        ("System output not simulated", "Levitating"),
-        ("Signal not defined", "system output MotorOn names 'doMissing'"),
+    assert [(e.title, *e.arguments) for e in bench.controller.log] == [
+        ("System output not simulated", "Levitating", "do1"),
+        ("Signal not defined", "system output MotorOn", "'doMissing'"),
     ]
 
 

@@ -93,7 +93,7 @@ def test_events_come_as_often_as_recorded(tmp_path, priority, count, apart):
         caller = Caller(make_application(runner))
         names = [f"/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule/{n};value" for n in "xy"]
         subscribed = ask(caller, *((name, priority) for name in names))
-        groups = caller.application.context.groups
+        groups = caller.application.groups
         times = {"/x": [], "/y": []}
 
         def received(data):
@@ -101,7 +101,7 @@ def test_events_come_as_often_as_recorded(tmp_path, priority, count, apart):
                 if f"MainModule{end}" in data.decode():
                     own.append(runner.now)
 
-        groups.listen(groups.find(number(subscribed), caller.session), received, lambda: None)
+        groups.listen(number(subscribed), caller.session, received)
         runner.controller.start_program()
         runner.controller.run_for(20)
         for own in times.values():

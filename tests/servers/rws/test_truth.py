@@ -211,11 +211,10 @@ def test_single_instances_are_made_changed_and_deleted(two):
     assert raw.status == 204
     assert two.post(f"{instances}/doNew{edit}", {"Access": "All"}) == 400
     notify = two.get(f"{instances}/doNew")[0]
-    assert {i.title: i.text("value") for i in notify.within} == {
-        "Name": "doNew",
-        "SignalType": "DO",
-        "Access": "All",
-    }
+    values = {i.title: i.text("value") for i in notify.within}
+    assert (values["Name"], values["SignalType"], values["Access"]) == ("doNew", "DO", "All")
+    # Attributes that are left out have their defaults.
+    assert (values["SafeLevel"], values["Default"]) == ("DefaultSafeLevel", "0")
     assert two.application.controller.io.get("doNew") is None
     caller = restart(two)
     assert caller.post("/rw/iosystem/signals/doNew/set-value", {"lvalue": "1"}) == 204
