@@ -11,13 +11,13 @@ from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import Path
 from rapidgen.motion.pieces import Piece
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.motion.speed_profile import SpeedProfile, brake, plan
+from rapidgen.motion.speed_profile import Plan, SpeedProfile, brake, plan
 
 MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""
 _STANDING = 1e-6
 """Path speed that counts as none: times are whole nanoseconds."""
-_NOT_PLANNED: tuple[int, tuple[Piece, ...], SpeedProfile | None] = (-1, (), None)
+_NOT_PLANNED: tuple[int, tuple[Piece, ...], Plan | None] = (-1, (), None)
 
 
 class Drive:
@@ -25,6 +25,7 @@ class Drive:
 
     __slots__ = (
         "_history",
+        "_plan",
         "_planned",
         "_scheduler",
         "motion",
@@ -58,7 +59,9 @@ class Drive:
         self.motion = Motion(scheduler.now, scheduler.now, SpeedProfile(0.0), (), start)
         self._history: list[Motion] = []
         self._planned = _NOT_PLANNED
-        """The law found last: appending asks for it twice."""
+        """The plan found last: appending asks for it twice."""
+        self._plan: Plan | None = None
+        """The plan of the motion under way, if its law is that of a plan."""
 
     # -- where it is ------------------------------------------------------------------------
 
@@ -105,19 +108,24 @@ class Drive:
         """Speeds have changed: what was planned ahead does not hold."""
         self._planned = _NOT_PLANNED
 
-    def law(self, pieces: tuple[Piece, ...]) -> SpeedProfile | None:
-        """The law over pieces from the present state on; None: it is too fast for them."""
+    def plan(self, pieces: tuple[Piece, ...]) -> Plan | None:
+        """The plan over pieces from the present state on; None: it is too fast for them."""
         now = self._scheduler.now
-        planned_at, planned, law = self._planned
+        planned_at, planned, result = self._planned
         if planned is pieces and planned_at == now:
-            return law
-        place, speed = self.planned()
-        remaining = 0.0
-        if speed < _STANDING:
-            speed, remaining = 0.0, self._rest(place)
-        law = self._plan(pieces, place, speed, remaining)
-        self._planned = now, pieces, law
-        return law
+            return result
+        result = None
+        if self._plan is not None:
+            elapsed = (now - self.motion.start) / S
+            result = self._plan.extended(pieces, elapsed, self.ramp, self._settings())
+        if result is None:
+            place, speed = self.planned()
+            remaining = 0.0
+            if speed < _STANDING:
+                speed, remaining = 0.0, self._rest(place)
+            result = plan(pieces, place, speed, *self._settings(), remaining)
+        self._planned = now, pieces, result
+        return result
 
     def _rest(self, place: float) -> float:
         """s until the robot stands, too, where the law does: nothing is planned before that."""
@@ -127,12 +135,11 @@ class Drive:
         stood = (now - motion.start) / S - motion.law.time_at(place)
         return max(0.0, self.ramp - stood)
 
-    def _plan(
-        self, pieces: tuple[Piece, ...], place: float, speed: float, wait: float
-    ) -> SpeedProfile | None:
+    def _settings(self) -> tuple[float, float, float]:
+        """Cap, limit of the TCP and pause of a plan."""
         limit = min(self.tcp_limit, MANUAL_REDUCED if self.reduced else inf)
         cap = self.override * (self.refresh if self.refreshed else 1.0)
-        return plan(pieces, place, speed, cap, limit, self.ramp, wait)
+        return cap, limit, self.ramp
 
     def replan(self, path: Path) -> bool:
         """Go from the present state to the end of the path; False: it is there."""
@@ -140,15 +147,20 @@ class Drive:
         place, _ = self.planned()
         if not path.pieces or path.end <= place:
             return False
-        law = self.law(path.pieces)
-        if law is not None:
-            self.run(law, path)
+        result = self.plan(path.pieces)
+        if result is None:
+            # It brakes to a stop that cannot be taken back; then on from there.
+            stop = self.motion.law
+            onwards = plan(path.pieces, stop.place, 0.0, *self._settings())
+            assert onwards is not None  # from rest every limit can be kept
+            self.put(stop.then(onwards.law, self.ramp), self.motion.start, path)
             return True
-        # It brakes to a stop that cannot be taken back; then on from there.
-        stop = self.motion.law
-        onwards = self._plan(path.pieces, stop.place, 0.0, 0.0)
-        assert onwards is not None  # from rest every limit can be kept
-        self.put(stop.then(onwards, self.ramp), self.motion.start, path)
+        if result.continues:
+            self.put(result.law, self.motion.start, path)
+        else:
+            self.run(result.law, path)
+            result.law = self.motion.law  # with what is before it
+        self._plan = result
         return True
 
     def brake(self, path: Path, quick: bool) -> None:
@@ -187,6 +199,7 @@ class Drive:
             remaining = path.target if law.place >= path.end else path.at(law.place)
         now = self._scheduler.now
         self.forget()
+        self._plan = None
         if self.settings.servo_lag > 0:
             old = now - round(self.settings.servo_lag * S)
             later = [m for m in self._history if m.since > old]

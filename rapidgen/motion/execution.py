@@ -128,7 +128,7 @@ class PathExecution:
         path.prune(drive.behind())
         limits, at_rest = self.limits(), self.is_standing
         make = self._planner.way_maker(limits)
-        leg, failed = path.extend(move, make, drive.law, limits, fixed, self._planner.kinematics)
+        leg, failed = path.extend(move, make, drive.plan, limits, fixed, self._planner.kinematics)
         self._events.add(leg)
         if at_rest and not self.stops:
             leg.began = self._scheduler.now / S

@@ -3,6 +3,7 @@
 Pure bookkeeping of places; when anything happens is the business of `execution.py`.
 """
 
+from bisect import bisect_left
 from collections import deque
 from collections.abc import Callable
 
@@ -11,12 +12,12 @@ from rapidgen.motion.corners import corner, stretch
 from rapidgen.motion.legs import Geometry, Leg
 from rapidgen.motion.moves import Move
 from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
-from rapidgen.motion.speed_profile import SpeedProfile
+from rapidgen.motion.speed_profile import Plan
 
 WayMaker = Callable[[Posture, Move, bool], Geometry]
 """(from, move, from rest) -> geometry of the move."""
-LawFinder = Callable[[tuple[Piece, ...]], SpeedProfile | None]
-"""The time law over pieces from the robot's present state; None when there is none."""
+PlanFinder = Callable[[tuple[Piece, ...]], Plan | None]
+"""The plan over pieces from the robot's present state; None when there is none."""
 _SHRINK = (1.0, 0.5, 0.25, 0.1, 0.03)
 REGAIN_SPEED = 0.1
 """Share of the axes' speed at which the robot returns to its path."""
@@ -46,7 +47,7 @@ class Path:
         self,
         move: Move,
         make: WayMaker,
-        plan: LawFinder,
+        plan: PlanFinder,
         limits: AxisLimits,
         fixed: float,
         kinematics: Kinematics | None = None,
@@ -107,10 +108,11 @@ class Path:
         self.target = leg.way.target
 
     def _until(self, place: float) -> tuple[Piece, ...]:
-        pieces = [piece for piece in self.pieces if piece.start < place]
-        if pieces and pieces[-1].end > place:
-            pieces[-1] = pieces[-1].until(place)
-        return tuple(pieces)
+        pieces = self.pieces
+        count = bisect_left(pieces, place, key=_start)
+        if count and pieces[count - 1].end > place:
+            return (*pieces[: count - 1], pieces[count - 1].until(place))
+        return pieces[:count]
 
     def passed(self, place: float) -> list[Leg]:
         """Legs that the robot has left or whose stop point it has reached; they are taken off."""
@@ -194,6 +196,10 @@ class Path:
     def at(self, place: float) -> Posture:
         """Axis values at a place."""
         return posture_at(self.pieces, place, self.target)
+
+
+def _start(piece: Piece) -> float:
+    return piece.start
 
 
 def posture_at(pieces: tuple[Piece, ...], place: float, remaining: Posture) -> Posture:

@@ -11,8 +11,8 @@ from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings, smoothing
 from rapidgen.motion.moves import JointMove, MoveSpeed
 from rapidgen.motion.pieces import AxisLimits, joint_corner, joint_line
-from rapidgen.motion.speed_profile import brake, plan
-from tests.motion.test_timelaw import Stretch, paths
+from rapidgen.motion.speed_profile import brake
+from tests.motion.test_timelaw import Stretch, law_of, paths
 from tools.motion_campaign import disturb
 
 WIDTH = 0.05
@@ -53,7 +53,7 @@ def bent_paths(draw):
 def test_the_mean_keeps_every_limit(path, width):
     """Speeds, accelerations and jerk of the axes, from the start to the standstill."""
     pieces, rest = path
-    law = plan(pieces, 0.0, 0.0)
+    law = law_of(pieces, 0.0, 0.0)
     count = 400
     step = (law.duration + width) / count
     times = [k * step for k in range(count)]
@@ -72,7 +72,7 @@ def test_the_mean_keeps_every_limit(path, width):
 @settings(max_examples=100)
 @given(paths())
 def test_it_stands_at_every_stop(spans):
-    law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
+    law = law_of(spans, 0.0, 0.0, 1.0, pause=WIDTH)
     for span in [s for s in spans if s.stop] + [spans[-1]]:
         time = smoothing.time_at(law, span.end, WIDTH)
         place, speed = smoothing.state(law, time, WIDTH)
@@ -83,7 +83,7 @@ def test_it_stands_at_every_stop(spans):
 @settings(max_examples=100)
 @given(paths(), st.floats(0, 1))
 def test_time_at_is_the_inverse_of_state(spans, fraction):
-    law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
+    law = law_of(spans, 0.0, 0.0, 1.0, pause=WIDTH)
     place = fraction * law.place
     time = smoothing.time_at(law, place, WIDTH)
     assert smoothing.state(law, time, WIDTH)[0] == pytest.approx(place, abs=1e-9)
@@ -93,7 +93,7 @@ def test_time_at_is_the_inverse_of_state(spans, fraction):
 @given(paths(), st.floats(0, 1))
 def test_what_was_planned_before_is_still_felt(spans, fraction):
     """Braking at any moment: place, speed and acceleration go on without a jump."""
-    law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
+    law = law_of(spans, 0.0, 0.0, 1.0, pause=WIDTH)
     now = fraction * law.duration
     place, speed = law.state(now)
     left = [s for s in spans if s.end > place] or [spans[-1]]
@@ -113,7 +113,7 @@ def test_what_was_planned_before_is_still_felt(spans, fraction):
 
 def test_a_trapezoid_with_a_ramp():
     """One move in closed form: the ramp adds its length, and half of it before the middle."""
-    law = plan([Stretch(2.0, 1.0, 4.0)], 0.0, 0.0)
+    law = law_of([Stretch(2.0, 1.0, 4.0)], 0.0, 0.0)
     assert smoothing.time_at(law, 2.0, WIDTH) == pytest.approx(2.25 + WIDTH)
     assert smoothing.time_at(law, 1.0, WIDTH) == pytest.approx((2.25 + WIDTH) / 2)
     assert smoothing.state(law, WIDTH, WIDTH) == pytest.approx((4 * WIDTH**2 / 6, 4 * WIDTH / 2))
