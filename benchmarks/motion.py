@@ -2,12 +2,13 @@
 
     python benchmarks/motion.py
 
-Limits: 1,000 moves planned a second, 50 µs a pose in closed form, and end times that do not depend
-on the sampling rate.
+Limits: 5,000 dense linear moves planned a second, 50 µs a pose in closed form, and end times that
+do not depend on the sampling rate.
 """
 
 import time
 from collections.abc import Callable
+from math import cos, sin
 from types import SimpleNamespace
 
 from rapidgen.axes import frames
@@ -25,6 +26,7 @@ from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System, TaskSpec
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
+DENSE = Zone(tcp=0.001, orientation=0.0015, external=0.0015, angle=0.0026)
 ZONE = Zone(tcp=0.01, orientation=0.015, external=0.015, angle=0.026)
 
 
@@ -96,6 +98,26 @@ def linear_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
     return make
 
 
+def dense_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
+    """Return `count` lines of 0.5 mm along a circle at 200 mm/s."""
+
+    def make(group: MotionGroup) -> list[Move]:
+        start = group.geometry().forward(HOME)
+        angles = [0.0005 / 0.06 * k for k in range(1, count + 1)]
+        places = [(0.06 * (cos(a) - 1), 0.06 * sin(a), 0.0) for a in angles]
+        return [
+            CartesianMove(
+                target=(frames.add(start[0], place), start[1]),
+                external=HOME,
+                speed=MoveSpeed(0.2),
+                zone=DENSE if k < count - 1 else Zone(fine=True),
+            )
+            for k, place in enumerate(places)
+        ]
+
+    return make
+
+
 def inverse(count: int = 5000) -> float:
     """Return s of CPU for one pose on a known branch."""
     own = Kinematics.of(load_config("irb120").groups[0])
@@ -109,9 +131,12 @@ def inverse(count: int = 5000) -> float:
 
 def main() -> None:
     """Print the figures."""
-    for name, moves in (("joint", joint_moves(1000)), ("linear", linear_moves(300))):
-        spent, end, switches = min(run(moves) for _ in range(3))
-        count = 1000 if name == "joint" else 300
+    for name, count, moves in (
+        ("joint", 1000, joint_moves),
+        ("linear", 300, linear_moves),
+        ("linear moves of 0.5 mm: dense", 3000, dense_moves),
+    ):
+        spent, end, switches = min(run(moves(count)) for _ in range(3))
         print(
             f"{name} moves: {count / spent:,.0f} a second of CPU, "
             f"{switches / count:.1f} switches a move, {end / S:.3f} s simulated"

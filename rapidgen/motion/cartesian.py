@@ -1,7 +1,7 @@
 """Cartesian ways: the TCP on a line or a circle, axes by inverse kinematics."""
 
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 from math import ceil, inf, radians
 
@@ -32,11 +32,17 @@ _FEWEST, _USUAL, _MOST = 5, 96, 512
 _PERIOD = 0.01
 """Nominal s of an interval, as long as no more than `_USUAL` of them are needed: an interval has
 one acceleration, so that few of them make a move too slow."""
+_SHORT, _LITTLE = 0.003, 0.02
+"""m and rad of a short way. Axes that go straight there miss it by less than `_BENT`, unless the
+robot is close to a singularity."""
+_BENT = 1e-6
+"""rad or m of an axis in the middle of a short way that count as none."""
 _STRAIGHT = radians(0.01)
 """rad between the points of a circle, seen from its start, below which it is driven as a line.
 
 ABB's manual asks for 1 degree. RobotStudio drives points on a line, and a real IRB 6640 arcs down
 to 0.16 degrees (logs of hehonglu123/ABB_Primitive_Study)."""
+_ENDS = [0.0, 1.0]
 _APART = 1e-4
 """m between the points of a circle, at least."""
 _JUMP = 0.6
@@ -61,6 +67,7 @@ class CartesianPath:
         "limits",
         "measure",
         "programmed",
+        "rates",
         "shape",
         "strength",
         "target",
@@ -91,30 +98,77 @@ class CartesianPath:
         self._turns = self.measure.angle > NO_TURN
         self.programmed = 1.0
         programmed = nominal_time(self.measure, move.speed) if move.time is None else move.time
+        self.rates: Posture | None = None
+        """Rates of the axes where they go straight, by nominal s."""
+        rests = from_rest + move.zone.fine
+        bend = self._short(origin)
+        if bend is not None:
+            self._find_duration(move, programmed, rests)
+            self._set_straight(bend)
+        else:
+            self._set_sampled(origin, move, programmed, rests)
+        self.target = self._nodes[-1]
+
+    def _set_sampled(
+        self, origin: Posture, move: CartesianMove, programmed: float, rests: int
+    ) -> None:
+        """Sample the way as closely as its limits ask for."""
         count = min(_USUAL, max(_FEWEST, ceil(programmed / _PERIOD)))
         while True:
             self._shares, self._nodes = self._sample(origin, count)
-            least, fastest, self.strength = self._bounds()
-            self.duration = max(programmed, SHORTEST)
-            if move.time is not None:
-                rests = from_rest + move.zone.fine
-                total = move.time - rests * limits.ramp / 2
-                self.duration = timed(total, fastest, self.strength, rests / 2)
+            least = self._find_duration(move, programmed, rests)
             count = len(self._nodes) - 1
             spacing = self.duration / count
-            self._ceilings, close = interval_limits(self._nodes, spacing, limits)
+            self._ceilings, close = interval_limits(self._nodes, spacing, self.limits)
             # The speed that the axes reach counts here, whatever is programmed.
             wanted = min(_USUAL, ceil(least / _PERIOD))
             if (close and count >= wanted) or 2 * count > _MOST:
                 break
             count = max(wanted, count if close else 2 * count)
         self._curves = cubics(self._nodes, spacing, 0.0)
-        self.target = self._nodes[-1]
+
+    def _find_duration(self, move: CartesianMove, programmed: float, rests: int) -> float:
+        """Set the nominal time; returns the smallest at full axis speed."""
+        least, fastest, self.strength = self._bounds()
+        self.duration = max(programmed, SHORTEST)
+        if move.time is not None:
+            total = move.time - rests * self.limits.ramp / 2
+            self.duration = timed(total, fastest, self.strength, rests / 2)
+        return least
+
+    def _short(self, origin: Posture) -> Posture | None:
+        """Second differences of the axes over both halves of a short way that is straight.
+
+        Then its nodes are its ends. None: it has to be sampled.
+        """
+        if self._wrist is not None or self.measure.tcp > _SHORT or self.measure.angle > _LITTLE:
+            return None
+        middle = self._solve(0.5, origin)
+        end = self._solve(1.0, middle)
+        bend = tuple([abs(a - 2 * b + c) for a, b, c in zip(origin, middle, end, strict=True)])
+        if max(bend) > 2 * _BENT:
+            return None
+        check_range(self._kinematics, (end,))
+        self._shares, self._nodes = _ENDS, [origin, end]
+        return bend
+
+    def _set_straight(self, bend: Posture) -> None:
+        """Let the axes go straight, with the limits of the way that they replace."""
+        first, last = self._nodes
+        duration, half = self.duration, self.duration / 2
+        rates = tuple([(b - a) / duration for a, b in zip(first, last, strict=True)])
+        curved = tuple([c / (half * half) for c in bend])
+        most = tuple([abs(r) + c * half for r, c in zip(rates, curved, strict=True)])
+        self.rates = rates
+        self._ceilings = [self.limits.of_curve(most, curved, first)]
+        self._curves = [line_from(first, rates)]
 
     def stretch(self, factor: float) -> None:
         """See Geometry."""
         self.duration *= factor
         self.programmed *= factor
+        if self.rates is not None:
+            self.rates = tuple([rate / factor for rate in self.rates])
 
     @property
     def tcp(self) -> float:
@@ -163,7 +217,10 @@ class CartesianPath:
             if high - low > 1e-12:
                 at = _later(self._curves[k], begin, factor)
                 own = speed, shares
-                result.append(Piece(low, high, at, own, self.tcp, programmed=factor))
+                straight = self.rates is not None
+                result.append(
+                    Piece(low, high, at, own, self.tcp, straight=straight, programmed=factor)
+                )
         if result:
             result[0].start, result[-1].end = start, end
         return result
@@ -185,10 +242,7 @@ class CartesianPath:
                     raise MotionFault(FaultReason.SINGULARITY)
                 break
             count = min(_MOST, max(2 * count, min(4 * count, ceil(count * step / _STEP))))
-        for node in nodes:
-            faults = outside(self._kinematics.group.joints, node)
-            if faults:
-                raise MotionFault(FaultReason.OUT_OF_RANGE, faults[0])
+        check_range(self._kinematics, nodes)
         return shares, nodes
 
     def _pose(self, fraction: float) -> Pose:
@@ -264,6 +318,19 @@ def _later(
     if factor == 1.0:
         return lambda place: curve(place - begin)
     return lambda place: curve((place - begin) / factor)
+
+
+def line_from(start: Posture, rates: Posture) -> Callable[[float], Posture]:
+    """Return axis values by nominal s where all axes are linear."""
+    return lambda time: tuple([q + r * time for q, r in zip(start, rates, strict=True)])
+
+
+def check_range(kinematics: Kinematics, nodes: Iterable[Posture]) -> None:
+    """MotionFault: a posture outside of the axis ranges."""
+    for node in nodes:
+        faults = outside(kinematics.group.joints, node)
+        if faults:
+            raise MotionFault(FaultReason.OUT_OF_RANGE, faults[0])
 
 
 def external_places(kinematics: Kinematics) -> tuple[int, ...]:

@@ -53,21 +53,54 @@ def corner(
     if min(inside, outside) < _SMALLEST:
         return None
     if isinstance(path, JointPath) and isinstance(after, JointPath):
-        start, end = before.end - inside, before.end + outside
-        rates = (
-            (path.rates, inside, path.programmed),
-            (after.rates, outside, after.programmed),
-        )
-        tcp = max(path.tcp, after.tcp)
-        return start, end, joint_corner(start, path.target, *rates, limits, tcp)
+        return _straight(before, after, path.rates, after.rates, (inside, outside), limits)
     if isinstance(path, CartesianPath) and isinstance(after, CartesianPath):
         if (path.measure.tcp > NO_WAY) != (after.measure.tcp > NO_WAY):
             return None  # TCP motion next to pure reorientation (S4 overview p.5-17)
         poses = path.joins_poses and after.joins_poses and path.carrier == after.carrier
         if poses and kinematics is not None:
-            wide = _extended(zone, path, after, size, (inside, outside))
-            return _cartesian(before, path, after, (inside, outside), wide, limits, kinematics)
+            near = inside, outside
+            wide = _extended(zone, path, after, size, near)
+            bend: Bend | None
+            if path.rates is not None and after.rates is not None and _same(wide, near):
+                bend = _straight(before, after, path.rates, after.rates, near, limits)
+            else:
+                bend = _cartesian(before, path, after, near, wide, limits, kinematics)
+            if bend is not None and limits.shortest > 0.0:
+                _limit_speed(bend[2], before.end, near, limits)
+            return bend
     return _mixed(before, path, after, (inside, outside), limits)
+
+
+def _straight(
+    before: Leg,
+    after: Geometry,
+    rates_in: Posture,
+    rates_out: Posture,
+    near: tuple[float, float],
+    limits: AxisLimits,
+) -> Bend:
+    """A parabola in joint space between two ways on which all axes go straight."""
+    path, (inside, outside) = before.way, near
+    start, end = before.end - inside, before.end + outside
+    rates = (rates_in, inside, path.programmed), (rates_out, outside, after.programmed)
+    tcp = max(path.tcp, after.tcp)
+    return start, end, joint_corner(start, path.target, *rates, limits, tcp)
+
+
+def _same(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """True if a corner begins and ends at the same times for position and orientation."""
+    return all(a - b <= _SMALLEST for a, b in zip(one, other, strict=True))
+
+
+def _limit_speed(
+    pieces: list[Piece], point: float, near: tuple[float, float], limits: AxisLimits
+) -> None:
+    """Let the way through the TCP's zone take `limits.shortest` at least."""
+    fastest = sum(near) / limits.corner / limits.shortest
+    for piece in pieces:
+        if point - near[0] <= (piece.start + piece.end) / 2 <= point + near[1]:
+            piece.speed = min(piece.speed, fastest)
 
 
 def stretch(before: Leg, after: Geometry) -> None:
@@ -161,13 +194,7 @@ def _cartesian(
     origin = path.posture(path.duration - wide[0])
     solve = _Tracker(kinematics, path.carrier, pose, external)
     speeds = path.programmed, after.programmed
-    bend = _sampled(solve, point, sections, origin, limits, max(path.tcp, after.tcp), speeds)
-    if bend is not None and limits.shortest > 0.0:
-        fastest = sum(near) / limits.corner / limits.shortest
-        for piece in bend[2]:
-            if point - near[0] <= (piece.start + piece.end) / 2 <= point + near[1]:
-                piece.speed = min(piece.speed, fastest)
-    return bend
+    return _sampled(solve, point, sections, origin, limits, max(path.tcp, after.tcp), speeds)
 
 
 def _position(

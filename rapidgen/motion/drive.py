@@ -25,6 +25,7 @@ class Drive:
 
     __slots__ = (
         "_history",
+        "_placed",
         "_plan",
         "_planned",
         "_scheduler",
@@ -57,6 +58,8 @@ class Drive:
         self.observers: list[Callable[[Motion], None]] = []
         """Called with every new motion (the recorder)."""
         self.motion = Motion(scheduler.now, scheduler.now, SpeedProfile(0.0), (), start)
+        self._placed = self.motion, self.motion.since, 0.0
+        """The motion and the time of the place asked for last, and that place."""
         self._history: list[Motion] = []
         self._planned = _NOT_PLANNED
         """The plan found last: appending asks for it twice."""
@@ -82,7 +85,10 @@ class Drive:
 
     def place(self) -> float:
         """Where the robot is on its path."""
-        return self.motion.place(self._scheduler.now)
+        now, motion = self._scheduler.now, self.motion
+        if self._placed[0] is not motion or self._placed[1] != now:
+            self._placed = motion, now, motion.place(now)
+        return self._placed[2]
 
     def behind(self) -> float:
         """Where on its path the mean begins that the robot follows."""

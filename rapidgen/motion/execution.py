@@ -6,6 +6,7 @@ costs a few events a move, and nothing at all while it stands.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from math import ceil, inf
 
 from rapidgen.axes.kinematics import Posture
@@ -219,11 +220,13 @@ class PathExecution:
 
     def finish(self, legs: list[Leg], *, cleared: bool) -> None:
         """Legs are passed, or taken off the path."""
-        for leg in legs:
+        behind = next(iter(self.path.legs), None)
+        for leg, following in pairwise((*legs, behind)):
+            assert leg is not None
             leg.finished = not cleared
             leg.cleared = cleared
             if not cleared:
-                self._punctuality.finished(leg, self.motion)
+                self._punctuality.finished(leg, following, self.motion)
         if legs and cleared:
             self.changed.notify()
 
@@ -231,19 +234,19 @@ class PathExecution:
 
     def replan(self) -> None:
         """Go from the present state to the end of the path."""
-        self._punctuality.look(self.path.legs, self.motion, self._scheduler.now)
+        self._punctuality.look(self.path.legs, self.motion, self.drive.place())
         self.drive.replan(self.path)
         self._rearm()
 
     def brake(self, *, quick: bool) -> None:
         """Slow down to a standstill on the path."""
-        self._punctuality.look(self.path.legs, self.motion, self._scheduler.now)
+        self._punctuality.look(self.path.legs, self.motion, self.drive.place())
         self.drive.brake(self.path, quick)
         self._rearm()
 
     def coast(self) -> None:
         """Stop each axis by its brake, off the path."""
-        self._punctuality.look(self.path.legs, self.motion, self._scheduler.now)
+        self._punctuality.look(self.path.legs, self.motion, self.drive.place())
         self.drive.coast(self.path, self._planner.config.joints)
         self._rearm()
 
@@ -270,10 +273,10 @@ class PathExecution:
         self._find_refreshed()
         if self._refreshed is not None:
             times.append(ceil(motion.time_at(self._refreshed.end) * S))
-        for leg in self.path.legs:
-            if leg.stops:
-                times.append(ceil(motion.time_at(leg.end) * S))
-                break
+        legs = self.path.legs
+        stop = next((leg for leg in legs if leg.committed or leg.move.zone.fine), None)
+        if stop is not None:
+            times.append(ceil(motion.time_at(stop.end) * S))
         times += [ceil(when * S) for when in self._events.times(motion)]
         ahead = [time for time in times if time > now]
         due = min(ahead, default=None)
@@ -290,12 +293,13 @@ class PathExecution:
 
     def _find_refreshed(self) -> None:
         """The leg under way, or the first one to come, is the one that SpeedRefresh holds for."""
-        drive, place = self.drive, self.drive.place()
+        drive = self.drive
         if (
             self._refreshed is None
             and 0.0 < drive.refresh < 1.0
             and not drive.settings.refresh_lasts
         ):
+            place = drive.place()
             self._refreshed = next((leg for leg in self.path.legs if leg.end > place), None)
 
     def _end_refresh(self) -> None:

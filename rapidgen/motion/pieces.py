@@ -290,20 +290,20 @@ def _extremes(
     """
     (slope, turn), (first, last) = slopes, ends
     square = slope * slope
+    least, most = square, max(0.0, square + 2 * turn * (last - first))
+    root_least, root_most = slope, sqrt(most)
     rates, curvings = [], []
     for d, b in zip(tangents, bends, strict=True):
-        places = [first, last]
+        twice = 2 * b
+        at_first, at_last = d + twice * first, d + twice * last
+        rate = max(abs(at_first) * root_least, abs(at_last) * root_most)
+        curving = max(abs(twice * least + at_first * turn), abs(twice * most + at_last * turn))
         if b and turn:
-            # d/dw of the squared rate is zero here
+            # d/dw of the squared rate is zero here; the curving is largest at an end.
             w = -(4 * b * (square - 2 * turn * first) + 2 * turn * d) / (12 * b * turn)
             if first < w < last:
-                places.append(w)
-        rate = curving = 0.0
-        for w in places:
-            own = max(0.0, square + 2 * turn * (w - first))
-            tangent = d + 2 * b * w
-            rate = max(rate, abs(tangent) * sqrt(own))
-            curving = max(curving, abs(2 * b * own + tangent * turn))
+                own = max(0.0, square + 2 * turn * (w - first))
+                rate = max(rate, abs(d + twice * w) * sqrt(own))
         rates.append(rate)
         curvings.append(curving)
     return tuple(rates), tuple(curvings)

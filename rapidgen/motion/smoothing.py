@@ -38,16 +38,16 @@ def state(law: SpeedProfile, time: float, width: float) -> tuple[float, float]:
     if time >= law.duration + width:
         return law.place, 0.0
     begin = time - width
-    base = law.state(begin)[0]
     times, places, speeds, accelerations = law.phases
+    if bisect_right(times, time) - bisect_right(times, begin) > _FEW:
+        return law.mean(begin, time)
+    base = law.state(begin)[0]
     area = 0.0
     if time > law.duration:
         area = (law.place - base) * (time - max(law.duration, begin))
         time = law.duration
     last = law.place if time >= law.duration else law.state(time)[0]
     i = bisect_right(times, time) - 1
-    if i - _FEW >= 0 and times[i - _FEW] > begin:
-        return law.mean(begin, begin + width), (last - base) / width
     while i >= 0:
         low = max(begin, times[i]) - times[i]
         high = time - times[i]

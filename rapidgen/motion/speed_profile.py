@@ -157,22 +157,27 @@ class SpeedProfile:
             area = self._speeds[i] / 2 + self._accelerations[i] * t / 6
             self._area += (self._places[i] - self._origin + area * t) * t
 
-    def mean(self, begin: float, end: float) -> float:
-        """Mean place between two times, from the integrals.
+    def mean(self, begin: float, end: float) -> tuple[float, float]:
+        """Mean place and mean speed between two times, from the integrals.
 
         They are differences of sums, so their rounding grows with the time of the whole law.
         """
-        return self._origin + (self._integral(end) - self._integral(begin)) / (end - begin)
+        (first, from_place), (last, to_place) = self._integral(begin), self._integral(end)
+        span = end - begin
+        return self._origin + (last - first) / span, (to_place - from_place) / span
 
-    def _integral(self, time: float) -> float:
+    def _integral(self, time: float) -> tuple[float, float]:
+        """Integral of the place from the origin on up to a time, and the place then."""
         if time >= self.duration:
-            return self._area + (self.place - self._origin) * (time - self.duration)
+            return self._area + (self.place - self._origin) * (time - self.duration), self.place
         i = bisect_right(self._times, time) - 1
         if i < 0:
-            return (self._places[0] - self._origin) * (time - self._times[0])
+            place = self._places[0]
+            return (place - self._origin) * (time - self._times[0]), place
         t = time - self._times[i]
-        area = (self._speeds[i] / 2 + self._accelerations[i] * t / 6) * t
-        return self._areas[i] + (self._places[i] - self._origin + area) * t
+        place, speed, acceleration = self._places[i], self._speeds[i], self._accelerations[i]
+        area = place - self._origin + (speed / 2 + acceleration * t / 6) * t
+        return self._areas[i] + area * t, place + (speed + acceleration * t / 2) * t
 
     def state(self, time: float) -> tuple[float, float]:
         """Place and speed at a time (the first state for times before 0)."""

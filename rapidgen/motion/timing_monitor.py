@@ -1,6 +1,6 @@
 """Whether moves took their \\T: a controller says nothing, this one does, once a standstill."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 from rapidgen.machine.event_log import EventLog
 from rapidgen.motion import events
@@ -22,16 +22,19 @@ class TimingMonitor:
         self._last: float | None = None
         """Scheduler time (s) at which the last finished move was passed."""
 
-    def look(self, legs: Iterable[Leg], motion: Motion, now: int) -> None:
-        """Note when legs were passed, before a new motion forgets it."""
-        place = motion.place(now)
-        for leg in legs:
+    def look(self, legs: Sequence[Leg], motion: Motion, place: float) -> None:
+        """Note when legs up to a place were passed, before a new motion forgets it."""
+        for i, leg in enumerate(legs):
             if leg.end > place:
                 break
-            _note(leg, motion)
+            if _counts(leg, legs[i + 1] if i + 1 < len(legs) else None):
+                _note(leg, motion)
 
-    def finished(self, leg: Leg, motion: Motion) -> None:
-        """A leg is done."""
+    def finished(self, leg: Leg, following: Leg | None, motion: Motion) -> None:
+        """A leg is done; another one follows on the path, or none yet."""
+        if not _counts(leg, following):
+            self._last = None
+            return
         passed = _note(leg, motion)
         began = leg.began if leg.began is not None else self._last
         self._last = passed
@@ -51,6 +54,11 @@ class TimingMonitor:
                 texts=("the axes' limits, the override or a stop",),
             )
         self._late, self._moves = 0.0, 0
+
+
+def _counts(leg: Leg, following: Leg | None) -> bool:
+    """True if the time at which a leg is passed ends or begins a \\T, as far as is known."""
+    return leg.move.time is not None or following is None or following.move.time is not None
 
 
 def _note(leg: Leg, motion: Motion) -> float:

@@ -29,7 +29,7 @@ def passed(cell, joint):
 )
 def test_late_by_more_than_two_milliseconds(cell, passed, took, reported):
     punctuality = TimingMonitor()
-    punctuality.finished(passed(took), cell.group.motion)
+    punctuality.finished(passed(took), None, cell.group.motion)
     punctuality.report(cell.log, "rob1")
     assert cell.events(TIME_NOT_MET) == reported
 
@@ -37,8 +37,8 @@ def test_late_by_more_than_two_milliseconds(cell, passed, took, reported):
 def test_one_report_sums_up_the_late_moves_since_the_last_one(cell, passed):
     punctuality = TimingMonitor()
     for took in (1.25, 1.001, 1.5):
-        punctuality.finished(passed(took), cell.group.motion)
-    punctuality.finished(passed(9.0, promised=None), cell.group.motion)
+        punctuality.finished(passed(took), None, cell.group.motion)
+    punctuality.finished(passed(9.0, promised=None), None, cell.group.motion)
     punctuality.report(cell.log, "rob1")
     punctuality.report(cell.log, "rob1")
     (event,) = cell.log
