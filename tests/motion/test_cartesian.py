@@ -10,7 +10,7 @@ from rapidgen.axes.path_shapes import arc_through
 from rapidgen.machine.scheduler import S
 from rapidgen.motion.fault_reasons import FaultReason, MotionFault
 from rapidgen.motion.moves import CartesianMove, MoveFrames, MoveSpeed, Singularities
-from tests.motion.cell import PLANNED
+from tests.motion.cell import PLANNED, Cell, zone
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 TOOL = ((0.02, 0.0, 0.15), (1.0, 0.0, 0.0, 0.0))
@@ -390,3 +390,34 @@ def test_a_track_moves_with_the_tcp_on_its_line(make_cell, zones):
     assert cell.path[-1, track] == pytest.approx(0.3)
     assert np.abs(line[:, 1] * 6 - line[:, 0]).max() < 1e-7
     assert cell.path[:, track] * 0.05 / 0.3 == pytest.approx(line[:, 1], abs=1e-7)
+
+
+@pytest.mark.parametrize("length", [0.0002, 0.001, 0.0029])
+@pytest.mark.parametrize("size", [0.3, 1])
+def test_short_lines_are_straight_and_pass_their_points(length, size):
+    """Axes that go straight over a short line leave it by less than 2 um, corners included."""
+    cell = Cell("irb120", PLANNED)
+    home = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
+    cell.group.jump(home)
+    kinematics = cell.group.geometry()
+    start = kinematics.forward(home)
+    count = 60
+
+    def program(task):
+        for k in range(1, count + 1):
+            target = frames.add(start[0], (0.0, length * k, -0.5 * length * k)), start[1]
+            end = zone(size if k < count else 0)
+            cell.group.move(
+                task,
+                CartesianMove(target=target, external=home, speed=MoveSpeed(0.1), zone=end),
+            )
+
+    cell.run(program)
+    way = frames.unit((0.0, 1.0, -0.5))
+    places = [kinematics.forward(tuple(q)) for q in cell.path[::7]]
+    for place, turn in places:
+        offset = frames.subtract(place, start[0])
+        along = frames.dot(offset, way)
+        assert frames.norm(frames.subtract(offset, frames.scale(way, along))) < 2e-6
+        assert frames.angle_between(turn, start[1]) < 5e-6
+    assert max(cell.shares()) < 1.001

@@ -181,3 +181,21 @@ def test_a_new_ramp_holds_from_the_next_standstill_on(cell, joint):
     cell.run(program)
     ramp = MotionSettings().ramp_time
     assert seen == [pytest.approx(ramp), pytest.approx(10 * ramp)]
+
+
+def test_the_mean_over_many_phases_is_that_of_the_phases():
+    """From integrals where there are many; one by one the result is the same."""
+    rng = random.Random(3)
+    spans, end = [], 0.0
+    for _ in range(300):
+        end += rng.uniform(0.001, 0.004)
+        spans.append(Stretch(end, rng.uniform(0.2, 1.0), rng.uniform(5.0, 50.0)))
+    law = law_of(spans, 0.0, 0.0)
+    for k in range(-2, 60):
+        time = (law.duration + WIDTH) * k / 57
+        parts = 2000
+        places = [law.state(time - WIDTH * (j + 0.5) / parts)[0] for j in range(parts)]
+        place, speed = smoothing.state(law, time, WIDTH)
+        assert place == pytest.approx(sum(places) / parts, abs=1e-8)
+        step = (law.state(time)[0] - law.state(time - WIDTH)[0]) / WIDTH
+        assert speed == pytest.approx(step, abs=1e-9)

@@ -195,3 +195,30 @@ def test_a_plan_can_be_renewed_anywhere_on_a_bent_path(spans, fraction):
         assert again.duration <= (1 - fraction) * law.duration + 1e-6
         halt = brake(left, place, speed)
         assert used(halt, left) <= 1 + 1e-6
+
+
+@dataclass(frozen=True)
+class Placed(Bend):
+    start: float = 0.0
+
+
+@settings(max_examples=150)
+@given(bent_paths(), st.floats(0.0, 1.0), st.integers(1, 8))
+def test_a_plan_that_is_extended_is_that_of_the_whole_path(bends, part, kept):
+    """As if all spans had been known at the beginning; its own past stays."""
+    starts = [0.0, *(bend.end for bend in bends)]
+    spans = [
+        Placed(b.end, b.speed, b.shares, start=start)
+        for b, start in zip(bends, starts, strict=False)
+    ]
+    usual = 1.0, float("inf"), 0.0
+    first, whole = plan(spans[:kept], 0.0, 0.0, *usual), plan(spans, 0.0, 0.0, *usual)
+    now = part * first.law.duration
+    extended = first.extended(spans, now, 0.05, usual)
+    if extended is None:
+        return
+    assert extended.law.duration == pytest.approx(whole.law.duration, abs=1e-9)
+    for k in range(21):
+        time = k / 20 * whole.law.duration
+        assert extended.law.state(time) == pytest.approx(whole.law.state(time), abs=1e-6)
+        assert extended.law.state(now * k / 20) == pytest.approx(first.law.state(now * k / 20))
