@@ -164,7 +164,7 @@ cluster: $(STAMP)
 .PHONY: cluster
 
 program-mutants: $(STAMP) ## 15 min: the same for the modules of motion programs, in a cell with signals, tools, routines and data
-	$(BIN)/python tools/driver_mutants.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" speed --only ROS_programs ROS_execution ROS_data -- tools/cell.yaml
+	$(BIN)/python tools/driver_mutants.py --jobs 2 --budget 8 --output build/program-mutation.jsonl --themes programs "own routines" "own data" speed --only ROS_programs ROS_execution -- tools/cell.yaml
 
 program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones written in RAPID
 	for robot in irb120 irb2400 irb460 irb910sc; do \

@@ -18,12 +18,10 @@ from rapidgen.system import (
 )
 from rapidgen.system.model import TaskType
 
-COMMON, LIMITS, EVENTS = "ROS_common", "ROS_limits", "ROS_events"
-MESSAGES, SOCKET, STREAM = "ROS_messages", "ROS_socket", "ROS_stream"
-INSTRUCTIONS, PROGRAMS, EXECUTION = "ROS_instructions", "ROS_programs", "ROS_execution"
-DATA = "ROS_data"
+COMMON, SERVER = "ROS_common", "ROS_server"
+STREAM, PROGRAMS, EXECUTION = "ROS_stream", "ROS_programs", "ROS_execution"
 
-OF_FULL = (STREAM, INSTRUCTIONS, PROGRAMS, EXECUTION)
+OF_FULL = (STREAM, PROGRAMS, EXECUTION)
 """Modules that the profile `basic` lacks."""
 
 
@@ -38,35 +36,18 @@ class TaskRole:
 
 
 ROLES = (
-    TaskRole("motion", "", (COMMON, EVENTS, INSTRUCTIONS, EXECUTION, "ROS_motion")),
-    TaskRole(
-        "motion_server",
-        "T_ROS_RECV",
-        (
-            COMMON,
-            LIMITS,
-            MESSAGES,
-            SOCKET,
-            "ROS_acceptance",
-            "ROS_download",
-            INSTRUCTIONS,
-            PROGRAMS,
-            STREAM,
-            "ROS_motionServer",
-        ),
-    ),
+    TaskRole("motion", "", (COMMON, EXECUTION, "ROS_motion")),
+    TaskRole("motion_server", "T_ROS_RECV", (COMMON, SERVER, PROGRAMS, STREAM, "ROS_motionServer")),
     TaskRole("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
-    TaskRole("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, DATA, "ROS_control")),
-    TaskRole("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
+    TaskRole("control", "T_ROS_CONTROL", (COMMON, SERVER, "ROS_control")),
+    TaskRole("state", "T_ROS_STATE", (COMMON, SERVER, "ROS_stateServer")),
 )
-SYSTEM_MODULES = (COMMON, EVENTS, INSTRUCTIONS, LIMITS, MESSAGES, SOCKET)
+SYSTEM_MODULES = (COMMON, SERVER)
 
 
 def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
     """Return the tasks of a group, with the modules of its profile."""
     left_out = () if config.profile == "full" else OF_FULL
-    if not group.data:
-        left_out = (*left_out, DATA)
     return tuple(
         replace(role, modules=tuple(m for m in role.modules if m not in left_out))
         for role in ROLES

@@ -113,7 +113,7 @@ def test_lines_of_files_are_shown_where_more_than_the_builds_id_differs(run, hom
     assert run("deploy", "irb120", *url, "--yes")[0] == 0
     out = run("plan", "irb120", *url, "--set", "state.rate=20", "--diff")[1]
     files = re.findall(r"^\+\+\+ (.*)$", out, re.MULTILINE)
-    assert files == ["HOME:/rapidgen/ROS_messages.sys", "HOME:/rapidgen/ROS_stateServer.mod"]
+    assert files == ["HOME:/rapidgen/ROS_server.sys", "HOME:/rapidgen/ROS_stateServer.mod"]
     assert len(re.findall(r"^[-+] ", out, re.MULTILINE)) >= 2
 
 
@@ -131,7 +131,7 @@ def test_plan_of_fleet_shows_common_parts_once(run, tmp_path):
     assert summary == "6 controllers:"
     assert (first.split()[1:], second.split()[1:]) == (
         ["nothing", "to", "do."],
-        ["18", "to", "add,", "0", "to", "change,", "0", "to", "remove."],
+        ["12", "to", "add,", "0", "to", "change,", "0", "to", "remove."],
     )
 
 

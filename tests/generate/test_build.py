@@ -70,7 +70,7 @@ def test_the_manifest_holds_the_configuration(irb120, output):
 
 def test_every_module_carries_the_build_id(output):
     modules = [f for f in output.files if f.kind == "module"]
-    assert len(modules) == 16
+    assert len(modules) == 10
     for module in modules:
         assert module.data.decode().count(f'"{output.build_id}"') >= 1, module.path
 

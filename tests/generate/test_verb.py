@@ -17,7 +17,7 @@ def test_build_writes_to_rapid_out(here, capsys):
     assert main(["build", "irb120"]) == 0
     out, err = capsys.readouterr()
     assert out == ""
-    assert "rapid_out/irb120: 20 files, build " in err
+    assert "rapid_out/irb120: 14 files, build " in err
     assert sorted(os.listdir(here / "rapid_out/irb120")) == [
         "EIO.cfg",
         "HOME",

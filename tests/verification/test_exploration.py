@@ -101,7 +101,7 @@ def test_bytes_that_are_no_message_are_a_finding(seed, reply):
     """Also before a history begins, while the driver's statements are recorded."""
     system = make_system(SIX_AXES, build(SIX_AXES))
     modules = [module for task in system.tasks for module in task.modules]
-    sends = next(module for module in modules if module.name == "ROS_socket")
+    sends = next(module for module in modules if module.name == "ROS_server")
     broken = sends.data.replace(
         b"SocketSend client", b"PackRawBytes 1, data, 1 \\IntX:=DINT;\n        SocketSend client"
     )

@@ -109,14 +109,14 @@ def test_a_case_that_noticed_a_neighbour_is_tried_first(judge):
 
 
 def test_cases_left_out_by_the_budget_are_counted(judge):
-    mutant = changed("ROS_socket", b"ROS_partial_bytes := 0;\n        RETURN", b"RETURN")
+    mutant = changed("ROS_server", b"ROS_partial_bytes := 0;\n        RETURN", b"RETURN")
     every = replace(mutant, statement=0)
     assert judge.judge(Question(every, budget=0)).left == len(FEW)
 
 
 def test_a_case_that_did_not_notice_it_before_is_not_tried_again(judge):
     mutant = changed(
-        "ROS_socket",
+        "ROS_server",
         b"IF ROS_partial_bytes > 0 OR bytes_left",
         b"IF ROS_partial_bytes >= 0 OR bytes_left",
     )
@@ -127,7 +127,7 @@ def test_a_case_that_did_not_notice_it_before_is_not_tried_again(judge):
 
 
 def test_case_is_tried_again_under_another_setting(judge, given):
-    mutant = changed("ROS_socket", b"ROS_partial_bytes := 0;\n        RETURN", b"RETURN")
+    mutant = changed("ROS_server", b"ROS_partial_bytes := 0;\n        RETURN", b"RETURN")
     every = replace(mutant, statement=0)
     names = tuple(case.name for case in judge.concerned(every, Learned()))
     other = Judge(replace(given, row=" [pairs 3]", kept=[]))
@@ -150,7 +150,7 @@ ENDMODULE
 
 
 def test_verdicts_after_interruption_are_equal(given, tmp_path):
-    file = file_of("ROS_socket")
+    file = file_of("ROS_server")
     some = list(mutants(file.data, file.path))[:24:3]
 
     def judge_all(path, jobs, *, resume=False):

@@ -159,16 +159,16 @@ def patched(system, module, old, new):
 DEFECTS = {
     # The sequence check of the motion server, left out.
     "hole": (
-        "ROS_download",
+        "ROS_motionServer",
         "ELSEIF sequence = ROS_point_count OR sequence = ROS_SEQ_END OR ROS_point_count = 0 THEN",
         "ELSEIF TRUE THEN",
     ),
     "too-many-points": (
-        "ROS_download",
+        "ROS_motionServer",
         "ROS_refuse_download ROS_REASON_CAPACITY, ROS_point_count, sequence = ROS_SEQ_END;",
         "",
     ),
-    "padding": ("ROS_download", "IF NOT (padding = 0) ROS_set_fault", "IF FALSE ROS_set_fault"),
+    "padding": ("ROS_motionServer", "IF NOT (padding = 0) ROS_set_fault", "IF FALSE ROS_set_fault"),
     "newest-takes-over": (
         "ROS_motionServer",
         "is_taken_over := (silence >= TAKEOVER_DELAY);",
@@ -181,7 +181,7 @@ DEFECTS = {
     ),
     # The event routines count no stop of the program.
     "order-before-stop": (
-        "ROS_events",
+        "ROS_common",
         "ROS_program_stops := ROS_next_count(ROS_program_stops);",
         "",
     ),

@@ -290,7 +290,7 @@ def _index_wraps(bench: Bench) -> None:
     bench.wait_until_at(points[9][0], 20)
     bench.run(0.5)
     server, motion = bench.task("ROS_motionServer"), bench.task("ROS_motion")
-    bench.controller.task(server)["ROS_acceptance:ROS_point_count"] = last - 5
+    bench.controller.task(server)["ROS_motionServer:ROS_point_count"] = last - 5
     bench.controller.task(server)["ROS_stream:accepted"] = last - 5
     bench.controller.task(motion)["ROS_motion:expected_index"] = last - 4
     stream.sent = last - 5

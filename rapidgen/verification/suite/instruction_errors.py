@@ -162,7 +162,7 @@ def _far_off_once(bench: Bench) -> None:
     link = bench.motion()
     for error, why in (
         ("ERR_PATHDIST", "It stands too far from the path that it left."),
-        ("ERR_PATH_STOP", "Its stop cannot be taken back."),
+        ("ERR_PATH_STOP", "Its stop cannot be reset."),
     ):
         last, keeps = bench.last_event, bench.setting.motion.stop_move_reset == "keeps"
         bench.start_motion(link, bench.wave(12), 0.3)

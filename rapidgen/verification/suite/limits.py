@@ -18,9 +18,9 @@ from rapidgen.verification.testbench import HELLO, Bench
 case = SuiteGroup("limits")
 
 _LOGGED = {
-    "are narrower": (EventType.WARNING, "Those of the controller count."),
-    "are wider": (EventType.INFO, "Those of the configuration count."),
-    "make no sense": (EventType.ERROR, "No trajectory is taken."),
+    "are narrower": (EventType.WARNING, "The limits of the controller are used."),
+    "are wider": (EventType.INFO, "The limits of the configuration are used."),
+    "make no sense": (EventType.ERROR, "No trajectory is accepted."),
 }
 _NEAR = 0.002
 """rad or m inside and outside of a limit: more than rounding, less than any difference here."""

@@ -111,7 +111,7 @@ def _lines_are_rationed(bench: Bench) -> None:
     bench.run(1.5)
     if pendant.take():
         raise CheckFailed("events come later than what they tell")
-    for more in ("7 more like it.", ""):
+    for more in ("7 similar ones.", ""):
         _send_wrong(bench, link, 1)
         bench.run(1.5)
         events = pendant.take()

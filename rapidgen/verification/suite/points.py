@@ -298,9 +298,8 @@ def _full(bench: Bench, table: Table) -> None:
         table.row(_BEGIN, current, _SLOW, _TAKEN)
         table.ask()
         # Simulate the other points: sending a thousand equal points adds nothing.
-        bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_point_count"] = (
-            capacity - 1
-        )
+        server = bench.controller.task(bench.task("ROS_motionServer"))
+        server["ROS_motionServer:ROS_point_count"] = capacity - 1
         full = messages.RawRefused(RawReason.CAPACITY, capacity, 0)
         table.row(capacity - 1, current, _SLOW, _TAKEN)
         table.row(last, current, _SLOW, full)
@@ -335,9 +334,9 @@ def _one_more(bench: Bench) -> None:
     bench.controller.operator.subscribe(lambda _task, text: lines.append(text))
     for at_once, axis, more in (
         (2, 0, ""),
-        (1, len(joints) - 1, "1 more like it."),
+        (1, len(joints) - 1, "1 similar ones."),
         (3, None, ""),
-        (1, 0, "2 more like it."),
+        (1, 0, "2 similar ones."),
     ):
         before = bench.last_event
         sequence, reason, place = int(RawSpecial.END), RawReason.NO_START, ""

@@ -30,10 +30,10 @@ case = SuiteGroup("programs", needs="stream")
 def _ring(bench: Bench) -> list[Value]:
     """Return the instructions in the motion task's ring, by index."""
     task = bench.rapid_task("ROS_motion")
-    declared = task.program.modules["ros_instructions"].declarations
+    declared = task.program.modules["ros_common"].declarations
     name = next(key for key in declared if re.fullmatch(r"ros_instr_ring(_\d+)?", key))
     view = bench.controller.task(bench.group.task)
-    return list(view[f"ROS_instructions:{name}"].values())
+    return list(view[f"ROS_common:{name}"].values())
 
 
 def _expect_progress(

@@ -191,7 +191,7 @@ def _index_wraps(bench: Bench) -> None:
     bench.run(0.5)
     server = bench.controller.task(bench.task("ROS_motionServer"))
     motion = bench.controller.task(bench.task("ROS_motion"))
-    server["ROS_acceptance:ROS_point_count"] = server["ROS_stream:accepted"] = last - 3
+    server["ROS_motionServer:ROS_point_count"] = server["ROS_stream:accepted"] = last - 3
     motion["ROS_motion:expected_index"] = last - 2
     reply = client.say(
         [w for o in some[3:9] for w in o.words], 6, RawStreamFlag.END, first=last - 3

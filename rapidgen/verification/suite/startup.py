@@ -16,7 +16,7 @@ def _one_other(bench: Bench) -> None:
     tasks = [t for t in bench.system.tasks if t.mechanical_unit_group == bench.mechanical_unit]
     build = bench.system.build_id.encode()
     # A module that several tasks load.
-    path, data = next((m.path, m.data) for t in tasks for m in t.modules if m.name == "ROS_limits")
+    path, data = next((m.path, m.data) for t in tasks for m in t.modules if m.name == "ROS_server")
     with bench.second_controller(
         with_module(bench.system, path, data.replace(build, b"0123456789ab"))
     ) as other:

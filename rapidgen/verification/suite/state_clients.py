@@ -292,7 +292,7 @@ def _burst(bench: Bench, link: RawLink, count: int) -> tuple[float, list[_Event]
         text = (title * (1 + 9 * (number == 9)))[:80].rstrip()
         expected.append((number % 9 + 1, number, number % 3 + 1, text, *below))
     if count > _WAITING:
-        expected[_WAITING + 1 :] = [(0, count - _WAITING, 2, "Events that were not told", "", "")]
+        expected[_WAITING + 1 :] = [(0, count - _WAITING, 2, "Events that were not sent", "", "")]
     return since, expected
 
 

@@ -183,7 +183,7 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
     with _stepped(bench) as other:
         control = other.control()
         for module, routines in (
-            ("ROS_acceptance", ("ROS_start_motion", "ROS_blocker")),
+            ("ROS_motionServer", ("ROS_start_motion", "ROS_blocker")),
             ("ROS_stream", ("read_points",)),
         ):
             for line in _lines(other, module, *routines):
@@ -250,12 +250,12 @@ def _progress_at_every_statement(bench: Bench) -> None:
             ("ROS_stateServer", (("ROS_stateServer", "send_state"),), True),
             (
                 "ROS_stateServer",
-                (("ROS_messages", "ROS_read_progress"), ("ROS_messages", "read_trajectory")),
+                (("ROS_server", "ROS_read_progress"), ("ROS_server", "read_trajectory")),
                 True,
             ),
-            ("ROS_motionServer", (("ROS_acceptance", "ROS_new_trajectory"),), False),
-            ("ROS_motionServer", (("ROS_acceptance", "ROS_start_motion"),), False),
-            ("ROS_motionServer", (("ROS_download", "start_motion"),), False),
+            ("ROS_motionServer", (("ROS_motionServer", "ROS_new_trajectory"),), False),
+            ("ROS_motionServer", (("ROS_motionServer", "ROS_start_motion"),), False),
+            ("ROS_motionServer", (("ROS_motionServer", "start_motion"),), False),
             ("ROS_motion", (("ROS_motion", "next_point"),), False),
         ):
             for home, routine in places:

@@ -253,7 +253,7 @@ def _another_program(bench: Bench) -> None:
         with bench.second_controller(own) as other:
             for event in system.events:
                 if event.task == other.group.task:
-                    routines = other.rapid_task("ROS_events").program.modules["ros_events"].routines
+                    routines = other.rapid_task("ROS_common").program.modules["ros_common"].routines
                     if event.routine.casefold() not in routines:
                         raise CheckFailed(
                             f"the event routine {event.routine} went with the program"
