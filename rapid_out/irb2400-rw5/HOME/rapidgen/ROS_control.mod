@@ -5,12 +5,12 @@ MODULE ROS_control
     ! Do not edit: change the configuration and build again. Modules of different
     ! builds accept no trajectory.
     !
-    ! STOP, PAUSE, SPEED and HEARTBEAT are handled
-    ! here, so that points never delay them. On STOP and on a missing heartbeat this task asks the
-    ! supervisor by an interrupt, because only one task may stop and restart the robot. If the
-    ! supervisor does not answer, this task stops the robot itself.
+    ! STOP, PAUSE, SPEED and HEARTBEAT are handled here, so that points never delay
+    ! them. On STOP and on a missing heartbeat this task asks the supervisor by an interrupt, because only
+    ! one task may stop and restart the robot. If the supervisor does not answer, this task stops the
+    ! robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "e6da4508cd5b";
+    CONST string ROS_BUILD_CONTROL := "0075bc12132a";
 
     LOCAL CONST num PORT := 11001;
     ! Time between two checks for new clients and for the end of a trajectory, s.
@@ -18,6 +18,8 @@ MODULE ROS_control
     ! Time for the motion server to check its sockets after STOP, s. It waits for bytes for
     ! ROS_WAIT_TIMEOUT, which is shorter.
     LOCAL CONST num SEEN_TIMEOUT := 0.15;
+    ! Shortest wait for bytes, s. A heartbeat that has arrived is read in this time.
+    LOCAL CONST num MIN_RECEIVE := 0.002;
     ! Longest time between heartbeats that a client may request, s.
     LOCAL CONST num MAX_HEARTBEAT := 3600;
 
@@ -43,8 +45,7 @@ MODULE ROS_control
 
     PROC main()
         ROS_start_task ROS_task_build_control,
-            ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
-            ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
+            ROS_BUILD_SERVER = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
         ROS_start_alive_count 2;
         ROS_read_limits;
         ROS_speed_trajectory := -1;
@@ -86,7 +87,7 @@ MODULE ROS_control
             IF is_connected send_stopped client;
             IF is_connected AND ClkRead(clock_poll) >= POLL_PERIOD THEN
                 ROS_start_clock clock_poll;
-                is_taken_over := ROS_accept(server, PORT, newcomer, 0.001);
+                is_taken_over := ROS_accept(server, PORT, newcomer, ROS_NO_WAIT);
             ENDIF
         ENDWHILE
         SocketClose client;
@@ -116,7 +117,7 @@ MODULE ROS_control
         remaining := heartbeat_timeout - ClkRead(clock_heartbeat);
         IF remaining > POLL_PERIOD RETURN POLL_PERIOD;
         ! Also check for a heartbeat that is due now, because it may have arrived.
-        IF remaining < 0.002 RETURN 0.002;
+        IF remaining < MIN_RECEIVE RETURN MIN_RECEIVE;
         RETURN remaining;
     ENDFUNC
 
@@ -237,9 +238,9 @@ MODULE ROS_control
 
     ! Wait until `done` is equal to `asked`. Return FALSE if this takes longer than `seconds`.
     LOCAL FUNC bool wait_answered(PERS num asked, PERS num done, num seconds)
-        FOR try FROM 1 TO 250 * seconds DO
+        FOR try FROM 1 TO ROS_ANSWER_CHECKS * seconds DO
             IF done = asked RETURN TRUE;
-            WaitTime 0.004;
+            WaitTime ROS_ANSWER_PERIOD;
         ENDFOR
         RETURN FALSE;
     ENDFUNC
@@ -331,4 +332,5 @@ MODULE ROS_control
     ERROR
         RAISE;
     ENDPROC
+
 ENDMODULE

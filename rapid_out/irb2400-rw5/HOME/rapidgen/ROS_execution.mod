@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! This module belongs to the motion task. All checks were made before an instruction was put into
     ! the ring buffer. ROS_motion takes it out, and leaves it by a long jump if the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "e6da4508cd5b";
+    CONST string ROS_BUILD_EXECUTION := "0075bc12132a";
 
     ! Present instruction, and the reason why it failed (0: it did not).
     VAR ROS_instr ROS_current_instr;
@@ -23,6 +23,8 @@ MODULE ROS_execution
     LOCAL CONST extjoint ZERO_EXTAX := [0,0,0,0,0,0];
     ! Displacements below this are rounding errors: mm, and 0.001 of it for a quaternion.
     LOCAL CONST num DISPLACEMENT_TOL := 0.01;
+    ! Tools and work objects of the configuration; ROS_own_tool and ROS_own_wobj hold those that the client
+    ! defines. They are copies of the motion task. Writer and reader: the motion task.
     TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
     TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
 
@@ -107,8 +109,8 @@ MODULE ROS_execution
         ENDTEST
         IF is_displaced AND ROS_current_instr.kind <> ROS_DO_MOVE_ABSJ THEN
             ROS_instr_fault := ROS_REASON_POSE_MISMATCH;
-            ErrWrite "ROS: poses are displaced", "A program displacement or offset is in force, and nobody has checked"
-                \RL2:="where it takes the robot." \RL3:="PDispOff, EOffsOff";
+            ErrWrite "ROS: poses are displaced", "A program displacement or offset is in force."
+                \RL2:="Poses were checked without it." \RL3:="PDispOff, EOffsOff";
             RETURN;
         ENDIF
         zone := ROS_current_instr.zone;

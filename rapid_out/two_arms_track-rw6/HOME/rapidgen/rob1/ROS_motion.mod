@@ -10,11 +10,27 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "a0f8452a413c";
+    CONST string ROS_BUILD_MOTION := "06370c5bde1a";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [5000,500,5000,1000];
     LOCAL CONST zonedata CONFIG_ZONE := z50;
+    ! Time between two checks for points during a trajectory, s. It is short compared with the duration
+    ! of a point.
+    LOCAL CONST num POLL_PERIOD := 0.008;
+    ! Without a trajectory this task checks every POLL_RATE (s), and looks at everything else every
+    ! IDLE_TIMEOUT (s). Longer, and the robot would start late; shorter, and other tasks would have less
+    ! time.
+    LOCAL CONST num IDLE_TIMEOUT := 0.2;
+    LOCAL CONST num POLL_RATE := 0.04;
+    ! Time until a path that could not be cleared, or a stop that could not be reset, is tried again, s.
+    LOCAL CONST num RETRY_PERIOD := 0.1;
+    ! Time between two repetitions of SpeedRefresh, s; duration of the stop that is added at the target of
+    ! a slowed move, s; and longest move that is not slowed down, s: it is over before SpeedRefresh would
+    ! take effect.
+    LOCAL CONST num REFRESH_PERIOD := 0.1;
+    LOCAL CONST num REST_DURATION := 0.1;
+    LOCAL CONST num MIN_SLOWED_MOVE := 0.25;
     ! Acceleration that each axis certainly reaches, deg/s^2 or mm/s^2 (30 % of its estimated value).
     LOCAL CONST num ACCELERATION_1 := 750;
     LOCAL CONST num ACCELERATION_2 := 750;
@@ -81,7 +97,6 @@ MODULE ROS_motion
     ! Execute trajectories. This routine does not return.
     PROC ROS_run()
         ROS_start_task ROS_task_build_motion_1,
-            ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
             ROS_BUILD_EXECUTION = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_run_state_1 := ROS_RUN_OUTSIDE;
         in_move := FALSE;
@@ -133,14 +148,14 @@ MODULE ROS_motion
         clear_path;
         IF NOT ROS_path_cleared THEN
             ! Do not answer: while a path may exist, the robot must stay stopped.
-            WaitTime 0.1;
+            WaitTime RETRY_PERIOD;
             RETURN;
         ENDIF
         ROS_drop_trajectory reason;
         ROS_reset_path_mode;
         ROS_start_robot IsStopMoveAct(\FromMoveTask);
         IF IsStopMoveAct(\FromMoveTask) THEN
-            WaitTime 0.1;
+            WaitTime RETRY_PERIOD;
             RETURN;
         ENDIF
         ! A fault of the trajectory that ends here must not end the next one.
@@ -156,10 +171,10 @@ MODULE ROS_motion
         IF ROS_is_active() AND trajectory = ROS_active_trajectory_1 ROS_starved_trajectory_1 := trajectory;
         IF ROS_is_active() OR ROS_phase_1 = ROS_TRAJ_RECEIVING THEN
             ! The next points will arrive soon.
-            WaitTime 0.008;
+            WaitTime POLL_PERIOD;
         ELSE
             WaitUntil ROS_phase_1 = ROS_TRAJ_RECEIVING OR ROS_head_1 <> ROS_tail_1
-                OR ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=0.2 \TimeFlag:=timed_out \PollRate:=0.04;
+                OR ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=IDLE_TIMEOUT \TimeFlag:=timed_out \PollRate:=POLL_RATE;
         ENDIF
     ENDPROC
 
@@ -187,7 +202,7 @@ MODULE ROS_motion
             ! SpeedRefresh may hold for one move or for all moves. The slowed move therefore ends before
             ! the next one is ordered. A move of an earlier trajectory is over, and the robot may be
             ! elsewhere.
-            point.duration := 0.1;
+            point.duration := REST_DURATION;
             move fine;
             IF fault = ROS_REASON_NONE AND ROS_abort_1 = ROS_abort_done_1 ROS_reached_1 := ROS_planned_1;
             RETURN;
@@ -218,7 +233,7 @@ MODULE ROS_motion
         IF point.duration = 0 THEN
             ! The robot stands at this point already.
         ELSEIF point.dwell THEN
-            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=timed_out \PollRate:=0.04;
+            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=timed_out \PollRate:=POLL_RATE;
         ELSEIF stops THEN
             move fine;
         ELSE
@@ -243,7 +258,7 @@ MODULE ROS_motion
         ! The requested speed may have changed since the point was taken.
         IDisable;
         IF refresh_percent >= 100 move_percent := 0;
-        IF point.duration > 0.25 AND point_percent > move_percent move_percent := point_percent;
+        IF point.duration > MIN_SLOWED_MOVE AND point_percent > move_percent move_percent := point_percent;
         IF speed_percent < move_percent set_speed;
         IEnable;
         in_move := TRUE;
@@ -423,8 +438,8 @@ MODULE ROS_motion
         corner_zone.zone_leax := limit_value(MIN_ZONE_MM, linear_speed_sum * corner_time / 2, CONFIG_ZONE.zone_leax);
     ENDPROC
 
-    LOCAL FUNC num limit_value(num min_duration, num value, num maximum)
-        IF value < min_duration RETURN min_duration;
+    LOCAL FUNC num limit_value(num minimum, num value, num maximum)
+        IF value < minimum RETURN minimum;
         IF value < maximum RETURN value;
         RETURN maximum;
     ENDFUNC
@@ -482,12 +497,12 @@ MODULE ROS_motion
         RETURN 100;
     ENDFUNC
 
-    ! Repeat SpeedRefresh every 0.1 s, because it may hold for one move only and have no effect at a
+    ! Repeat SpeedRefresh every REFRESH_PERIOD, because it may hold for one move only and have no effect at a
     ! standstill. Only one interrupt may be pending.
     LOCAL PROC resend()
         IDelete int_timer;
         CONNECT int_timer WITH on_timer;
-        ITimer \Single, 0.1, int_timer;
+        ITimer \Single, REFRESH_PERIOD, int_timer;
     ENDPROC
 
     LOCAL TRAP on_timer
@@ -540,7 +555,7 @@ MODULE ROS_motion
     LOCAL PROC start_supervision_timer()
         IDelete int_supervision;
         CONNECT int_supervision WITH on_supervision;
-        ITimer \SingleSafe, 0.1, int_supervision;
+        ITimer \SingleSafe, ROS_ALIVE_PERIOD, int_supervision;
     ENDPROC
 
     ! The supervisor has stopped the robot and requests that the path be dropped. Main may be waiting in

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! of one moment, and no other task waits for this one. A client that does not read would block the
     ! sends to the other clients, so a send that takes too long is ended and its client is disconnected.
 
-    CONST string ROS_BUILD_STATE_SERVER := "a0f8452a413c";
+    CONST string ROS_BUILD_STATE_SERVER := "06370c5bde1a";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num SEND_PERIOD := 0.1;
@@ -95,8 +95,7 @@ MODULE ROS_stateServer
 
     PROC main()
         ROS_start_task ROS_task_build_state_1,
-            ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
-            ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
+            ROS_BUILD_SERVER = ROS_BUILD_ID AND ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
         ROS_start_alive_count 3;
         ROS_read_limits;
         ROS_init_state state;
@@ -338,7 +337,7 @@ MODULE ROS_stateServer
         IF events_enabled send_event;
         set_alarm FALSE;
         accept_due := NOT accept_due;
-        IF accept_due AND clients > 0 accept_client 0.001;
+        IF accept_due AND clients > 0 accept_client ROS_NO_WAIT;
     ERROR
         SkipWarn;
         TRYNEXT;
@@ -416,7 +415,7 @@ MODULE ROS_stateServer
             events_read := ROS_next_count(events_read);
         ELSEIF events_lost > 0 THEN
             ROS_pack_event message, 0, events_lost, ROS_EVENT_WARNING;
-            ROS_pack_texts message, "Events that were not told", "", "";
+            ROS_pack_texts message, "Events that were not sent", "", "";
             events_lost := 0;
         ELSE
             RETURN;

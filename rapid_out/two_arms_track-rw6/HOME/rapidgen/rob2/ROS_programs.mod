@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! must give that pose. So the limits of the joints can be checked, the configuration (robconf) is
     ! the controller's own, and a client with a wrong robot model is rejected before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "a0f8452a413c";
+    CONST string ROS_BUILD_PROGRAMS := "06370c5bde1a";
 
     ! Upper limits: speeds in mm/s and deg/s, sizes of a zone in mm and deg.
     LOCAL CONST num MAX_TCP_SPEED := 5000;
@@ -34,6 +34,8 @@ MODULE ROS_programs
     LOCAL CONST num MAX_FRAME_MM := 100000;
     LOCAL CONST num MAX_MASS := 2000;
     LOCAL CONST num MAX_INERTIA := 2000;
+    ! Tools and work objects of the configuration; ROS_own_tool and ROS_own_wobj hold those that the client
+    ! defines. They are copies of this task. Writer and reader: this task.
     TASK PERS tooldata ROS_own_tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
     TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
 

@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "a0f8452a413c";
+    CONST string ROS_BUILD_SUPERVISOR := "06370c5bde1a";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;
@@ -25,6 +25,10 @@ MODULE ROS_supervisor
     ! would end with too many of them pending (40223).
     LOCAL VAR num wakeups := 0;
     LOCAL CONST num MAX_WAKEUPS := 12;
+    ! Shortest time between two wake-up interrupts, s. The motion task drops its path in less.
+    LOCAL CONST num WAKEUP_PERIOD := 0.25;
+    ! Time after which a robot that stays stopped is reported, s: a halt is over in less.
+    LOCAL CONST num REPORT_DELAY := 2;
     ! For each server: its last alive count, the number of checks without a change, and whether its end
     ! was reported. The checks start at -20, so a server may start 2 s later than this task.
     LOCAL VAR num last_alive_count{3};
@@ -34,7 +38,9 @@ MODULE ROS_supervisor
     LOCAL VAR num alive_count := 0;
     ! TRUE when the reason why the robot stays stopped was written to the event log.
     LOCAL VAR bool is_reported := FALSE;
-    ! Number of rounds in which the tasks had modules of different builds.
+    ! Number of rounds in which the tasks had modules of different builds, and number of them before
+    ! this is reported: the tasks start one after another (2 s).
+    LOCAL CONST num MAX_MIXED_ROUNDS := 20;
     LOCAL VAR num mixed_rounds := 0;
 
     PROC main()
@@ -71,7 +77,7 @@ MODULE ROS_supervisor
             ROS_not_ready_2 := blocker();
             update_alive_count;
             IEnable;
-            WaitTime 0.1;
+            WaitTime ROS_ALIVE_PERIOD;
         ENDWHILE
     ENDPROC
 
@@ -140,7 +146,7 @@ MODULE ROS_supervisor
             halt reason;
         ELSEIF ROS_run_state_2 = ROS_RUN_OUTSIDE AND reason = ROS_REASON_STOPPED
             AND ROS_executing() <> ROS_TRI_FALSE THEN
-            ErrWrite \W, "ROS: STOP is not for this program", "It is not in ROS_run: its own moves go on.";
+            ErrWrite \W, "ROS: STOP is not for this program", "It is not in ROS_run: its own moves continue.";
         ENDIF
     ENDPROC
 
@@ -173,14 +179,14 @@ MODULE ROS_supervisor
         RETURN ROS_is_active() AND ROS_halted_trajectory_2 <> ROS_active_trajectory_2;
     ENDFUNC
 
-    ! Write an event when tasks of different builds have been running for 2 s.
+    ! Write an event when tasks of different builds have been running for MAX_MIXED_ROUNDS rounds.
     LOCAL PROC check_builds()
         IF ROS_get_build_fault() <> ROS_REASON_BUILD_MISMATCH THEN
             mixed_rounds := 0;
             RETURN;
         ENDIF
         mixed_rounds := mixed_rounds + 1;
-        IF mixed_rounds = 20 ErrWrite "ROS: tasks of different builds", "No trajectory is taken."
+        IF mixed_rounds = MAX_MIXED_ROUNDS ErrWrite "ROS: tasks of different builds", "No trajectory is accepted."
             \RL2:="Load all modules of one build and restart.";
     ENDPROC
 
@@ -219,7 +225,7 @@ MODULE ROS_supervisor
             ELSEIF ROS_off_path THEN
                 report "ROS: the robot stays stopped", "It stands too far from the path that it left.";
             ELSE
-                report "ROS: the robot stays stopped", "Its stop cannot be taken back.";
+                report "ROS: the robot stays stopped", "Its stop cannot be reset.";
             ENDIF
             RETURN;
         ENDIF
@@ -231,17 +237,17 @@ MODULE ROS_supervisor
             RETURN;
         ENDIF
         IF IsStopMoveAct(\FromMoveTask) AND ROS_motors_on() <> ROS_TRI_FALSE THEN
-            report "ROS: the robot stays stopped", "The motion task cannot take back its stop.";
+            report "ROS: the robot stays stopped", "The motion task cannot reset its stop.";
         ELSE
             report "ROS: the motion task does not answer", "The robot stays stopped.";
         ENDIF
-        IF wakeups < MAX_WAKEUPS AND ROS_elapsed_seconds(clock_wakeup) > 0.25 wake_motion_task;
+        IF wakeups < MAX_WAKEUPS AND ROS_elapsed_seconds(clock_wakeup) > WAKEUP_PERIOD wake_motion_task;
     ENDPROC
 
-    ! Report a problem once, if the program has been running for 2 s since the halt.
+    ! Report a problem once, if the program has been running for REPORT_DELAY since the halt.
     LOCAL PROC report(string title, string text)
         IF is_reported RETURN;
-        IF ClkRead(clock_halt) <= 2 RETURN;
+        IF ClkRead(clock_halt) <= REPORT_DELAY RETURN;
         ErrWrite \W, title, text \RL2:="Start the program of T_ROB2 from main.";
         is_reported := TRUE;
     ENDPROC
