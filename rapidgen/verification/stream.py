@@ -14,6 +14,12 @@ BEGIN, END, FLUSH = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.FLUSH
 NONE = RawStreamFlag(0)
 
 
+def way(bench: Bench, count: int, duration: float = 0.15) -> list[Point]:
+    """Return `count` small points there and back; the first is here."""
+    duration = max(duration, 1.05 * bench.config.trajectory.min_segment)
+    return [(p, duration) for p, _ in bench.wave(count, duration=duration, size=0.03)]
+
+
 class Streamer:
     """One stream over one connection to the motion server."""
 

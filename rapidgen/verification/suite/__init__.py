@@ -2,8 +2,6 @@
 
 from rapidgen.verification.case import SuiteCase, SuiteGroup
 from rapidgen.verification.suite import (
-    batch_encoding,
-    batches,
     before_stops,
     boundary_values,
     config_options,
@@ -46,7 +44,6 @@ from rapidgen.verification.suite import (
     state_clients,
     state_port,
     stop,
-    stream_faults,
     streams,
     supervisor,
     task_races,
@@ -72,9 +69,6 @@ CASES: tuple[SuiteCase, ...] = tuple(
         limits,
         stop,
         streams,
-        batches,
-        batch_encoding,
-        stream_faults,
         programs,
         program_prefix,
         program_cell,

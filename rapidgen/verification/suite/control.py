@@ -11,9 +11,8 @@ from rapidgen.verification.messages import RawComm, RawReason, RawStreamFlag, Ra
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import distance
 from rapidgen.verification.raw_connection import STOP, RawLink
-from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.stream import BEGIN, END, Streamer, way
 from rapidgen.verification.suite.motion_task import halt_timeout
-from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import HELLO, Bench
 
 case = SuiteGroup("controlling", needs="control")

@@ -6,9 +6,8 @@ from rapidgen.verification.instruction_hooks import fails, watched_orders
 from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryState
 from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.raw_connection import STOP, RawLink
-from rapidgen.verification.stream import BEGIN, Streamer
+from rapidgen.verification.stream import BEGIN, Streamer, way
 from rapidgen.verification.suite.control import not_done, stop, stopped
-from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
 case = SuiteGroup("controlling", needs="control")

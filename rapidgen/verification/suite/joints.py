@@ -7,9 +7,8 @@ from rapidgen.verification.messages import RawReason, RawTriState
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Point, changed, distance, inward
 from rapidgen.verification.raw_connection import RawLink
-from rapidgen.verification.stream import BEGIN, END, Streamer
+from rapidgen.verification.stream import BEGIN, END, Streamer, way
 from rapidgen.verification.suite.motion_task import halt_timeout
-from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
 case = SuiteGroup("joints")

@@ -19,9 +19,8 @@ from rapidgen.verification.messages import (
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.raw_connection import STOP, RawLink
 from rapidgen.verification.raw_programs import BEGIN, Programmer, orders
-from rapidgen.verification.stream import FLUSH, Streamer
+from rapidgen.verification.stream import FLUSH, Streamer, way
 from rapidgen.verification.suite.motion_task import datum, halt_timeout
-from rapidgen.verification.suite.streams import way
 from rapidgen.verification.testbench import Bench
 
 case = SuiteGroup("programs", needs="stream")
