@@ -69,6 +69,8 @@ class CellSetup:
     units exist."""
     is_any_robot: bool = False
     """True if the robots are inferred: unreachable targets do not stop the program."""
+    placed: frozenset[str] = frozenset()
+    """Groups whose start position the user chose."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -256,7 +258,9 @@ def place_robots(controller: Booted, around: CellSetup) -> InferenceLog:
         DataSetter(controller, around.flags, answered)
     controller.io.divisors = around.divisors
     controller.io.any_unit = controller.meetings.any_task = around.is_guess
-    if around.is_any_robot:
+    controller.motion.is_any_robot = around.is_any_robot
+    controller.motion.moved |= around.placed
+    if around.is_guess:
         controller.motion.on_missed = lambda place, how: guessed.missed.append((place, how))
     # With the real clock, a user answers through the control port.
     if (

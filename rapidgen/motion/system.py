@@ -33,8 +33,12 @@ class MotionSystem:
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
         self._moving = set(self._tasks)
         self.on_missed: Callable[[str, str], None] | None = None
-        """With guessed robots: called with (place in the program, how it moved there) for targets
-        that they do not reach as programmed. None: such a target stops the program."""
+        """In inferred cells: called with (place in the program, how it moved there) for targets
+        that the robots do not reach as programmed. None: such a target stops the program."""
+        self.is_any_robot = False
+        """True if the robots are inferred."""
+        self.moved: set[str] = set()
+        """Groups that a program has moved, or whose start position the user chose."""
 
     @property
     def settings(self) -> MotionSettings:

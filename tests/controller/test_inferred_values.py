@@ -4,6 +4,7 @@ import pytest
 
 from rapidgen.controller import VirtualController
 from rapidgen.controller.boot_targets import BootOptions, load_target
+from rapidgen.controller.inference.restarts import run_past_stops
 
 
 def inferred(tmp_path, body, data=""):
@@ -162,3 +163,108 @@ def test_tune_reset_has_nothing_to_reset(tmp_path):
     with VirtualController.from_files([path], cycle="once") as controller:
         assert controller.run(max_time=5) == "finished"
         assert controller.task("T_ROB1").fault is None
+
+
+def executed(tmp_path, body, data=""):
+    """Return what a program displays, the answers that it got, and how it ended."""
+    path = tmp_path / "m.mod"
+    path.write_text(f"MODULE m\n{data}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n")
+    displayed = []
+    target = load_target([path], BootOptions(cell="infer"))
+    with VirtualController.boot(target, cycle="once", autostart=False) as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
+        controller.start_program()
+        end = run_past_stops(controller, max_time=60)
+        return displayed, controller.guessed, end
+
+
+def test_function_that_a_program_waits_for_gets_a_value(tmp_path):
+    body = "WaitUntil IsReady();\nWHILE Count(1) < 3 DO\nWaitTime 0.1;\nENDWHILE\n"
+    body += "WaitUntil NOT Busy();"
+    displayed, guessed, end = executed(tmp_path, body + '\nTPWrite "on";')
+    assert (displayed, end) == (["on"], "finished")
+    assert guessed.answered[0] == ("IsReady()", "TRUE")
+    assert ("Count()", "3") in guessed.answered
+
+
+def test_declared_function_is_never_inferred(tmp_path):
+    path = tmp_path / "m.mod"
+    path.write_text(
+        "MODULE m\nPROC main()\nWaitUntil IsReady();\nENDPROC\n"
+        "FUNC bool IsReady()\nRETURN FALSE;\nENDFUNC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="infer", cycle="once") as controller:
+        assert controller.run(max_time=60) == "time"
+        assert controller.guessed.answered == []
+
+
+def test_undeclared_arrays_are_executed(tmp_path):
+    body = (
+        "MoveAbsJ places{2}, v100, fine, tool0;\ncounts{3} := 4;\n"
+        "TPWrite ValToStr(counts{3} + counts{1});\nTPWrite texts{1,2};"
+    )
+    displayed, _, end = executed(tmp_path, body)
+    assert (displayed, end) == (["4", ""], "finished")
+    names = inferred(tmp_path, body)
+    assert (names["places"], names["counts"]) == ("jointtarget{*}", "num{*}")
+    assert names["texts"] == "string{*,*}"
+
+
+def test_late_call_of_missing_routine_does_nothing(tmp_path):
+    body = 'job := "DoIt";\n%job%;\nTPWrite "done";'
+    displayed, _, end = executed(tmp_path, body, "VAR string job;")
+    assert (displayed, end) == (["done"], "finished")
+    assert inferred(tmp_path, body, "VAR string job;")["DoIt"] == "proc"
+
+
+STOPPING = """MODULE m2
+PROC main()
+WHILE TRUE DO
+WaitTime 2;
+Stop;
+ENDWHILE
+ENDPROC
+ENDMODULE
+"""
+
+
+def test_a_task_at_its_stop_does_not_use_up_the_restarts(tmp_path):
+    main, other = tmp_path / "m.mod", tmp_path / "m2.mod"
+    main.write_text(
+        'MODULE m\nVAR num n;\nPROC main()\nTPReadNum n, "n";\nTPWrite ValToStr(1 / (n - 1));\n'
+        "ENDPROC\nENDMODULE\n"
+    )
+    other.write_text(STOPPING)
+    tasks = {"T_ROB1": [main], "T_IO": [other]}
+    displayed = []
+    target = load_target([], BootOptions(tasks=tasks, cell="infer"))
+    with VirtualController.boot(target, cycle="once", autostart=False) as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
+        controller.start_program()
+        run_past_stops(controller, max_time=60)
+    assert "1" in displayed  # the second answer: 1 / (2 - 1)
+
+
+FIRST_MOVE = """MODULE m
+CONST robtarget p := [[400,0,500],[0,0,1,0],[0,0,2,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+PROC main()
+MoveL p, v100, fine, tool0;
+TPWrite "there";
+ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize("start", [(), (0, 0, 0, 0, 30, 0)])
+def test_first_move_from_an_assumed_position_goes_by_axes(tmp_path, start):
+    path = tmp_path / "m.mod"
+    path.write_text(FIRST_MOVE)
+    target = load_target([path], BootOptions(cell="infer", robot="irb1200", start=start))
+    displayed = []
+    with VirtualController.boot(target, cycle="once", autostart=False) as controller:
+        controller.operator.subscribe(lambda _task, text: displayed.append(text))
+        controller.start_program()
+        controller.run(max_time=60)
+        missed = controller.guessed.missed
+    assert displayed == ([] if start else ["there"])
+    assert len(missed) == (0 if start else 1)

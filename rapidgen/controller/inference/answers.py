@@ -8,7 +8,7 @@ from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING, Final, Protocol, cast, get_args
 
-from rapidgen.controller.inference.names import passed, scoped
+from rapidgen.controller.inference.names import passed, scoped, stub_datum
 from rapidgen.machine.io import IOSystem, Relation, SignalCondition
 from rapidgen.machine.operator import Operator, Question
 from rapidgen.machine.scheduler import S, Scheduler
@@ -430,6 +430,13 @@ class Adjusted:
     name: str
     value: Plain
     written: bool = False
+    function: str = ""
+    """Of a stub that returns the datum."""
+
+    @property
+    def shown(self) -> str:
+        """Display name."""
+        return f"{self.function}()" if self.function else self.name
 
 
 @dataclass(frozen=True, slots=True)
@@ -513,7 +520,7 @@ def _given(one: Adjusted, written: Mapping[str, set[object]]) -> Adjusted | None
 def _wanted(term: Term, made: Mapping[str, str]) -> Iterator[Adjusted]:
     """Iterate over plain data in a comparison, with deciding values."""
     node, holds, scope = term
-    if isinstance(node, n.Name):
+    if isinstance(node, n.Name | n.FunctionCall):
         yield from _set(node, scope, holds, made)
     elif isinstance(node, n.Binary) and node.operator in RELATIONS:
         for one, other, relation in (
@@ -521,7 +528,9 @@ def _wanted(term: Term, made: Mapping[str, str]) -> Iterator[Adjusted]:
             (node.right, node.left, SWAPPED.get(node.operator, node.operator)),
         ):
             value = constant(other, scope)
-            if isinstance(one, n.Name) and isinstance(value, bool | int | float | str):
+            if isinstance(one, n.Name | n.FunctionCall) and isinstance(
+                value, bool | int | float | str
+            ):
                 expected = _making(relation if holds else NEGATED[relation], value)
                 if expected is not None:
                     yield from _set(one, scope, expected, made)
@@ -538,9 +547,18 @@ def _making(operator: str, value: Plain) -> Plain | None:
     return value - 1 if operator == "<" else value + 1
 
 
-def _set(name: n.Name, scope: Scope, value: Plain, made: Mapping[str, str]) -> Iterator[Adjusted]:
-    """Iterate over a value for a name of a plain variable or persistent."""
+def _set(
+    name: n.Name | n.FunctionCall, scope: Scope, value: Plain, made: Mapping[str, str]
+) -> Iterator[Adjusted]:
+    """Iterate over a value for a name of a plain variable or persistent, or for a stub's result."""
     symbol = scope.find(name.name)
+    if isinstance(name, n.FunctionCall):
+        if symbol is None:
+            datum = stub_datum(name.name)
+            kind = made.get(datum.casefold(), "")
+            if kind in (_KINDS.get(type(value)) or ("num", "dnum")):
+                yield Adjusted(GUESSED_DATA, datum, value, function=name.name)
+        return
     if symbol is None:
         owner, kind = GUESSED_DATA, made.get(name.name.casefold(), "")
     elif isinstance(symbol, DataSymbol) and symbol.kind in ("VAR", "PERS") and symbol.module:
@@ -630,7 +648,7 @@ class DataSetter:
                     self._held[row.task, name] = first, self._looks
                 task[name] = one.value
                 value = str(one.value).upper() if isinstance(one.value, bool) else f"{one.value}"
-                self._answers.append((one.name, value))
+                self._answers.append((one.shown, value))
         return changed
 
     def _around(self, task: Task) -> list[PolledData]:

@@ -35,12 +35,14 @@ from rapidgen.controller.inference.names import (
     DefaultedPersistent,
     absent,
     accessed_components,
+    assigned_texts,
     find_defaulted_persistents,
     has_numbers,
     passed,
     read,
     record_of,
     scoped,
+    stub_datum,
 )
 from rapidgen.controller.inference.peers import ExpectedMessages, expected_messages
 from rapidgen.diagnostics import Span
@@ -55,7 +57,7 @@ from rapidgen.rapid.binding import (
     installed_objects,
 )
 from rapidgen.rapid.binding.expressions import declared_type
-from rapidgen.rapid.binding.names import NUMBER, called
+from rapidgen.rapid.binding.names import NUMBER, array, called, degree, element
 from rapidgen.rapid.builtins.signatures import type_class
 from rapidgen.rapid.module_trees import tree_of
 from rapidgen.rapid.syntax import nodes as n
@@ -223,8 +225,14 @@ def infer_cell(
     made_units = tuple(one.name for one in named if one.type == "mecunit")
     made |= {signal.name.casefold(): f"signal{signal.type.lower()}" for signal in system.signals}
     kinds = {name.casefold(): kind for name, kind in made.items()}
-    stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds)}
+    texts: dict[str, set[str]] = {}
+    for scope in (scope for scopes in tasks for scope in scopes):
+        for receiver, text in assigned_texts(scope):
+            texts.setdefault(receiver, set()).add(text)
+    stubs = {one.name.casefold(): one for scopes in tasks for one in absent(scopes, kinds, texts)}
     named += [UndeclaredName(s.name, s.kind, s.span) for s in stubs.values()]
+    data += tuple(row for stub in stubs.values() for row in stub.data)
+    kinds |= {stub_datum(s.name).casefold(): s.type for s in stubs.values() if s.type}
     exchanged = exchanged_persistents(tasks, kinds)
     looked = dict.fromkeys(
         flag
@@ -259,7 +267,8 @@ def _can_be_made(kind: str) -> bool:
 
 
 def _is_plain(kind: str) -> bool:
-    """Return True for a predefined type that any module may declare."""
+    """Return True for a predefined type that any module may declare, or an array of one."""
+    kind = element(kind)
     ours = kind.startswith("signal") or kind in _DATA or kind in ("mecunit", "taskid", "cameradev")
     return not ours and type_class(kind) is not None
 
@@ -276,6 +285,13 @@ def _declaration(
     A name in an initial value becomes a constant if its value is known, a name in a place for
     persistents a persistent.
     """
+    if degree(one.type):
+        plain = replace(one, type=element(one.type))
+        value = _value(plain, frames)
+        for _ in range(degree(one.type)):
+            value = value and f"[{','.join([value] * _ELEMENTS)}]"
+        name = f"{one.name}{{{','.join([str(_ELEMENTS)] * degree(one.type))}}}"
+        return f"VAR {plain.type}", name, value
     value = str(sizes.get(one.name.casefold()) or _value(one, frames))
     if one.name.casefold() in initial:
         value = value or _NOTHING.get(one.type, "")
@@ -364,7 +380,7 @@ def _undeclared(module: ModuleScope) -> Iterator[UndeclaredName]:
     if not module.tree.name:
         return
     for node, scope in scoped(module):
-        for name, kind, sure in _uses(node, scope):
+        for name, kind, sure in (*_uses(node, scope), *_elements(node, scope)):
             # A signal may have the name of a type: SENSOR.
             if isinstance(scope.find(name.name), TypeSymbol | None):
                 at = module.tree.source.span(name.first, name.first)
@@ -406,6 +422,22 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[_Use]:
             )
             result = _read_as(one.name, node) or plain.replace(NUMBER, "num")
             yield one, result, 1 if result else 0
+
+
+def _elements(node: n.Node, scope: Scope) -> Iterator[_Use]:
+    """Iterate over undeclared arrays whose elements a node reads, writes or passes on."""
+    for one, kind in _typed(node, scope):
+        if isinstance(one, n.Index) and isinstance(one.base, n.Name) and _is_plain(kind):
+            yield one.base, array(kind, len(one.indices)), 2
+
+
+def _typed(node: n.Node, scope: Scope) -> Iterator[tuple[n.Expression, str]]:
+    """Iterate over expressions in a node, with the types of their places."""
+    yield from ((one, kind.replace(NUMBER, "num")) for one, kind in read(node, scope))
+    if isinstance(node, n.FunctionCall | n.ProcedureCall):
+        routine = called(scope.find(node.name))
+        if isinstance(routine, RoutineSymbol):
+            yield from ((one, kind) for one, kind, _ in passed(node.arguments, routine, scope))
 
 
 def _aliased(node: n.FunctionCall | n.ProcedureCall, scope: Scope) -> Iterator[_Use]:

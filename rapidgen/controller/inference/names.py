@@ -4,6 +4,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from types import MappingProxyType
 from typing import Final
 
 from rapidgen.diagnostics import Span
@@ -203,13 +204,23 @@ def _has(kind: str, path: Sequence[str]) -> bool:
 # Public modules call routines that remained on the controller, and built-in ones that are not
 # simulated (ExecEngine, CSSAct, CyclicBrakeCheck). A stub takes the arguments of its
 # first call, by their types, and the optional ones of all further calls. It does nothing and
-# returns RAPID's default: 0, FALSE, an empty text, or the robot's position for a target. A call
+# returns RAPID's default: 0, FALSE, an empty text, or the robot's position for a target. The result
+# of a function that a condition waits for is a datum, which is set like other polled data. A call
 # whose arguments have an unknown type, or a type of the program, gets no stub: the task stops
 # there.
 
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,31}")
+_DATA_OF_STUBS = frozenset(("bool", "num", "dnum", "string"))
+"""Types of results that are inferred when a program waits for them."""
+_LONGEST = 32
+"""Characters of a RAPID name."""
 _Call = n.ProcedureCall | n.FunctionCall | n.LateCall
+
+
+def stub_datum(name: str) -> str:
+    """Return the name of the datum whose value the stub of a function returns."""
+    return f"r_{name}"[:_LONGEST]
 
 
 @dataclass(frozen=True, slots=True)
@@ -250,6 +261,12 @@ class MissingRoutine:
         kind = f"func {self.type}" if self.type else "trap" if self.is_trap else "proc"
         return f"{kind}, not simulated" if self.is_builtin else kind
 
+    @property
+    def data(self) -> tuple[tuple[str, str, str], ...]:
+        """Data that the stub needs: kind and type, name, no value."""
+        is_needed = self.type in _DATA_OF_STUBS
+        return ((f"VAR {self.type}", stub_datum(self.name), ""),) if is_needed else ()
+
     def stub(self, value: str) -> str:
         """Return the declaration of a stub that returns `value`.
 
@@ -261,6 +278,9 @@ class MissingRoutine:
         head = f"{self.name}({','.join(given)})"
         if not self.type:
             return f"    PROC {head}\n    ENDPROC\n"
+        if self.type in _DATA_OF_STUBS:
+            returned = stub_datum(self.name)
+            return f"    FUNC {self.type} {head}\n        RETURN {returned};\n    ENDFUNC\n"
         initial = f" := {value}" if value else ""
         return (
             f"    FUNC {self.type} {head}\n"
@@ -270,10 +290,25 @@ class MissingRoutine:
         )
 
 
-def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[MissingRoutine, ...]:
+def assigned_texts(module: ModuleScope) -> Iterator[tuple[str, str]]:
+    """Iterate over lower-case names of data, and literal texts that they receive."""
+    for node, _ in scoped(module):
+        match node:
+            case n.Assignment(target=n.Name() as target, value=n.StringLiteral() as text):
+                yield target.name.casefold(), text.value
+            case n.DataDeclaration(initial=n.StringLiteral() as text):
+                yield node.name.casefold(), text.value
+
+
+def absent(
+    modules: Sequence[ModuleScope],
+    types: Mapping[str, str],
+    texts: Mapping[str, Collection[str]] = MappingProxyType({}),
+) -> tuple[MissingRoutine, ...]:
     """Return undeclared routines that a task calls, for stubs.
 
-    Each is returned once. `types` are those of undeclared names, by lower-case name.
+    Each is returned once. `types` are those of undeclared names, by lower-case name, `texts` those
+    that data receive: late calls may name a routine by them.
     """
     result: dict[str, MissingRoutine] = {}
     for module in modules:
@@ -283,6 +318,12 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Mi
         for node, scope in scoped(module):
             # The nodes around a call come before it.
             kinds.update((id(e), kind) for e, kind in _wanted(node, scope))
+            if isinstance(node, n.LateCall) and isinstance(node.procedure, n.Name):
+                given = _parameters(node.arguments, scope, types)
+                at = module.tree.source.span(node.first, node.first)
+                for name in texts.get(node.procedure.name.casefold(), ()):
+                    if given is not None and _is_missing(name, scope):
+                        result.setdefault(name.casefold(), MissingRoutine(name, "", given, at))
             name = _unknown(node, scope)
             if not name:
                 continue
@@ -299,10 +340,10 @@ def absent(modules: Sequence[ModuleScope], types: Mapping[str, str]) -> tuple[Mi
                 merged = _with_options(before.parameters, parameters)
                 result[name.casefold()] = replace(before, parameters=merged)
                 continue
-            given = kinds.get(id(node), "").replace(NUMBER, "num")
+            wanted = kinds.get(id(node), "").replace(NUMBER, "num")
             is_function = isinstance(node, n.FunctionCall)
-            if not is_function or type_class(given) is not None:
-                kind = given if is_function else ""
+            if not is_function or type_class(wanted) is not None:
+                kind = wanted if is_function else ""
                 result[name.casefold()] = MissingRoutine(
                     name, kind, parameters, at, is_builtin=_is_unsupported(name)
                 )
@@ -346,12 +387,15 @@ def _unknown(node: n.Node, scope: Scope) -> str:
         name = node.name
     elif isinstance(node, n.Connect):
         name = node.trap
-    if not isinstance(name, str) or _NAME.fullmatch(name) is None or name.upper() in KEYWORDS:
-        return ""
+    return name if isinstance(name, str) and _is_missing(name, scope) else ""
+
+
+def _is_missing(name: str, scope: Scope) -> bool:
+    """Return True for a name that a routine can have, and none that is executed has."""
+    if _NAME.fullmatch(name) is None or name.upper() in KEYWORDS:
+        return False
     symbol = scope.find(name)
-    if symbol is None or (symbol.module is None and _is_unsupported(name)):
-        return name
-    return ""
+    return symbol is None or (symbol.module is None and _is_unsupported(name))
 
 
 def _is_unsupported(name: str) -> bool:

@@ -34,15 +34,13 @@ def run_past_stops(
         finished = controller.run(max_time=left, max_statements=max_statements)
         if starts == _MOST:
             break
-        frames = [t for t in controller.rapid_tasks.values() if t.state == "stopped"]
-        if finished == "finished" and guessed.is_guess and frames and controller.now < until:
-            for top in (task.stack()[-1] for task in frames if task.stack()):
-                place = f"{Path(top.span.path).name}:{top.span.line}"
-                guessed.answered.append((f"Stop at {place}", "start"))
+        faults = [task.fault for task in controller.tasks.values() if task.fault is not None]
+        places = [] if faults or finished != "finished" else _stop_places(controller)
+        if places and guessed.is_guess and controller.now < until:
+            guessed.answered.extend((f"Stop at {place}", "start") for place in places)
             if not controller.start_program():
                 break
             continue
-        faults = [task.fault for task in controller.tasks.values() if task.fault is not None]
         if not faults or len(guessed.answered) == answers or controller.now >= until:
             break
         for fault in faults:
@@ -53,3 +51,10 @@ def run_past_stops(
         if not controller.start_program():
             break
     return finished
+
+
+def _stop_places(controller: VirtualController) -> list[str]:
+    """Return the places of tasks that a Stop instruction stopped."""
+    stacks = [t.stack() for t in controller.rapid_tasks.values() if t.state == "stopped"]
+    tops = [stack[-1].span for stack in stacks if stack]
+    return [f"{Path(span.path).name}:{span.line}" for span in tops]

@@ -184,7 +184,7 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
 # then goes to the same target by joint interpolation in the nearest configuration. If no posture
 # reaches the target, the robot does not move, but the events of the move occur.
 # `MotionSystem.on_missed` reports each case. A robot chosen by the user stops the program, as on a
-# controller.
+# controller, except at its first move, which begins in an assumed position.
 
 
 Maker: TypeAlias = Callable[[Task, Arguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
@@ -205,17 +205,25 @@ def order(
         return _put(task, arguments, *make(task, arguments, events))
     except (MotionFault, RapidError, FatalError) as raised:
         fault = in_rapid(raised) if isinstance(raised, MotionFault) else raised
-        if task.controller.motion.on_missed is None or not _is_of_place(fault):
+        motion, group = task.controller.motion, moving_group(task)
+        on_missed = motion.on_missed
+        # The first move begins in an assumed position, also that of a known robot.
+        is_assumed = motion.is_any_robot or group.name not in motion.moved
+        if on_missed is None or not is_assumed or not _is_of_place(fault):
             raise fault from raised
-    group, how = moving_group(task), "by its axes, in the nearest configuration"
-    if not _goes_by_its_axes(task, arguments, events):
-        how = "not at all"
-        stay = JointMove(target=group.path_target, events=events, **common(task, group, arguments))
-        _put(task, arguments, group, stay)
+        how = "by its axes, in the nearest configuration"
+        if not _goes_by_its_axes(task, arguments, events):
+            if not motion.is_any_robot:
+                raise fault from raised
+            how = "not at all"
+            stay = JointMove(
+                target=group.path_target, events=events, **common(task, group, arguments)
+            )
+            _put(task, arguments, group, stay)
     place = here(task)
     at = place() if place is not None else None
     file = f"{Path(at.span.path).name}:{at.span.line}" if isinstance(at, Location) else task.name
-    task.controller.motion.on_missed(file, how)
+    on_missed(file, how)
     return group
 
 
@@ -237,6 +245,7 @@ def _start(task: Task, group: MotionGroup, move: Move, identity: float | None) -
             arguments = (task.name, at.instruction, "StorePath", at.reference)
             task.controller.log.record(MISSING_STORE_PATH, *arguments, task=task.name, span=at.span)
     group.move(task, together(task, group, move, identity))
+    task.controller.motion.moved.add(group.name)
 
 
 def _goes_by_its_axes(task: Task, arguments: Arguments, events: tuple[PathEvent, ...]) -> bool:

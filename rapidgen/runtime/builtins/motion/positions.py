@@ -266,7 +266,7 @@ def check_loads(task: Task, group: MotionGroup, arguments: Arguments) -> None:
         return
     data.carried = mass
     # The payload of an inferred robot is an assumption.
-    if task.controller.motion.on_missed is not None:
+    if task.controller.motion.is_any_robot:
         return
     for doubt in mass_doubts(mass, arm_of(group.config)):
         place = here(task)
