@@ -49,6 +49,9 @@ def read_saved_log(path: Path) -> SavedLog:
     """
     try:
         data = read_foreign(path, LARGEST)
+    except FileNotFoundError as error:
+        help = "give the path of the file that the pendant saves; a backup often has one in HOME"
+        raise refusal("RG724", None, f"{path}: no such file", help) from error
     except OSError as error:
         raise refusal(
             "RG724", None, f"{path} cannot be read: {error.strerror}", "give a text file"

@@ -142,6 +142,32 @@ def test_run_boots_the_tasks_of_the_project(project, capsys, monkeypatch):
     assert capsys.readouterr().out == "1\n"
 
 
+def test_sim_boots_the_tasks_of_the_project(project, start, monkeypatch, tmp_path):
+    project('robot = "irb1200"\nrobotware = "7.6"\n[tasks]\nT_ROB1 = ["src"]\nT_LIB = ["lib"]\n')
+    (tmp_path / "src" / "work.mod").write_text("MODULE work\nPROC main()\nENDPROC\nENDMODULE\n")
+    (tmp_path / "lib" / "store.mod").write_text(
+        "MODULE store\nVAR socketdev s;\nVAR socketdev c;\nPROC main()\nSocketCreate s;\n"
+        'SocketBind s, "127.0.0.1", 5000;\nSocketListen s;\n'
+        "SocketAccept s, c \\Time:=WAIT_MAX;\nENDPROC\nENDMODULE\n"
+    )
+    monkeypatch.chdir("src")
+    sim = start("--ports", "auto")
+    assert set(sim.control(do="status")["result"]["tasks"]) == {"T_ROB1", "T_LIB"}
+    assert "5000" in sim.ready["listeners"]
+
+
+def test_sim_is_strict_where_the_project_is(project, capsys):
+    project("strict = true\n" + TASK, "IF parts = 5 zzzzz;")
+    assert main(["sim", "--ports", "auto"]) == 2
+    assert "RG301" in capsys.readouterr().err
+
+
+def test_sim_names_faults_of_the_file(project, capsys):
+    project("\nrobot = 'irb1'\n" + TASK)
+    assert main(["sim", "--ports", "auto"]) == 2
+    assert "rapidgen.toml:2:1" in capsys.readouterr().err
+
+
 def test_run_is_strict_where_the_project_is(project, capsys):
     project(TASK, "IF parts = 5 zzzzz;")
     assert main(["run"]) == 0

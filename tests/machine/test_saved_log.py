@@ -60,8 +60,15 @@ def test_other_file_is_rejected(tmp_path, content):
 
 
 def test_missing_file_is_rejected(tmp_path):
-    with pytest.raises(DiagnosticError, match="cannot be read"):
+    with pytest.raises(DiagnosticError, match="no such file") as refused:
         read_saved_log(tmp_path / "none.txt")
+    (finding,) = refused.value.diagnostics
+    assert (finding.code, "path" in finding.help) == ("RG724", True)
+
+
+def test_folder_in_place_of_a_file_is_rejected(tmp_path):
+    with pytest.raises(DiagnosticError, match="cannot be read"):
+        read_saved_log(tmp_path)
 
 
 def test_every_kind_has_domain_text_and_source():

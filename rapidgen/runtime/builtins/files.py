@@ -238,6 +238,15 @@ def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | No
     return text.decode("latin-1")
 
 
+def _goes_on(file: IO[bytes], text: str, ends: bytes) -> bool:
+    """Return True if the last text read is the beginning of a line."""
+    if len(text) < MAX_STRING:
+        return False
+    following = file.read(1)
+    file.seek(-len(following), 1)
+    return bool(following) and following not in ends
+
+
 @builtin("ReadStr", cost="socket")
 def read_str(
     task: Task,
@@ -247,8 +256,12 @@ def read_str(
     discard: bool | None,
     _time: float | None,
     line_number: float | None,
+    status: Ref | None,
 ) -> str:
-    """Return the next line, or the string EOF."""
+    """Return the next line, or the string EOF.
+
+    `status` becomes REMAIN if a line of more than 80 characters goes on, else empty.
+    """
     file = _reader(device)
     alone = task.controller.dialect.delimiters == "alone"
     ends = (delimiters + "\n" * (not alone) if delimiters else "\n").encode("latin-1")
@@ -258,6 +271,8 @@ def read_str(
         for _ in range(1, whole(line_number, "ERR_ARGVALERR")):
             skipped = _line(file, ends)
     text = None if skipped is None else _line(file, ends, skip=bool(discard))
+    if status is not None:
+        status.set("REMAIN" if text is not None and _goes_on(file, text, ends) else "")
     if text is None:
         return _EOF_TEXT
     return text.rstrip("\r") if remove_cr else text

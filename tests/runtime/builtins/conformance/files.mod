@@ -356,3 +356,32 @@ MODULE open_default
         TRYNEXT;
     ENDPROC
 ENDMODULE
+!=== read_status
+MODULE read_status
+    ! source: a public template for palletising [code]: \Status, and the text REMAIN where a line goes on
+    ! expect: 80,REMAIN
+    ! expect: 20,
+    ! expect: 80,
+    ! expect: 0,
+    PROC main()
+        VAR iodev file;
+        VAR string text;
+        VAR string status;
+        VAR string ten := "0123456789";
+        VAR string forty;
+        forty := ten + ten + ten + ten;
+        Open "HOME:/a", file \Write;
+        Write file, forty \NoNewLine;
+        Write file, forty \NoNewLine;
+        Write file, ten + ten;
+        Write file, forty \NoNewLine;
+        Write file, forty;
+        Close file;
+        Open "HOME:/a", file \Read;
+        FOR i FROM 1 TO 4 DO
+            text := ReadStr(file \RemoveCR \Status:=status);
+            TPWrite ValToStr(StrLen(text)) + "," + status;
+        ENDFOR
+        Close file;
+    ENDPROC
+ENDMODULE
