@@ -330,8 +330,8 @@ def plot(
 ) -> int:
     """Plot joints over time, from one or two recordings.
 
-    The second file is compared with the first. The plot of a virtual controller's recording shows
-    commanded and actual joints, the tool, and the progress of program and robot.
+    The second file is compared with the first. The plot of a virtual controller's recording also
+    shows the speed and the path of the tool.
     """
     from rapidgen.client.core.group import Group
     from rapidgen.client.trajectory import Trajectory
@@ -375,7 +375,8 @@ def draw_motion(
     from rapidgen.viewer import plot as draw
 
     both = (commanded, executed) if executed is not None and len(executed) else (commanded,)
-    made = draw(*both, group=robot.group, title=f"joints at {robot.address}")
+    labels = ["commanded" if len(both) > 1 else "planned"]
+    made = draw(*both, labels=labels, group=robot.group, title=f"joints at {robot.address}")
     for path in files:
         typer.echo(f"wrote {made.save(path)}", err=True)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from rapidgen.cli import options
-from rapidgen.cli.terminal import letters
+from rapidgen.cli.terminal import is_quiet, letters
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal, render
 
 if TYPE_CHECKING:
@@ -164,6 +164,8 @@ def run(
         sys.stderr.write(render(_event_warnings(controller)))
         sys.stderr.write(inference_report(controller.guessed))
         observed.write()
+        if observed.duration and not is_quiet():
+            sys.stderr.write(f"simulated time: {observed.duration}\n")
     if wrong:
         raise DiagnosticError(wrong, exit_code=1)
 

@@ -3,6 +3,7 @@
 import sys
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from rapidgen.controller.cycle_report import CycleRecorder, EarlierRobot
     from rapidgen.controller.runner import ControllerRunner
     from rapidgen.controller.tracing import Coverage, Profile
+    from rapidgen.motion.motion import Motion
     from rapidgen.motion.recorder import Recorder
 
 _SAMPLES = 5000
@@ -78,6 +80,8 @@ class Observed:
     _coverage: "Coverage | None" = None
     _recorders: "dict[str, Recorder]" = field(default_factory=dict)
     _cycle: "CycleRecorder | None" = None
+    _moved: "dict[str, None]" = field(default_factory=dict)
+    """Groups whose robots have moved."""
 
     def __post_init__(self) -> None:
         from rapidgen.controller.tracing import Coverage, Profile, Trace
@@ -94,6 +98,26 @@ class Observed:
             from rapidgen.controller.cycle_report import CycleRecorder
 
             self._cycle = CycleRecorder(self.controller)
+        for name, group in self.controller.motion.groups.items():
+            group.observers.append(partial(self._note_motion, name))
+
+    def _note_motion(self, name: str, motion: "Motion") -> None:
+        if motion.end > motion.since:
+            self._moved[name] = None
+
+    @property
+    def duration(self) -> str:
+        """The simulated time with its error; empty if no robot has moved."""
+        from rapidgen.motion.accelerations import duration_note
+
+        groups = self.controller.motion.groups
+        notes = {name: duration_note(groups[name].config) for name in self._moved}
+        if not notes:
+            return ""
+        texts = dict.fromkeys(notes.values())
+        if len(texts) > 1:
+            texts = dict.fromkeys(f"{name} {note}" for name, note in notes.items())
+        return f"{self.controller.now:.3f} s ({'; '.join(texts)})"
 
     def write(self) -> None:
         """Write all requested outputs."""
@@ -120,15 +144,19 @@ class Observed:
         sys.stderr.write(summary(report, earlier))
 
     def _draw(self, plots: tuple[Path, ...]) -> None:
+        from rapidgen.motion.accelerations import duration_note
         from rapidgen.motion.recorder import PERIOD
         from rapidgen.viewer import plot as draw
         from rapidgen.viewer.plotting import files_of
 
-        period = max(PERIOD, self.controller.now / _SAMPLES)
+        groups = self.controller.motion.groups
         several = len(self._recorders) > 1
         for group, recorder in self._recorders.items():
-            title = f"{self.controller.system.name}, {group}"
-            made = draw(recorder.recording(period), title=title)
+            # A wait of an hour leaves as many samples to the motion as none.
+            period = max(PERIOD, recorder.moving() / _SAMPLES)
+            note = duration_note(groups[group].config)
+            title = f"{self.controller.system.name}, {group} (durations {note})"
+            made = draw(recorder.recording(period, standing=False), title=title)
             for plot in plots:
                 for path in files_of(plot.with_stem(f"{plot.stem}_{group}") if several else plot):
                     made.save(path)

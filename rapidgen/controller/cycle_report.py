@@ -15,8 +15,8 @@ from rapidgen import _json
 from rapidgen._reading import read_foreign
 from rapidgen.config.accelerations import ERROR_BAND
 from rapidgen.controller.controller import VirtualController
+from rapidgen.motion.accelerations import duration_error_band
 from rapidgen.motion.cycle_times import CycleTimes, MoveTime
-from rapidgen.motion.group import MotionGroup
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import Location
@@ -114,6 +114,8 @@ class RobotReport:
     """`measured` or `estimated`."""
     note: str
     """Source of measured accelerations, error band of estimated ones."""
+    error: float
+    """Relative error that 90 % of the durations are within."""
     seconds: float
     moving: float
     waiting: float
@@ -239,13 +241,15 @@ class CycleRecorder:
         for line, total in lines.items():
             routines.setdefault((line.module, line.routine), _Total()).add(total)
             whole.add(total)
-        accelerations, note = _accelerations(times.group)
+        config = times.group.config
+        measured, error = duration_error_band(config)
         return RobotReport(
             group=times.group.name,
-            model=times.group.config.model,
+            model=config.model,
             tasks=tasks,
-            accelerations=accelerations,
-            note=note,
+            accelerations="measured" if measured else "estimated",
+            note=config.acceleration_source if measured else ERROR_BAND,
+            error=error,
             seconds=_s(times.end - times.start),
             moving=_s(whole.moving),
             waiting=_s(whole.waiting),
@@ -282,11 +286,6 @@ class CycleRecorder:
                 if module.tree.source.path == path:
                     return module.tree.source.text.splitlines()
         return []
-
-
-def _accelerations(group: MotionGroup) -> tuple[str, str]:
-    source = group.config.acceleration_source
-    return ("measured", source) if source else ("estimated", ERROR_BAND)
 
 
 def _by_time(totals: dict[_K, _Total]) -> list[tuple[_K, _Total]]:

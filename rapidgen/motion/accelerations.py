@@ -22,6 +22,12 @@ def duration_error_band(group: GroupConfig) -> tuple[bool, float]:
     return measured, MEASURED_BAND if measured else ESTIMATED_BAND
 
 
+def duration_note(group: GroupConfig) -> str:
+    """Return the text beside a simulated duration: `estimated, ±16 %`, or `±3 %`."""
+    measured, band = duration_error_band(group)
+    return f"{'' if measured else 'estimated, '}±{band:.0%}".replace("%", " %")
+
+
 def of_posture(group: GroupConfig) -> Callable[[Posture], Sequence[float]] | None:
     """Accelerations (rad/s^2, m/s^2, wire order) by posture; None: they are constant."""
     if not group.inertias:

@@ -26,7 +26,7 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.moves import Zone
-from rapidgen.motion.pieces import Piece
+from rapidgen.motion.path import piece_at
 
 _PERIOD = 0.02
 """s between the samples of the TCP's speed in a move."""
@@ -199,7 +199,7 @@ class CycleTimes:
             leg = _leg_at(legs, state[0])
             if leg in self._done:
                 continue
-            piece = _piece_at(motion.pieces, state[0])
+            piece = piece_at(motion.pieces, state[0] - _NONE)
             if piece.end <= legs[0].begin + _NONE:
                 limit = RETURN
             elif braking and a < 0.0:
@@ -227,8 +227,3 @@ class CycleTimes:
 def _leg_at(legs: tuple[Leg, ...], place: float) -> Leg:
     index = bisect_left(legs, place - _NONE, key=lambda leg: leg.end)
     return legs[min(index, len(legs) - 1)]
-
-
-def _piece_at(pieces: tuple[Piece, ...], place: float) -> Piece:
-    index = bisect_left(pieces, place - _NONE, key=lambda piece: piece.end)
-    return pieces[min(index, len(pieces) - 1)]

@@ -9,7 +9,7 @@ from rapidgen.motion import smoothing
 from rapidgen.motion.braking import AxisMotion
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.moves import Move
-from rapidgen.motion.path import posture_at
+from rapidgen.motion.path import piece_at, posture_at
 from rapidgen.motion.pieces import Piece
 from rapidgen.motion.speed_profile import SpeedProfile
 
@@ -74,6 +74,12 @@ class Motion:
         if self.ramp <= 0.0 or not self.pieces:
             return posture_at(self.pieces, self.law.state(time)[0], self.rest)
         return smoothing.posture(self.law, self.pieces, self.rest, time, self.ramp)
+
+    def in_corner(self, now: int) -> bool:
+        """True if the place on the path is in the corner of a fly-by point."""
+        if not self.pieces or now >= self.end or self.coast is not None:
+            return False
+        return piece_at(self.pieces, self.place(now)).corner
 
     def move(self, now: int) -> Move | None:
         """The move under way at a time, or the last one that was."""

@@ -204,8 +204,11 @@ def _start(piece: Piece) -> float:
 
 def posture_at(pieces: tuple[Piece, ...], place: float, remaining: Posture) -> Posture:
     """Axis values at a place of these pieces; `remaining` where there is no piece."""
-    if not pieces:
-        return remaining
+    return piece_at(pieces, place).at(place) if pieces else remaining
+
+
+def piece_at(pieces: tuple[Piece, ...], place: float) -> Piece:
+    """Return the piece that contains a place, or the last one."""
     low, high = 0, len(pieces) - 1
     while low < high:
         middle = (low + high) // 2
@@ -213,4 +216,4 @@ def posture_at(pieces: tuple[Piece, ...], place: float, remaining: Posture) -> P
             low = middle + 1
         else:
             high = middle
-    return pieces[low].at(place)
+    return pieces[low]

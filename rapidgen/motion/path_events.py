@@ -40,6 +40,11 @@ class PathEvents:
             event.act()
 
 
+def times_of_events(leg: Leg, motion: Motion) -> list[float]:
+    """Return scheduler s of the events of a leg that this motion reaches."""
+    return [when for event in leg.move.events if (when := _when((leg, event), motion)) < inf]
+
+
 def _when(entry: _Entry, motion: Motion) -> float:
     """Scheduler s of an event; infinite when the motion stops short of it."""
     leg, event = entry

@@ -7,10 +7,10 @@ the formulas afterwards, at any period.
 import csv
 import io
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from rapidgen._reading import open_foreign, read_foreign
 from rapidgen.axes import frames
@@ -19,6 +19,7 @@ from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.moves import Move
+from rapidgen.motion.path_events import times_of_events
 
 if TYPE_CHECKING:
     import numpy as np
@@ -35,6 +36,17 @@ PERIOD = 0.004
 
 
 @dataclass(frozen=True, slots=True)
+class Mark:
+    """Something that happens at a time of a recording, s from the controller's start."""
+
+    time: float
+    text: str
+    """Location in the program."""
+    kind: Literal["stop", "late", "event"]
+    """A stop point; a corner that became a stop (50024); an event of TriggIO and its relatives."""
+
+
+@dataclass(frozen=True, slots=True)
 class Recording:
     """Samples of one group. Rows are samples; units rad and m, s from the controller's start."""
 
@@ -48,6 +60,9 @@ class Recording:
     """The move instruction that the program had reached, empty before the first."""
     motion_pointer: tuple[str, ...]
     """The move instruction that the robot was executing."""
+    corner: tuple[bool, ...] = ()
+    """Whether the robot was in the corner of a fly-by point; empty if that is not known."""
+    marks: tuple[Mark, ...] = ()
 
     def write_csv(self, path: Path | str) -> None:
         """One row a sample, with a header; `read_recording` and `rapidgen plot` read it."""
@@ -144,13 +159,42 @@ class Recorder:
         del self._motions[: max(0, index)]
         self._moves.clear()
 
-    def recording(self, period: float = PERIOD) -> Recording:
-        """Samples every `period` s from the start until now or the end."""
+    def moving(self) -> float:
+        """Return how long the robot has moved, s."""
+        return sum(high - low for low, high in self._intervals()) / S
+
+    def _intervals(self) -> list[tuple[int, int]]:
+        """Return intervals of movement, ns."""
+        end = self._scheduler.now if self._end is None else self._end
+        result: list[tuple[int, int]] = []
+        for i, motion in enumerate(self._motions):
+            later = self._motions[i + 1].since if i + 1 < len(self._motions) else end
+            low, high = max(self._start, motion.since), min(motion.end, later, end)
+            if high <= low:
+                continue
+            if result and result[-1][1] == low:
+                low = result.pop()[0]
+            result.append((low, high))
+        return result
+
+    def _times(self, step: int, standing: bool) -> Sequence[int]:
+        end = self._scheduler.now if self._end is None else self._end
+        if standing:
+            return range(self._start, end + 1, step)
+        times = {self._start, end}
+        for low, high in self._intervals():
+            times.update(range(low, high, step))
+            times.add(high)
+        return sorted(times)
+
+    def recording(self, period: float = PERIOD, *, standing: bool = True) -> Recording:
+        """Samples every `period` s from the start until now or the end.
+
+        Without `standing`, a standstill has samples at its ends only.
+        """
         import numpy as np  # slow to import, and needed for arrays only
 
-        end = self._scheduler.now if self._end is None else self._end
-        step = max(1, round(period * S))
-        times = range(self._start, end + 1, step)
+        times = self._times(max(1, round(period * S)), standing)
         lag = round(self._group.settings.servo_lag * S)
         motions = [self._at(time) for time in times]
         commanded = [m.posture(t) for m, t in zip(motions, times, strict=True)]
@@ -182,7 +226,26 @@ class Recorder:
             tcp=tcp,
             program_pointer=tuple(_names(self._moves[i][1] if i >= 0 else None for i in pointers)),
             motion_pointer=tuple(_names(moves)),
+            corner=tuple(m.in_corner(t) for m, t in zip(motions, times, strict=True)),
+            marks=tuple(self._marks()),
         )
+
+    def _marks(self) -> Iterator[Mark]:
+        """Iterate over stops and events on the path, each at the motion that reaches it."""
+        end = self._scheduler.now if self._end is None else self._end
+        for i, motion in enumerate(self._motions):
+            later = self._motions[i + 1].since if i + 1 < len(self._motions) else end + 1
+            for leg in motion.legs:
+                happened: list[tuple[float, Literal["stop", "late", "event"]]] = [
+                    (when, "event") for when in times_of_events(leg, motion)
+                ]
+                if leg.stops and leg.end <= motion.law.place:
+                    kind: Literal["stop", "late"] = "stop" if leg.move.zone.fine else "late"
+                    happened.append((motion.time_at(leg.end), kind))
+                for when, kind_of in happened:
+                    if motion.since <= round(when * S) < later:
+                        place = leg.move.place
+                        yield Mark(when, str(place() or "") if place is not None else "", kind_of)
 
     def _at(self, time: int) -> Motion:
         index = bisect_right(self._motions, time, key=_since) - 1

@@ -52,6 +52,7 @@ max-width:76em;padding:0 1em}
 h1{font-size:1.4em;margin:0 0 .2em}h2{font-size:1.15em;margin:1.6em 0 .3em}
 h3{font-size:1em;margin:1.3em 0 .3em}
 p{margin:.3em 0}.dim{color:var(--dim)}.total{font-size:1.9em;font-weight:600}
+.total small{font-weight:400;font-size:.6em}
 table{border-collapse:collapse}td,th{padding:.2em .6em;text-align:left;vertical-align:top}
 th{border-bottom:1px solid var(--line);font-weight:600}
 tr:nth-child(odd) td{background:var(--stripe)}
@@ -98,8 +99,11 @@ def limit_kind(limit: str) -> str:
 
 
 def _robot(robot: RobotReport, before: EarlierRobot | None, name: str) -> Iterable[str]:
-    estimated = " (estimated)" if robot.accelerations == "estimated" else ""
-    yield f'<p class="total">{robot.seconds:.3f} s{estimated}</p>'
+    estimated = "estimated, " if robot.accelerations == "estimated" else ""
+    yield (
+        f'<p class="total">{robot.seconds:.3f} s <small class="dim">({estimated}'
+        f"±{100 * robot.error:.0f} %)</small></p>"
+    )
     model = f"{robot.model}, " if robot.model else ""
     yield (
         f"<p>{escape(model)}{len(robot.moves)} moves: {robot.moving:.3f} s of movement,"

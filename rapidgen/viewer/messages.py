@@ -57,6 +57,8 @@ class SeenRobot(MessageModel):
     axes: tuple[Axis, ...]
     """In wire order, that of `RobotPlace.axes`."""
     has_geometry: bool
+    durations: str = ""
+    """The text beside a simulated duration: its error, and whether it is estimated."""
     base: Pose = Pose(position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
     """Pose of the drawn root: apart from robots that would overlap."""
 

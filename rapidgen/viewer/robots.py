@@ -8,6 +8,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.chain import along, steps_of
 from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.config.model import GroupConfig, Placement
+from rapidgen.motion.accelerations import duration_note
 from rapidgen.viewer.messages import Axis, Pose, SeenRobot
 from rapidgen.viewer.primitive_urdf import Drawing
 
@@ -38,6 +39,7 @@ def group_of(config: GroupConfig, description: Drawing) -> SeenRobot:
             for joint in config.joints
         ),
         has_geometry=bool(config.chain),
+        durations=duration_note(config),
         base=pose_of(description.base or frames.IDENTITY),
     )
 

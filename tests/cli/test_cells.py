@@ -26,7 +26,8 @@ def program(tmp_path):
 def test_a_described_cell(capsys, program, tmp_path):
     cell = tmp_path / "cell.yaml"
     cell.write_text(CELL)
-    assert run(capsys, program, "--cell", cell) == (0, ["done"], "")
+    time = "simulated time: 2.349 s (estimated, ±16 %)\n"
+    assert run(capsys, program, "--cell", cell) == (0, ["done"], time)
 
 
 def test_inferred_cell_is_reported(capsys, program):

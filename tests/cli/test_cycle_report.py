@@ -104,7 +104,7 @@ def test_standing_time_belongs_to_the_waiting_line(robot):
 
 def test_page_shows_the_program_as_text(reports):
     page = (reports / "cycle.html").read_text()
-    assert "(estimated)" not in page
+    assert 's <small class="dim">(±3 %)' in page
     assert HOSTILE not in page
     assert "&lt;script&gt;" in page
 

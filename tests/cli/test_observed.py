@@ -35,7 +35,7 @@ def test_a_trace_has_the_lines_as_they_are_written(capsys, program):
     assert main(["run", str(program), "--trace"]) == 0
     lines = capsys.readouterr().err.splitlines()
     assert re.fullmatch(r" +0\.00000\d  T_ROB1 +see/main:5 +FOR i FROM 1 TO 3 DO", lines[0])
-    assert sum("MoveAbsJ [[10*i,0,0,0,30,0]" in line for line in lines) == 3
+    assert sum("see/main:6 " in line for line in lines) == 3
 
 
 def test_coverage_as_a_page_beside_the_tracefile(program, tmp_path):

@@ -82,7 +82,7 @@ def test_a_recording_is_read_back_and_drawn(rapid, tmp_path, capsys):
     html, png = (Path(name) for name in capsys.readouterr().out.split())
     assert png.read_bytes().startswith(b"\x89PNG")
     text = html.read_text()
-    for expected in ("commanded", "actual", "joint_6", "deg", '"x"', "mm", "moves reached"):
+    for expected in ("commanded", "TCP speed", "joint_6", "deg", '"x"', "mm"):
         assert expected in text
 
 

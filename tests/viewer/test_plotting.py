@@ -12,6 +12,7 @@ from rapidgen.client.core.state_port import Sample
 from rapidgen.client.recording import JointRecording
 from rapidgen.config import load_config
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.motion.recorder import Mark, Recording
 from rapidgen.viewer import plot, plotting
 
 TIMES = np.arange(0, 4.01, 0.2)
@@ -99,33 +100,63 @@ def test_metres_are_millimetres():
     assert track.curves[0].values.tolist() == [0, 100]
 
 
-def test_a_recording_of_a_simulation_shows_tool_and_moves(tmp_path):
-    from rapidgen.motion.recorder import Recording
-
-    joints = np.linspace(0, 1, 20)[:, None]
-    tcp = np.hstack([joints, joints, joints, np.tile([1.0, 0, 0, 0], (20, 1))])
-    pointers = ("",) * 10 + ("MoveJ p1",) * 10
-    made = plot(
-        Recording(("a",), np.arange(20) * 0.1, joints, joints - 0.01, tcp, pointers, pointers)
-    )
-    headings = [chart.heading for chart in made.charts]
-    assert headings[0] == "a [deg]"
-    assert headings[2:5] == ["x [mm]", "y [mm]", "z [mm]"]
-    assert headings[5] == "actual minus commanded [deg]"
-    assert "moves" in headings[1]
+def recorded_line(**more):
+    """1 s at 100 mm/s, an hour at rest, 1 s back; a corner from 0.4 to 0.6 s."""
+    times = np.concatenate([np.arange(0, 1.01, 0.1), np.arange(3601, 3602.01, 0.1)])
+    way = np.where(times < 2, times, 3602 - times) * 0.1
+    tcp = np.zeros((len(times), 7))
+    tcp[:, 1] = way
+    corner = tuple((times > 0.35) & (times < 0.65))
+    pointers = ("",) * len(times)
+    joints = way[:, None]
+    given = {"actual": joints, "corner": corner, **more}
+    return Recording(("a",), times + 5, joints, tcp=tcp, program_pointer=pointers,
+                     motion_pointer=pointers, **given)  # fmt: skip
 
 
-def test_move_order_with_short_program_move_is_kept():
-    from rapidgen.motion.recorder import Recording
+def test_a_simulation_shows_speed_path_corners_and_events():
+    marks = (Mark(5.5, "m/main/7", "event"), Mark(6.0, "m/main/8", "stop"))
+    made = plot(recorded_line(marks=marks))
+    assert [chart.heading for chart in made.charts] == [
+        "TCP speed [mm/s]", "a [deg]", "x [mm]", "y [mm]", "z [mm]"
+    ]  # fmt: skip
+    (speed,) = made.charts[0].curves
+    assert speed.label == "commanded"
+    moving = (speed.times > 0) & (speed.times < 1)
+    assert speed.values[moving].tolist() == pytest.approx([100] * moving.sum())
+    assert made.charts[0].spans == ((pytest.approx(0.4), pytest.approx(0.7)),)
+    assert [note.time for note in made.charts[0].notes] == pytest.approx([0.5, 1.0])
+    top, side = made.paths
+    assert (top.horizontal, top.vertical, side.horizontal, side.vertical) == ("x", "y", "y", "z")
+    assert side.points[:, 0].max() == pytest.approx(100)
 
-    joints = np.zeros((6, 1))
-    reached = ("", "p1", "p3", "p4", "p5", "p5")
-    in_progress = ("", "", "p1", "p2", "p3", "p5")
-    made = plot(Recording(("a",), np.arange(6) * 0.1, joints, joints, None, reached, in_progress))
-    (moves,) = [chart for chart in made.charts if chart.heading.startswith("moves")]
-    program, robot = (curve.values.tolist() for curve in moves.curves)
-    assert program == [0, 1, 3, 4, 5, 5]
-    assert robot == [0, 0, 1, 2, 3, 5]
+
+def test_measured_joints_are_drawn_where_they_differ():
+    late = recorded_line(actual=np.zeros((22, 1)))
+    titles = [chart.title for chart in plot(late).charts]
+    assert titles[-1] == "measured minus commanded"
+
+
+def test_long_standstills_are_cut():
+    made = plot(recorded_line())
+    (cut,) = made.axis.cuts
+    assert 1 < cut.begin < 1.1
+    assert 3600.9 < cut.end < 3601
+    shown = made.axis.displayed(np.array([0.0, 1.0, 3601.0, 3602.0]))
+    assert shown[1] == 1
+    assert shown[3] - shown[2] == pytest.approx(1)
+    assert shown[2] - shown[1] == pytest.approx(0.1)
+    for time in (0.5, 3601.5):
+        assert made.axis.real(made.axis.displayed_one(time)) == pytest.approx(time)
+
+
+@pytest.mark.parametrize("rest", [0.0, 0.9, 400.0])
+def test_only_standstills_that_are_long_are_cut(rest):
+    times = np.array([0.0, 1.0, 2.0, 2.0 + rest, 3.0 + rest])
+    places = np.array([0.0, 1.0, 1.5, 1.5, 2.0])
+    keep = np.concatenate([[True], np.diff(times) > 0])
+    cuts = plot(Trajectory(times[keep], places[keep, None], ("a",))).axis.cuts
+    assert len(cuts) == (1 if rest > 100 else 0)
 
 
 def test_a_page_has_all_curves_on_one_time(built, tmp_path, irb120):
@@ -141,6 +172,16 @@ def test_a_page_has_all_curves_on_one_time(built, tmp_path, irb120):
         for curve in chart["curves"]:
             assert len(curve["values"]) == len(data["time"])
     assert "srcdoc" in made._repr_html_()
+
+
+def test_a_page_has_cut_times_paths_and_marks(built):
+    page = plot(recorded_line(marks=(Mark(5.5, "</script>", "late"),))).html()
+    data = data_of(page)
+    assert data["time"][-1] == pytest.approx(2.1)
+    assert data["cuts"] == [[pytest.approx(1.05), pytest.approx(3599.9)]]
+    assert data["charts"][0]["marks"] == [[0.5, "</script>", "late"]]
+    assert page.count("<svg") == 2
+    assert "red: a corner became a stop (50024)" in page
 
 
 def test_names_that_want_out_stay_in(built):

@@ -93,8 +93,11 @@ function mark(element: HTMLElement, text: string, kind: "" | "good" | "bad"): vo
   element.dataset["kind"] = kind;
 }
 
+/** What stands behind the simulated time. */
+let estimated = "";
+
 function showTime(time: number): void {
-  say(chips.time, `${time.toFixed(1)} s`);
+  say(chips.time, `${time.toFixed(1)} s${estimated}`);
 }
 
 // -- the robots -----------------------------------------------------------------------------------
@@ -176,6 +179,9 @@ link.on("scene", (scene) => {
   document.body.dataset["kind"] = scene.kind;
   tabs.fit(scene.kind);
   watched = scene.kind === "robot";
+  const notes = scene.kind === "simulation" ? [...new Set(scene.groups.map((group) => group.durations))] : [];
+  estimated = notes.length ? ` (${notes.join("; ")})` : "";
+  chips.time.title = notes.length ? "Simulated time, and the error of the durations of motions" : "";
   document.body.classList.toggle("reads", !scene.may_command);
   stage?.build(scene);
 });

@@ -376,6 +376,7 @@ export interface SeenRobot {
   readonly movable: readonly string[];
   readonly axes: readonly Axis[];
   readonly has_geometry: boolean;
+  readonly durations: string;
   readonly base: Pose;
 }
 

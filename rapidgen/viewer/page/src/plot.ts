@@ -19,14 +19,21 @@ export interface Chart {
   title: string;
   unit?: string;
   curves: Curve[];
+  /** Displayed times that are shaded: corners. */
+  spans?: [number, number][];
+  /** Displayed time, text and kind. */
+  marks?: [number, string, "stop" | "late" | "event"][];
 }
 
 export interface PlotData {
-  /** s, rising; all charts share it. */
+  /** Displayed s, rising; all charts share it. */
   time: number[];
+  /** Displayed times of standstills that are cut, and the s that each leaves out. */
+  cuts?: [number, number][];
   charts: Chart[];
 }
 
+const MARKS = { stop: "#8a929a", late: "#d0402c", event: "#a04bb8" };
 const COLOURS = ["#2f6fd0", "#d9662b", "#3a9a50", "#a04bb8", "#c9a227", "#3aa6a6", "#d0402c", "#6b7680"];
 
 /** Draw charts below one another with a common cursor and zoom. */
@@ -43,6 +50,10 @@ export function draw(data: PlotData, into: HTMLElement): uPlot[] {
   };
   const ink = getComputedStyle(into).color;
   const lines = { grid: { stroke: faint(ink), width: 1 }, ticks: { stroke: faint(ink), width: 1 } };
+  const cuts = data.cuts ?? [];
+  const real = (time: number): number =>
+    cuts.reduce((sum, [at, length]) => (at < time ? sum + length : sum), time);
+  const label = cuts.length ? "s, standstills cut" : "s";
   for (const chart of data.charts) {
     const options: uPlot.Options = {
       title: chart.unit ? `${chart.title} (${chart.unit})` : chart.title,
@@ -50,15 +61,18 @@ export function draw(data: PlotData, into: HTMLElement): uPlot[] {
       cursor: { sync: { key: sync.key }, drag: { x: true, y: false } },
       scales: { x: { time: false } },
       axes: [
-        { stroke: ink, label: "s", ...lines },
+        { stroke: ink, label, values: (_, ticks) => ticks.map((tick) => `${Number(real(tick).toFixed(3))}`), ...lines },
         { stroke: ink, size: 64, ...lines },
       ],
-      series: [{ label: "time", value: (_, value) => (value === null ? "" : `${value.toFixed(3)} s`) },
+      series: [{ label: "time", value: (_, value) => (value === null ? "" : `${real(value).toFixed(3)} s`) },
         ...chart.curves.map((curve, i) => ({
           label: curve.name, stroke: curve.color ?? COLOURS[i % COLOURS.length] ?? ink, width: 1.5,
           ...(curve.dashed ? { dash: [6, 4] } : {}),
         }))],
-      hooks: { setScale: [(own, key) => { if (key === "x") zoom(own); }] },
+      hooks: {
+        setScale: [(own, key) => { if (key === "x") zoom(own); }],
+        drawClear: [(own) => shade(own, chart, cuts)],
+      },
     };
     charts.push(new uPlot(options, [data.time, ...chart.curves.map((curve) => curve.values)], into));
   }
@@ -66,6 +80,26 @@ export function draw(data: PlotData, into: HTMLElement): uPlot[] {
     for (const chart of charts) chart.setSize({ width: Math.max(320, into.clientWidth), height: 240 });
   }).observe(into);
   return charts;
+}
+
+/** Draw corners, cuts and marks behind the curves. */
+function shade(own: uPlot, chart: Chart, cuts: [number, number][]): void {
+  const { ctx, bbox } = own;
+  const x = (time: number): number => own.valToPos(time, "x", true);
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.fillStyle = "#2a948740";
+  for (const [begin, end] of chart.spans ?? []) ctx.fillRect(x(begin), bbox.top, x(end) - x(begin), bbox.height);
+  ctx.fillStyle = "#8a929a66";
+  const wide = 5 * devicePixelRatio;
+  for (const [at] of cuts) ctx.fillRect(x(at) - wide / 2, bbox.top, wide, bbox.height);
+  for (const [at, , kind] of chart.marks ?? []) {
+    ctx.fillStyle = MARKS[kind];
+    ctx.fillRect(x(at), bbox.top, devicePixelRatio, bbox.height);
+  }
+  ctx.restore();
 }
 
 function faint(ink: string): string {
