@@ -45,8 +45,6 @@ EXCEPTIONS = {
     "rapidgen/verification/suite/instruction_errors.py": {"nobody": CASE},
     "rapidgen/verification/suite/limits.py": {"told": CASE},
     "rapidgen/verification/suite/long_running.py": {"unheard": CASE},
-    "templates/ROS_execution.mod.j2": {"nobody": EVENTS},
-    "templates/ROS_stateServer.mod.j2": {"told": EVENTS},
     "tests/docs/test_words.py": dict.fromkeys(WORDS, "this list"),
     "tests/verification/test_suite.py": {
         "told": CASE,

@@ -52,7 +52,7 @@ def test_files_and_sums(output):
     for file in output.files[:-1]:
         assert listed[file.path]["sha256"] == hashlib.sha256(file.data).hexdigest()
         assert listed[file.path]["size"] == len(file.data)
-    for name in ("common", "messages", "socket", "motionServer", "stateServer", "motion"):
+    for name in ("common", "server", "motionServer", "stateServer", "motion"):
         assert any(re.search(rf"/ROS_{name}\.(mod|sys)$", path) for path in listed)
     assert listed["HOME/rapidgen/ROS_common.sys"]["task"] == [
         "T_ROB1",
