@@ -1,11 +1,12 @@
-"""Web services: requests, CPU time, threads at the limit, websockets.
+"""Web services: connections, requests, CPU time, threads at the limit, websockets.
 
     python benchmarks/rws.py [--sockets 19] [--seconds 5]
 
 The controller is a virtual one with T_ROB1 and nothing else, in a process of its own; the client is
-another process. `face` is the controller's process: its CPU time for 2,000 requests on one
-connection, without its limit of requests. Events: 64 signals at high priority change 20 times a
-second in all; the delay is the time that a websocket adds after the change.
+another process. CPU times are those of the controller's process: for 2,000 requests on one
+connection without a limit of requests, and for 200 clients, one after the other, that connect, log
+in, request once and log out. Events: 64 signals at high priority change 20 times a second in all;
+the delay is the time that a websocket adds after the change.
 """
 
 import argparse
@@ -19,17 +20,18 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+import httpx2
 from websockets.sync.client import connect
 
 from rapidgen.client.rws import Controller, topics
-from rapidgen.client.rws.transport import socket_options
 from rapidgen.config import load_config
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.system import read_files
 from rapidgen.system.model import SignalSpec
+from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
-from rapidgen.wire.rws.events import WantedResource, read_events, write_wanted
+from rapidgen.wire.rws.events import PROTOCOLS, WantedResource, read_events, write_wanted
 from rapidgen.wire.rws.forms import form_type, write_form
 
 MAIN = """MODULE MainModule
@@ -94,6 +96,16 @@ class Process:
             pin_file=Path(tempfile.mkdtemp()) / "known",
         )  # fmt: skip
 
+    def http(self, generation):
+        """Return a client of HTTP alone, logged in by its first request."""
+        one = generation is Generation.ONE
+        login = (httpx2.DigestAuth if one else httpx2.BasicAuth)("Default User", "robotics")
+        return httpx2.Client(
+            base_url=self.address.replace("rws", "http" if one else "https"),
+            headers={} if one else {"Accept": media.HAL},
+            auth=login, verify=unverified(), trust_env=False,
+        )  # fmt: skip
+
     def ask(self, word):
         self.pipe.send(word)
         return self.pipe.recv()
@@ -127,14 +139,39 @@ def requests(generation):
     return result
 
 
-def cpu(generation, count=2000):
-    """Return ms of CPU of the controller for the most frequent requests."""
-    import httpx2
+def unverified():
+    """Return TLS to any server."""
+    context = ssl.create_default_context()
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    return context
 
+
+def connects(generation, count=200):
+    """Return connections a second and ms of CPU of the controller for each."""
     process = Process(generation, strict=False)
-    client = process.client().connect()
-    carrier = client._carrier
-    http: httpx2.Client = carrier._client
+
+    def connect_once():
+        with process.http(generation) as http:
+            assert http.get("/rw/panel/opmode").status_code == 200
+            assert http.get("/logout").status_code == 200
+
+    for _ in range(5):
+        connect_once()
+    before, began = process.ask("cpu"), time.monotonic()
+    for _ in range(count):
+        connect_once()
+    took, spent = time.monotonic() - began, process.ask("cpu") - before
+    process.end()
+    return count / took, 1000 * spent / count
+
+
+def cpu(generation, count=2000):
+    """Return the controller's CPU, rate and times of the most frequent requests.
+
+    ms of CPU each, requests a second, p50 and p99 in ms.
+    """
+    process = Process(generation, strict=False)
+    http = process.http(generation)
     one = generation is Generation.ONE
     paths = (
         ("/rw/panel/opmode", "/rw/rapid/symbol/data/RAPID/T_ROB1/x", "/rw/iosystem/signals/do0")
@@ -145,19 +182,22 @@ def cpu(generation, count=2000):
             "/rw/iosystem/signals/do0",
         )
     )
-    headers = {} if one else {"Accept": "application/hal+json;v=2.0"}
+    assert http.get(paths[0]).status_code == 200
     idle = process.ask("cpu")
     time.sleep(1.0)
     idle = process.ask("cpu") - idle
-    before, began = process.ask("cpu"), time.monotonic()
+    before, began, times = process.ask("cpu"), time.monotonic(), []
     for i in range(count):
-        answer = http.get(carrier._base + paths[i % 3], headers=headers, auth=carrier._auth)
-        assert answer.status_code == 200
+        sent = time.monotonic()
+        assert http.get(paths[i % 3]).status_code == 200
+        times.append(1000 * (time.monotonic() - sent))
     took = time.monotonic() - began
     spent = process.ask("cpu") - before - idle * took
-    client.close()
+    http.get("/logout")
+    http.close()
     process.end()
-    return 1000 * spent / count, count / took
+    times.sort()
+    return 1000 * spent / count, count / took, times[count // 2], times[count * 99 // 100]
 
 
 def ceiling(generation, threads=8, seconds=10.0):
@@ -207,22 +247,22 @@ def events(generation, sockets, seconds):
     total = int(seconds * RATE)
 
     def listen():
-        with process.client() as client:
+        with process.http(generation) as http:
             resources = [topics.signal(f"do{i}").resource(generation) for i in range(HIGH)]
             form = write_form(write_wanted([WantedResource(r, 2) for r in resources]))
-            carrier = client._carrier
             headers = {"Content-Type": form_type(generation)}
-            if generation is not Generation.ONE:
-                headers["Accept"] = "application/hal+json;v=2.0"
-            answer = carrier._client.post(
-                carrier._base + "/subscription", content=form, headers=headers, auth=carrier._auth
-            )
+            assert http.get("/rw/system").status_code == 200
+            answer = http.post("/subscription", content=form, headers=headers)
             assert answer.status_code == 201, answer.text
             number = answer.headers["location"].rpartition("/")[2]
-            base = carrier._base.replace("http", "ws", 1)
-            options = socket_options(client._core, carrier._client.cookies, threads=True)
-            assert options["ssl"] is None or isinstance(options["ssl"], ssl.SSLContext)
-            with connect(f"{base}/poll/{number}", **options) as socket:
+            one = generation is Generation.ONE
+            base = process.address.replace("rws", "ws" if one else "wss")
+            cookies = "; ".join(f"{name}={value}" for name, value in http.cookies.items())
+            with connect(
+                f"{base}/poll/{number}",
+                ssl=None if one else unverified(), additional_headers={"Cookie": cookies},
+                subprotocols=[PROTOCOLS[generation]], proxy=None, ping_interval=None,
+            ) as socket:  # fmt: skip
                 ready.wait()
                 for i in range(total):
                     message = socket.recv(30)
@@ -265,9 +305,14 @@ def main():
     chosen = parser.parse_args()
     for generation in Generation:
         print(f"RWS {generation.value}: requests {json.dumps(requests(generation))}")
-        each, rate = cpu(generation)
+        rate, each = connects(generation)
+        print(f"RWS {generation.value}: {each:.2f} ms of CPU a connection, {rate:.0f} a second")
+        each, rate, half, most = cpu(generation)
         print(f"RWS {generation.value}, 8 threads: {json.dumps(ceiling(generation))}")
-        print(f"RWS {generation.value}: {each:.2f} ms of CPU a request, {rate:.0f} a second")
+        print(
+            f"RWS {generation.value}: {each:.2f} ms of CPU a request, {rate:.0f} a second, "
+            f"p50 {half:.2f} ms, p99 {most:.2f} ms"
+        )
     for generation in Generation:
         text = events(generation, chosen.sockets, chosen.seconds)
         print(f"RWS {generation.value}, {chosen.sockets} websockets: {json.dumps(text)}")

@@ -24,7 +24,7 @@ from rapidgen.deploy.tasks import MAIN
 from rapidgen.system import CfgText, Instance, Section, write_cfg
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation
-from rapidgen.wire.rws.grants import missing
+from rapidgen.wire.rws.grants import missing, needed
 
 if TYPE_CHECKING:
     from rapidgen.client.rws import Controller
@@ -130,7 +130,7 @@ class OnlinePlan:
             desired += [ops.STOP] if self.started else []
         if self.restart and restart:
             desired += [ops.RESTART, *([ops.POINTER_TO_ROUTINE] if self.mains else [])]
-        result = (g for one in desired for g in missing(one, generation, self.grants))
+        result = (g for one in desired for g in missing(needed(one, generation), self.grants))
         return tuple(dict.fromkeys(result))
 
     @property

@@ -5,7 +5,7 @@ holds all that clients share: accounts, logins, sessions, masterships, subscript
 handlers. It is as strict as controllers: versions in media types (406, 415), allowed methods (405),
 20 requests a second of RWS 1.0, 70 sessions, mastership.
 
-aiohttp does the rest (`server.py`): HTTP, cookies, TLS and websockets. It does not find routes,
+aiohttp does the rest (`server.py`): HTTP, TLS and websockets. It does not find routes,
 because `?action=` selects an operation in RWS 1.0, and the answer to an unknown path or method has
 a body with ABB's code, after the checks of login and media type. It has no negotiation of media
 types. Handlers register with `@serves(...)`; importing this package imports them.
@@ -35,7 +35,7 @@ from rapidgen.wire.rws import login as logging_in
 from rapidgen.wire.rws.bodies import Body, Fault, Generation, Syntax, Unreadable
 from rapidgen.wire.rws.codes import CODES, OK
 from rapidgen.wire.rws.forms import FORM, read_form, split_target
-from rapidgen.wire.rws.grants import GRANTS, missing
+from rapidgen.wire.rws.grants import GRANTS, missing, needed
 from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, wanted
 from rapidgen.wire.rws.operations import Route, RwsOperation
 
@@ -84,14 +84,17 @@ def served() -> tuple[tuple[RwsOperation, Handler], ...]:
 class _Row:
     pattern: re.Pattern[str]
     route: Route
-    operation: RwsOperation
+    grants: tuple[str, ...]
     handler: Handler
 
 
 @cache
 def _rows(generation: Generation) -> tuple[_Row, ...]:
-    routes = [(operation.route(generation), operation, handler) for operation, handler in _TABLE]
-    rows = [_Row(r.pattern, r, operation, handler) for r, operation, handler in routes if r]
+    rows = [
+        _Row(route.pattern, route, needed(operation, generation), handler)
+        for operation, handler in _TABLE
+        if (route := operation.route(generation))
+    ]
 
     def vagueness(row: _Row) -> tuple[int, bool, int, bool]:
         path = row.route.path
@@ -366,6 +369,7 @@ class RwsApplication:
             return HttpResponse(400)
         query = dict(pairs)
         syntax = wanted(self.generation, http.headers.get("accept", ""), query)
+        content_type = plain(http.headers.get("content-type", ""))
         host = http.headers.get("host", "")
         if not host.isascii():
             return HttpResponse(400)
@@ -382,10 +386,12 @@ class RwsApplication:
         if syntax is None and (not self.strict or path == "/logout"):
             syntax = "hal"
         try:
-            self._check_types(http, path, syntax)
+            self._check_types(http, path, syntax, content_type)
             method = "GET" if http.method == "HEAD" else http.method
             row, names = _find(self.generation, method, path, query)
-            self._check_grants(row.operation, session)
+            if lacking := missing(row.grants, self.accounts.granted(session.user)):
+                text = f"user lacks the grant {lacking[0]}"
+                raise RequestDenied(403, "E_UAS_REJECT", text, -757)
             form = self._form(http) if method == "POST" or path.startswith("/subscription") else ()
             answer = row.handler(
                 self,
@@ -400,7 +406,9 @@ class RwsApplication:
             )
         return self._reply(http, session, path, answer or RwsResponse(), syntax or "hal")
 
-    def _check_types(self, http: HttpRequest, path: str, syntax: Syntax | None) -> None:
+    def _check_types(
+        self, http: HttpRequest, path: str, syntax: Syntax | None, content_type: str
+    ) -> None:
         """Check media types.
 
         406 for a request without those that RWS 2.0 requires, 415 for a file of another.
@@ -411,21 +419,16 @@ class RwsApplication:
             raise RequestDenied(406, "E_INVALIDARG", text)
         if http.method in _SAFE or not self.strict:
             return
-        sent = plain(http.headers.get("content-type", ""))
         if self.is_one:
             # An empty body is accepted: public clients send such requests [code: rwsuis].
-            if http.method == "POST" and http.body and not sent.startswith(FORM):
+            if http.method == "POST" and http.body and not content_type.startswith(FORM):
                 raise RequestDenied(415, "E_INVALIDARG", "a form is wanted")
         elif files and http.method == "PUT":
-            if sent not in FILE_TYPES:
-                raise RequestDenied(415, "E_INVALIDARG", f"Content type {sent} is not supported")
-        elif sent != f"{FORM};v=2.0":
+            if content_type not in FILE_TYPES:
+                text = f"Content type {content_type} is not supported"
+                raise RequestDenied(415, "E_INVALIDARG", text)
+        elif content_type != f"{FORM};v=2.0":
             raise RequestDenied(406, "E_INVALIDARG", "Content type is not supported")
-
-    def _check_grants(self, operation: RwsOperation, session: Session) -> None:
-        lacking = missing(operation, self.generation, self.accounts.granted(session.user))
-        if lacking:
-            raise RequestDenied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)
 
     def _form(self, http: HttpRequest) -> tuple[tuple[str, str], ...]:
         if len(http.body) > LARGEST_FORM:

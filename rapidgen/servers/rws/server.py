@@ -1,8 +1,8 @@
 """RWS server on a port: aiohttp before the application.
 
-aiohttp reads requests, with their cookies, and writes responses; it carries websockets. The
-application answers on the controller's thread. RWS 1.0 is plain HTTP, 2.0 is HTTPS with a
-certificate that the controller signed itself.
+aiohttp reads requests, writes responses and carries websockets. The application answers on the
+controller's thread. RWS 1.0 is plain HTTP, 2.0 is HTTPS with a certificate that the controller
+signed itself.
 """
 
 import asyncio
@@ -107,7 +107,10 @@ class _Server:
             number = self._connections.get(transport) or next(self._made)
             self._connections[transport] = number
         headers = {name.lower(): value for name, value in request.headers.items()}
-        return HttpRequest(request.method, request.raw_path, headers, body, request.cookies, number)
+        # aiohttp's cookies cost 0.1 ms of CPU a request, a quarter of all.
+        parts = (part.strip().partition("=") for part in headers.get("cookie", "").split(";"))
+        cookies = {name: value for name, _, value in parts}
+        return HttpRequest(request.method, request.raw_path, headers, body, cookies, number)
 
     async def _on_controller(self, function: Callable[[], HttpResponse]) -> HttpResponse:
         """Run a function on the controller's thread; 503 while it restarts."""
@@ -212,5 +215,6 @@ def _response(reply: HttpResponse) -> web.Response:
     response = web.Response(status=reply.status, headers=reply.headers, body=reply.body or None)
     for name, value in reply.cookies.items():
         # A page of another server that runs in the same browser must not use the session.
-        response.set_cookie(name, value, httponly=True, samesite="Strict")
+        cookie = f"{name}={value}; path=/; httponly; samesite=strict"
+        response.headers.add("Set-Cookie", cookie)
     return response

@@ -5,6 +5,8 @@ require a grant of their own on RobotWare 7 [real 7.21]. For the others ABB's ma
 names. Reading requires none, except for files.
 """
 
+from collections.abc import Iterable
+
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.operations import RwsOperation
@@ -63,13 +65,9 @@ _WRITING = (
 )  # fmt: skip
 
 
-def missing(
-    operation: RwsOperation, generation: Generation, granted: frozenset[str]
-) -> tuple[str, ...]:
-    """Return the grants that a user lacks for an operation."""
-    return tuple(
-        g for g in needed(operation, generation) if g not in granted and not _more(g, granted)
-    )
+def missing(grants: Iterable[str], granted: frozenset[str]) -> tuple[str, ...]:
+    """Return those of the grants that a user lacks."""
+    return tuple(g for g in grants if g not in granted and not _more(g, granted))
 
 
 def needed(operation: RwsOperation, generation: Generation) -> tuple[str, ...]:

@@ -70,6 +70,7 @@ def test_titles_of_modules_begin_with_the_task(caller):
     assert {"T_ROB1/MainModule": "MainModule"}.items() <= {
         i.title: i.text("name") for i in items
     }.items()
+    assert not any(item.links for item in items)  # [code: recorded bodies of RobotWare 6]
 
 
 def test_start_with_motors_off(tmp_path, one, two):

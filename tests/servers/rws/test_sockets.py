@@ -5,12 +5,14 @@ import http.client
 import os
 import socket
 import ssl
+import threading
 
 import pytest
 from served import make_runner
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
+from rapidgen.servers.rws import server
 from rapidgen.servers.rws.application import CONNECTION, SESSION
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws import media
@@ -34,12 +36,18 @@ def trusting():
 
 
 @pytest.fixture
-def port(tmp_path):
+def cell(tmp_path):
+    """A controller and its server."""
     with make_runner(tmp_path, Generation.TWO, clock="real") as runner:
         runner.start()
         service = serve_rws(runner, Generation.TWO)
-        yield service.port
+        yield runner, service
         service.close()
+
+
+@pytest.fixture
+def port(cell):
+    return cell[1].port
 
 
 @pytest.fixture
@@ -107,7 +115,7 @@ def test_cookies_are_not_sent_to_pages_of_others(port):
     cookies = link.getresponse().headers.get_all("Set-Cookie")
     link.close()
     assert [c.partition("=")[0] for c in cookies] == [SESSION, CONNECTION]
-    assert all(c.endswith("; HttpOnly; Path=/; SameSite=Strict") for c in cookies)
+    assert all(c.endswith("; path=/; httponly; samesite=strict") for c in cookies)
 
 
 def test_pages_of_other_servers_get_no_events(subscribe):
@@ -149,6 +157,30 @@ def test_nothing_is_lost_between_the_answer_and_the_upgrade(tmp_path):
         assert notify == ["1", "0", "1"]
         link.close()
         service.close()
+
+
+def test_a_client_that_does_not_read_is_disconnected(cell, subscribe, monkeypatch):
+    """Events for it would fill the memory. Here the server's loop waits, in place of the client."""
+    monkeypatch.setattr(server, "_UNREAD", 3)
+    runner, service = cell
+    changed, goes_on = threading.Event(), threading.Event()
+    with connect(**subscribe("/rw/iosystem/signals/do%20x%3B1;state")) as socket:
+        service._stop.__self__.thread.loop.call_soon_threadsafe(goes_on.wait)
+
+        def change():
+            for value in (1, 0, 1, 0):
+                runner.controller.signals["do x;1"] = value
+            changed.set()
+
+        def read():
+            while socket.recv(60):
+                pass
+
+        runner.post(change)
+        assert changed.wait(60)
+        goes_on.set()
+        with pytest.raises(ConnectionClosed):
+            read()
 
 
 def test_who_leaves_late_takes_nothing_from_who_came_since(one):
