@@ -140,6 +140,8 @@ class Exchange:
     rejected: Counter[str] = field(default_factory=Counter)
     """Datagrams by the reason of their rejection."""
     _ending: Outcome = ""
+    _origin: Posture | None = None
+    """Where the run began, also after a stop of the program."""
     _heard: float = 0.0
     """When the last message came, or the run began, s."""
     _next_message: float = 0.0
@@ -158,7 +160,7 @@ class Exchange:
             case Stream(on):
                 self.streaming = on
             case StartRun(run):
-                self.run, self.guide, self._ending = run, None, ""
+                self.run, self.guide, self._ending, self._origin = run, None, "", None
                 # A run is a new session for its partner (abb_libegm: sequence number 0).
                 self.sequence, self._heard, self._next_message = 0, self._now, self._now
             case StopRun(hold, ramp_out):
@@ -215,14 +217,18 @@ class Exchange:
     def _guided(self, inputs: Inputs, *, fresh: bool) -> tuple[Posture | None, Outcome, str]:
         """Return the next position, and how the run ended."""
         if inputs.stopped:
-            return self._come_to_rest(inputs), "", ""
+            return self._come_to_rest(inputs)
         guide = self.guide
         if guide is None:
             # At the start, and after a stop: from where the robot stands.
             if not inputs.standing:
                 return None, "", ""
             assert self.run is not None
-            guide = self.guide = Guide(self.robot, self.activation, self.run, inputs.commanded)
+            if self._origin is None:
+                self._origin = inputs.commanded
+            guide = self.guide = Guide(
+                self.robot, self.activation, self.run, inputs.commanded, self._origin
+            )
             self._heard = self._now
         if guide.is_standing:
             self._end()
@@ -244,22 +250,27 @@ class Exchange:
             return position, "silent", f"no datagram of {self.partner}"
         return position, "", ""
 
-    def _come_to_rest(self, inputs: Inputs) -> Posture | None:
-        """Let a robot whose program stops come to rest where it is."""
+    def _come_to_rest(self, inputs: Inputs) -> tuple[Posture | None, Outcome, str]:
+        """Let a robot whose program stops come to rest where it is.
+
+        The run goes on when the program does, unless it was about to end.
+        """
         guide = self.guide
         if guide is None:
-            return None
+            return None, "", ""
+        position = None
         if inputs.braking or not inputs.motors_on:
             self.guide = None
             if self.profile.stands_after_motors_off:
                 self._end()
-            return None
-        if guide.is_standing:
-            self.guide = None
-            return guide.position
-        if not guide.is_stopping:
+        elif guide.is_standing:
+            self.guide, position = None, guide.position
+        else:
             guide.hold(self.profile.ramp_time)
-        return guide.cycle()
+            return guide.cycle(), "", ""
+        if self._ending:
+            self._end()
+        return position, self._ending, ""
 
     def _send(self, link: Link, inputs: Inputs, now: float) -> None:
         guide, activation = self.guide, self.activation

@@ -21,6 +21,8 @@ JOINT_NAMES: Final = ("J1", "J2", "J3", "J4", "J5", "J6", "J7")
 POSE_NAMES: Final = ("x", "y", "z", "rx", "ry", "rz")
 _AXES: Final = ("rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6", "eax_a")
 """Of J1 to J7: the seventh is eax_a of an arm with seven axes (manual 3HAC073318, 5.4.3)."""
+_ATTEMPTS: Final = 8
+"""To slow the TCP down until no axis is too fast."""
 
 
 class OutOfBounds(Exception):
@@ -78,12 +80,26 @@ class Run:
 
 
 class Guide:
-    """One run: from its start until the robot stands again."""
+    """Guidance from a standstill to the next one.
+
+    Args:
+        robot: The robot.
+        activation: What EGMAct demands.
+        run: What EGMRun demands.
+        start: Where the robot stands.
+        origin: Where the run began, before a stop of the program: deviations count from there.
+    """
 
     def __init__(
-        self, robot: GuidedRobot, activation: Activation, run: Run, start: Posture
+        self,
+        robot: GuidedRobot,
+        activation: Activation,
+        run: Run,
+        start: Posture,
+        origin: Posture | None = None,
     ) -> None:
-        self.robot, self.activation, self.run, self.start = robot, activation, run, start
+        self.robot, self.activation, self.run = robot, activation, run
+        self.origin = start if origin is None else origin
         self.ordered: Posture = start
         self.position: Posture = start
         """Where the robot is, behind `ordered` by the dead time."""
@@ -207,7 +223,8 @@ class Guide:
         """
         before = self.ordered
         if self._way is not None:
-            self.ordered = self._way.advance(CYCLE)
+            # In its last cycle before a bound an axis may be too fast to brake.
+            self.ordered = self._within(self._way.advance(CYCLE))
         elif self.received:
             self._follow()
         self._rates = tuple((q - p) / CYCLE for q, p in zip(self.ordered, before, strict=True))
@@ -220,31 +237,37 @@ class Guide:
         positions, speeds = law.propose(self._reference, self._speeds)
         joint_mode = self.activation.mode == "Joint"
         postures = positions if joint_mode else self._posture(positions)
-        ordered = zip(postures, self.ordered, strict=True)
-        fastest = max(abs(q - p) for q, p in ordered) / CYCLE
-        if fastest > self.activation.max_speed:
+        for _ in range(_ATTEMPTS):
+            fastest = self._fastest(postures)
+            if fastest <= self.activation.max_speed * (1 + 1e-9):
+                break
             ratio = self.activation.max_speed / fastest
             positions, speeds = slowed(law.positions, positions, speeds, ratio)
-            postures = positions if joint_mode else self._slower(positions)
+            # Half the way of the TCP is not exactly half the way of the axes.
+            postures = positions if joint_mode else self._posture(positions)
+        else:
+            raise OutOfBounds("close to a singularity")
         self._check(postures)
         law.accept(positions, speeds)
         self.ordered = postures
 
-    def _slower(self, coordinates: Posture) -> Posture:
-        """Return the posture of coordinates, no axis faster than allowed.
-
-        Beside a singularity half the way of the TCP is not half the way of the axes.
-        """
-        postures = self._posture(coordinates)
-        fastest = max(abs(q - p) for q, p in zip(postures, self.ordered, strict=True)) / CYCLE
-        if fastest > self.activation.max_speed * 1.01:
-            raise OutOfBounds("close to a singularity")
-        return postures
+    def _fastest(self, postures: Posture) -> float:
+        """Return the highest speed of an axis in a cycle that ends there."""
+        pairs = zip(postures, self.ordered, strict=True)
+        return max(abs(q - p) for q, p in pairs) / CYCLE
 
     def _bounds(self, axis: int) -> tuple[float, float]:
-        robot, start = self.robot, self.start[axis]
+        robot, start = self.robot, self.origin[axis]
         deviation = self.activation.max_deviation
         return max(robot.lower[axis], start - deviation), min(robot.upper[axis], start + deviation)
+
+    def _within(self, postures: Posture) -> Posture:
+        """Return the posture with each axis kept within its bounds."""
+        result = []
+        for i, (q, p) in enumerate(zip(postures, self.ordered, strict=True)):
+            low, high = self._bounds(i)
+            result.append(max(min(low, p), min(q, max(high, p))))
+        return tuple(result)
 
     def _check(self, postures: Posture) -> None:
         for i, (q, p) in enumerate(zip(postures, self.ordered, strict=True)):
@@ -270,9 +293,9 @@ class Guide:
     def hold(self, ramp_out: float) -> None:
         """Reduce the speed to zero within a time in s (EGM_STOP_HOLD).
 
-        The time is shorter if an axis would leave its bounds.
+        The time is shorter if an axis would leave its bounds. A stop that takes longer is replaced.
         """
-        if self._way is None:
+        if self._way is None or self._way.left > ramp_out:
             self._way = Brake(self.ordered, self._rates, self._braking_time(ramp_out))
 
     def return_to_start(self, ramp_out: float) -> None:
@@ -284,10 +307,10 @@ class Guide:
             return
         brake = Brake(self.ordered, self._rates, self._braking_time(ramp_out / 4))
         rest = brake.end()
-        distance = max(abs(q - s) for q, s in zip(rest, self.start, strict=True))
+        distance = max(abs(q - s) for q, s in zip(rest, self.origin, strict=True))
         # The line is at most 1.5 times as fast as its mean.
         time = max(ramp_out * 0.75, 1.5 * distance / self.activation.max_speed)
-        self._way = Return(brake, Line(rest, self.start, time))
+        self._way = Return(brake, Line(rest, self.origin, time))
 
     def _braking_time(self, time: float) -> float:
         room = []

@@ -145,6 +145,11 @@ class Brake:
         """True at the end."""
         return self._age >= self._time
 
+    @property
+    def left(self) -> float:
+        """Return the time in s until it stands."""
+        return self._time - self._age
+
     def advance(self, cycle: float) -> Posture:
         """Return the position after a further cycle."""
         self._age = min(self._age + cycle, self._time)
@@ -172,6 +177,11 @@ class Line:
     def done(self) -> bool:
         """True at the end."""
         return self._age >= self._time
+
+    @property
+    def left(self) -> float:
+        """Return the time in s until it stands."""
+        return self._time - self._age
 
     def advance(self, cycle: float) -> Posture:
         """Return the position after a further cycle."""
@@ -205,6 +215,11 @@ class Return:
     def speeds(self) -> Posture:
         """Return the present speeds."""
         return self._current.speeds
+
+    @property
+    def left(self) -> float:
+        """Return the time in s until it stands."""
+        return sum(part.left for part in self._parts)
 
     def advance(self, cycle: float) -> Posture:
         """Return the position after a further cycle."""
