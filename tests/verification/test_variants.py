@@ -15,6 +15,7 @@ from rapidgen.verification.settings import NEEDED, Setting
 from rapidgen.verification.suite import CASES
 from rapidgen.verification.suite_runner import Starter
 from rapidgen.verification.testbench import Bench
+from tools.other_accelerations import with_accelerations
 
 BY_NAME = {case.name: case for case in CASES}
 SIGNALS = [
@@ -100,6 +101,15 @@ STRICT = (
     "argument_error=fatal,unpack_beyond=zero",
 )
 """Beside the default, under which an error that no routine handles ends its task."""
+ACCELERATIONS = {
+    "in time": ([], "takes-its-time step-by-step stream one-place"),
+    "speed and stops": ([], "speed-kept program-speed stop-on-path e-stop-at-speed program-prefix"),
+    "ceiling": (
+        ["tcp_speed_limit=500", "trajectory.corners=zone"],
+        "tcp-turns tcp-too-fast tcp-recorded",
+    ),
+}
+"""What the driver guarantees on any robot that it is built for: cases, by configuration."""
 SENT = ("foreign-openings", "hostile-openings", "batch-shapes", "batch-no-number")
 ON_ANY = (
     "whole-trajectory",
@@ -141,6 +151,15 @@ def test_missing_signal_is_refused_and_others_work():
 @pytest.mark.parametrize("name", CONTROLLERS)
 def test_quicker_and_slower_controllers(name):
     assert broken(*configured(), ON_ANY, CONTROLLERS[name]) == {}
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+@pytest.mark.parametrize("name", ACCELERATIONS)
+def test_guarantees_on_a_robot_with_other_accelerations(name, factor):
+    """A driver does not know the accelerations of its robot (ABB publishes none)."""
+    overrides, names = ACCELERATIONS[name]
+    config, system = configured(*overrides)
+    assert broken(with_accelerations(config, factor), system, names.split()) == {}
 
 
 @pytest.mark.parametrize("switch", ["alias_by_name=false"])
