@@ -5,10 +5,10 @@ holds all that clients share: accounts, logins, sessions, masterships, subscript
 handlers. It is as strict as controllers: versions in media types (406, 415), allowed methods (405),
 20 requests a second of RWS 1.0, 70 sessions, mastership.
 
-aiohttp does the rest (`server.py`): HTTP, TLS and websockets. It does not find routes,
-because `?action=` selects an operation in RWS 1.0, and the answer to an unknown path or method has
-a body with ABB's code, after the checks of login and media type. It has no negotiation of media
-types. Handlers register with `@serves(...)`; importing this package imports them.
+aiohttp does the rest (`server.py`): HTTP, TLS and websockets. It does not find routes: `?action=`
+selects an operation in RWS 1.0, the answer to an unknown path or method has a body with ABB's code,
+after the checks of login and media type, and the index below is faster. It has no negotiation of
+media types. Handlers register with `@serves(...)`; importing this package imports them.
 """
 
 import re
@@ -56,6 +56,8 @@ _MOST_COUNTS = 1000
 """Logins with one nonce."""
 _MOST_CONNECTIONS = 1000
 """TCP connections that are remembered."""
+_DEEPEST = 8
+"""Parts of a path in which routes may begin to differ: a path may have thousands."""
 _LATER = (("Retry-After", "1"),)
 
 
@@ -89,26 +91,27 @@ class _Row:
 
 
 @cache
-def _rows(generation: Generation) -> tuple[_Row, ...]:
-    rows = [
-        _Row(route.pattern, route, needed(operation, generation), handler)
-        for operation, handler in _TABLE
-        if (route := operation.route(generation))
-    ]
+def _rows(generation: Generation) -> Mapping[str, tuple[_Row, ...]]:
+    """Return the rows by the part of their path before the first name."""
+    result: dict[str, list[_Row]] = {}
+    for operation, handler in _TABLE:
+        if route := operation.route(generation):
+            row = _Row(route.pattern, route, needed(operation, generation), handler)
+            result.setdefault(route.path.partition("{")[0].rstrip("/"), []).append(row)
 
     def vagueness(row: _Row) -> tuple[int, bool, int, bool]:
         path = row.route.path
         return path.count("{"), "*" in path, -len(path), not row.route.selector
 
-    # The more specific path goes first: `/ctrl/identity` before `/ctrl/{variable}`.
-    return tuple(sorted(rows, key=vagueness))
+    # The more specific path goes first: `{signal*}/config` before `{signal*}`.
+    return {start: tuple(sorted(rows, key=vagueness)) for start, rows in result.items()}
 
 
 @cache
 def services(generation: Generation) -> tuple[str, ...]:
     """Return the names directly below `/rw`."""
-    paths = (row.route.path.split("/") for row in _rows(generation))
-    return tuple(sorted({path[2] for path in paths if path[1] == "rw" and len(path) > 2}))
+    starts = (start.split("/") for start in _rows(generation))
+    return tuple(sorted({start[2] for start in starts if start[1] == "rw" and len(start) > 2}))
 
 
 def _find(
@@ -118,17 +121,19 @@ def _find(
 
     RequestDenied: 404 without such a path, 405 with another method or verb.
     """
-    requested = {f"action={query['action']}"} if query.get("action") else {
-        f"resource={query.get('resource', '')}", "",
-    }  # fmt: skip
-    status = 404
-    for row in _rows(generation):
-        match = row.pattern.fullmatch(path)
-        if match is None:
-            continue
-        if row.route.method == method and row.route.selector in requested:
-            return row, match.groupdict()
-        status = 405
+    verb = f"action={query['action']}" if query.get("action") else ""
+    selectors = (verb,) if verb else (f"resource={query.get('resource', '')}", "")
+    rows, status = _rows(generation), 404
+    start = "/".join(path.split("/", _DEEPEST)[:_DEEPEST])
+    while start:
+        for row in rows.get(start, ()):
+            match = row.pattern.fullmatch(path)
+            if match is None:
+                continue
+            if row.route.method == method and row.route.selector in selectors:
+                return row, match.groupdict()
+            status = 405
+        start = start.rpartition("/")[0]
     if status == 405:
         raise RequestDenied(405, "E_INVALIDARG", f"{method} {path}")
     raise RequestDenied(404, "E_UNRESOLVED_URL", path)
