@@ -300,7 +300,7 @@ def _group(
         ),
         kept=saved,
         max_payload=draft.max_payload,
-        inertias=inertias_of(keys, draft),
+        inertias=inertias_of(keys, draft, report),
         acceleration_source=keys.source.get("accelerations", ""),
     )
 

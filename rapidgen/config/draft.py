@@ -30,6 +30,11 @@ class JointDraft:
     unsure: tuple[str, ...] = ()
     described: tuple[float, float] | None = None
     """Range in the URDF."""
+    acceleration_time: float | None = None
+    """s from standstill to full speed, instead of the acceleration."""
+    brake_deceleration: float = 0.0
+    stop_deceleration: float = 0.0
+    """0: not known."""
 
 
 @dataclass(slots=True)

@@ -6,7 +6,7 @@ from rapidgen.config import model, schema
 from rapidgen.config.accelerations import usual_time
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
-from rapidgen.config.plausibility import axis_doubts, length_of
+from rapidgen.config.plausibility import axis_doubts, inertia_doubt, length_of
 from rapidgen.diagnostics import Severity
 
 MAX_JOINTS = 10
@@ -53,13 +53,31 @@ def joints_of(
             seen.setdefault(joint.axis, joint.name)
         for key, message, help in axis_doubts(joint):
             # A wrong acceleration makes every simulated duration wrong, without a sign of it.
-            severity = Severity.ERROR if key == "acceleration" else Severity.WARNING
+            severity = Severity.ERROR if "celeration" in key else Severity.WARNING
             report.add("RG071", severity, message, (*current, key), help=help)
-        time = keys.acceleration_time or usual_time(joint.axis, length)
+        _settle_acceleration(joint, draft, current, report)
+        time = joint.acceleration_time or keys.acceleration_time or usual_time(joint.axis, length)
         made = _joint(joint, time, current, report)
         if made:
             joints.append(made)
     return tuple(joints)
+
+
+def _settle_acceleration(
+    joint: JointDraft, draft: GroupDraft, path: KeyPath, report: DraftFindings
+) -> None:
+    """Let a time replace the model's acceleration; both given by the user exclude each other."""
+    if joint.acceleration_time is None or joint.acceleration is None:
+        return
+    if joint.acceleration != draft.known.get((joint.axis, "acceleration")):
+        report.error(
+            "RG006",
+            f"joint '{joint.name}' has both acceleration and acceleration_time",
+            (*path, "acceleration_time"),
+            help=f"{joint.acceleration:g} {joint.unit or 'deg'}/s², or "
+            f"{joint.acceleration_time:g} s to full speed: remove one of them",
+        )
+    joint.acceleration = None
 
 
 def _check_radians(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
@@ -129,6 +147,8 @@ def _joint(
         offset=_si(draft.offset, draft.unit),
         source=draft.source,
         unsure=bool(draft.unsure),
+        brake_deceleration=draft.brake_deceleration * factor,
+        stop_deceleration=draft.stop_deceleration * factor,
     )
 
 
@@ -144,12 +164,22 @@ def inwards(lower: float, upper: float) -> tuple[float, float]:
     return math.ceil(lower * 100 - 1e-4) / 100, math.floor(upper * 100 + 1e-4) / 100
 
 
-def inertias_of(keys: schema.GroupKeys, draft: GroupDraft) -> tuple[model.AxisInertia, ...]:
+def inertias_of(
+    keys: schema.GroupKeys, draft: GroupDraft, report: DraftFindings
+) -> tuple[model.AxisInertia, ...]:
     """Return how accelerations depend on the posture, in SI units.
 
     An axis with another acceleration than its model's has that one in every posture.
     """
-    own = {joint.axis: joint.acceleration for joint in draft.joints}
+    speeds = {joint.axis: joint.speed for joint in draft.joints}
+    for axis, given in keys.inertias.items():
+        reason = inertia_doubt(given.most, speeds.get(axis) or 0.0)
+        if reason:
+            where: KeyPath = ("groups", draft.name, "inertias", axis, "most")
+            report.add("RG071", Severity.ERROR, reason, where, help="the unit is deg/s²")
+    own = {
+        joint.axis: 0.0 if joint.acceleration_time else joint.acceleration for joint in draft.joints
+    }
     return tuple(
         model.AxisInertia(
             axis,

@@ -119,6 +119,9 @@ def _draft(name: str, keys: schema.GroupKeys, basis: ShippedBasis | None) -> Gro
             given.offset or 0.0,
             given.source or shared,
             tuple(given.unsure),
+            acceleration_time=given.acceleration_time,
+            brake_deceleration=given.brake_deceleration or 0.0,
+            stop_deceleration=given.stop_deceleration or 0.0,
         )
         for joint, given in keys.joints.items()
     ]

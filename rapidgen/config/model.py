@@ -38,6 +38,10 @@ class Joint:
     offset: float = 0.0
     source: str = ""
     unsure: bool = False
+    brake_deceleration: float = 0.0
+    """By the brakes (stop category 0); 0: not known."""
+    stop_deceleration: float = 0.0
+    """Of a quick stop on the path (stop category 1); 0: not known."""
 
 
 @dataclass(frozen=True, slots=True)

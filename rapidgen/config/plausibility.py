@@ -219,13 +219,21 @@ def axis_doubts(draft: JointDraft) -> Iterator[tuple[str, str, str]]:
     slowest = _SLOWEST_LINEAR if unit == "mm" else _SLOWEST_TURN
     if not slowest <= speed <= fastest:
         yield "speed", f"{speed:g} {unit}/s is no speed of an axis", f"the unit is {unit}/s"
-    if draft.acceleration and not _SOONEST <= speed / draft.acceleration <= _LATEST:
-        time = speed / draft.acceleration
-        yield (
-            "acceleration",
-            f"{draft.acceleration:g} {unit}/s²: {speed:g} {unit}/s are reached in {time:.3g} s",
-            f"the unit is {unit}/s²",
-        )
+    for key, value, what in (
+        ("acceleration", draft.acceleration, "are reached"),
+        ("brake_deceleration", draft.brake_deceleration, "are braked"),
+        ("stop_deceleration", draft.stop_deceleration, "are braked"),
+    ):
+        if value and not _SOONEST <= speed / value <= _LATEST:
+            reason = f"{value:g} {unit}/s²: {speed:g} {unit}/s {what} in {speed / value:.3g} s"
+            yield key, reason, f"the unit is {unit}/s²"
+
+
+def inertia_doubt(most: float, speed: float) -> str:
+    """Return why the largest acceleration (deg/s²) of an axis is none; empty if it is one."""
+    if not speed or _SOONEST <= speed / most <= _LATEST:
+        return ""
+    return f"{most:g} deg/s²: {speed:g} deg/s are reached in {speed / most:.3g} s"
 
 
 def _mm(length: float) -> str:

@@ -137,6 +137,26 @@ class JointKeys(StrictModel):
         float | None,
         Rule("Acceleration, deg/s² or mm/s²; without it `acceleration_time` decides.", ge=0.001),
     ] = None
+    acceleration_time: Annotated[
+        float | None,
+        Rule("Seconds from standstill to full speed, instead of `acceleration`.", ge=0.01, le=2.5),
+    ] = None
+    brake_deceleration: Annotated[
+        float | None,
+        Rule(
+            "Deceleration by the brakes (stop category 0), deg/s² or mm/s²; without it twice the "
+            "acceleration.",
+            ge=0.001,
+        ),
+    ] = None
+    stop_deceleration: Annotated[
+        float | None,
+        Rule(
+            "Deceleration of a quick stop on the path (stop category 1), deg/s² or mm/s²; without "
+            "it twice the acceleration.",
+            ge=0.001,
+        ),
+    ] = None
     sign: Annotated[
         Literal[1, -1] | None, Rule("-1 when the URDF turns against the controller's axis.")
     ] = None
@@ -156,7 +176,7 @@ class InertiaKeys(StrictModel):
     """
 
     most: Annotated[float, Rule("Largest acceleration, deg/s².", ge=0.001)]
-    constant: Annotated[float, Rule("Constant part, s²/rad.")]
+    constant: Annotated[float, Rule("Constant part, s²/rad.", ge=0)]
     elbow: Annotated[float, Rule("Part by the square of the distance of axis 3, s²/rad/m².")] = 0.0
     wrist: Annotated[float, Rule("The same for the wrist's centre, s²/rad/m².")] = 0.0
     cosine: Annotated[float, Rule("Part by the cosine of axis 3, s²/rad.")] = 0.0
@@ -391,8 +411,8 @@ class GroupKeys(StrictModel):
         Rule(
             "Seconds from standstill to full speed, for axes without `acceleration`; without it "
             "0.07 s for axes 4 to 6, and 0.1 s (reach 0.9 m) to 0.25 s (2.55 m) for the others.",
-            ge=0.001,
-            le=10,
+            ge=0.01,
+            le=2.5,
         ),
     ] = None
     inertias: Annotated[

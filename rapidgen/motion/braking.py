@@ -73,10 +73,23 @@ AxisMotion: TypeAlias = BrakingMotion | GuidedStep
 """A motion of axes that follows no path."""
 
 
+def path_factor(joints: Sequence[Joint], factor: float) -> float:
+    """Return the deceleration of a quick stop on the path, in units of the axes' acceleration.
+
+    The axis with the least of it decides. `factor` is that of axes without data.
+    """
+    return min(
+        joint.stop_deceleration / joint.acceleration if joint.stop_deceleration else factor
+        for joint in joints
+    )
+
+
 def coast(
     now: int, current: Posture, before: Posture, joints: Sequence[Joint], factor: float
 ) -> BrakingMotion:
-    """From a posture, and the one a moment earlier; `factor` times the axes' acceleration.
+    """From a posture, and the one a moment earlier; each axis by its brake.
+
+    Without data of an axis, its brake has `factor` times its acceleration.
 
     An axis that would leave its range stops harder, at the end of it; one that is there stays.
     """
@@ -87,7 +100,8 @@ def coast(
         if room <= 0:
             rate, room = 0.0, 1.0
         rates.append(rate)
-        slowing.append(max(joint.acceleration * factor, rate * rate / (2 * room)))
+        brake = joint.brake_deceleration or joint.acceleration * factor
+        slowing.append(max(brake, rate * rate / (2 * room)))
     return BrakingMotion(now, current, tuple(rates), tuple(slowing))
 
 

@@ -15,17 +15,19 @@ from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.active_limits import (
     FINE_POINT,
+    GUIDED,
     RETURN,
     STOP,
     Ceilings,
     active_limit,
     stop_cause,
 )
+from rapidgen.motion.braking import GuidedStep
 from rapidgen.motion.drive import MANUAL_REDUCED
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import Zone
+from rapidgen.motion.moves import FINE, Zone
 from rapidgen.motion.path import piece_at
 
 _PERIOD = 0.02
@@ -128,6 +130,8 @@ class CycleTimes:
             for leg in passed:
                 self._done.add(leg)
                 self._close(leg)
+        elif end > motion.since:
+            self._add_unprogrammed(motion, end)
         begin = max(motion.end, motion.since) / S
         if until / S > begin:
             self._stood += until / S - begin
@@ -186,7 +190,8 @@ class CycleTimes:
         times, places, speeds, accelerations = law.phases
         begin, end = (motion.since - motion.start) / S, (until - motion.start) / S
         if motion.coast is not None:
-            self._timing(legs[0], motion.since / S).add(STOP, end - begin)
+            limit = GUIDED if isinstance(motion.coast, GuidedStep) else STOP
+            self._timing(legs[0], motion.since / S).add(limit, end - begin)
             return
         braking = law.place < legs[-1].end - _NONE
         for i in range(max(0, bisect_right(times, begin) - 1), bisect_left(times, end)):
@@ -207,6 +212,18 @@ class CycleTimes:
             else:
                 limit = active_limit(piece, leg, state, joints, self._ceilings)
             self._timing(leg, motion.since / S).add(limit, high - low)
+
+    def _add_unprogrammed(self, motion: Motion, until: int) -> None:
+        """Count movement without a move on the path; steps of one motion are one row."""
+        limit = GUIDED if isinstance(motion.coast, GuidedStep) else STOP
+        begin, end = motion.since / S, until / S
+        last = self.moves[-1] if self.moves else None
+        if last is None or limit not in last.limits or last.end < begin - _NONE:
+            last = MoveTime(None, FINE, inf, begin)
+            self.moves.append(last)
+        last.end = end
+        last.duration += end - begin
+        last.add(limit, end - begin)
 
     def _close(self, leg: Leg) -> None:
         """Let the limits of an ended leg add up to its duration."""

@@ -6,7 +6,7 @@ from math import inf
 from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.motion.braking import AxisMotion, coast, moment_before
+from rapidgen.motion.braking import AxisMotion, coast, moment_before, path_factor
 from rapidgen.motion.motion import Motion
 from rapidgen.motion.path import Path
 from rapidgen.motion.pieces import Piece
@@ -169,10 +169,10 @@ class Drive:
         self._plan = result
         return True
 
-    def brake(self, path: Path, quick: bool) -> None:
+    def brake(self, path: Path, joints: Sequence[Joint], *, quick: bool) -> None:
         """Slow down to a standstill on the path."""
         path.prune(self.behind())
-        factor = self.settings.quick_factor if quick else 1.0
+        factor = path_factor(joints, self.settings.quick_factor) if quick else 1.0
         self.run(brake(path.pieces, *self.planned(), factor), path)
 
     def coast(self, path: Path, joints: Sequence[Joint]) -> None:
@@ -181,7 +181,7 @@ class Drive:
         before = self.motion.posture(max(self.motion.since, moment_before(now)))
         stop = coast(now, self.commanded(), before, joints, factor)
         path.prune(self.behind())
-        law = brake(path.pieces, *self.planned(), factor)
+        law = brake(path.pieces, *self.planned(), path_factor(joints, factor))
         self.run(law, path, stop)
 
     def run(self, law: SpeedProfile, path: Path, stop: AxisMotion | None = None) -> None:

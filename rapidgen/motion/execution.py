@@ -241,7 +241,7 @@ class PathExecution:
     def brake(self, *, quick: bool) -> None:
         """Slow down to a standstill on the path."""
         self._punctuality.look(self.path.legs, self.motion, self.drive.place())
-        self.drive.brake(self.path, quick)
+        self.drive.brake(self.path, self._planner.config.joints, quick=quick)
         self._rearm()
 
     def coast(self) -> None:

@@ -36,6 +36,7 @@ _KINDS = {
     active_limits.TCP_LIMIT: "other",
     active_limits.STOP: "other",
     active_limits.RETURN: "other",
+    active_limits.GUIDED: "other",
     active_limits.PATH_ACCELERATION: "other",
     active_limits.WORLD_ACCELERATION: "other",
 }

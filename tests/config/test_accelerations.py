@@ -1,6 +1,7 @@
 """Accelerations: measured, given, or by the class of the robot."""
 
 import math
+import re
 
 import pytest
 
@@ -26,6 +27,48 @@ def test_given_time_and_acceleration(tmp_path):
     own = "acceleration_time: 0.5\njoints: {joint_1: {acceleration: 1000}}\n"
     path.write_text(f"name: own\nmodel: irb120\n{own}")
     assert times(path) == pytest.approx([0.25] + [0.5] * 5)
+
+
+def test_time_of_one_axis_replaces_its_acceleration(tmp_path):
+    path = tmp_path / "own.yaml"
+    path.write_text("name: own\nmodel: irb1200\njoints: {joint_1: {acceleration_time: 0.5}}\n")
+    group = load_config(path).groups[0]
+    assert group.joints[0].speed / group.joints[0].acceleration == pytest.approx(0.5)
+    assert [inertia.axis for inertia in group.inertias] == ["rax_2"]
+
+
+def test_decelerations_of_stops(tmp_path):
+    path = tmp_path / "own.yaml"
+    own = "joints: {joint_1: {brake_deceleration: 900, stop_deceleration: 500}}\n"
+    path.write_text(f"name: own\nmodel: irb120\n{own}")
+    first, second, *_ = load_config(path).groups[0].joints
+    given = math.degrees(first.brake_deceleration), math.degrees(first.stop_deceleration)
+    assert given == pytest.approx((900, 500))
+    assert (second.brake_deceleration, second.stop_deceleration) == (0, 0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "text"),
+    [
+        ("acceleration: 900, acceleration_time: 0.2", "both acceleration and acceleration_time"),
+        ("acceleration_time: 0", "at least 0.01, not 0"),
+        ("acceleration_time: 200", "at most 2.5, not 200"),
+        ("brake_deceleration: 16", "16 deg/s²: 250 deg/s are braked in 15.6 s"),
+        ("stop_deceleration: -500", "at least 0.001, not -500"),
+    ],
+)
+def test_impossible_figures_of_an_axis_are_rejected(tmp_path, keys, text):
+    path = tmp_path / "own.yaml"
+    path.write_text(f"name: own\nmodel: irb120\njoints: {{joint_1: {{{keys}}}}}\n")
+    with pytest.raises(DiagnosticError, match=re.escape(text)):
+        load_config(path)
+
+
+def test_impossible_inertia_is_rejected(tmp_path):
+    path = tmp_path / "own.yaml"
+    path.write_text("name: own\nmodel: irb120\ninertias: {rax_1: {most: 8, constant: 0.001}}\n")
+    with pytest.raises(DiagnosticError, match=r"8 deg/s²: 250 deg/s are reached in 31\.2 s"):
+        load_config(path)
 
 
 def test_measured_accelerations_depend_on_the_posture():

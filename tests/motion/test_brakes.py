@@ -1,11 +1,14 @@
 """Stops by the brakes: off the path, and back to it before anything else."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
 from rapidgen.motion.braking import coast
+from tests.motion.cell import PLANNED
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\n"
@@ -239,3 +242,34 @@ def test_only_a_standing_robot_is_jogged(cell, joint):
     assert cell.group.off_path == (0.0, 0.0)  # the path is done
     cell.run(lambda task: cell.group.move(task, joint(30)))
     assert cell.group.positions() == pytest.approx(np.radians([30, 0, 0, 0, 0, 0]))
+
+
+def with_braking(group, **decelerations):
+    """Give the first axis decelerations of its own, rad/s^2."""
+    joints = group.config.joints
+    joints = (replace(joints[0], **decelerations), *joints[1:])
+    group.planner.config = replace(group.config, joints=joints)
+
+
+def test_brakes_of_an_axis_are_those_of_the_configuration(cell, joint):
+    group = cell.group
+    with_braking(group, brake_deceleration=12.0)
+    cell.at(0.2, lambda: group.stop("x", brakes=True))
+    cell.start(lambda task: group.move(task, joint(90, 45, tcp=10)))
+    cell.sample(lambda: cell.scheduler.now > S)
+    coasting = np.abs(np.diff(cell.path, n=2, axis=0))[101:110, :2] / 0.002**2
+    second = cell.config.joints[1].acceleration * 2  # quick_factor
+    assert coasting[0] == pytest.approx([12.0, second], rel=1e-3)
+
+
+@pytest.mark.parametrize(("quick", "expected"), [(True, 8.0), (False, None)])
+def test_quick_stop_brakes_as_the_configuration_says(make_cell, joint, quick, expected):
+    cell = make_cell(settings=PLANNED)
+    group = cell.group
+    with_braking(group, stop_deceleration=8.0)
+    cell.at(0.3, lambda: group.stop("x", quick=quick))
+    cell.start(lambda task: group.move(task, joint(160, tcp=10)))
+    cell.sample(lambda: cell.scheduler.now > S)
+    braking = np.abs(np.diff(cell.path, n=2, axis=0))[155:170, 0] / 0.002**2
+    own = cell.config.joints[0].acceleration
+    assert braking == pytest.approx(expected or own, rel=1e-3)
