@@ -13,6 +13,7 @@
     ├── RoutineFailed             a called routine has raised an error: `number`
     ├── RequestRefused            a pause, a speed or a signal was refused; nothing else changed
     ├── InvalidTrajectory         correct the trajectory; nothing was sent
+    ├── TargetRejected                a target of EGM was not sent: correct it, or wait
     ├── InvalidProgram            correct the program; nothing was sent
     ├── TrajectoryRefused         the controller refused the order; the robot did not move
     └── MotionError               the robot moved, and did not reach the end
@@ -163,6 +164,10 @@ class RoutineFailed(RobotError):
 
 class InvalidTrajectory(RobotError):
     """Every fault of a trajectory, found before a byte of it was sent."""
+
+
+class TargetRejected(RobotError):
+    """A target of externally guided motion that was not sent."""
 
 
 class InvalidProgram(RobotError):
