@@ -210,6 +210,12 @@ def test_undeclared_arrays_are_executed(tmp_path):
     assert names["texts"] == "string{*,*}"
 
 
+def test_undeclared_array_has_the_size_of_its_aggregate(tmp_path):
+    body = "places := [5, 6, 7];\nplaces{2} := 1;\nTPWrite ValToStr(places) + texts{4};"
+    displayed, _, end = executed(tmp_path, body)
+    assert (displayed, end) == (["[5,1,7]"], "finished")
+
+
 def test_late_call_of_missing_routine_does_nothing(tmp_path):
     body = 'job := "DoIt";\n%job%;\nTPWrite "done";'
     displayed, _, end = executed(tmp_path, body, "VAR string job;")

@@ -69,6 +69,8 @@ def test_other_prefix_of_a_type_is_no_slip():
     data = "VAR num nSpeed;\nVAR num nCount;"
     assert found(module("a", "vSpeed := 1;", data)) == [("info", "RG302")]
     assert found(module("a", "nCuont := 1;", data)) == [("warning", "RG302")]
+    assert found(module("a", "nSpeed := 1;", "VAR num Speed;")) == [("info", "RG302")]
+    assert found(module("a", "d2_Speed := 1;", "VAR num ld_Speed;")) == [("info", "RG302")]
 
 
 def test_suggestion_skips_other_types():
@@ -430,7 +432,7 @@ def test_a_task_with_system_modules_alone_has_no_program():
         ("TPErase;\nRETURN;\nMoveAbsJ home, v100, fine, tool0;", "info"),
         ("IF n = 1 THEN\nRETURN;\nTPErase;\nENDIF", "warning"),
         ("RAISE 1;\nTPErase;", "warning"),
-        ("EXIT;\nTPErase;", "warning"),
+        ("EXIT;\nStop;\nTPErase;", "warning"),
     ],
 )
 def test_statements_disabled_by_a_return_are_a_note(body, severity):
@@ -457,6 +459,6 @@ def test_a_return_behind_an_endless_loop_is_expected():
     function = f"FUNC num f()\n{loop}ENDFUNC\nENDMODULE"
     text = module("m", "TPWrite ValToStr(f());").replace("ENDMODULE", function)
     assert found(text % "RETURN 0;") == []
-    assert found(text % "Stop;\nRETURN 0;") == [("info", "RG323")]
+    assert found(text % "TPErase;\nRETURN 0;") == [("info", "RG323")]
     assert found(module("m", loop % "RETURN;")) == []
-    assert found(module("m", loop % "RETURN;\nStop;")) == [("info", "RG323")]
+    assert found(module("m", loop % "RETURN;\nStop;\nTPErase;")) == [("info", "RG323")]

@@ -8,8 +8,9 @@ of CPU time. Mains that are equal to an earlier one are left out. The first main
 repositories come first. RESULTS.jsonl receives one line
 for each main; mains that are in it already are not repeated.
 
-"waits for a peer" is a main that waits at a named socket, file, dialog or guide. A main that ends
-with the program's own EXIT or Stop counts as finished.
+"waits for a peer" is a main that waits at a named socket, file, dialog or guide, or that stops at
+what an inferred peer sent. A server that has answered several messages and waits for the next one
+cycles.
 """
 
 import hashlib
@@ -24,7 +25,7 @@ from itertools import islice, zip_longest
 from pathlib import Path
 
 from tools.interop.programs import Program, programs
-from tools.interop.trial import Outcome, trial
+from tools.interop.trial import Outcome, cycles
 
 _MOST = 4
 """Mains of one repository."""
@@ -35,6 +36,7 @@ _FIRST_WORD = re.compile(r"(?:[A-Z]+_[A-Z0-9_]+|RG\d+|\b\d{5}\b)")
 GROUPS = {
     "whole": "finishes",
     "goes round": "cycles",
+    "waits for the next message": "cycles",
     "waits for a partner": "waits for a peer",
     "stops after a partner": "waits for a peer",
 }
@@ -47,7 +49,7 @@ def run(program: Program) -> dict[str, object]:
 
     def work() -> None:
         resource.setrlimit(resource.RLIMIT_CPU, (_CPU, _CPU + 5))
-        sending.send(trial(program, statements=_STATEMENTS))
+        sending.send(cycles(program, "", "once", _STATEMENTS))
 
     process = context.Process(target=work)
     process.start()

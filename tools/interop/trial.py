@@ -35,12 +35,15 @@ ROBOTS = (
 """Tried after the inferred one, in this order, while a position is out of reach."""
 _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
 _PARTNER = re.compile(
-    r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_|EGM partner|ERR_UDPUC"
+    r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_|EGM |ERR_UDPUC"
 )
 _TIME = 300.0
 _STATEMENTS = 2_000_000
 _LITTLE = 0.6
-GOOD = ("whole", "waits for a partner", "stops after a partner", "goes round")
+GOOD = (
+    *("whole", "waits for a partner", "waits for the next message"),
+    *("stops after a partner", "goes round"),
+)
 """A program that was answered and then stops has reached its first partner."""
 
 
@@ -108,14 +111,21 @@ def cycles(program: Program, robot: str, cycle: Cycle, statements: int) -> Outco
             )
         # Sockets, and dialogs and stops with texts or places; data and signals are not partners.
         requested = any(w == "SocketReceive" or " " in w for w, _ in controller.guessed.answered)
-        end = _end(finished, faults, waits, requested=requested)
+        messages = sum(what == "SocketReceive" for what, _ in controller.guessed.answered)
+        end = _end(finished, faults, waits, requested=requested, served=messages > 1)
         if controller.guessed.missed:
             notes.append(f"the guessed robot missed {len(set(controller.guessed.missed))} places")
         reached = sum(1 for hits in lines if hits)
         return Outcome(end, reached, len(lines), max(reached, count), tuple(notes))
 
 
-def _end(finished: str, faults: Sequence[str], waits: Sequence[str], *, requested: bool) -> str:
+def _end(
+    finished: str, faults: Sequence[str], waits: Sequence[str], *, requested: bool, served: bool
+) -> str:
+    """Return how a run ended; `served`: several messages of a socket were answered before."""
+    # Only what stops a task or what it waits for counts, not its name or its path.
+    faults = [fault.split(": ", 1)[-1] for fault in faults]
+    waits = [where.rsplit("), ", 1)[-1] for where in waits if "), " in where]
     if faults and not all(map(_PARTNER.search, faults)):
         return "stops after a partner" if requested else "stops"
     if faults:
@@ -123,7 +133,8 @@ def _end(finished: str, faults: Sequence[str], waits: Sequence[str], *, requeste
     if finished == "finished":
         return "whole"
     if any(_PARTNER.search(where) for where in waits):
-        return "waits for a partner"
+        again = served and any("bytes from" in where for where in waits)
+        return "waits for the next message" if again else "waits for a partner"
     return "goes round" if finished in ("time", "statements") else "waits for ever"
 
 

@@ -217,8 +217,9 @@ def infer_cell(
     ports = dict.fromkeys(port for scopes in tasks for scope in scopes for port in _ports(scope))
     values = {port: _FIRST_PORT + k for k, port in enumerate(ports)}
     values |= dict.fromkeys(divisors, 1) | sizes
+    arrays = {name: dims for scopes in tasks for scope in scopes for name, dims in _arrays(scope)}
     data = tuple(
-        _declaration(one, frames, initial | sizes.keys(), persisted, values)
+        _declaration(one, frames, initial | sizes.keys(), persisted, values, arrays)
         for one in named
         if _is_plain(one.type)
     )
@@ -279,6 +280,7 @@ def _declaration(
     initial: Collection[str],
     persisted: Collection[str],
     sizes: Mapping[str, int],
+    arrays: Mapping[str, tuple[int, ...]],
 ) -> tuple[str, str, str]:
     """Return the declaration of an inferred datum.
 
@@ -287,11 +289,12 @@ def _declaration(
     """
     if degree(one.type):
         plain = replace(one, type=element(one.type))
+        dims = arrays.get(one.name.casefold(), ())
+        dims = (*dims, *(_ELEMENTS,) * degree(one.type))[: degree(one.type)]
         value = _value(plain, frames)
-        for _ in range(degree(one.type)):
-            value = value and f"[{','.join([value] * _ELEMENTS)}]"
-        name = f"{one.name}{{{','.join([str(_ELEMENTS)] * degree(one.type))}}}"
-        return f"VAR {plain.type}", name, value
+        for size in reversed(dims):
+            value = value and f"[{','.join([value] * size)}]"
+        return f"VAR {plain.type}", f"{one.name}{{{','.join(map(str, dims))}}}", value
     value = str(sizes.get(one.name.casefold()) or _value(one, frames))
     if one.name.casefold() in initial:
         value = value or _NOTHING.get(one.type, "")
@@ -351,6 +354,19 @@ def _sizes(module: ModuleScope) -> Iterator[tuple[str, int]]:
                 complete = declared.initial if place == 0 else None
                 known = len(complete.members) if isinstance(complete, n.Aggregate) else _ELEMENTS
                 yield size.name.casefold(), known
+
+
+def _arrays(module: ModuleScope) -> Iterator[tuple[str, tuple[int, ...]]]:
+    """Iterate over names that receive aggregates, with the sizes of these as arrays."""
+    for node, _ in scoped(module):
+        if isinstance(node, n.Assignment) and isinstance(node.target, n.Name):
+            dims: list[int] = []
+            value = node.value
+            while isinstance(value, n.Aggregate):
+                dims.append(len(value.members))
+                value = value.members[0]
+            if dims:
+                yield node.target.name.casefold(), tuple(dims)
 
 
 def _value(one: UndeclaredName, frames: Mapping[str, str]) -> str:

@@ -9,8 +9,8 @@ from rapidgen.rapid.dialect import Dialect
 
 _SHORT: Final = 3
 _LONG: Final = 7
-_PREFIXED: Final = re.compile(r"([a-z]{1,3})([A-Z_].+)")
-"""A name with its type in front: nCount, di_Start."""
+_PREFIX: Final = re.compile(r"^([a-z]{1,3})(?=[A-Z_])")
+"""The type in front of a name: nCount, di_Start."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,14 +92,12 @@ def _slips(one: str, other: str, limit: int) -> int:
 
 
 def _have_other_prefixes(one: str, other: str) -> bool:
-    """Return True for names that have different prefixes of a type, and are else equal."""
-    first, second = _PREFIXED.fullmatch(one), _PREFIXED.fullmatch(other)
-    return (
-        first is not None
-        and second is not None
-        and first[1] != second[1]
-        and first[2].lower() == second[2].lower()
-    )
+    """Return True if `one` has a prefix of a type, and `other` is the same name with another one.
+
+    Digits may differ, too; `other` may have no prefix.
+    """
+    first, second = (_PREFIX.split(_without_digits(name), 1) for name in (one, other))
+    return len(first) > 1 and first[-1].lower() == second[-1].lower() and first != second
 
 
 def _without_digits(text: str) -> str:

@@ -45,6 +45,13 @@ from rapidgen.rapid.syntax.nodes import (
 _LEAVING: Final = (Return, Raise, Retry, TryNext, Exit, Goto)
 
 
+def _leaves(statement: Statement) -> bool:
+    """Return True for a statement that leaves the sequence, or stops the program."""
+    if isinstance(statement, ProcedureCall):
+        return statement.name.lower() in ("stop", "exitcycle")
+    return isinstance(statement, _LEAVING)
+
+
 class FlowChecker:
     """Checks the statements of one routine."""
 
@@ -67,7 +74,7 @@ class FlowChecker:
                 alive = True
                 continue
             # To leave again, as by a RETURN behind a loop that never ends, changes nothing.
-            if not alive and not is_reported and not isinstance(statement, _LEAVING):
+            if not alive and not is_reported and not _leaves(statement):
                 is_reported = True
                 self._unreachable(statement, leaving, body)
             goes_on = _CHECKS[type(statement)](self, statement)

@@ -3,7 +3,8 @@
 The checks follow the statements and the calls of the program's own procedures with one state:
 whether StorePath was executed, or whether movement is synchronised. Branches start with the same
 state. Where branches end with different states, the one applies that gives no finding. Late calls
-are not followed. All findings are warnings.
+are not followed. All findings are warnings, except for moves in error handlers: most of these
+errors come from an instruction that waits for the end of the path, such as SearchL.
 """
 
 from collections.abc import Callable, Sequence
@@ -67,6 +68,7 @@ class MoveChecker:
                     symbol,
                     help="call StorePath before the move, and RestoPath after it",
                     note="the move joins the interrupted path; a controller logs event 41739",
+                    is_fault=where != "an error handler",
                 )
 
         return report
@@ -91,7 +93,9 @@ class MoveChecker:
         *,
         help: str,
         note: str,
+        is_fault: bool = True,
     ) -> None:
+        is_warning = is_fault or self._findings.given.strict
         self._findings.report(
             code,
             message,
@@ -99,7 +103,7 @@ class MoveChecker:
             help=help,
             notes=(note,),
             related=self._findings.declared(symbol),
-            severity=Severity.WARNING,
+            severity=Severity.WARNING if is_warning else Severity.INFO,
         )
 
 

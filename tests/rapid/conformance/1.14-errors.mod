@@ -169,7 +169,7 @@ MODULE Demo
             MoveL p, v100, fine, tool0;
             RestoPath;
         CASE ERR_ARGVALERR:
-            MoveL p, v100, fine, tool0;  ! -> RG334?
+            MoveL p, v100, fine, tool0;  ! -> RG334~
         ENDTEST
         TRYNEXT;
     ENDPROC
