@@ -219,7 +219,7 @@ egm-campaign: $(STAMP) ## 45 min: 20,000 runs of a guided robot with faults of i
 	$(BIN)/python tools/egm_campaign.py --jobs 2 --results build/egm.jsonl
 
 driver-frames: $(STAMP) ## 1 h: 200,000 hostile openings on all ports, half of them with boundary values, a good client after each
-	$(BIN)/python tools/driver_campaign.py frames --jobs 2
+	$(BIN)/python tools/driver_campaign.py frames --jobs 2 --results build/frames.jsonl
 
 driver-day: $(STAMP) ## 1 min: 24 simulated hours, a trajectory every ten minutes, the state read
 	$(BIN)/python tools/driver_campaign.py days --hours 24 --watched 0.25

@@ -1,22 +1,21 @@
 """Long runs of the driver: malformed frames, and days of virtual time.
 
-    python tools/driver_campaign.py frames [--count N] [--jobs N] [ROBOT]
+    python tools/driver_campaign.py frames [--count N] [--boundary SHARE] [--jobs N]
+                                           [--results FILE] [ROBOT]
     python tools/driver_campaign.py days [--hours N] [--watched SHARE] [ROBOT]
 
 `frames`: N (default 200,000) hostile first messages on all ports, under the strictest assumptions
-together. In half of them half of the fields have boundary values. The driver must serve a
-well-behaved client after each; no message may move the robot or end a task. `days`: N simulated
-hours (default 24) with a trajectory every ten minutes; a client reads the state for SHARE of the
-time (default all of it), and each STATUS must arrive within one period of its schedule. Memory is
-checked every hour.
+together. In SHARE of them (default half) half of the fields have boundary values. The driver must
+serve a well-behaved client after each; no message may move the robot or end a task. FILE (JSON
+lines) stores the results: the next call continues. `days`: N simulated hours (default 24) with a
+trajectory every ten minutes; a client reads the state for SHARE of the time (default all of it),
+and each STATUS must arrive within one period of its schedule. Memory is checked every hour.
 """
 
 import argparse
 import gc
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -28,6 +27,7 @@ from rapidgen.verification.messages import STATUS
 from rapidgen.verification.settings import Setting
 from rapidgen.verification.suite.hostile_clients import campaign
 from rapidgen.verification.testbench import FAILURES, Bench
+from tools.campaigns import outcomes
 
 CHUNK = 500
 """First messages for one controller."""
@@ -39,11 +39,11 @@ ROUND = 600.0
 """Simulated s between trajectories."""
 
 
-def frames_of(seed):
-    """Return the failures of one controller's share."""
+def frames_of(_, seed):
+    """Return the failure of one controller's share; empty: none."""
     bench = Bench(CONFIG, SYSTEM, Setting(seed=seed, dialect=STRICT))
     try:
-        campaign(bench, CHUNK, boundary=0.5)
+        campaign(bench, CHUNK, boundary=GIVEN.boundary)
         bench.assert_healthy()
     except FAILURES as error:
         return f"seed {seed}: {error}"
@@ -52,21 +52,23 @@ def frames_of(seed):
     return ""
 
 
-def frames(count, jobs):
-    chunks = -(-count // CHUNK)
-    started, wrong = time.monotonic(), []
-    with ProcessPoolExecutor(jobs, mp_context=get_context("fork")) as pool:
-        for done, fault in enumerate(pool.map(frames_of, range(chunks)), 1):
-            if fault:
-                wrong.append(fault)
-                print(fault, flush=True)
-            if done % 20 == 0:
-                print(f"{done * CHUNK} after {time.monotonic() - started:.0f} s", flush=True)
+def frames():
+    chunks = -(-GIVEN.count // CHUNK)
+    started, failed = time.monotonic(), 0
+    of = f"{GIVEN.robot} {SYSTEM.build_id} frames, boundary {GIVEN.boundary}"
+    pieces = {str(seed): seed for seed in range(chunks)}
+    for key, fault in outcomes(frames_of, pieces, of, jobs=GIVEN.jobs, path=GIVEN.results):
+        if fault:
+            failed += 1
+            print(fault, flush=True)
+        if (int(key) + 1) % 20 == 0:
+            seconds = time.monotonic() - started
+            print(f"{(int(key) + 1) * CHUNK} after {seconds:.0f} s", flush=True)
     print(
         f"{chunks * CHUNK} hostile openings on all ports, each followed by a good client: "
-        f"{len(wrong)} controllers of {chunks} failed; {time.monotonic() - started:.0f} s"
+        f"{failed} controllers of {chunks} failed; {time.monotonic() - started:.0f} s"
     )
-    return bool(wrong)
+    return bool(failed)
 
 
 def resident():
@@ -135,12 +137,14 @@ if __name__ == "__main__":
     parser.add_argument("what", choices=("frames", "days"))
     parser.add_argument("robot", nargs="?", default="irb120")
     parser.add_argument("--count", type=int, default=200_000)
+    parser.add_argument("--boundary", type=float, default=0.5, metavar="SHARE")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--results", type=Path)
     parser.add_argument("--hours", type=int, default=24)
     parser.add_argument("--watched", type=float, default=1.0)
     GIVEN = parser.parse_args()
     CONFIG = load_config(GIVEN.robot)
     SYSTEM = make_system(CONFIG, build(CONFIG))
     if GIVEN.what == "frames":
-        sys.exit(frames(GIVEN.count, GIVEN.jobs))
+        sys.exit(frames())
     sys.exit(days(GIVEN.hours, GIVEN.watched))
