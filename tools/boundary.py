@@ -4,7 +4,8 @@
 
 Runs all trials of rapidgen/verification/boundary.py under three hostile settings, and a seeded
 tenth of them under each row in which any two assumptions about controllers meet. FILE (JSON lines)
-stores the results: the next call continues. `--share` takes a seeded share of everything.
+stores the results: the next call continues. `--share` takes a seeded share of everything. A share
+takes some fields with all their values, in each state, on each port.
 """
 
 import argparse
@@ -12,13 +13,14 @@ import random
 import sys
 import time
 from functools import cache
+from itertools import groupby
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.verification.boundary import STATES, failing, prepare, trials
+from rapidgen.verification.boundary import STATES, failing, field_of, prepare, trials
 from rapidgen.verification.settings import assumed, rows
 from tools.campaigns import outcomes
 
@@ -33,8 +35,8 @@ HOSTILE = {
     "fast, by lot": ("schedule=random", "costs=0.25"),
 }
 SETTINGS = HOSTILE | {name: texts for name, texts in rows().items() if name}
-CHUNK = 400
-"""Trials of one work item."""
+CHUNK = 600
+"""Smallest number of trials in a work item, but for the last one of a state."""
 
 
 @cache
@@ -43,25 +45,33 @@ def prepared(name, state):
 
 
 def work():
-    """Return work items: setting, state, and the trials of that state."""
+    """Yield work items: setting, state, numbers of fields, and the number of their trials."""
     for name in SETTINGS:
         share = GIVEN.share * (1 if name in HOSTILE else 0.1)
         for state in STATES:
-            numbers = list(range(len(of_state(state))))
+            fields = fields_of(state)
             chance = random.Random(f"{GIVEN.seed} {name} {state}")
-            chosen = sorted(chance.sample(numbers, round(share * len(numbers))))
-            for at in range(0, len(chosen), CHUNK):
-                yield name, state, chosen[at : at + CHUNK]
+            chosen, count = [], 0
+            for number in sorted(chance.sample(range(len(fields)), round(share * len(fields)))):
+                chosen.append(number)
+                count += len(fields[number])
+                if count >= CHUNK:
+                    yield name, state, chosen, count
+                    chosen, count = [], 0
+            if chosen:
+                yield name, state, chosen, count
 
 
 @cache
-def of_state(state):
-    return tuple(trials(CONFIG, (state,), seed=GIVEN.seed))
+def fields_of(state):
+    """Return the trials of a state, in groups of one field and one port."""
+    own = trials(CONFIG, (state,), seed=GIVEN.seed)
+    return [list(group) for _, group in groupby(own, key=field_of)]
 
 
 def one(_, piece):
-    name, state, numbers = piece
-    chosen = [of_state(state)[number] for number in numbers]
+    name, state, numbers, _ = piece
+    chosen = [trial for number in numbers for trial in fields_of(state)[number]]
     return [(str(trial), why) for trial, why in failing(prepared(name, state), chosen)]
 
 
@@ -73,7 +83,7 @@ def main():
     of = f"{GIVEN.robot} {SYSTEM.build_id} share {GIVEN.share} seed {GIVEN.seed}"
     numbered = {str(number): piece for number, piece in enumerate(pieces)}
     for key, result in outcomes(one, numbered, of, jobs=GIVEN.jobs, path=GIVEN.results):
-        count += len(numbered[key][2])
+        count += numbered[key][3]
         failed += len(result)
         for text, why in result[:5]:
             print(f"{numbered[key][0]}; {text}: {why}", flush=True)
