@@ -6,9 +6,12 @@ import itertools
 import json
 import random
 import re
+import struct
+import zlib
 from base64 import b64decode
 
 import pytest
+from mcap.opcode import Opcode
 from mcap.reader import make_reader
 
 from rapidgen.controller import VirtualController
@@ -335,6 +338,16 @@ def test_a_changed_byte_changes_nothing_silently(short, tmp_path):
         assert result in ("RG930", complete), f"byte {at} of {len(data)}"
         refused += result == "RG930"
     assert refused > len(data) / STEP / 2
+
+
+def test_the_data_section_has_a_checksum(short):
+    """Tools that check a file as a whole find a changed byte anywhere in its data."""
+    data = short.read_bytes()
+    footer = struct.unpack("<BQQQI8s", data[-37:])
+    record = footer[2] - struct.calcsize("<BQI")
+    opcode, length, checksum = struct.unpack_from("<BQI", data, record)
+    assert (opcode, length) == (Opcode.DATA_END, 4)
+    assert checksum == zlib.crc32(data[:record])
 
 
 def until_the_cut(path):

@@ -60,7 +60,8 @@ class RecordingWriter:
     ) -> None:
         self._controller = controller
         self._scheduler = controller.scheduler
-        self._writer = Writer(file, chunk_size=_CHUNK)
+        # Rapidgen's reader checks each part that it reads. Other tools check the data as a whole.
+        self._writer = Writer(file, chunk_size=_CHUNK, enable_data_crcs=True)
         self._writer.start(profile=m.PROFILE, library=f"rapidgen {__version__}")
         self._schemas: dict[type[m.Recorded], int] = {}
         self._channels: dict[str, int] = {}
