@@ -164,7 +164,10 @@ CASES = [(place, number) for place in PLACES for number in range(len(HOSTILE))]
 
 @pytest.fixture(scope="module")
 def harmless(tmp_path_factory):
-    return structure(TREE, tmp_path_factory.mktemp("harmless") / "cell.yaml")
+    """The files' structures: a routine may be called with its module, or by its name alone."""
+    folder = tmp_path_factory.mktemp("harmless")
+    by_name = replaced(TREE, Place(("routines", "weld", "call"), is_key=False), "weld")
+    return [structure(tree, folder / "cell.yaml") for tree in (TREE, by_name)]
 
 
 def is_readable(text):
@@ -181,7 +184,7 @@ def check(tree, harmless, folder):
             assert len(one.message) < 1000
             assert all(c >= " " or c == "\n" for c in one.message + one.help)
         return False
-    assert result == harmless
+    assert result in harmless
     return True
 
 
