@@ -394,9 +394,8 @@ class RwsApplication:
             self._check_types(http, path, syntax, content_type)
             method = "GET" if http.method == "HEAD" else http.method
             row, names = _find(self.generation, method, path, query)
-            if lacking := missing(row.grants, self.accounts.granted(session.user)):
-                text = f"user lacks the grant {lacking[0]}"
-                raise RequestDenied(403, "E_UAS_REJECT", text, -757)
+            if row.grants:
+                self._check_grants(row.grants, session)
             form = self._form(http) if method == "POST" or path.startswith("/subscription") else ()
             answer = row.handler(
                 self,
@@ -434,6 +433,11 @@ class RwsApplication:
                 raise RequestDenied(415, "E_INVALIDARG", text)
         elif content_type != f"{FORM};v=2.0":
             raise RequestDenied(406, "E_INVALIDARG", "Content type is not supported")
+
+    def _check_grants(self, grants: tuple[str, ...], session: Session) -> None:
+        lacking = missing(grants, self.accounts.granted(session.user))
+        if lacking:
+            raise RequestDenied(403, "E_UAS_REJECT", f"user lacks the grant {lacking[0]}", -757)
 
     def _form(self, http: HttpRequest) -> tuple[tuple[str, str], ...]:
         if len(http.body) > LARGEST_FORM:

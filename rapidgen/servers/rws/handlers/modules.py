@@ -16,7 +16,7 @@ from rapidgen.runtime.loading import LARGEST_MODULE, module_text
 from rapidgen.runtime.task.task import Task
 from rapidgen.servers.rws.application import RwsApplication, serves
 from rapidgen.servers.rws.handlers.files import disk_path, write_file
-from rapidgen.servers.rws.handlers.tasks import find_task, load_refused, no_module, task_to_boot
+from rapidgen.servers.rws.handlers.tasks import load_refused, no_module, task_of
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show
 from rapidgen.system.model import ModuleFile
 from rapidgen.wire.rws import operations as ops
@@ -27,7 +27,7 @@ from rapidgen.wire.rws.xhtml import text as escaped
 @serves(ops.PROGRAM)
 def get_program(app: RwsApplication, request: RwsRequest) -> RwsResponse | None:
     """Return the program of a task; empty if there is none."""
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     if not app.runner.programs.modules(task):
         return None
     name = app.program_names.get(task.name, "")
@@ -37,7 +37,7 @@ def get_program(app: RwsApplication, request: RwsRequest) -> RwsResponse | None:
 @serves(ops.BUILD_ERRORS)
 def get_build_errors(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the build errors of a task's program."""
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     names = {m.file.path: m.name for m in app.runner.programs.modules(task)}
     result = []
     for fault in app.runner.programs.faults(task):
@@ -65,7 +65,7 @@ def load(app: RwsApplication, request: RwsRequest) -> None:
     `replace` unloads the others.
     """
     app.masterships.need(request, "rapid")
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     text = request.field("progpath")
     mode = request.form.get("loadmode", "replace")
     if mode not in ("add", "replace"):
@@ -109,7 +109,7 @@ def _listed(path: Path, request: RwsRequest, words: str) -> list[str]:
 def unload(app: RwsApplication, request: RwsRequest) -> None:
     """Unload the program's modules; system modules stay."""
     app.masterships.need(request, "rapid")
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     try:
         for name in _own(app, task):
             app.runner.programs.unload(task, name)
@@ -124,7 +124,7 @@ def save(app: RwsApplication, request: RwsRequest) -> None:
 
     The folder is created if it is missing.
     """
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     words = request.field("path")
     folder = disk_path(app, words, request)
     name = request.form.get("name") or app.program_names.get(task.name) or task.name
@@ -160,7 +160,7 @@ class _Module:
 
 
 def _module(app: RwsApplication, request: RwsRequest) -> _Module:
-    task, name = task_to_boot(app, request), request.names["module"]
+    task, name = task_of(app, request), request.names["module"]
     programs = app.runner.programs
     text = programs.text(task, name)
     for module in programs.modules(task):

@@ -10,7 +10,7 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.motion_interface import NO_OFFSETS
 from rapidgen.runtime.values import Value
 from rapidgen.servers.rws.application import RwsApplication, serves
-from rapidgen.servers.rws.handlers.tasks import execution, find_task
+from rapidgen.servers.rws.handlers.tasks import execution, task_of
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -174,7 +174,7 @@ def get_motion(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 
     Without `resource` it is the list of resources.
     """
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     kind = request.query.get("resource", "")
     if not kind:
         names = ("jointtarget", "robtarget", "extjointstate")

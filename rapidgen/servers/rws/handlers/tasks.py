@@ -39,6 +39,13 @@ def execution(controller: "VirtualController") -> str:
     return "running" if any(t.state == "running" for t in normal) else "stopped"
 
 
+def _must_stand(app: RwsApplication, request: RwsRequest, task: Task | None = None) -> None:
+    """RequestDenied: the program runs, or this task does."""
+    if execution(app.controller) == "running" or (task is not None and task.state == "running"):
+        status = 400 if request.is_one else 403
+        raise RequestDenied(status, "E_EXEC_STATE", "the program runs", -508)
+
+
 @serves(ops.EXECUTION)
 def get_execution(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return whether the program runs, and whether it repeats at its end."""
@@ -133,10 +140,7 @@ def reset_pp(app: RwsApplication, request: RwsRequest) -> None:
     # RobotWare 6 takes mastership by itself [code: abb_librws, abb_robot_client].
     app.masterships.need(request, "rapid", by_itself=request.is_one)
     controller = app.controller
-    if execution(controller) == "running":
-        raise RequestDenied(
-            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
-        )
+    _must_stand(app, request)
     faults = [d for t in controller.rapid_tasks.values() for d in app.runner.programs.faults(t)]
     if faults:
         syntax = any(d.code.startswith("RG2") for d in faults)
@@ -178,6 +182,12 @@ def find_task(app: RwsApplication, name: str, request: RwsRequest) -> Task:
     raise RequestDenied(400 if request.is_one else 404, "E_INVALIDARG", f"no task {name}")
 
 
+def task_of(app: RwsApplication, request: RwsRequest) -> Task:
+    """Return the task of a path, or of `?task=` in RWS 1.0. Raises RequestDenied."""
+    name = request.names.get("task") or request.query.get("task", "")
+    return find_task(app, name, request)
+
+
 def execution_state(task: Task, request: RwsRequest) -> str:
     """Return a task's execution state.
 
@@ -215,7 +225,7 @@ def get_tasks(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 @serves(ops.TASK)
 def get_task(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return one task."""
-    return show(_item(app, find_task(app, request.names["task"], request), "rap-task", request))
+    return show(_item(app, task_of(app, request), "rap-task", request))
 
 
 @serves(ops.ACTIVATE_ALL, ops.DEACTIVATE_ALL)
@@ -250,7 +260,7 @@ def selection(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 @serves(ops.CHANGE_COUNT)
 def change_count(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the number of changes of a task's program."""
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     count = str(app.runner.programs.changes[task.name])
     notify = {"struc-change-count": count, "change-count": count}
     return show(Item("rap-task-struc-change-count", task.name, notify))
@@ -267,10 +277,7 @@ def activate(app: RwsApplication, request: RwsRequest) -> None:
     task = find_task(app, request.names.get("task") or request.field("task"), request)
     if task.spec.type != "NORMAL":
         raise RequestDenied(403, "E_REJECT", f"{task.name} is a background task", -2)
-    if execution(app.controller) == "running":
-        raise RequestDenied(
-            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
-        )
+    _must_stand(app, request)
     left_out = app.controller.operation.omitted
     if "deactivate" in (request.query.get("action"), request.path.rpartition("/")[2]):
         left_out.add(task.name)
@@ -281,22 +288,13 @@ def activate(app: RwsApplication, request: RwsRequest) -> None:
 # -- modules -------------------------------------------------------------------------------------
 
 
-def task_to_boot(app: RwsApplication, request: RwsRequest) -> Task:
-    """Return the task of a path, or of `?task=` in RWS 1.0.
-
-    Raises RequestDenied.
-    """
-    name = request.names.get("task") or request.query.get("task", "")
-    return find_task(app, name, request)
-
-
 @serves(ops.MODULES)
 def get_modules(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the modules of a task.
 
     HAL has them in `state`, though they are many [VC 7.21].
     """
-    task = task_to_boot(app, request)
+    task = task_of(app, request)
     result = app.runner.programs.modules(task)
     return show(
         *(
@@ -313,7 +311,7 @@ def get_modules(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 @serves(ops.MODULE)
 def get_module(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the file of one module."""
-    task, name = task_to_boot(app, request), request.names["module"]
+    task, name = task_of(app, request), request.names["module"]
     result = [m for m in app.runner.programs.modules(task) if m.name.lower() == name.lower()]
     if not result:
         raise no_module(request, name)
@@ -336,7 +334,7 @@ def load_module(app: RwsApplication, request: RwsRequest) -> RwsResponse | None:
     [VC 7.21]
     """
     app.masterships.need(request, "rapid")
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     text = request.field("modulepath")
     replaced = request.form.get("replace", "false").lower() == "true"
     path = disk_path(app, text, request)
@@ -353,7 +351,7 @@ def load_module(app: RwsApplication, request: RwsRequest) -> RwsResponse | None:
 def unload_module(app: RwsApplication, request: RwsRequest) -> None:
     """Unload a module of a task."""
     app.masterships.need(request, "rapid")
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     name = request.field("module")
     try:
         app.runner.programs.unload(task, name)
@@ -373,7 +371,7 @@ def save_module(app: RwsApplication, request: RwsRequest) -> None:
 
     The file name gets an extension.
     """
-    task, name = task_to_boot(app, request), request.names["module"]
+    task, name = task_of(app, request), request.names["module"]
     module = task.program.modules.get(name.lower())
     if module is None:
         raise no_module(request, name)
@@ -401,7 +399,7 @@ def get_pointer(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 
     Both are equal here.
     """
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     place = place_of(task)
     if place is None:
         return show(Item("pcp-info", "progpointer", {"modulemame": "", "routinename": ""}))
@@ -423,7 +421,7 @@ def get_counter(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 
     The manual of RWS 1.0 has it in this form too.
     """
-    place = place_of(find_task(app, request.names["task"], request))
+    place = place_of(task_of(app, request))
     row, column = (place.span.line, place.span.column) if place else (0, 0)
     notify = {"module": place.module if place else "", "routine": place.routine if place else ""}
     notify |= {"startline": str(row), "startcol": str(column)}
@@ -432,11 +430,8 @@ def get_counter(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 
 def _movable(app: RwsApplication, request: RwsRequest) -> Task:
     app.masterships.need(request, "rapid")
-    task = find_task(app, request.names["task"], request)
-    if task.state == "running" or execution(app.controller) == "running":
-        raise RequestDenied(
-            400 if request.is_one else 403, "E_EXEC_STATE", "the program runs", -508
-        )
+    task = task_of(app, request)
+    _must_stand(app, request, task)
     return task
 
 
@@ -475,7 +470,7 @@ def get_frame(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 
     400 if there is none [VC 6.16].
     """
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     frames = task.stack()[::-1]
     number = whole("stackframe", request.query.get("stackframe", "1"), 1, len(frames))
     place = frames[number - 1]
@@ -495,7 +490,7 @@ def get_frame(app: RwsApplication, request: RwsRequest) -> RwsResponse:
 @serves(ops.ROUTINES)
 def get_routines(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return procedures without parameters, callable as service routines."""
-    task = find_task(app, request.names["task"], request)
+    task = task_of(app, request)
     name, url = (
         request.kind("routine-name", "routine_name"),
         request.kind("url-to-routine", "url_to_routine"),
