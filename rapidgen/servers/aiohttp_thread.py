@@ -1,12 +1,24 @@
 """An aiohttp application on a port, in a thread with its own loop."""
 
 import asyncio
+import logging
 import ssl
 import threading
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 
 from aiohttp import web
+from aiohttp.http_exceptions import HttpProcessingError
+
+_LOG = logging.getLogger("aiohttp.rapidgen")
+
+
+def _is_own(record: logging.LogRecord) -> bool:
+    """False for a request that is no HTTP: its sender gets 400, the user no traceback."""
+    return not (record.exc_info and isinstance(record.exc_info[1], HttpProcessingError))
+
+
+_LOG.addFilter(_is_own)
 
 
 class WebThread:
@@ -15,7 +27,7 @@ class WebThread:
     def __init__(self, app: web.Application) -> None:
         self.loop = asyncio.new_event_loop()
         self.port = 0
-        self._runner = web.AppRunner(app, access_log=None, shutdown_timeout=0.05)
+        self._runner = web.AppRunner(app, access_log=None, logger=_LOG, shutdown_timeout=0.05)
         self._thread: threading.Thread | None = None
 
     def start(self, name: str, host: str, port: int, context: ssl.SSLContext | None = None) -> None:

@@ -228,3 +228,22 @@ def test_a_stop_leaves_no_connection_open(tmp_path):
                 below.settimeout(10)
                 while below.recv(4096):
                     pass
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        b"GET /rw HTTP/9\r\n\r\n",
+        b"GET /rw HTTP/1.1\r\nHost: \0\r\n\r\n",
+        b"GET /rw HTTP/1.1\r\nX: " + b"a" * 9000 + b"\r\n\r\n",
+    ],
+)
+def test_what_is_no_http_is_rejected_without_a_traceback(tmp_path, caplog, request_):
+    with make_runner(tmp_path, clock="real") as runner:
+        runner.start()
+        service = serve_rws(runner, Generation.ONE)
+        with socket.create_connection(("127.0.0.1", service.port)) as sender:
+            sender.sendall(request_)
+            assert sender.recv(12) == b"HTTP/1.0 400"
+        service.close()
+    assert not [r for r in caplog.records if r.name.startswith("aiohttp")]
