@@ -160,6 +160,7 @@ def _driver(
     Its robots are those of the configuration and start at 0.
     """
     from rapidgen.controller.cell import in_its_cell
+    from rapidgen.controller.external_axes import with_limits
 
     if options.robot:
         raise refusal(
@@ -170,7 +171,8 @@ def _driver(
         )
     system = _entered(in_its_cell(system, config), options.entry)
     cell = _described(options)
-    result = Bootable(config.name, system, config.groups, True, (*notes, *_warned(cell)))
+    groups = tuple(with_limits(group, system.cfg) for group in config.groups)
+    result = Bootable(config.name, system, groups, True, (*notes, *_warned(cell)))
     return _surrounded(result, cell, options)
 
 

@@ -43,6 +43,14 @@ def with_cfg(
     return group, (*report, *(_missing(name) for name in mount.unknown))
 
 
+def with_limits(group: GroupConfig, cfg: ControllerCfg | None) -> GroupConfig:
+    """Return a robot with the axis limits of the cfg of its controller."""
+    mount = mount_of(cfg, group.mechanical_unit) if cfg is not None else None
+    if mount is None:
+        return group
+    return replace(group, joints=tuple(_limited(joint, mount) for joint in group.joints))
+
+
 def _limited(joint: Joint, mount: RobotMount) -> Joint:
     """Return a joint of the robot with the limits of the cfg."""
     if joint.axis not in _AXES:

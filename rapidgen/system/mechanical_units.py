@@ -25,6 +25,8 @@ from rapidgen.system.controller_cfg import ControllerCfg
 
 MAX_AXES = 6
 """Axes of one unit, and external axes of one robot: eax_a to eax_f."""
+_SIX_DIGITS = 5e-6
+"""Half a unit of the sixth digit: a controller writes 165 degrees as 2.87979 rad, which is less."""
 TRACK_TYPES = ("TRACK", "IRBT", "RTT", "T4004", "T6004", "T7004", "TRAVELTRACK")
 """Beginnings of the types of tracks [backups: IRBT4004_1; product names]."""
 
@@ -233,7 +235,7 @@ def _limits(database: CfgDatabase, joint: str) -> tuple[float, float] | None:
     lower, upper = (value_of("MOC", "ARM", arm, f"{end}_joint_bound") for end in ("lower", "upper"))
     if not isinstance(lower, int | float) or not isinstance(upper, int | float) or lower >= upper:
         return None
-    return float(lower), float(upper)
+    return lower - _SIX_DIGITS * abs(lower), upper + _SIX_DIGITS * abs(upper)
 
 
 def _frame(section: str, row: Instance, name: str, turn: str) -> Placement:

@@ -10,9 +10,11 @@ import pytest
 
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.limits import outside
+from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
-from rapidgen.controller.boot_targets import load_target
+from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.diagnostics import Severity
 
 SYS = """SYS:CFG_1.0:6:0::
@@ -138,6 +140,7 @@ TRANSMISSION:
       -name "G_3" -transm_joint -549.777
 """
 )
+LIMIT_165 = "-upper_joint_bound 2.87979 -lower_joint_bound -2.87979"
 MAIN = """MODULE MainModule
     PERS wobjdata table := [FALSE,FALSE,"STN_1",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
     PROC main()
@@ -162,6 +165,7 @@ def backup(tmp_path):
         (folder / "SYSPAR").mkdir(parents=True)
         (folder / "RAPID/TASK1/PROGMOD").mkdir(parents=True)
         (folder / "SYSPAR/SYS.cfg").write_text(SYS)
+        (folder / "SYSPAR/EIO.cfg").write_text("EIO:CFG_1.0:6:1::\n")
         (folder / "SYSPAR/MOC.cfg").write_text(moc)
         text = MAIN.replace("{body}", body)
         (folder / "RAPID/TASK1/PROGMOD/MainModule.mod").write_text(text)
@@ -184,16 +188,31 @@ def printed(folder, seconds=60):
 
 def test_a_track_and_a_positioner_are_external_axes(backup):
     (group,) = load_target([backup(TRACK)]).groups
-    external = [(j.name, j.axis, j.kind, j.lower, j.upper) for j in group.joints[6:]]
-    assert external == [
-        ("track1", "eax_a", "prismatic", -0.001, 3.9),
-        ("STN", "eax_b", "revolute", -3.0, 3.0),
-    ]
+    external = [(j.name, j.axis, j.kind) for j in group.joints[6:]]
+    assert external == [("track1", "eax_a", "prismatic"), ("STN", "eax_b", "revolute")]
+    limits = [limit for j in group.joints[6:] for limit in (j.lower, j.upper)]
+    assert limits == pytest.approx([-0.001, 3.9, -3, 3], rel=1e-5)
     assert group.external_units == ("TRACK_1", "STN_1")
     # Motor 200 rad/s over 100; ACC_DATA.
     assert (group.joints[7].speed, group.joints[7].acceleration) == (2.0, 5.0)
     # Limits of the robot are those of ARM, not those of the model.
-    assert [(j.lower, j.upper) for j in group.joints[:2]] == [(-1.1, 1.5), (-1.2, 1.5)]
+    limits = [limit for j in group.joints[:2] for limit in (j.lower, j.upper)]
+    assert limits == pytest.approx([-1.1, 1.5, -1.2, 1.5], rel=1e-5)
+
+
+def test_limits_are_not_narrower_than_the_degrees_that_a_controller_rounds(backup):
+    """MOC.cfg of all backups of an IRB 120: 2.87979 rad, which is 164.9998 degrees."""
+    folder = backup(TRACK.replace("-upper_joint_bound 1.5 -lower_joint_bound -1.1", LIMIT_165))
+    first = load_target([folder]).groups[0].joints[0]
+    assert outside((first,), (math.radians(165),)) == []
+    assert outside((first,), (math.radians(165.01),)) != []
+
+
+def test_a_driver_on_a_backup_has_the_limits_of_the_backup(backup, tmp_path):
+    folder = backup(TRACK)
+    assert main(["build", "irb120", "--backup", str(folder), "-o", str(tmp_path / "out")]) == 0
+    (group,) = load_target([tmp_path / "out"], BootOptions(backup=folder)).groups
+    assert group.joints[0].upper == pytest.approx(1.5, rel=1e-5)
 
 
 def test_what_is_not_simulated_is_reported(backup):
