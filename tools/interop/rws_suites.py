@@ -23,7 +23,6 @@ from rapidgen.config import load_config
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.servers.rws.server import serve_rws
 from rapidgen.system import read_files
-from rapidgen.system.base import Robot, base_system
 from rapidgen.system.model import SignalSpec
 from rapidgen.wire.rws.bodies import Generation
 
@@ -50,11 +49,8 @@ def controller(generation: Generation) -> Iterator[int]:
         signals = (SignalSpec("doGrip", "DO", access="All"),)
         system = read_files([path])
         system = replace(system, robotware=RELEASES[generation], signals=signals, name="cell")
-        cfg = base_system(system.robotware, [Robot("T_ROB1", "ROB_1")])
         groups = load_config("irb120").groups
-        with ControllerRunner(
-            system, cfg=cfg, robots=groups, clock="real", autostart=False
-        ) as runner:
+        with ControllerRunner(system, robots=groups, clock="real", autostart=False) as runner:
             runner.start()
             service = serve_rws(runner, generation)
             try:
@@ -87,19 +83,30 @@ def abb_rws_client(folder: Path) -> Iterator[str]:
 
 def abb_librws(folder: Path) -> Iterator[str]:
     """Yield each call and its result."""
-    source = Path(__file__).with_name("abb_librws.cpp")
     with tempfile.TemporaryDirectory() as scratch, controller(Generation.ONE) as port:
-        quiet = {"stdout": subprocess.DEVNULL, "check": True}
-        subprocess.run(["cmake", "-S", folder, "-B", scratch], **quiet)
-        subprocess.run(["cmake", "--build", scratch], **quiet)
-        program = f"{scratch}/trial"
-        where = [f"-I{folder}/include", f"-I{scratch}", f"-L{scratch}", f"-Wl,-rpath,{scratch}"]
-        libraries = ["-labb_librws", "-lPocoNet", "-lPocoXML", "-lPocoUtil", "-lPocoFoundation"]
-        subprocess.run(["g++", "-o", program, str(source), *where, *libraries], check=True)
-        ran = subprocess.run(
-            [program, "127.0.0.1", str(port)], capture_output=True, text=True, check=False
-        )
-        yield from ran.stdout.splitlines()
+        program = built(folder, "abb_librws.cpp", scratch)
+        yield from output_of(program, port)
+
+
+def built(folder: Path, source: str, scratch: str) -> str:
+    """Build abb_librws and a program of this folder that uses it; return the program's path."""
+    quiet = {"stdout": subprocess.DEVNULL, "check": True}
+    subprocess.run(["cmake", "-S", folder, "-B", scratch], **quiet)
+    subprocess.run(["cmake", "--build", scratch], **quiet)
+    program = f"{scratch}/trial"
+    where = [f"-I{folder}/include", f"-I{scratch}", f"-L{scratch}", f"-Wl,-rpath,{scratch}"]
+    libraries = ["-labb_librws", "-lPocoNet", "-lPocoXML", "-lPocoUtil", "-lPocoFoundation"]
+    path = str(Path(__file__).with_name(source))
+    subprocess.run(["g++", "-o", program, path, *where, *libraries], check=True)
+    return program
+
+
+def output_of(program: str, port: int) -> Iterator[str]:
+    """Yield the lines that a program writes about a controller."""
+    ran = subprocess.run(
+        [program, "127.0.0.1", str(port)], capture_output=True, text=True, check=False
+    )
+    yield from ran.stdout.splitlines()
 
 
 TRIALS = {"abb-rws-client": abb_rws_client, "abb_librws": abb_librws}

@@ -1,9 +1,13 @@
 """A success is true: it shows in the running task, in a backup, after a restart."""
 
+from dataclasses import replace
+
 import pytest
 from served import STARTED, Caller, code_of, make_application, make_runner
 
-from rapidgen.system import read_backup
+from rapidgen.config import load_config
+from rapidgen.controller.runner import ControllerRunner
+from rapidgen.system import read_backup, read_files
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.codes import CODES
@@ -299,3 +303,30 @@ def test_collections_come_by_the_page_on_robotware_7(tmp_path):
         reply = two.send("GET", "/rw/elog/0?start=100&limit=50")
         assert 0 < len(media.read(reply.body, "").items) < 50
         assert two.send("GET", "/rw/elog/0?start=-1").status == 400
+
+
+RECORDS = """MODULE {name}
+    LOCAL RECORD MySettings
+        num a;
+    ENDRECORD
+    LOCAL VAR MySettings settings := [{value}];
+    {main}
+ENDMODULE
+"""
+
+
+def test_properties_name_the_type_as_its_record_and_the_datum_of_the_module(tmp_path):
+    """abb_librws compares dattyp with case before it reads a record [code]."""
+    files = []
+    for name, main in (("First", "PROC main()\nENDPROC"), ("Second", "")):
+        files.append(tmp_path / f"{name}.mod")
+        text = RECORDS.replace("{name}", name).replace("{main}", main).replace("{value}", "1")
+        files[-1].write_text(text)
+    system = replace(read_files(files), robotware=(6, 15))
+    with ControllerRunner(system, robots=load_config("irb120").groups, autostart=False) as runner:
+        caller = Caller(make_application(runner))
+        for name in ("First", "Second"):
+            path = f"RAPID/T_ROB1/{name}"
+            (item,) = caller.get(f"/rw/rapid/symbol/properties/{path}/settings")
+            assert (item.text("dattyp"), item.text("symburl")) == ("MySettings", f"{path}/settings")
+            assert item.text("typurl") == f"{path}/MySettings"

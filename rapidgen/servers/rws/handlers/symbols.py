@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from rapidgen.controller.views import TaskView
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.link import find_type
+from rapidgen.runtime.compiler.symbols import LoadedModule
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
 from rapidgen.runtime.values import PersistentCell, Type, Value
@@ -143,7 +144,8 @@ def get_properties(app: RwsApplication, request: RwsRequest) -> RwsResponse:
     """Return the properties of a datum."""
     path = request.names["symbol"]
     result = find(app, path, request)
-    for item, _ in _data(result.task, ""):
+    _, *module, _ = path.split("/")
+    for item, _ in _data(result.task, "".join(module)):
         if item.fields["name"].lower() == path.rpartition("/")[2].lower():
             return show(Item(item.kind, item.title, item.fields))
     raise _unknown(request, path)
@@ -199,26 +201,46 @@ def _data(task: TaskView, only: str) -> Iterator[tuple[Item, str]]:
             short, long = _KINDS[node.kind]
             url = f"RAPID/{task.name}/{module.name}/{node.name}"
             yield (
-                Item(f"rap-symprop{long}", url, _property_fields(url, node, type_, dims, short)),
+                Item(
+                    f"rap-symprop{long}",
+                    url,
+                    _property_fields(url, node, _declared_type(task, module, type_), dims, short),
+                ),
                 short,
             )
 
 
+def _declared_type(task: TaskView, module: LoadedModule, type_: Type) -> str:
+    """Return the path of a type below RAPID, in the letters of its declaration.
+
+    Clients compare names of types with case [code: abb_librws].
+    """
+    others = (other for other in task.rapid.program.modules.values() if other is not module)
+    for owner in (module, *others):
+        types: list[n.RecordDeclaration | n.AliasDeclaration]
+        types = [*owner.tree.records, *owner.tree.aliases]
+        for declared in types:
+            own = owner is module or declared.scope != "LOCAL"
+            if own and declared.name.lower() == type_.name.lower():
+                return f"{task.name}/{owner.name}/{declared.name}"
+    return type_.name
+
+
 def _property_fields(
-    url: str, node: n.DataDeclaration, type_: Type, dims: tuple[int, ...], kind: str
+    url: str, node: n.DataDeclaration, type_: str, dims: tuple[int, ...], kind: str
 ) -> dict[str, str]:
     return {
         "symburl": url,
         "name": node.name,
         "symtyp": kind,
         "named": "true",
-        "dattyp": type_.name,
+        "dattyp": type_.rpartition("/")[2],
         "ndim": str(len(dims)),
         "dim": " ".join(map(str, dims)),
         "local": "true" if node.scope == "LOCAL" else "false",
         "rdonly": "true" if node.kind == "CONST" else "false",
         "taskvar": "false",
-        "typurl": f"RAPID/{type_.name}",
+        "typurl": f"RAPID/{type_}",
     }
 
 
