@@ -12,13 +12,14 @@ import selectors
 import socket
 import statistics
 import struct
+import subprocess
 import sys
 import threading
 import time
 
 import numpy as np
 
-from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeouts, Trajectory
+from rapidgen.client import AsyncRobot, MotionStopped, Robot, Timeouts, Trajectory
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state_port import StatePort
@@ -28,7 +29,7 @@ from rapidgen.wire.simple_message.numpy_codec import (
     encode_points,
     encode_trajectory,
 )
-from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Port
+from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Port, Sequence
 
 HEAD = struct.Struct("<4i")
 JOINT = HEAD.pack(56, 10, 1, 0) + struct.pack("<i10f", 0, *[0.0] * 10)
@@ -83,20 +84,21 @@ class Sink:
         if self.features & 4:
             self.points(client)
             return
-        buffer = bytearray(1 << 20)
-        tail = b""
-        chunk = 4096 if self.rate else len(buffer)
-        while count := client.recv_into(buffer, chunk):
+        rest = b""
+        while data := client.recv(4096 if self.rate else 1 << 20):
             if self.rate:
-                time.sleep(count / self.rate)
-            tail = (tail + bytes(buffer[max(0, count - FRAME_BYTES) : count]))[-FRAME_BYTES:]
-            (sequence,) = struct.unpack_from("<i", tail, 16) if len(tail) == FRAME_BYTES else (0,)
-            if sequence == -3 and tail[:8] == STOP_FRAME[:8]:
-                self.number += 1
-                self.state = 3
-                client.sendall(HEAD.pack(16, 11, 3, 1) + struct.pack("<i", self.number))
-            elif tail == STOP_FRAME:
-                client.sendall(REPLY)
+                time.sleep(len(data) / self.rate)
+            rest += data
+            whole = len(rest) // FRAME_BYTES * FRAME_BYTES
+            sequences = np.frombuffer(rest[:whole], "<i4").reshape(-1, FRAME_BYTES // 4)[:, 4]
+            rest = rest[whole:]
+            for sequence in sequences[sequences < 0].tolist():
+                if sequence == Sequence.END:
+                    self.number += 1
+                    self.state = 3
+                    client.sendall(HEAD.pack(16, 11, 3, 1) + struct.pack("<i", self.number))
+                elif sequence == Sequence.STOP:
+                    client.sendall(REPLY)
 
     def points(self, client):
         """Execute points immediately, as a driver: all batches are accepted."""
@@ -249,40 +251,66 @@ def decoding(count):
     print(f"decode, two a segment       {rounds * 2 / best:14,.0f} messages/s")
 
 
-def stopping(seconds, stops):
-    """Measure latency from stop() to STOP at the sink, under load.
+def stopping(stops):
+    """Measure the time from the call of stop() to STOP at the sink.
 
-    On a connection of its own.
+    Another thread sends a trajectory to a controller that reads 2 MB/s, so that its buffers are
+    full.
     """
     with Running(period=0.02, bytes_per_second=2e6, features=3) as sink, robot_at(sink) as robot:
         finished = threading.Event()
-        trajectory = still(400_000)
+        trajectory = still(100_000)
 
         def load():
             while not finished.is_set():
-                try:
+                with contextlib.suppress(MotionStopped):
                     robot.execute(trajectory)
-                except (MotionStopped, RobotError):
-                    continue
 
         loader = threading.Thread(target=load, daemon=True)
         loader.start()
-        time.sleep(0.5)
-        channel = robot._carrier._channels[Port.CONTROL]
         latencies = []
-        for _ in range(stops):
+        pauses = np.random.default_rng(1).uniform(0.02, 0.05, stops)
+        for pause in pauses.tolist():
+            while robot._core.motion is None or robot._core.motion.is_over:
+                time.sleep(0.001)
+            time.sleep(pause)
             started = time.monotonic_ns()
-            channel.send_urgent(STOP_FRAME, 1.0)
+            robot.stop()
             latencies.append((sink.stamps.get() - started) / 1e6)
-            time.sleep(seconds / stops)
         finished.set()
-        robot._core.motion.stopping = True
-        loader.join(5)
+        while loader.is_alive():
+            robot.stop()
+            loader.join(0.1)
     result = np.percentile(latencies, [50, 99, 100])
     print(
-        f"stop, own connection        p50 {result[0]:.3f} ms, p99 {result[1]:.3f} ms, "
+        f"stop, under load            p50 {result[0]:.3f} ms, p99 {result[1]:.3f} ms, "
         f"worst {result[2]:.3f} ms over {stops} (p99 <= 1 ms)"
     )
+
+
+def connecting(rounds):
+    """Measure connections of all ports, with HELLO and the first state, and their end."""
+    with Running(period=0.02, features=3) as sink:
+        started = time.perf_counter()
+        for _ in range(rounds):
+            with robot_at(sink):
+                pass
+        rate = rounds / (time.perf_counter() - started)
+    print(f"connect and close           {rate:14,.1f} robots/s")
+
+
+def importing(rounds):
+    """Measure the CPU time of `import rapidgen.client` in a new process."""
+
+    def seconds(code):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([sys.executable, "-c", code], check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+    bare = statistics.median(seconds("import numpy") for _ in range(rounds))
+    whole = statistics.median(seconds("import rapidgen.client") for _ in range(rounds))
+    print(f"import                      {1000 * (whole - bare):14,.0f} ms, besides numpy")
 
 
 def frames_before_stop(rounds):
@@ -292,7 +320,6 @@ def frames_before_stop(rounds):
     """
     from rapidgen.client.address import Address
     from rapidgen.client.channels import Channel
-    from rapidgen.wire.simple_message.spec import Port
 
     worst = 0
     for _ in range(rounds):
@@ -404,7 +431,9 @@ def main():
     streaming(60_000, 1 if quick else 3)
     sending(100_000, 3 if quick else 10)
     frames_before_stop(2 if quick else 10)
-    stopping(2 if quick else 10, 200 if quick else 1000)
+    stopping(200 if quick else 1000)
+    connecting(50 if quick else 300)
+    importing(5 if quick else 15)
     watching(100, 2 if quick else 10)
     memory(1_500_000 if quick else 10_000_000)
 
