@@ -85,7 +85,7 @@ class Sink:
             self.points(client)
             return
         rest = b""
-        while data := client.recv(4096 if self.rate else 1 << 20):
+        while data := client.recv(1 << 16 if self.rate else 1 << 20):
             if self.rate:
                 time.sleep(len(data) / self.rate)
             rest += data
@@ -254,10 +254,10 @@ def decoding(count):
 def stopping(stops):
     """Measure the time from the call of stop() to STOP at the sink.
 
-    Another thread sends a trajectory to a controller that reads 2 MB/s, so that its buffers are
-    full.
+    Another thread sends a trajectory to a controller that reads 20 MB/s, so that its buffers
+    are full.
     """
-    with Running(period=0.02, bytes_per_second=2e6, features=3) as sink, robot_at(sink) as robot:
+    with Running(period=0.02, bytes_per_second=2e7, features=3) as sink, robot_at(sink) as robot:
         finished = threading.Event()
         trajectory = still(100_000)
 
