@@ -5,6 +5,7 @@ python benchmarks/client.py [--quick]
 
 import asyncio
 import contextlib
+import dataclasses
 import multiprocessing
 import os
 import resource
@@ -19,6 +20,7 @@ import time
 
 import numpy as np
 
+import rapidgen
 from rapidgen.client import AsyncRobot, MotionStopped, Robot, Timeouts, Trajectory
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.robot import STOP_FRAME
@@ -408,6 +410,57 @@ def watching(robots, seconds):
     )
 
 
+def stages():
+    """Count what a trajectory passes between execute() and its last byte on the socket.
+
+    A stop is a function of the package that gets its points as an argument (trajectory, array,
+    bytes, or data with one of these). A return is a call in a file that the points had left.
+    """
+    package = os.path.dirname(rapidgen.__file__)
+    calls = []
+    sent = 0
+
+    def holds_points(value):
+        if isinstance(value, Trajectory | np.ndarray | bytes | memoryview):
+            return True
+        if not dataclasses.is_dataclass(value) or isinstance(value, type):
+            return False
+        names = [field.name for field in dataclasses.fields(value)]
+        kinds = Trajectory | np.ndarray | bytes
+        return any(isinstance(getattr(value, name, None), kinds) for name in names)
+
+    def profile(frame, event, argument):
+        nonlocal sent
+        code = frame.f_code
+        if event == "c_call" and getattr(argument, "__name__", "") == "send":
+            sent = len(calls)
+        if event != "call" or not code.co_filename.startswith(package):
+            return
+        arguments = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+        holds = any(holds_points(frame.f_locals.get(name)) for name in arguments)
+        calls.append((code.co_filename, code.co_name, code.co_firstlineno, holds))
+
+    with Running(period=0.02, features=3) as sink, robot_at(sink) as robot:
+        robot.execute(still(4)).result()
+        sys.setprofile(profile)
+        execution = robot.execute(still(4))
+        sys.setprofile(None)
+        execution.result()
+
+    def count(title, some):
+        files = [file for file, *_ in some]
+        visits = [
+            file for file, before in zip(files, [None, *files], strict=False) if file != before
+        ]
+        print(
+            f"{title:27s} {len(some):5d} calls, {len(set(some))} functions, {len(set(files))} files, "
+            f"{len(visits) - len(set(files))} returns to a file"
+        )
+
+    count("execute to socket, all", calls[:sent])
+    count("execute to socket, points", [call for call in calls[:sent] if call[-1]])
+
+
 def memory(points):
     """Measure resident memory over trajectories of 100,000 points."""
     with Running(period=0.02) as sink, robot_at(sink) as robot:
@@ -434,6 +487,7 @@ def main():
     stopping(200 if quick else 1000)
     connecting(50 if quick else 300)
     importing(5 if quick else 15)
+    stages()
     watching(100, 2 if quick else 10)
     memory(1_500_000 if quick else 10_000_000)
 
