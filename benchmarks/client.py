@@ -17,14 +17,18 @@ import subprocess
 import sys
 import threading
 import time
+from types import SimpleNamespace
 
 import numpy as np
 
 import rapidgen
-from rapidgen.client import AsyncRobot, MotionStopped, Robot, Timeouts, Trajectory
+from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeouts, Trajectory
+from rapidgen.client.address import Address
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.flows.effects import Send
+from rapidgen.client.sync_runner import Connection
 from rapidgen.wire.simple_message.numpy_codec import (
     FRAME_BYTES,
     decode_batches,
@@ -38,6 +42,7 @@ JOINT = HEAD.pack(56, 10, 1, 0) + struct.pack("<i10f", 0, *[0.0] * 10)
 STATUS = HEAD.pack(40, 13, 1, 0) + struct.pack("<7i", 1, 0, 0, 0, 0, 2, 1)
 REPLY = HEAD.pack(12, 11, 3, 1)
 HELLO_BYTES = 36
+HELLO = struct.pack("<2i", 1300, 2)
 RING = 512
 BEAT = HEAD.pack(16, 1306, 2, 0)
 
@@ -123,9 +128,11 @@ class Sink:
         client.sendall(hello(self.features))
         while data := client.recv(4096):
             now = time.monotonic_ns()
-            # Heartbeats arrive besides STOP: they are answered, and not counted.
+            # Heartbeats and HELLO arrive besides STOP: they are answered, and not counted.
             for beat in range(data.count(BEAT)):
                 client.sendall(HEAD.pack(20, 1306, 3, 1) + struct.pack("<2i", beat, 2))
+            for _ in range(data.count(HELLO)):
+                client.sendall(hello(self.features))
             for _ in range(data.count(STOP_FRAME)):
                 self.stamps.put(now)
                 client.sendall(REPLY)
@@ -160,8 +167,6 @@ class Running:
         self.ports = self.pipe.recv()
 
     def address(self):
-        from rapidgen.client.address import Address
-
         motion, control, state = self.ports
         return Address("127.0.0.1", motion, state, control)
 
@@ -256,17 +261,20 @@ def decoding(count):
 def stopping(stops):
     """Measure the time from the call of stop() to STOP at the sink.
 
-    Another thread sends a trajectory to a controller that reads 20 MB/s, so that its buffers
+    Another thread sends a trajectory to a controller that reads 50 MB/s, so that its buffers
     are full.
     """
-    with Running(period=0.02, bytes_per_second=2e7, features=3) as sink, robot_at(sink) as robot:
+    with Running(period=0.02, bytes_per_second=5e7, features=3) as sink, robot_at(sink) as robot:
         finished = threading.Event()
         trajectory = still(100_000)
 
         def load():
             while not finished.is_set():
-                with contextlib.suppress(MotionStopped):
+                try:
                     robot.execute(trajectory)
+                except RobotError:
+                    # Stopped, or the one before was sent as a whole and is not stopped yet.
+                    time.sleep(0.001)
 
         loader = threading.Thread(target=load, daemon=True)
         loader.start()
@@ -320,25 +328,27 @@ def frames_before_stop(rounds):
 
     At most the one in progress.
     """
-    from rapidgen.client.address import Address
-    from rapidgen.client.channels import Channel
+
+    def send(connection, data, motion):
+        with contextlib.suppress(MotionStopped):
+            connection.send(Send(Port.MOTION, data, 5.0, motion))
 
     worst = 0
     for _ in range(rounds):
         server = socket.create_server(("127.0.0.1", 0))
-        channel = Channel(Address("127.0.0.1", server.getsockname()[1]), Port.MOTION, 1)
+        connection = Connection(Address("127.0.0.1", server.getsockname()[1]), Port.MOTION, 1)
         peer, _ = server.accept()
-        stopping = threading.Event()
+        motion = SimpleNamespace(stopping=False)
         data = encode_trajectory(np.zeros((300_000, 6)), np.full(300_000, 0.1))
-        sender = threading.Thread(target=channel.send, args=(data, 5.0, stopping.is_set))
+        sender = threading.Thread(target=send, args=(connection, data, motion))
         sender.start()
         peer.recv(1000)
         time.sleep(0.01)
         # The bytes in the kernel were sent before.
-        before = _written(channel, peer)
-        stopping.set()
-        channel.offer_after(STOP_FRAME)
-        stop = threading.Thread(target=channel.finish, args=(5.0,))
+        before = _written(connection, peer)
+        motion.stopping = True
+        connection.offer_after(STOP_FRAME)
+        stop = threading.Thread(target=connection.finish, args=(5.0,))
         stop.start()
         received = bytearray()
         while not received.endswith(STOP_FRAME):
@@ -346,13 +356,13 @@ def frames_before_stop(rounds):
         sender.join()
         stop.join()
         worst = max(worst, (len(received) - FRAME_BYTES - before) / FRAME_BYTES)
-        channel.close()
+        connection.close()
         peer.close()
         server.close()
     print(f"stop, standard port         {worst:.2f} frames between stop() and STOP (<= 1)")
 
 
-def _written(channel, peer):
+def _written(connection, peer):
     """Return bytes in the scheduler, of both ends, once the sender blocks."""
     import fcntl
     import termios
@@ -361,9 +371,9 @@ def _written(channel, peer):
         return struct.unpack("i", fcntl.ioctl(sock, request, b"\0" * 4))[0]
 
     while True:
-        first = pending(channel.socket, termios.TIOCOUTQ) + pending(peer, termios.FIONREAD)
+        first = pending(connection.socket, termios.TIOCOUTQ) + pending(peer, termios.FIONREAD)
         time.sleep(0.02)
-        again = pending(channel.socket, termios.TIOCOUTQ) + pending(peer, termios.FIONREAD)
+        again = pending(connection.socket, termios.TIOCOUTQ) + pending(peer, termios.FIONREAD)
         if first == again:
             return first
 

@@ -1,350 +1,44 @@
-"""`AsyncRobot`: the client for asyncio, also on a simulated clock.
+"""`AsyncRobot`: the client for asyncio, also on a simulated clock."""
 
-Uses only `create_connection`, `time`, `create_future` and `call_later` of the running loop.
-"""
-
-import asyncio
-import os
 import warnings
-import weakref
-from collections.abc import AsyncIterable, AsyncIterator, Iterable, Sequence
-from contextlib import nullcontext, suppress
-from dataclasses import dataclass, field
-from typing import TypeVar, cast
+from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterable, Sequence
+
+import numpy.typing as npt
 
 from rapidgen._compat import Self
-from rapidgen.client import deadline, flows
-from rapidgen.client.address import Address
-from rapidgen.client.api import ExecutionApi, MakeCore, RobotApi, RunApi, StreamApi
-from rapidgen.client.core.job import batches
-from rapidgen.client.core.robot import STOP_FRAME
-from rapidgen.client.core.state import State
-from rapidgen.client.errors import (
-    MotionStopped,
-    RobotError,
-    RobotTimeout,
-    not_reached,
-    os_reason,
-)
-from rapidgen.client.flows.effects import (
-    Close,
-    Effect,
-    Flow,
-    HangUp,
-    Open,
-    Send,
-    SendAtOnce,
-    Wait,
-)
-from rapidgen.client.unclosed import drop_in_child, warn_unclosed
-from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
-from rapidgen.wire.simple_message.spec import Port
-
-T = TypeVar("T")
-_SLICE = 0.1
-"""s between two checks of the clock while no data arrives."""
-_BREATH = 64
-"""Frames after which a sender yields to other tasks of its loop."""
+from rapidgen.axes.frames import Pose
+from rapidgen.client import flows
+from rapidgen.client.api import AcceptedMotion, ExecutionApi, RobotApi, RunApi, StreamApi
+from rapidgen.client.async_runner import AsyncFlowRunner
+from rapidgen.client.core.checks import TransferMode
+from rapidgen.client.core.motion import Result
+from rapidgen.client.core.point_source import PointSource, batches
+from rapidgen.client.core.state import Event, Feedback, State
+from rapidgen.client.flows.data import Datum
+from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike
+from rapidgen.client.trajectory import Trajectory
 
 
-class _Link(asyncio.Protocol):
-    """One connection as an asyncio protocol.
+class _AsyncAccepted(AcceptedMotion[AsyncFlowRunner]):
+    async def result(self, timeout: float | None = None) -> Result:
+        """Wait for the end, by default while the robot progresses or is paused.
 
-    Its loop holds it; it holds its runner weakly, so that a dropped one is finalized.
-    """
-
-    def __init__(self, runner: "AsyncFlowRunner", port: Port) -> None:
-        self.port = port
-        self.transport: asyncio.Transport | None = None
-        self.is_writable = asyncio.Event()
-        self.is_writable.set()
-        self._runner = weakref.ref(runner)
-
-    def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        self.transport = cast("asyncio.Transport", transport)
-        # The transport must not buffer: a STOP would wait for the buffered bytes.
-        self.transport.set_write_buffer_limits(high=0)
-        runner = self._runner()
-        if runner is not None:
-            runner.opened(self)
-
-    def data_received(self, data: bytes) -> None:
-        runner = self._runner()
-        if runner is not None:
-            runner.received(self, data)
-
-    def connection_lost(self, exc: Exception | None) -> None:
-        why = "the controller closed it"
-        if isinstance(exc, OSError):
-            why = os_reason(exc)
-        self.is_writable.set()
-        runner = self._runner()
-        if runner is not None:
-            runner.lost(self, why)
-
-    def pause_writing(self) -> None:
-        self.is_writable.clear()
-
-    def resume_writing(self) -> None:
-        self.is_writable.set()
-
-
-@dataclass(slots=True, eq=False)
-class _Connections:
-    """Connections of one robot, apart from the runner that its user may drop."""
-
-    where: str
-    loop: asyncio.AbstractEventLoop | None = None
-    """The loop of the last call."""
-    links: dict[Port, _Link] = field(default_factory=dict)
-    may_move: bool = False
-    """True if a motion of this client may move the robot."""
-
-    def time(self) -> float:
-        """Return the time of the loop in s."""
-        return self.loop.time() if self.loop is not None else 0.0
-
-    def close_dropped(self) -> None:
-        """Close with a warning; a STOP goes out during a motion.
-
-        It may run on any thread, at any moment at which Python collects garbage.
+        Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout if it did not end in time
+        (the motion continues). Ctrl-C or cancelling this call stops the robot.
         """
-        if self.loop is None or not self.links:
-            return
-        # A closed loop has no transports; asyncio closes their sockets with them.
-        with suppress(RuntimeError):
-            self.loop.call_soon_threadsafe(self._close_links)
-        warn_unclosed(self.where, stopped=self.may_move)
+        flow = flows.motion.result(self._runner.core, self._subject, timeout)
+        return await self._runner.run(flow)
 
-    def _close_links(self) -> None:
-        for port, link in self.links.items():
-            if link.transport is not None:
-                if self.may_move and port is not Port.STATE:
-                    link.transport.write(STOP_FRAME)
-                link.transport.close()
-        self.links.clear()
-
-    def forked(self) -> None:
-        """Close the sockets of a forked process; the connections stay the parent's."""
-        for link in self.links.values():
-            socket = link.transport.get_extra_info("socket") if link.transport is not None else None
-            if socket is not None and socket.fileno() >= 0:
-                # The transport keeps its descriptor: to close it would remove the parent's
-                # connection from the selector that both processes share.
-                null = os.open(os.devnull, os.O_RDWR)
-                os.dup2(null, socket.fileno(), inheritable=False)
-                os.close(null)
-        self.links.clear()
-        self.may_move = False
+    async def cancel(self) -> State | None:
+        """Stop this motion; return the state at rest, or None if it has ended."""
+        return await self._runner.run(flows.motion.cancel(self._runner.core, self._subject))
 
 
-class AsyncFlowRunner:
-    """Runner of flows on the running loop."""
-
-    def __init__(self, address: Address, make_core: MakeCore) -> None:
-        self._connections = _Connections(str(address))
-        self._links = self._connections.links
-        self.address = address
-        self.core = make_core(self._connections.time)
-        self.guard = nullcontext()
-        self._waiters: set[asyncio.Future[None]] = set()
-        self._timer: asyncio.TimerHandle | None = None
-        weakref.finalize(self, self._connections.close_dropped)
-        drop_in_child(self)
-
-    def forked(self) -> None:
-        """Drop the connections in a forked process."""
-        self._connections.forked()
-        self._waiters.clear()
-        self._timer = None
-        self.core.forked()
-
-    async def run(self, flow: Flow[T]) -> T:
-        """Run a flow on this loop."""
-        self._connections.loop = asyncio.get_running_loop()
-        outcome: bool | None = None
-        failure: BaseException | None = None
-        while True:
-            error, failure = failure, None
-            try:
-                try:
-                    effect = flow.send(outcome) if error is None else flow.throw(error)
-                finally:
-                    self._pump()
-            except StopIteration as end:
-                value: T = end.value
-                return value
-            try:
-                outcome = await self._perform(effect)
-            except (RobotError, asyncio.CancelledError) as raised:
-                failure = raised
-
-    def _pump(self) -> None:
-        """Send the frames that are due, as far as the buffer is empty."""
-        core = self.core
-        self._connections.may_move = core.may_move
-        stops = core.unmonitored_stops()
-        for port, link in self._links.items():
-            if link.transport is None:
-                continue
-            if port in stops:
-                link.transport.write(STOP_FRAME)
-            while link.is_writable.is_set() and (data := core.due(port)) is not None:
-                link.transport.write(data)
-        loop = self._connections.loop
-        if core.is_busy and self._timer is None and loop is not None:
-            self._timer = loop.call_later(_SLICE, _tick, weakref.ref(self))
-
-    def tick(self) -> None:
-        """Check the clock and send what is due."""
-        self._timer = None
-        self.core.poll()
-        self._pump()
-        self._notify()
-
-    async def _perform(self, effect: Effect) -> bool:
-        if isinstance(effect, Wait):
-            return await self._wait(effect)
-        if isinstance(effect, Close):
-            self._close(effect.port)
-            return True
-        if isinstance(effect, Open):
-            await self._open(effect)
-            return True
-        if isinstance(effect, HangUp):
-            self._hang_up()
-            return True
-        if isinstance(effect, SendAtOnce):
-            for port in effect.ports:
-                link = self._links.get(port)
-                if link is None or link.transport is None:
-                    effect.failures[port] = self.core.disconnected()
-                else:
-                    # At most the rest of one frame is queued: senders wait for an empty buffer.
-                    link.transport.write(effect.data)
-            return True
-        link = self._links.get(effect.port)
-        if link is None or link.transport is None:
-            raise self.core.disconnected()
-        await self._send(link, link.transport, effect)
-        return True
-
-    async def _send(self, link: _Link, transport: asyncio.Transport, effect: Send) -> None:
-        data = effect.data
-        for count, at in enumerate(range(0, len(data), FRAME_BYTES), 1):
-            if effect.is_stopped:
-                raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
-            if self._links.get(link.port) is not link:
-                raise self.core.disconnected()
-            transport.write(data[at : at + FRAME_BYTES])
-            if not link.is_writable.is_set():
-                await self._wait_writable(link, effect.timeout)
-            elif count % _BREATH == 0:
-                await asyncio.sleep(0)
-
-    async def _wait_writable(self, link: _Link, timeout: float) -> None:
-        try:
-            async with deadline.timeout(timeout):
-                await link.is_writable.wait()
-        except TimeoutError as error:
-            raise RobotTimeout.because(
-                "RG603", f"the controller read no byte for {timeout:g} s", "look at the controller"
-            ) from error
-
-    async def _wait(self, effect: Wait) -> bool:
-        loop = asyncio.get_running_loop()
-        deadline = loop.time() + effect.timeout
-        while not effect.until():
-            left = deadline - loop.time()
-            if left <= 0:
-                return False
-            waiter: asyncio.Future[None] = loop.create_future()
-            timer = loop.call_later(min(left, _SLICE), _wake, waiter)
-            self._waiters.add(waiter)
-            try:
-                await waiter
-            finally:
-                timer.cancel()
-                self._waiters.discard(waiter)
-            self.core.poll()
-            self._pump()
-        return True
-
-    def _close(self, port: Port) -> None:
-        link = self._links.pop(port, None)
-        self.core.dropped(port)
-        if link is not None and link.transport is not None:
-            link.transport.close()
-
-    def _notify(self) -> None:
-        for waiter in self._waiters:
-            _wake(waiter)
-        self._waiters.clear()
-
-    async def _open(self, effect: Open) -> None:
-        loop = asyncio.get_running_loop()
-        number, name = self.address.port(effect.port), effect.port.name.lower()
-        where = f"{self.address.host} port {number} ({name})"
-        old = self._links.pop(effect.port, None)
-        if old is not None and old.transport is not None:
-            old.transport.close()
-        try:
-            async with deadline.timeout(effect.timeout):
-                await loop.create_connection(
-                    lambda: _Link(self, effect.port), self.address.host, number
-                )
-        except OSError as error:
-            raise not_reached(where, error, effect.timeout) from error
-
-    def opened(self, link: _Link) -> None:
-        self._links[link.port] = link
-        self.core.opened(link.port)
-
-    def received(self, link: _Link, data: bytes) -> None:
-        if self._links.get(link.port) is link:
-            if not self.core.received(link.port, data):
-                del self._links[link.port]
-                if link.transport is not None:
-                    link.transport.close()
-            self._pump()
-            self._notify()
-
-    def lost(self, link: _Link, why: str) -> None:
-        if self._links.get(link.port) is link:
-            del self._links[link.port]
-            self.core.lost(link.port, why)
-            self._pump()
-            self._notify()
-
-    def _hang_up(self) -> None:
-        self.core.closed()
-        if self._timer is not None:
-            self._timer.cancel()
-            self._timer = None
-        links = list(self._links.values())
-        self._links.clear()
-        for link in links:
-            if link.transport is not None:
-                link.transport.close()
-        self._notify()
-
-
-def _tick(runner: "weakref.ref[AsyncFlowRunner]") -> None:
-    owner = runner()
-    if owner is not None:
-        owner.tick()
-
-
-def _wake(waiter: "asyncio.Future[None]") -> None:
-    if not waiter.done():
-        waiter.set_result(None)
-
-
-class AsyncExecution(ExecutionApi[AsyncFlowRunner]):
+class AsyncExecution(_AsyncAccepted, ExecutionApi[AsyncFlowRunner]):
     """`Execution` with awaitable methods."""
 
 
-class AsyncProgramRun(RunApi[AsyncFlowRunner]):
+class AsyncProgramRun(_AsyncAccepted, RunApi[AsyncFlowRunner]):
     """`ProgramRun` with awaitable methods."""
 
 
@@ -363,6 +57,37 @@ class AsyncStream(StreamApi[AsyncFlowRunner]):
         elif self.total:
             await self.result()
 
+    async def append(self, times: npt.ArrayLike, positions: npt.ArrayLike) -> None:
+        """Add points: `times` (n,) s from the start, `positions` (n, k).
+
+        Or add one point, its time and its joints (k,). Waits while the controller has no space.
+        Raises InvalidTrajectory (nothing of these was sent), NotReady, TrajectoryRefused,
+        MotionFailed, MotionStopped, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or
+        cancelling this call stops the robot.
+        """
+        await self._runner.run(flows.stream.append(self._subject, times, positions))
+
+    async def flush(self) -> None:
+        """Start the robot with the points sent so far. Raises as `append`."""
+        await self._runner.run(flows.stream.flush(self._subject))
+
+    async def end(self) -> None:
+        """End the stream: the last point is a stop point. Raises as `append`."""
+        await self._runner.run(flows.stream.end(self._subject))
+
+    async def result(self, timeout: float | None = None) -> Result:
+        """Wait for the end, by default while the robot progresses or is paused.
+
+        Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout if it did not end in time
+        (the motion continues). Ctrl-C or cancelling this call stops the robot. The stream ends with
+        it: all points are executed first.
+        """
+        return await self._runner.run(flows.stream.result(self._subject, timeout))
+
+    async def cancel(self) -> State | None:
+        """Stop this motion; return the state at rest, or None if it has ended."""
+        return await self._runner.run(flows.stream.cancel(self._subject))
+
     async def extend(
         self,
         points: Iterable[tuple[float, Sequence[float]]]
@@ -377,27 +102,24 @@ class AsyncStream(StreamApi[AsyncFlowRunner]):
             async for time, joints in points:
                 await self.append([time], [joints])
             return
-        for times, positions in batches(points, self._carrier.core.batch):
+        for times, positions in batches(points, self._runner.core.batch):
             await self.append(times, positions)
 
 
-class AsyncRobot(RobotApi[AsyncFlowRunner, AsyncExecution, AsyncStream, AsyncProgramRun]):
+class AsyncRobot(RobotApi[AsyncFlowRunner]):
     """One motion group of a robot on asyncio.
 
     Arguments and methods are those of `Robot`.
     """
 
-    _carrier_type = AsyncFlowRunner
-    _execution_type = AsyncExecution
-    _stream_type = AsyncStream
-    _run_type = AsyncProgramRun
+    _runner_type = AsyncFlowRunner
 
     async def connect(self) -> Self:
         """Connect and find out who is there.
 
         Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
         """
-        await self._carrier.run(flows.connect.connect(self._core))
+        await self._runner.run(flows.connect.connect(self._core))
         return self
 
     async def __aenter__(self) -> Self:
@@ -413,3 +135,171 @@ class AsyncRobot(RobotApi[AsyncFlowRunner, AsyncExecution, AsyncStream, AsyncPro
         """Yield each new state; wait at most `timeout` s for each."""
         while True:
             yield await self.next_state(timeout)
+
+    # Connection
+
+    async def close(self) -> None:
+        """Close all connections. An active motion is stopped first."""
+        await self._runner.run(flows.stop.close(self._core))
+
+    # State
+
+    async def next_state(self, timeout: float | None = None) -> State:
+        """Return the state of the next joint message.
+
+        Raises RobotTimeout, ConnectionLost.
+        """
+        return await self._runner.run(flows.state.next_state(self._core, timeout))
+
+    async def wait_until(self, condition: Callable[[State], bool], timeout: float) -> State:
+        """Return the first state for which `condition` holds.
+
+        Raises RobotTimeout, ConnectionLost.
+        """
+        return await self._runner.run(flows.state.wait_until(self._core, condition, timeout))
+
+    async def next_event(
+        self, timeout: float | None = None, *, after: Event | None = None
+    ) -> Event:
+        """Return the next entry of the controller's log, or the one after `after`.
+
+        Without a time-out it waits while there is a connection. Raises RobotTimeout,
+        ConnectionLost.
+        """
+        return await self._runner.run(flows.state.next_event(self._core, timeout, after=after))
+
+    async def next_feedback(self, timeout: float | None = None) -> Feedback:
+        """Return the next joints with the controller's time.
+
+        Raises NotSupported without feedback, RobotTimeout, ConnectionLost.
+        """
+        return await self._runner.run(flows.state.next_feedback(self._core, timeout))
+
+    # Motion
+
+    async def pause(self) -> None:
+        """Pause the motion on its path.
+
+        Raises NotSupported, RequestRefused, RobotTimeout.
+        """
+        await self._runner.run(flows.control.pause(self._core))
+
+    async def resume(self) -> None:
+        """Resume after a pause. Raises as `pause`."""
+        await self._runner.run(flows.control.resume(self._core))
+
+    async def set_speed(self, percent: float) -> None:
+        """Move at 1 to 100 % of the programmed speed, until the next motion.
+
+        Raises as `pause`.
+        """
+        await self._runner.run(flows.control.set_speed(self._core, percent))
+
+    async def read_signal(self, signal: str | int) -> float:
+        """Read an exposed signal, by name or number. Raises as `pause`."""
+        return await self._runner.run(flows.control.read_signal(self._core, signal))
+
+    async def write_signal(self, signal: str | int, value: float) -> float:
+        """Set a signal; return its value as read afterwards. Raises as `pause`."""
+        return await self._runner.run(flows.control.write_signal(self._core, signal, value))
+
+    async def read_data(self, name: str) -> Datum:
+        """Read a PERS of `data:` by its name there.
+
+        Raises NotSupported for an unlisted name, RequestRefused if the robot's program does not
+        have it, RobotTimeout.
+        """
+        return await self._runner.run(flows.data.read(self._core, name))
+
+    async def write_data(self, name: str, value: Datum) -> Datum:
+        """Write a PERS of `data:`; return its value as read afterwards.
+
+        Raises as `read_data`, and ValueError for a value that does not fit its type.
+        """
+        return await self._runner.run(flows.data.write(self._core, name, value))
+
+    async def stop(self) -> State | None:
+        """Stop at once, whatever else is active; return the state at rest.
+
+        STOP is written to both ports before anything is awaited. Without a connection only the
+        motion port is opened, no state shows the robot at rest, and None is returned. Raises
+        StopFailed: use the emergency stop.
+        """
+        return await self._runner.run(flows.stop.stop(self._core))
+
+    async def move_to(
+        self, joints: Sequence[float], *, speed: SpeedLike = SLOW, timeout: float | None = None
+    ) -> Result:
+        """Move all axes to joints (rad, m) together, and wait for the end.
+
+        Raises as `run`.
+        """
+        return await self._runner.run(
+            flows.program.move_to(self._core, joints, speed=speed, timeout=timeout)
+        )
+
+    async def move_linear(
+        self, pose: Pose, *, speed: SpeedLike = SLOW, timeout: float | None = None
+    ) -> Result:
+        """Move to a pose on a line, and wait for the end. Raises as `run`."""
+        return await self._runner.run(
+            flows.program.move_linear(self._core, pose, speed=speed, timeout=timeout)
+        )
+
+    async def jog(self, /, *, speed: SpeedLike = SLOW, **by: float) -> Result:
+        """Move joints by name, or the tool along x, y, z, by a small step.
+
+        A step has at most 0.2 rad or 0.1 m, in the work object; the flow waits for the end. The
+        tool moves on a line and keeps its orientation; joints and directions exclude each other.
+        During the motion the controller stops the robot if this client is silent for 0.2 s. Raises
+        NotSupported without a control connection, otherwise as `run`.
+        """
+        return await self._runner.run(flows.program.jog(self._core, speed=speed, **by))
+
+    async def call(
+        self, routine: str, *arguments: Argument, timeout: float | None = None
+    ) -> tuple[Left, ...]:
+        """Call a procedure of the controller's program and wait for its end.
+
+        Returns its `inout` parameters in their order, then the value of a function. Without a
+        time-out it may take any time; if it exceeds a time-out, the controller leaves it and its
+        state is unknown (MotionFailed, OVERTIME). Raises RoutineFailed with number and name of its
+        error, or if the error stopped the robot's program; otherwise as `run`.
+        """
+        return await self._runner.run(
+            flows.program.call(self._core, routine, *arguments, timeout=timeout)
+        )
+
+    async def execute(
+        self, trajectory: Trajectory, *, mode: TransferMode | None = None
+    ) -> AsyncExecution:
+        """Send a trajectory; return when the controller has accepted it.
+
+        `mode` is `download` (all points are sent before the motion) or `stream` (the rest is sent
+        during the motion); by default a trajectory that exceeds the driver's ring buffer is
+        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused if
+        the robot will not move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or cancelling
+        this call stops the robot.
+        """
+        motion = await self._runner.run(flows.motion.execute(self._core, trajectory, mode))
+        return AsyncExecution(self._runner, motion)
+
+    def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> AsyncStream:
+        """Return a `Stream`, a trajectory without a known end; sends no data.
+
+        `names` are those of the columns, by default the robot's own. With `fallback` a driver that
+        does not stream receives all points at the end.
+        """
+        return AsyncStream(self._runner, PointSource(self._core, names, may_download=fallback))
+
+    async def run(self, program: Program, *, mode: TransferMode | None = None) -> AsyncProgramRun:
+        """Send a program; return when the controller has accepted it.
+
+        `mode` is `download` (sent and checked by the controller before the motion) or `stream` (the
+        rest is sent during the motion); by default a program that fits the driver's ring buffer is
+        downloaded. Raises InvalidProgram, NotReady and NotSupported before a byte is sent,
+        TrajectoryRefused if the robot will not move, RobotTimeout, ConnectionLost. Ctrl-C or
+        cancelling this call stops the robot.
+        """
+        motion = await self._runner.run(flows.program.run(self._core, program, mode))
+        return AsyncProgramRun(self._runner, motion, program)

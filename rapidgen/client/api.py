@@ -1,51 +1,37 @@
-"""Methods that both clients share, each a flow with its docstring.
+"""What `Robot` and `AsyncRobot`, and what their calls return, have in common.
 
-`Robot` waits for a method's outcome (`sync`), `AsyncRobot` returns an awaitable (`aio`); so do
-their `Execution` and `Stream`. The clients themselves add `with`, `async with` and iterators only.
+Calls that wait run a flow (`flows/`). They are written out in `sync.py` and `aio.py`, so that
+editors and `help` show their signatures.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from functools import partial
 from html import escape
-from operator import attrgetter
 from os import PathLike
-from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar
+from typing import Generic, TypeVar
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
-from rapidgen.client import display, flows
+from rapidgen.client import display
 from rapidgen.client.address import Address
 from rapidgen.client.connect_target import resolve
 from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.job import Job
+from rapidgen.client.core.motion import CommandedMotion
+from rapidgen.client.core.point_source import PointSource
 from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
 from rapidgen.client.errors import InvalidProgram, InvalidTarget
-from rapidgen.client.flow_methods import Method, method
-from rapidgen.client.flows.effects import Flow
 from rapidgen.client.program import Program, joints_of, pose_of
 from rapidgen.client.recording import JointRecording
+from rapidgen.client.runner import FlowRunner, MakeCore
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
 
-P = ParamSpec("P")
-T = TypeVar("T")
-Owner = TypeVar("Owner")
-MakeCore = Callable[[Callable[[], float]], Core]
-"""A core on a clock that returns s."""
-
-
-class FlowRunner(Protocol):
-    """A runner of flows: on the caller's thread or on the caller's loop."""
-
-    core: Core
-    guard: AbstractContextManager[object]
-    """Lock of data that another thread may change."""
-
-    def __init__(self, address: Address, make_core: MakeCore) -> None: ...
+R = TypeVar("R", bound=FlowRunner)
+Subject = TypeVar("Subject", bound="CommandedMotion | PointSource")
 
 
 def _on_axes(group: Group, joints: Sequence[float]) -> tuple[float, ...]:
@@ -63,51 +49,33 @@ def _on_axes(group: Group, joints: Sequence[float]) -> tuple[float, ...]:
     return group.map.to_controller(values)
 
 
-def _of_core(flow: Callable[Concatenate[Core, P], Flow[T]]) -> Method[P, T]:
-    return method(flow, attrgetter("_core"))
+class MotionHandle(Generic[R, Subject]):
+    """What the caller of a motion holds: its progress and its end."""
 
-
-def _of_job(flow: Callable[Concatenate[Job, P], Flow[T]]) -> Method[P, T]:
-    return method(flow, attrgetter("_job"))
-
-
-def _own(flow: Callable[Concatenate[Owner, P], Flow[T]]) -> Method[P, T]:
-    return method(flow, lambda owner: owner)
-
-
-C_co = TypeVar("C_co", bound=FlowRunner, covariant=True)
-
-
-class JobApi(Generic[C_co]):
-    """Methods common to an active trajectory and a stream."""
-
-    def __init__(self, carrier: C_co, job: Job) -> None:
-        self._carrier = carrier
-        self._job = job
+    def __init__(self, runner: R, subject: Subject) -> None:
+        self._runner = runner
+        self._subject = subject
 
     def __repr__(self) -> str:
-        with self._carrier.guard:
-            return f"<{type(self).__name__} {self._job}>"
+        with self._runner.guard:
+            return f"<{type(self).__name__} {self._subject}>"
 
     def _repr_html_(self) -> str:
-        with self._carrier.guard:
-            text, progress = str(self._job), self._job.progress
+        with self._runner.guard:
+            text, progress = str(self._subject), self._subject.progress
         bar = f'<progress value="{progress.fraction:.3f}"></progress>'
         return f"<p>{escape(type(self).__name__)} {escape(text)} {bar}</p>"
-
-    result = _of_job(flows.job.result)
-    cancel = _of_job(flows.job.cancel)
 
     @property
     def progress(self) -> Progress:
         """Current progress; `total` of a stream is the number of points so far."""
-        with self._carrier.guard:
-            return self._job.progress
+        with self._runner.guard:
+            return self._subject.progress
 
     @property
     def is_over(self) -> bool:
         """True if the result is known, good or bad."""
-        return self._job.is_over
+        return self._subject.is_over
 
     @property
     def stopped_position(self) -> tuple[float, ...] | None:
@@ -115,76 +83,63 @@ class JobApi(Generic[C_co]):
 
         None while it moves, or if no state showed that it is at rest.
         """
-        return self._job.stopped_position
+        return self._subject.stopped_position
 
 
-class ExecutionApi(JobApi[C_co]):
+class AcceptedMotion(MotionHandle[R, CommandedMotion]):
+    """A trajectory or program that the controller has accepted."""
+
+    @property
+    def warnings(self) -> Sequence[Diagnostic]:
+        """Warnings of the checks."""
+        return self._subject.warnings
+
+    @property
+    def mode(self) -> TransferMode:
+        """`stream` (sent during the motion) or `download` (sent before it)."""
+        return self._subject.mode
+
+
+class ExecutionApi(AcceptedMotion[R]):
     """A trajectory that the controller has accepted."""
 
     @property
     def trajectory(self) -> Trajectory:
         """The commanded trajectory, in the robot's order of joints."""
-        assert self._job.motion is not None
-        assert self._job.motion.trajectory is not None
-        return self._job.motion.trajectory
-
-    @property
-    def warnings(self) -> Sequence[Diagnostic]:
-        """Warnings of the checks."""
-        assert self._job.motion is not None
-        return self._job.motion.warnings
+        assert self._subject.trajectory is not None
+        return self._subject.trajectory
 
     @property
     def planned_seconds(self) -> float:
         """Commanded duration in s."""
-        assert self._job.motion is not None
-        return self._job.motion.planned_seconds
-
-    @property
-    def mode(self) -> TransferMode:
-        """`stream` (sent during the motion) or `download` (sent before it)."""
-        assert self._job.motion is not None
-        return self._job.motion.mode
+        return self._subject.planned_seconds
 
 
-class RunApi(JobApi[C_co]):
+class RunApi(AcceptedMotion[R]):
     """A program that the controller has accepted, or its first part."""
+
+    def __init__(self, runner: R, motion: CommandedMotion, program: Program) -> None:
+        super().__init__(runner, motion)
+        self._program = program
 
     @property
     def program(self) -> Program:
         """The commanded program."""
-        assert self._job.program is not None
-        return self._job.program
-
-    @property
-    def warnings(self) -> Sequence[Diagnostic]:
-        """Warnings of the checks."""
-        assert self._job.motion is not None
-        return self._job.motion.warnings
-
-    @property
-    def mode(self) -> TransferMode:
-        """`download` (sent before the motion) or `stream` (sent during it)."""
-        assert self._job.motion is not None
-        return self._job.motion.mode
+        return self._program
 
 
-class StreamApi(JobApi[C_co]):
+class StreamApi(MotionHandle[R, PointSource]):
     """Points that the robot executes while later ones are added."""
-
-    append = _of_job(flows.job.append)
-    flush = _of_job(flows.job.flush)
-    end = _of_job(flows.job.end)
 
     @property
     def total(self) -> int:
         """Number of added points."""
-        return self._job.total
+        return self._subject.total
 
     @property
     def time(self) -> float:
         """Time of the last point in s from the start; 0 before the first."""
-        return self._job.last.time if self._job.last is not None else 0.0
+        return self._subject.last.time if self._subject.last is not None else 0.0
 
     @property
     def mode(self) -> TransferMode | None:
@@ -192,26 +147,21 @@ class StreamApi(JobApi[C_co]):
 
         None before the first point.
         """
-        return self._job.mode
+        return self._subject.mode
 
     @property
     def starved(self) -> int:
         """Number of stops because the stream ran out of points."""
-        return self._job.motion.starved if self._job.motion is not None else 0
+        return self._subject.motion.starved if self._subject.motion is not None else 0
 
 
-Execution = TypeVar("Execution", bound=ExecutionApi[FlowRunner], covariant=True)
-Stream = TypeVar("Stream", bound=StreamApi[FlowRunner], covariant=True)
-Run = TypeVar("Run", bound=RunApi[FlowRunner], covariant=True)
+class RobotApi(Generic[R]):
+    """One motion group of a robot: what needs no wait.
 
+    `Robot` and `AsyncRobot` add the calls that wait, with equal signatures and docstrings.
+    """
 
-class RobotApi(Generic[C_co, Execution, Stream, Run]):
-    """One motion group of a robot; see `Robot`."""
-
-    _carrier_type: type[C_co]
-    _execution_type: type[Execution]
-    _stream_type: type[Stream]
-    _run_type: type[Run]
+    _runner_type: Callable[[Address, MakeCore], R]
 
     def __init__(
         self,
@@ -245,15 +195,15 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
             simulated=self.address.is_loopback,
             where=str(self.address),
         )
-        self._carrier = self._carrier_type(self.address, make_core)
-        self._core = self._carrier.core
+        self._runner = self._runner_type(self.address, make_core)
+        self._core = self._runner.core
 
     def __repr__(self) -> str:
-        with self._carrier.guard:
+        with self._runner.guard:
             return f"<{type(self).__name__} {display.robot_text(self._core, self.address)}>"
 
     def _repr_html_(self) -> str:
-        with self._carrier.guard:
+        with self._runner.guard:
             caption, group = display.robot_text(self._core, self.address), self._core.group
             state = self._core.state_port.state
         if group is None or state is None:
@@ -261,8 +211,6 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         return display.state_table(caption, group, state.joints)
 
     # Connection
-
-    close = _of_core(flows.stop.close)
 
     @property
     def is_connected(self) -> bool:
@@ -284,7 +232,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
     @property
     def messages(self) -> tuple[tuple[float, str], ...]:
         """The last messages received, as (time, text)."""
-        with self._carrier.guard:
+        with self._runner.guard:
             return self._core.state_port.messages
 
     def _unfinished(self) -> str:
@@ -292,7 +240,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
         Empty if the caller has waited for everything.
         """
-        with self._carrier.guard:
+        with self._runner.guard:
             motion = self._core.motion
             if motion is None or motion.is_over:
                 return ""
@@ -304,15 +252,10 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
     # State
 
-    next_state = _of_core(flows.state.next_state)
-    wait_until = _of_core(flows.state.wait_until)
-    next_event = _of_core(flows.state.next_event)
-    next_feedback = _of_core(flows.state.next_feedback)
-
     @property
     def state(self) -> State:
         """The newest state. Raises ConnectionLost before the first."""
-        with self._carrier.guard:
+        with self._runner.guard:
             state = self._core.state_port.state
         if state is None:
             raise self._core.disconnected()
@@ -321,13 +264,13 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
     @property
     def feedback(self) -> Feedback | None:
         """Newest feedback; None before the first and without feedback."""
-        with self._carrier.guard:
+        with self._runner.guard:
             return self._core.state_port.feedback
 
     @property
     def events(self) -> tuple[Event, ...]:
         """Last entries of the controller's event log, if the driver sends them."""
-        with self._carrier.guard:
+        with self._runner.guard:
             return tuple(self._core.state_port.events)
 
     @contextmanager
@@ -337,29 +280,15 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
         With `feedback` the times are those of the controller.
         """
         recording = JointRecording(self.group)
-        with self._carrier.guard:
+        with self._runner.guard:
             self._core.state_port.listeners.append(recording)
         try:
             yield recording
         finally:
-            with self._carrier.guard:
+            with self._runner.guard:
                 self._core.state_port.listeners.remove(recording)
 
     # Motion
-
-    pause = _of_core(flows.control.pause)
-    resume = _of_core(flows.control.resume)
-    set_speed = _of_core(flows.control.set_speed)
-    read_signal = _of_core(flows.control.read_signal)
-    write_signal = _of_core(flows.control.write_signal)
-    read_data = _of_core(flows.data.read)
-    write_data = _of_core(flows.data.write)
-    stop = _of_core(flows.stop.stop)
-
-    move_to = _of_core(flows.program.move_to)
-    move_linear = _of_core(flows.program.move_linear)
-    jog = _of_core(flows.program.jog)
-    call = _of_core(flows.program.call)
 
     @property
     def pose(self) -> Pose:
@@ -406,7 +335,7 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
         Raises InvalidTrajectory with every fault.
         """
-        with self._carrier.guard:
+        with self._runner.guard:
             return self._core.check(trajectory).warnings
 
     def mode_for(self, trajectory: Trajectory) -> TransferMode:
@@ -414,50 +343,14 @@ class RobotApi(Generic[C_co, Execution, Stream, Run]):
 
         Raises InvalidTrajectory, NotReady.
         """
-        with self._carrier.guard:
+        with self._runner.guard:
             return self._core.check(trajectory).mode
-
-    @_own
-    def execute(
-        self, trajectory: Trajectory, *, mode: TransferMode | None = None
-    ) -> Flow[Execution]:
-        """Send a trajectory; return when the controller has accepted it.
-
-        `mode` is `download` (all points are sent before the motion) or `stream` (the rest is sent
-        during the motion); by default a trajectory that exceeds the driver's ring buffer is
-        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused if
-        the robot will not move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or cancelling
-        this call stops the robot.
-        """
-        job = yield from flows.job.execute(self._core, trajectory, mode)
-        return self._execution_type(self._carrier, job)
-
-    def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
-        """Return a `Stream`, a trajectory without a known end; sends no data.
-
-        `names` are those of the columns, by default the robot's own. With `fallback` a driver that
-        does not stream receives all points at the end.
-        """
-        return self._stream_type(self._carrier, Job(self._core, names, may_download=fallback))
 
     def check_program(self, program: Program) -> tuple[Diagnostic, ...]:
         """Check a program and return warnings; sends no data.
 
         Raises InvalidProgram with every fault.
         """
-        with self._carrier.guard:
+        with self._runner.guard:
             checked, _ = self._core.check_program(program)
         return checked.notes
-
-    @_own
-    def run(self, program: Program, *, mode: TransferMode | None = None) -> Flow[Run]:
-        """Send a program; return when the controller has accepted it.
-
-        `mode` is `download` (sent and checked by the controller before the motion) or `stream` (the
-        rest is sent during the motion); by default a program that fits the driver's ring buffer is
-        downloaded. Raises InvalidProgram, NotReady and NotSupported before a byte is sent,
-        TrajectoryRefused if the robot will not move, RobotTimeout, ConnectionLost. Ctrl-C or
-        cancelling this call stops the robot.
-        """
-        job = yield from flows.program.run(self._core, program, mode)
-        return self._run_type(self._carrier, job)

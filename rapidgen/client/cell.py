@@ -11,15 +11,14 @@ from typing import TypeVar
 
 from rapidgen._compat import Self
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
-from rapidgen.client.core.checks import CheckedTrajectory
-from rapidgen.client.core.job import Job
+from rapidgen.client.core.checks import CheckedPoints
+from rapidgen.client.core.download import Download
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import InvalidTarget, InvalidTrajectory, RobotError
-from rapidgen.client.flows.download import DownloadInProgress
 from rapidgen.client.flows.effects import Flow
-from rapidgen.client.flows.motion import armed, ready
+from rapidgen.client.flows.motion import accepted, armed, ready, send_end, send_points
 from rapidgen.client.sync import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
@@ -34,40 +33,30 @@ class _Start:
         """Check every trajectory and report the faults of all."""
         findings: list[Diagnostic] = []
         self._cores = cores
-        self._checked: dict[str, CheckedTrajectory] = {}
+        self._checked: dict[str, CheckedPoints] = {}
         for name, trajectory in trajectories.items():
-            cores[name].ready()
             try:
-                self._checked[name] = cores[name].check_whole(trajectory)
+                self._checked[name] = cores[name].check(trajectory, "download")
             except InvalidTrajectory as error:
                 findings += error.diagnostics
         if findings:
             raise InvalidTrajectory(findings)
-        self.sendings: dict[str, DownloadInProgress] = {}
+        self.motions: dict[str, Download] = {}
 
-    def begin(self) -> None:
-        """Start every motion."""
-        self.sendings = {
-            n: DownloadInProgress(self._cores[n], complete) for n, complete in self._checked.items()
-        }
-
-    def phases(self) -> Iterator[dict[str, Flow[None]]]:
-        """Send all points to all robots, then all end frames, then wait for all."""
-        for phase in (
-            DownloadInProgress.points,
-            DownloadInProgress.end,
-            DownloadInProgress.accepted,
-        ):
-            yield {name: phase(sending) for name, sending in self.sendings.items()}
-
-    def jobs(self) -> dict[str, Job]:
-        """Active jobs by robot."""
-        return {name: sending.job() for name, sending in self.sendings.items()}
+    def steps(self) -> Iterator[tuple[str, Flow[None]]]:
+        """Begin all motions; send all points to all robots, then all end frames, then wait."""
+        for name, checked in self._checked.items():
+            motion = self._cores[name].begin(checked)
+            assert isinstance(motion, Download)
+            self.motions[name] = motion
+        for step in (send_points, send_end, accepted):
+            for name, motion in self.motions.items():
+                yield name, step(self._cores[name], motion)
 
     def give_up(self, error: RobotError) -> None:
-        """Mark all jobs as ended."""
-        for sending in self.sendings.values():
-            sending.motion.failed(error)
+        """Mark all motions as ended."""
+        for motion in self.motions.values():
+            motion.failed(error)
 
 
 class Cell:
@@ -114,21 +103,20 @@ class Cell:
         raised.
         """
         moving = _chosen(self.robots, trajectories)
-        _each(moving, lambda robot: robot._carrier.run(ready(robot._core)))
+        _each(moving, lambda robot: robot._runner.run(ready(robot._core)))
         start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
-        _each(moving, lambda robot: robot._carrier.run(armed(robot._core)))
-        start.begin()
+        _each(moving, lambda robot: robot._runner.run(armed(robot._core)))
         try:
-            for phase in start.phases():
-                for name, flow in phase.items():
-                    moving[name]._carrier.run(flow)
+            for name, flow in start.steps():
+                moving[name]._runner.run(flow)
         except (RobotError, KeyboardInterrupt) as error:
             _each(moving, lambda robot: robot.stop())
             if isinstance(error, RobotError):
                 start.give_up(error)
             raise
-        jobs = start.jobs().items()
-        return CellExecution({n: Execution(moving[n]._carrier, job) for n, job in jobs}, self)
+        motions = start.motions.items()
+        executions = {name: Execution(moving[name]._runner, one) for name, one in motions}
+        return CellExecution(executions, self)
 
 
 def _unfinished(robots: Mapping[str, Robot] | Mapping[str, AsyncRobot]) -> list[str]:
@@ -228,21 +216,19 @@ class AsyncCell:
     async def execute(self, trajectories: Mapping[str, Trajectory]) -> "AsyncCellExecution":
         """Start trajectories together, by robot name; see `Cell.execute`."""
         moving = _chosen(self.robots, trajectories)
-        await _gather({name: r._carrier.run(ready(r._core)) for name, r in moving.items()})
+        await _gather({name: r._runner.run(ready(r._core)) for name, r in moving.items()})
         start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
-        await _gather({name: r._carrier.run(armed(r._core)) for name, r in moving.items()})
-        start.begin()
+        await _gather({name: r._runner.run(armed(r._core)) for name, r in moving.items()})
         try:
-            for phase in start.phases():
-                for name, flow in phase.items():
-                    await moving[name]._carrier.run(flow)
+            for name, flow in start.steps():
+                await moving[name]._runner.run(flow)
         except (RobotError, asyncio.CancelledError) as error:
             await _gather({name: robot.stop() for name, robot in moving.items()})
             if isinstance(error, RobotError):
                 start.give_up(error)
             raise
-        jobs = start.jobs().items()
-        executions = {n: AsyncExecution(moving[n]._carrier, job) for n, job in jobs}
+        motions = start.motions.items()
+        executions = {name: AsyncExecution(moving[name]._runner, one) for name, one in motions}
         return AsyncCellExecution(executions, self)
 
 

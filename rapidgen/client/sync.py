@@ -1,32 +1,23 @@
-"""`Robot`: the synchronous client.
+"""`Robot`: the synchronous client."""
 
-The caller's threads write, one thread a robot reads.
-"""
-
-import threading
-import time
 import warnings
-import weakref
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
-from inspect import GEN_CLOSED, getgeneratorstate
-from typing import TypeVar
+
+import numpy.typing as npt
 
 from rapidgen._compat import Self
+from rapidgen.axes.frames import Pose
 from rapidgen.client import flows
-from rapidgen.client.address import Address
-from rapidgen.client.api import ExecutionApi, MakeCore, RobotApi, RunApi, StreamApi
-from rapidgen.client.channels import Channel, Connections, Reader
-from rapidgen.client.core.job import batches
-from rapidgen.client.core.motion import CommandedMotion
-from rapidgen.client.core.robot import STOP_FRAME
-from rapidgen.client.core.state import State
-from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, RobotTimeout
+from rapidgen.client.api import AcceptedMotion, ExecutionApi, RobotApi, RunApi, StreamApi
+from rapidgen.client.core.checks import TransferMode
+from rapidgen.client.core.motion import Result
+from rapidgen.client.core.point_source import PointSource, batches
+from rapidgen.client.core.state import Event, Feedback, State
 from rapidgen.client.flows.data import Datum
-from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, SendAtOnce, Wait
-from rapidgen.client.unclosed import drop_in_child
-from rapidgen.wire.simple_message.spec import Port
+from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike
+from rapidgen.client.sync_runner import SyncFlowRunner
+from rapidgen.client.trajectory import Trajectory
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,217 +48,26 @@ class CellData(Mapping[str, Datum]):
         return len(self.names)
 
 
-T = TypeVar("T")
-_SLICE = 0.1
-"""s between two checks of the clock while no data arrives."""
+class _Accepted(AcceptedMotion[SyncFlowRunner]):
+    def result(self, timeout: float | None = None) -> Result:
+        """Wait for the end, by default while the robot progresses or is paused.
 
-
-class SyncFlowRunner:
-    """Runner of flows: the caller's thread decides and writes, another reads."""
-
-    def __init__(self, address: Address, make_core: MakeCore) -> None:
-        self.address = address
-        self.core = make_core(time.monotonic)
-        self.guard = threading.Condition()
-        self._connections = Connections(str(address))
-        self._channels = self._connections.channels
-        weakref.finalize(self, self._connections.close_dropped, STOP_FRAME)
-        drop_in_child(self)
-
-    def forked(self) -> None:
-        """Drop the connections in a forked process."""
-        # A thread that the child does not have may hold the old lock.
-        self.guard = threading.Condition()
-        self._connections.forked()
-        self.core.forked()
-
-    @property
-    def is_busy(self) -> bool:
-        """True if the clock must be checked regularly."""
-        return self.core.is_busy
-
-    def run(self, flow: Flow[T]) -> T:
-        """Run a flow: effects without the lock, its own steps with it.
-
-        Ctrl-C may arrive anywhere here, and the flow must receive it to stop the robot.
+        Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout if it did not end in time
+        (the motion continues). Ctrl-C or cancelling this call stops the robot.
         """
-        outcome: bool | None = None
-        failure: BaseException | None = None
-        before = self.core.motion
-        while True:
-            error, failure = failure, None
-            try:
-                try:
-                    with self.guard:
-                        try:
-                            effect = flow.send(outcome) if error is None else flow.throw(error)
-                        finally:
-                            self._pump()
-                except StopIteration as end:
-                    value: T = end.value
-                    return value
-                outcome = self._perform(effect)
-            except (RobotError, KeyboardInterrupt) as raised:
-                if getgeneratorstate(flow) == GEN_CLOSED:
-                    self._stop_unnoticed(raised, before)
-                    raise
-                failure = raised
+        flow = flows.motion.result(self._runner.core, self._subject, timeout)
+        return self._runner.run(flow)
 
-    def _stop_unnoticed(
-        self, raised: RobotError | KeyboardInterrupt, before: CommandedMotion | None
-    ) -> None:
-        """Stop a motion that Ctrl-C hides from the caller.
-
-        It arrived after the last step of the flow that started the motion, before the caller got
-        it.
-        """
-        motion = self.core.motion
-        if isinstance(raised, KeyboardInterrupt) and motion not in (None, before):
-            assert motion is not None
-            if not motion.is_over or motion.needs_stop:
-                self.run(flows.stop.stop(self.core))
-
-    def _pump(self) -> None:
-        """Send due frames as far as possible without waiting.
-
-        The lock is held.
-        """
-        core = self.core
-        self._connections.may_move = core.may_move
-        stops = core.unmonitored_stops()
-        for port, channel in self._channels.items():
-            try:
-                if port in stops:
-                    channel.offer_after(STOP_FRAME)
-                channel.offer(partial(core.due, port))
-            except RobotError as error:
-                # The reader receives it too.
-                core.state_port.note(str(error))
-
-    def tick(self) -> None:
-        """Check the clock and send what is due."""
-        with self.guard:
-            self.core.poll()
-            self._pump()
-            self.guard.notify_all()
-
-    def _perform(self, effect: Effect) -> bool:
-        if isinstance(effect, Wait):
-            return self._wait(effect)
-        if isinstance(effect, Close):
-            self._close(effect.port)
-            return True
-        if isinstance(effect, Open):
-            self._open(effect)
-            return True
-        if isinstance(effect, HangUp):
-            self._hang_up()
-            return True
-        if isinstance(effect, SendAtOnce):
-            self._send_at_once(effect)
-            return True
-        channel = self._channels.get(effect.port)
-        if channel is None:
-            raise self.core.disconnected()
-        try:
-            if not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
-                raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
-        except ConnectionLost as error:
-            with self.guard:
-                # The reader was faster and knows the cause better.
-                if self._channels.get(effect.port) is not channel:
-                    raise self.core.disconnected() from error
-            raise
-        return True
-
-    def _send_at_once(self, effect: SendAtOnce) -> None:
-        channels = {port: self._channels.get(port) for port in effect.ports}
-        # Write to all connections before waiting for a blocked one.
-        steps: tuple[Callable[[Channel], None], ...] = (
-            lambda channel: channel.offer_after(effect.data),
-            lambda channel: channel.finish(effect.timeout),
-        )
-        for step in steps:
-            for port, channel in channels.items():
-                if port in effect.failures:
-                    continue
-                if channel is None:
-                    effect.failures[port] = self.core.disconnected()
-                    continue
-                try:
-                    step(channel)
-                except (ConnectionLost, RobotTimeout) as error:
-                    effect.failures[port] = error
-
-    def _wait(self, effect: Wait) -> bool:
-        deadline = time.monotonic() + effect.timeout
-        with self.guard:
-            while not effect.until():
-                left = deadline - time.monotonic()
-                if left <= 0:
-                    return False
-                self.guard.wait(min(left, _SLICE))
-                self.core.poll()
-                self._pump()
-            return True
-
-    def _close(self, port: Port) -> None:
-        with self.guard:
-            channel = self._channels.pop(port, None)
-            self.core.dropped(port)
-            if channel is not None and self._connections.reader is not None:
-                self._connections.reader.remove(channel)
-
-    def _open(self, effect: Open) -> None:
-        channel = Channel(self.address, effect.port, effect.timeout)
-        with self.guard:
-            reader = self._connections.reader
-            if reader is None:
-                reader = self._connections.reader = Reader(self, str(self.address))
-            old = self._channels.get(effect.port)
-            if old is not None:
-                reader.remove(old)
-            self._channels[effect.port] = channel
-            self.core.opened(effect.port)
-            reader.add(channel)
-
-    def received(self, channel: Channel, data: bytes) -> None:
-        """Process bytes of a channel."""
-        with self.guard:
-            if self._channels.get(channel.port) is channel:
-                if not self.core.received(channel.port, data):
-                    del self._channels[channel.port]
-                    assert self._connections.reader is not None
-                    self._connections.reader.remove(channel)
-                self._pump()
-                self.guard.notify_all()
-
-    def lost(self, channel: Channel, why: str) -> None:
-        """Record that the peer closed a channel."""
-        with self.guard:
-            if self._channels.get(channel.port) is channel:
-                del self._channels[channel.port]
-                self.core.lost(channel.port, why)
-                self._pump()
-                self.guard.notify_all()
-
-    def _hang_up(self) -> None:
-        with self.guard:
-            self.core.closed()
-            channels = list(self._channels.values())
-            self._channels.clear()
-            reader, self._connections.reader = self._connections.reader, None
-        if reader is not None:
-            for channel in channels:
-                reader.remove(channel)
-            reader.close()
+    def cancel(self) -> State | None:
+        """Stop this motion; return the state at rest, or None if it has ended."""
+        return self._runner.run(flows.motion.cancel(self._runner.core, self._subject))
 
 
-class Execution(ExecutionApi[SyncFlowRunner]):
+class Execution(_Accepted, ExecutionApi[SyncFlowRunner]):
     """A trajectory that the controller has accepted."""
 
 
-class ProgramRun(RunApi[SyncFlowRunner]):
+class ProgramRun(_Accepted, RunApi[SyncFlowRunner]):
     """A program that the controller has accepted."""
 
 
@@ -293,16 +93,47 @@ class Stream(StreamApi[SyncFlowRunner]):
         elif self.total:
             self.result()
 
+    def append(self, times: npt.ArrayLike, positions: npt.ArrayLike) -> None:
+        """Add points: `times` (n,) s from the start, `positions` (n, k).
+
+        Or add one point, its time and its joints (k,). Waits while the controller has no space.
+        Raises InvalidTrajectory (nothing of these was sent), NotReady, TrajectoryRefused,
+        MotionFailed, MotionStopped, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or
+        cancelling this call stops the robot.
+        """
+        self._runner.run(flows.stream.append(self._subject, times, positions))
+
+    def flush(self) -> None:
+        """Start the robot with the points sent so far. Raises as `append`."""
+        self._runner.run(flows.stream.flush(self._subject))
+
+    def end(self) -> None:
+        """End the stream: the last point is a stop point. Raises as `append`."""
+        self._runner.run(flows.stream.end(self._subject))
+
+    def result(self, timeout: float | None = None) -> Result:
+        """Wait for the end, by default while the robot progresses or is paused.
+
+        Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout if it did not end in time
+        (the motion continues). Ctrl-C or cancelling this call stops the robot. The stream ends with
+        it: all points are executed first.
+        """
+        return self._runner.run(flows.stream.result(self._subject, timeout))
+
+    def cancel(self) -> State | None:
+        """Stop this motion; return the state at rest, or None if it has ended."""
+        return self._runner.run(flows.stream.cancel(self._subject))
+
     def extend(self, points: Iterable[tuple[float, Sequence[float]]]) -> None:
         """Add points (time, joints) from an iterable, batch by batch.
 
         The iterable may be infinite.
         """
-        for times, positions in batches(points, self._carrier.core.batch):
+        for times, positions in batches(points, self._runner.core.batch):
             self.append(times, positions)
 
 
-class Robot(RobotApi[SyncFlowRunner, Execution, Stream, ProgramRun]):
+class Robot(RobotApi[SyncFlowRunner]):
     """One motion group of a robot with rapidgen's driver or abb_driver.
 
     `target` is a configuration file, a shipped name, a RobotConfig, or an address
@@ -315,17 +146,14 @@ class Robot(RobotApi[SyncFlowRunner, Execution, Stream, ProgramRun]):
     All methods may be called from any thread. Joints are rad and m in URDF order.
     """
 
-    _carrier_type = SyncFlowRunner
-    _execution_type = Execution
-    _stream_type = Stream
-    _run_type = ProgramRun
+    _runner_type = SyncFlowRunner
 
     def connect(self) -> Self:
         """Connect and find out who is there.
 
         Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
         """
-        self._carrier.run(flows.connect.connect(self._core))
+        self._runner.run(flows.connect.connect(self._core))
         return self
 
     @property
@@ -349,3 +177,167 @@ class Robot(RobotApi[SyncFlowRunner, Execution, Stream, ProgramRun]):
         """Yield each new state; wait at most `timeout` s for each."""
         while True:
             yield self.next_state(timeout)
+
+    # Connection
+
+    def close(self) -> None:
+        """Close all connections. An active motion is stopped first."""
+        self._runner.run(flows.stop.close(self._core))
+
+    # State
+
+    def next_state(self, timeout: float | None = None) -> State:
+        """Return the state of the next joint message.
+
+        Raises RobotTimeout, ConnectionLost.
+        """
+        return self._runner.run(flows.state.next_state(self._core, timeout))
+
+    def wait_until(self, condition: Callable[[State], bool], timeout: float) -> State:
+        """Return the first state for which `condition` holds.
+
+        Raises RobotTimeout, ConnectionLost.
+        """
+        return self._runner.run(flows.state.wait_until(self._core, condition, timeout))
+
+    def next_event(self, timeout: float | None = None, *, after: Event | None = None) -> Event:
+        """Return the next entry of the controller's log, or the one after `after`.
+
+        Without a time-out it waits while there is a connection. Raises RobotTimeout,
+        ConnectionLost.
+        """
+        return self._runner.run(flows.state.next_event(self._core, timeout, after=after))
+
+    def next_feedback(self, timeout: float | None = None) -> Feedback:
+        """Return the next joints with the controller's time.
+
+        Raises NotSupported without feedback, RobotTimeout, ConnectionLost.
+        """
+        return self._runner.run(flows.state.next_feedback(self._core, timeout))
+
+    # Motion
+
+    def pause(self) -> None:
+        """Pause the motion on its path.
+
+        Raises NotSupported, RequestRefused, RobotTimeout.
+        """
+        self._runner.run(flows.control.pause(self._core))
+
+    def resume(self) -> None:
+        """Resume after a pause. Raises as `pause`."""
+        self._runner.run(flows.control.resume(self._core))
+
+    def set_speed(self, percent: float) -> None:
+        """Move at 1 to 100 % of the programmed speed, until the next motion.
+
+        Raises as `pause`.
+        """
+        self._runner.run(flows.control.set_speed(self._core, percent))
+
+    def read_signal(self, signal: str | int) -> float:
+        """Read an exposed signal, by name or number. Raises as `pause`."""
+        return self._runner.run(flows.control.read_signal(self._core, signal))
+
+    def write_signal(self, signal: str | int, value: float) -> float:
+        """Set a signal; return its value as read afterwards. Raises as `pause`."""
+        return self._runner.run(flows.control.write_signal(self._core, signal, value))
+
+    def read_data(self, name: str) -> Datum:
+        """Read a PERS of `data:` by its name there.
+
+        Raises NotSupported for an unlisted name, RequestRefused if the robot's program does not
+        have it, RobotTimeout.
+        """
+        return self._runner.run(flows.data.read(self._core, name))
+
+    def write_data(self, name: str, value: Datum) -> Datum:
+        """Write a PERS of `data:`; return its value as read afterwards.
+
+        Raises as `read_data`, and ValueError for a value that does not fit its type.
+        """
+        return self._runner.run(flows.data.write(self._core, name, value))
+
+    def stop(self) -> State | None:
+        """Stop at once, whatever else is active; return the state at rest.
+
+        STOP is written to both ports before anything is awaited. Without a connection only the
+        motion port is opened, no state shows the robot at rest, and None is returned. Raises
+        StopFailed: use the emergency stop.
+        """
+        return self._runner.run(flows.stop.stop(self._core))
+
+    def move_to(
+        self, joints: Sequence[float], *, speed: SpeedLike = SLOW, timeout: float | None = None
+    ) -> Result:
+        """Move all axes to joints (rad, m) together, and wait for the end.
+
+        Raises as `run`.
+        """
+        return self._runner.run(
+            flows.program.move_to(self._core, joints, speed=speed, timeout=timeout)
+        )
+
+    def move_linear(
+        self, pose: Pose, *, speed: SpeedLike = SLOW, timeout: float | None = None
+    ) -> Result:
+        """Move to a pose on a line, and wait for the end. Raises as `run`."""
+        return self._runner.run(
+            flows.program.move_linear(self._core, pose, speed=speed, timeout=timeout)
+        )
+
+    def jog(self, /, *, speed: SpeedLike = SLOW, **by: float) -> Result:
+        """Move joints by name, or the tool along x, y, z, by a small step.
+
+        A step has at most 0.2 rad or 0.1 m, in the work object; the flow waits for the end. The
+        tool moves on a line and keeps its orientation; joints and directions exclude each other.
+        During the motion the controller stops the robot if this client is silent for 0.2 s. Raises
+        NotSupported without a control connection, otherwise as `run`.
+        """
+        return self._runner.run(flows.program.jog(self._core, speed=speed, **by))
+
+    def call(
+        self, routine: str, *arguments: Argument, timeout: float | None = None
+    ) -> tuple[Left, ...]:
+        """Call a procedure of the controller's program and wait for its end.
+
+        Returns its `inout` parameters in their order, then the value of a function. Without a
+        time-out it may take any time; if it exceeds a time-out, the controller leaves it and its
+        state is unknown (MotionFailed, OVERTIME). Raises RoutineFailed with number and name of its
+        error, or if the error stopped the robot's program; otherwise as `run`.
+        """
+        return self._runner.run(
+            flows.program.call(self._core, routine, *arguments, timeout=timeout)
+        )
+
+    def execute(self, trajectory: Trajectory, *, mode: TransferMode | None = None) -> Execution:
+        """Send a trajectory; return when the controller has accepted it.
+
+        `mode` is `download` (all points are sent before the motion) or `stream` (the rest is sent
+        during the motion); by default a trajectory that exceeds the driver's ring buffer is
+        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused if
+        the robot will not move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C or cancelling
+        this call stops the robot.
+        """
+        motion = self._runner.run(flows.motion.execute(self._core, trajectory, mode))
+        return Execution(self._runner, motion)
+
+    def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
+        """Return a `Stream`, a trajectory without a known end; sends no data.
+
+        `names` are those of the columns, by default the robot's own. With `fallback` a driver that
+        does not stream receives all points at the end.
+        """
+        return Stream(self._runner, PointSource(self._core, names, may_download=fallback))
+
+    def run(self, program: Program, *, mode: TransferMode | None = None) -> ProgramRun:
+        """Send a program; return when the controller has accepted it.
+
+        `mode` is `download` (sent and checked by the controller before the motion) or `stream` (the
+        rest is sent during the motion); by default a program that fits the driver's ring buffer is
+        downloaded. Raises InvalidProgram, NotReady and NotSupported before a byte is sent,
+        TrajectoryRefused if the robot will not move, RobotTimeout, ConnectionLost. Ctrl-C or
+        cancelling this call stops the robot.
+        """
+        motion = self._runner.run(flows.program.run(self._core, program, mode))
+        return ProgramRun(self._runner, motion, program)

@@ -6,7 +6,7 @@ import inspect
 import threading
 
 from rapidgen.client import AsyncRobot
-from rapidgen.client.api import JobApi
+from rapidgen.client.api import MotionHandle
 
 
 class Handle:
@@ -31,7 +31,7 @@ class Handle:
         def call(*arguments, **options):
             result = value(*arguments, **options)
             result = self._run(result) if inspect.isawaitable(result) else result
-            return Handle(result, self._run) if isinstance(result, JobApi) else result
+            return Handle(result, self._run) if isinstance(result, MotionHandle) else result
 
         return call
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from both_clients import Simulated
 
-from rapidgen.client import AsyncRobot, Trajectory, aio
+from rapidgen.client import AsyncRobot, Trajectory, async_runner
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
@@ -66,14 +66,14 @@ def driven(name="irb120", *, group=0, seed=0, signals=(), overrides=None, module
 def caller_comes_late(monkeypatch, seconds):
     """From now on a call goes on so many s after what it waited for, as in a thread that gets no
     time, while everything else goes on."""
-    prompt = aio.AsyncFlowRunner._perform
+    prompt = async_runner.AsyncFlowRunner._perform
 
     async def late(loop, effect):
         outcome = await prompt(loop, effect)
         await asyncio.sleep(seconds)
         return outcome
 
-    monkeypatch.setattr(aio.AsyncFlowRunner, "_perform", late)
+    monkeypatch.setattr(async_runner.AsyncFlowRunner, "_perform", late)
 
 
 def complaints(peer):

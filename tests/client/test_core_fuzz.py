@@ -13,7 +13,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from rapidgen.client.core.checks import check_points
+from rapidgen.client.core.checks import check_trajectory
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import Phase
 from rapidgen.client.core.robot import Core, Timeouts
@@ -111,6 +111,11 @@ class CoreMachine(RuleBasedStateMachine):
         if self.ended:
             assert self.sent == self.run.total
 
+    def check(self, points, before):
+        start = (0.0,) * 10 if before is None else None
+        group, limits = self.core.known_group, self.core.limits
+        return check_trajectory(points, group, limits, "stream", start=start, before=before)
+
     @rule(count=st.integers(1, 100))
     def append(self, count):
         times = self.time + 0.1 * np.arange(count)
@@ -119,14 +124,14 @@ class CoreMachine(RuleBasedStateMachine):
             self.core.motion = None
             times = 0.1 * np.arange(count)
             points = Trajectory(times, np.zeros((count, 6)))
-            checked = check_points(points, self.core.known_group, before=None, start=(0.0,) * 10)
-            self.core.begin_stream(checked)
+            checked = self.check(points, None)
+            self.core.begin(checked)
             self.sent, self.free, self.ended, self.cut = 0, RING, False, False
         elif self.run.is_ended:
             return
         else:
-            checked = check_points(points, self.core.known_group, before=self.last, start=None)
-            self.core.go_on(self.run, checked)
+            checked = self.check(points, self.last)
+            self.run.add(checked)
         self.last = checked.last
         self.time = float(times[-1]) + 0.1
         self.owner()

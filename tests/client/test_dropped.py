@@ -139,7 +139,7 @@ def test_close_in_a_fork_leaves_the_parents_motion(fake, patient):
             assert not [fd for fd in descriptors if os.path.exists(f"/proc/self/fd/{fd}")]
             robot.close()
 
-        descriptors = [channel.socket.fileno() for channel in robot._carrier._channels.values()]
+        descriptors = [channel.socket.fileno() for channel in robot._runner._by_port.values()]
         assert in_child(child) == 0
         assert execution.result().points == 2
         assert controller.connections == connections
@@ -170,7 +170,7 @@ def test_fork_of_an_async_robot_leaves_the_parents_motion(fake, patient):
             short = Trajectory.from_points([[0.0] * 6, [0.1] * 6], seconds=1)
             execution = await robot.execute(short)
 
-            transports = [link.transport for link in robot._carrier._links.values()]
+            transports = [link.transport for link in robot._runner._by_port.values()]
             descriptors = [each.get_extra_info("socket").fileno() for each in transports]
 
             def child():

@@ -81,13 +81,13 @@ def test_a_stop_that_fails_is_louder_than_a_cancellation(fake, patient):
 def test_ctrl_c_returns_when_the_robot_stands(fake, patient, monkeypatch):
     with Robot(fake().address, timeouts=patient()) as robot:
         execution = robot.execute(LONG)
-        wait = robot._carrier.guard.wait
+        wait = robot._runner.guard.wait
 
         def interrupt(timeout=None):
-            monkeypatch.setattr(robot._carrier.guard, "wait", wait)
+            monkeypatch.setattr(robot._runner.guard, "wait", wait)
             raise KeyboardInterrupt
 
-        monkeypatch.setattr(robot._carrier.guard, "wait", interrupt)
+        monkeypatch.setattr(robot._runner.guard, "wait", interrupt)
         with pytest.raises(KeyboardInterrupt):
             execution.result()
         assert execution.is_over

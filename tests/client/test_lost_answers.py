@@ -82,7 +82,7 @@ def test_the_robot_stands_when_result_raises(port):
         moving = robot.execute(wiggle(robot))
         robot.sleep(0.3)
         alive.append(True)
-        link = robot._carrier._links[Port.MOTION]
+        link = robot._runner._by_port[Port.MOTION]
         if port == "motion":
             # Nothing comes there by itself.
             link.connection_lost(None)
@@ -236,7 +236,7 @@ def test_unknown_stop_result_is_reported(silent, is_reached, why):
         lost.append(True)
         if "motion" in silent:
             # Nothing comes there by itself.
-            robot._carrier._links[Port.MOTION].connection_lost(None)
+            robot._runner._by_port[Port.MOTION].connection_lost(None)
         with pytest.raises(LOST, match="not known whether the robot is at rest") as error:
             moving.result()
         assert why in str(error.value)

@@ -184,7 +184,7 @@ class ClientAndController(RuleBasedStateMachine):
         if ports == "control" and not self.has_control:
             return
         was = self.under_way
-        for port, link in list(self.robot._carrier._links.items()):
+        for port, link in list(self.robot._runner._by_port.items()):
             if ports in ("all", port.name.lower()):
                 link.transport.abort()
         self.do(asyncio.sleep(1.5))

@@ -485,7 +485,7 @@ def test_a_jog_stands_soon_after_a_connection_is_cut(lost, finished):
 def cut(robot, controller, port, finished):
     """One connection is reset, as by a computer that crashed, or closed, as by a program's end."""
     if finished == "closed":
-        robot._carrier._links[port].transport.close()
+        robot._runner._by_port[port].transport.close()
         return
     for device in tuple(controller.sockets.in_use):
         end = device.endpoint

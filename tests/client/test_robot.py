@@ -3,6 +3,7 @@
 import asyncio
 import socket
 import threading
+from types import SimpleNamespace
 
 import pytest
 from both_clients import Blocking
@@ -28,7 +29,8 @@ from rapidgen.client import (
     deadline,
 )
 from rapidgen.client.address import Address
-from rapidgen.client.channels import Channel, Reader
+from rapidgen.client.flows.effects import Send
+from rapidgen.client.sync_runner import Connection, Reader
 from rapidgen.wire.simple_message.spec import Mode, Port, Reason, TrajectoryState, TriState
 
 GOAL = [0.2, 0.1, 0.0, -0.1, 0.0, 0.3]
@@ -385,14 +387,15 @@ def test_stop_from_another_thread_while_sending(fake, patient, comes):
     assert sequences[:-1] == [-1, *range(1, len(sequences) - 1)]
 
 
-def test_stop_before_lock_prevents_further_frames():
-    answers = iter([False, True])
+def test_stopped_motion_sends_no_further_frame():
+    motion = SimpleNamespace(stopping=True)
     with socket.create_server(("127.0.0.1", 0)) as server:
         address = Address("127.0.0.1", server.getsockname()[1])
-        channel = Channel(address, Port.MOTION, 1.0)
+        connection = Connection(address, Port.MOTION, 1.0)
         peer, _ = server.accept()
-        assert not channel.send(b"x" * 680, 1.0, lambda: next(answers))
-        channel.close()
+        with pytest.raises(MotionStopped):
+            connection.send(Send(Port.MOTION, b"x" * 680, 1.0, motion))
+        connection.close()
         assert peer.recv(100) == b""
         peer.close()
 
@@ -402,13 +405,13 @@ def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, mode):
     controller = fake(stream=StreamModel() if mode == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
         execution = robot.execute(LONG, mode=mode)
-        wait = robot._carrier.guard.wait
+        wait = robot._runner.guard.wait
 
         def interrupt(timeout=None):
-            monkeypatch.setattr(robot._carrier.guard, "wait", wait)
+            monkeypatch.setattr(robot._runner.guard, "wait", wait)
             raise KeyboardInterrupt
 
-        monkeypatch.setattr(robot._carrier.guard, "wait", interrupt)
+        monkeypatch.setattr(robot._runner.guard, "wait", interrupt)
         with pytest.raises(KeyboardInterrupt):
             execution.result()
         assert comes(lambda: controller.stops)
@@ -420,15 +423,15 @@ def test_ctrl_c_between_two_waits_stops_the_robot(fake, patient, monkeypatch, co
     controller = fake(stream=StreamModel() if mode == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
         execution = robot.execute(LONG, mode=mode)
-        goes_on = getattr(robot._carrier, place)
+        goes_on = getattr(robot._runner, place)
 
         def interrupt(*arguments):
             if threading.current_thread() is not threading.main_thread():
                 return goes_on(*arguments)
-            monkeypatch.setattr(robot._carrier, place, goes_on)
+            monkeypatch.setattr(robot._runner, place, goes_on)
             raise KeyboardInterrupt
 
-        monkeypatch.setattr(robot._carrier, place, interrupt)
+        monkeypatch.setattr(robot._runner, place, interrupt)
         with pytest.raises(KeyboardInterrupt):
             execution.result()
         assert comes(lambda: controller.stops)
@@ -478,7 +481,7 @@ def test_recording(connected, tmp_path, comes):
     assert again.positions[-1].tolist() == pytest.approx(GOAL)
 
 
-def test_a_channel_that_comes_with_the_end_is_closed():
+def test_connection_that_comes_with_the_end_is_closed():
     class Owner:
         is_busy = False
 
@@ -487,7 +490,7 @@ def test_a_channel_that_comes_with_the_end_is_closed():
     reader._change = lambda: None  # the end comes before it looks
     with socket.create_server(("127.0.0.1", 0)) as server:
         number = server.getsockname()[1]
-        channel = Channel(Address("127.0.0.1", number, number), Port.MOTION, 5)
-        reader.add(channel)
+        connection = Connection(Address("127.0.0.1", number, number), Port.MOTION, 5)
+        reader.add(connection)
         reader.close()
-        assert channel.socket.fileno() == -1
+        assert connection.socket.fileno() == -1

@@ -122,13 +122,13 @@ def test_a_client_that_dies_is_missed(carried):
         stream.append(*zip(*wave(100), strict=True))
         robot.sleep(2)
         # as a process that was frozen: its timers do not run, its kernel keeps the connections
-        robot._carrier._timer.cancel()
-        robot._carrier._pump, pump = lambda: None, robot._carrier._pump
+        robot._runner._timer.cancel()
+        robot._runner._pump, pump = lambda: None, robot._runner._pump
         robot.sleep(3)
         here = robot.state
         assert not here.is_moving
         assert here.trajectory is TrajectoryState.FAILED
-        robot._carrier._pump = pump
+        robot._runner._pump = pump
         with pytest.raises(MotionFailed, match="client") as error:
             stream.result()
         assert error.value.reason is Reason.CLIENT_LOST
@@ -274,7 +274,7 @@ def test_a_lost_control_connection_is_missed_by_the_controller():
         filling = robot.stream().later.extend(wave())
         robot.sleep(5)
         control = next(
-            link for port, link in robot._carrier._links.items() if port.name == "CONTROL"
+            link for port, link in robot._runner._by_port.items() if port.name == "CONTROL"
         )
         control.transport.close()
         with pytest.raises(MotionFailed, match="client") as error:
@@ -302,7 +302,7 @@ def test_who_sees_nothing_sends_no_heartbeat_either():
             driver.model.control,
         )
         driver.model.halt, halt = lambda *_: None, driver.model.halt
-        state = next(link for port, link in robot._carrier._links.items() if port.name == "STATE")
+        state = next(link for port, link in robot._runner._by_port.items() if port.name == "STATE")
         state.transport.close()
         robot.sleep(0.2)
         assert driver.model.state == TrajectoryState.MOVING
@@ -496,7 +496,7 @@ def test_lost_connection_without_waiter_stops_motion():
         stream = robot.stream()
         stream.append(*zip(*wave(100), strict=True))
         robot.sleep(2)
-        state = next(link for port, link in robot._carrier._links.items() if port.name == "STATE")
+        state = next(link for port, link in robot._runner._by_port.items() if port.name == "STATE")
         state.transport.close()
         robot.sleep(0.5)
         assert driver.model.state == TrajectoryState.STOPPED

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rapidgen.client import InvalidTrajectory, Trajectory
-from rapidgen.client.core.checks import check_trajectory
+from rapidgen.client.core.checks import DriverLimits, check_trajectory
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Feedback
 from rapidgen.client.core.state_port import Sample
@@ -219,7 +219,7 @@ def test_all_findings_at_once(irb120):
     positions[3, 2] = 9.0  # outside, and too fast
     trajectory = Trajectory([0, 1, 1, 2, 2.01], positions)
     with pytest.raises(InvalidTrajectory) as error:
-        check_trajectory(trajectory, irb120, start=[0.0] * 10, capacity=4)
+        check_trajectory(trajectory, irb120, DriverLimits(4), start=[0.0] * 10)
     assert codes(error) == ["RG617"]
     with pytest.raises(InvalidTrajectory) as error:
         check_trajectory(trajectory, irb120, start=[0.0] * 10)
@@ -296,7 +296,8 @@ def test_single_point(irb120):
     with pytest.raises(InvalidTrajectory) as error:
         check_trajectory(far, irb120, start=[0.0] * 10)
     assert set(codes(error)) == {"RG616"}
-    assert len(check_trajectory(far, irb120, start=[0.0] * 10, goes_to_single=True).wire) == 2
+    ours = DriverLimits(100, goes_to_single=True)
+    assert len(check_trajectory(far, irb120, ours, start=[0.0] * 10).wire) == 2
     timed = check_trajectory(Trajectory([2.0], [point]), irb120, start=[0.0] * 10)
     assert timed.durations.tolist() == [2.0, irb120.policy.min_segment]
     with pytest.raises(InvalidTrajectory) as error:

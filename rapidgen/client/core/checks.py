@@ -16,21 +16,21 @@ The rules:
 7. Values of a stream fit into the wire's fixed-point numbers. Positions are rounded inside the
    limits, and times instead of durations, whose rounding errors would add up.
 
-The result is a CheckedTrajectory for a download or CheckedPoints, the next piece of a stream: the
-axis values and durations that go onto the wire.
+`check_trajectory` applies them all. Its result, CheckedPoints, holds the axis values and durations
+that go onto the wire; nothing after it checks or converts points again.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
-from typing import ClassVar, Literal, get_args
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.client.core.group import Group
-from rapidgen.client.errors import InvalidTrajectory
+from rapidgen.client.errors import InvalidTrajectory, NotSupported
 from rapidgen.client.program import Program
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
@@ -44,23 +44,25 @@ _TIME_ROUNDING = 1e-6
 _NUMBERS = "give each point a time and a value of each joint; leave out incomplete points"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CheckedTrajectory:
-    """Data to send: axis values `wire` (m, k) and `durations` (m,) s, m >= 2.
+@dataclass(frozen=True, slots=True)
+class DriverLimits:
+    """Trajectories that a driver accepts."""
 
-    A single point is sent twice, as simple_message requires.
-    """
+    capacity: int
+    """Points of one download."""
+    ring: int | None = None
+    """Points of the ring buffer; None: the driver does not stream."""
+    goes_to_single: bool = False
+    """True if it approaches a single point without a time at its own speed."""
 
-    trajectory: Trajectory
-    wire: Array
-    durations: Array
-    warnings: tuple[Diagnostic, ...]
-    mode: ClassVar[TransferMode] = "download"
-
-    @property
-    def total(self) -> float:
-        """Commanded duration in s."""
-        return float(self.durations.sum())
+    def require_streaming(self) -> None:
+        """Raise NotSupported if the driver accepts no points during a motion."""
+        if self.ring is None:
+            raise NotSupported.because(
+                "RG624",
+                "the driver does not take points while the robot moves",
+                "send the trajectory as a whole, or build and deploy a driver that streams",
+            )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,17 +79,23 @@ class LastPoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CheckedPoints:
-    """Points of a stream: `wire` (n, k) axis values and `durations` (n,) s.
+    """Points to send: `wire` (m, k) axis values and `durations` (m,) s.
 
-    The values lie on the wire's grid of 1e-6, inside the limits.
+    A download has m >= 2: a single point is sent twice, as simple_message requires. The values of a
+    stream lie on the wire's grid of 1e-6, inside the limits.
     """
 
+    mode: TransferMode
     trajectory: Trajectory
     wire: Array
     durations: Array
     last: LastPoint
     warnings: tuple[Diagnostic, ...]
-    mode: ClassVar[TransferMode] = "stream"
+
+    @property
+    def seconds(self) -> float:
+        """Commanded duration in s."""
+        return float(self.durations.sum())
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -128,11 +136,70 @@ class _CheckInput:
         return _finding(code, report, help, *notes, at=(self.ordered, int(points[0])))
 
 
-def require_trajectory(value: object) -> None:
-    """Raise InvalidTrajectory for other types, with a hint how to convert."""
-    if isinstance(value, Trajectory):
+def check_trajectory(
+    trajectory: Trajectory,
+    group: Group,
+    limits: DriverLimits | None = None,
+    mode: TransferMode | None = None,
+    *,
+    start: Sequence[float] | None = None,
+    before: LastPoint | None = None,
+    is_open: bool = False,
+) -> CheckedPoints:
+    """Check a trajectory that starts at the ten axis values `start`.
+
+    Without a `mode` it is streamed if it exceeds the driver's ring buffer, so that motion need not
+    wait for the last point; then a value that is too large for a stream makes it a download.
+    `is_open`: more points may follow. Points that continue `before` have their numbers and times in
+    its stream. Raises InvalidTrajectory with all faults, NotSupported for a stream to a driver that
+    does not stream, ValueError for an unknown mode.
+    """
+    limits = limits or DriverLimits(group.policy.capacity)
+    _require_arguments(trajectory, mode)
+    if mode == "stream":
+        limits.require_streaming()
+    exceeds_ring = limits.ring is not None and len(trajectory) > limits.ring
+    streams = mode == "stream" or (mode is None and exceeds_ring)
+    too_many = _too_many(trajectory, limits.capacity)
+    ordered = _in_robot_order(trajectory, group, [] if streams else too_many)
+    times = ordered.times
+    since = times[0] - group.policy.min_segment if before is None else before.time
+    if before is None and times[0] > 0:
+        since = 0.0
+    with np.errstate(invalid="ignore", over="ignore"):
+        wire = group.to_wire(ordered.positions)
+        durations = np.diff(times, prepend=since)
+        points = _CheckInput(ordered, group, wire, durations, start, before)
+        findings = [f for rule in (_finite, _times, _limits, _speeds, _short) for f in rule(points)]
+        is_single = len(wire) == 1 and not (streams or is_open)
+        if before is None and not (is_single and (times[0] > 0 or limits.goes_to_single)):
+            findings += _start(points)
+        too_large = _too_large_for_stream(points) if streams else []
+    if mode == "stream":
+        findings += too_large
+    elif too_large:
+        streams = False
+        findings += too_many
+    if any(finding.severity is Severity.ERROR for finding in findings):
+        raise InvalidTrajectory(findings, exit_code=1)
+    if streams:
+        wire, durations = quantised(wire, group), _quantised_durations(points, since)
+    last = LastPoint(len(ordered) + points.origin, float(times[-1]), wire[-1])
+    if is_single:
+        wire = np.repeat(wire, 2, axis=0)
+        # A rapidgen driver uses the second frame's duration, abb_driver uses both.
+        least = durations[0] if limits.goes_to_single else group.policy.min_segment
+        durations = np.array([durations[0], least])
+    chosen: TransferMode = "stream" if streams else "download"
+    return CheckedPoints(chosen, ordered, wire, durations, last, tuple(findings))
+
+
+def _require_arguments(trajectory: object, mode: object) -> None:
+    """Raise InvalidTrajectory for another type, ValueError for an unknown mode."""
+    require_mode(mode)
+    if isinstance(trajectory, Trajectory):
         return
-    match value:
+    match trajectory:
         case str() | PathLike():
             help = "a file is read by `Trajectory.from_csv(path)` or `from_json(path)`"
         case Mapping():
@@ -142,7 +209,7 @@ def require_trajectory(value: object) -> None:
         case _:
             help = "`Trajectory.from_points(points, seconds=1)` makes one of points"
     raise InvalidTrajectory.because(
-        "RG611", f"expected a Trajectory, got {type(value).__name__}", help, exit_code=2
+        "RG611", f"expected a Trajectory, got {type(trajectory).__name__}", help, exit_code=2
     )
 
 
@@ -152,89 +219,16 @@ def require_mode(value: object) -> None:
         raise ValueError(f"a mode is 'download', 'stream' or None, not {value!r}")
 
 
-def check_trajectory(
-    trajectory: Trajectory,
-    group: Group,
-    *,
-    start: Sequence[float] | None = None,
-    capacity: int | None = None,
-    goes_to_single: bool = False,
-) -> CheckedTrajectory:
-    """Check a whole trajectory from the ten axis values `start`.
-
-    A single point without a time is accepted only if the driver approaches such a point at its own
-    speed (`goes_to_single`: a rapidgen driver does). Raises InvalidTrajectory with all faults.
-    """
-    limit = group.policy.capacity if capacity is None else capacity
-    ordered = _fitting(trajectory, group, list(_capacity(trajectory, limit)))
-    times = ordered.times
-    first = float(times[0]) if times[0] > 0 else group.policy.min_segment
-    with np.errstate(invalid="ignore", over="ignore"):
-        wire = group.to_wire(ordered.positions)
-        durations = np.concatenate([[first], np.diff(times)])
-        requested = _CheckInput(ordered, group, wire, durations, start)
-        result = _content(requested)
-        if len(wire) > 1 or not (times[0] > 0 or goes_to_single):
-            result += _start(requested)
-    if len(wire) == 1:
-        wire = np.repeat(wire, 2, axis=0)
-        # A rapidgen driver uses the second frame's duration, abb_driver uses both.
-        durations = np.array([first, first if goes_to_single else group.policy.min_segment])
-    _raise_errors(result)
-    return CheckedTrajectory(ordered, wire, durations, tuple(result))
-
-
-def check_points(
-    trajectory: Trajectory, group: Group, *, before: LastPoint | None, start: Sequence[float] | None
-) -> CheckedPoints:
-    """Check points that continue `before`, or the first of a stream.
-
-    Without `before` the robot is at `start` (ten axis values). Times count from the stream's start.
-    Raises InvalidTrajectory with all faults; points have their numbers in the stream.
-    """
-    ordered = _fitting(trajectory, group, [])
-    times = ordered.times
-    first = float(times[0]) if times[0] > 0 else group.policy.min_segment
-    since = times[0] - first if before is None else before.time
-    with np.errstate(invalid="ignore", over="ignore"):
-        wire = group.to_wire(ordered.positions)
-        requested = _CheckInput(ordered, group, wire, np.diff(times, prepend=since), start, before)
-        result = _content(requested)
-        if before is None:
-            result += _start(requested)
-        result += _fits(requested)
-    _raise_errors(result)
-    return _points(requested, since, tuple(result))
-
-
-def to_stream(
-    checked: CheckedTrajectory, group: Group, capacity: int
-) -> CheckedTrajectory | CheckedPoints:
-    """Convert a checked trajectory to points of a stream.
-
-    Raises InvalidTrajectory if the wire's numbers cannot hold a value and the trajectory exceeds
-    the driver's `capacity`.
-    """
-    ordered, durations = checked.trajectory, checked.durations
-    if max(np.abs(checked.wire).max(), durations.max()) > FIXED_LIMIT:
-        _raise_errors(list(_capacity(ordered, capacity)))
-        return checked
-    since = ordered.times[0] - durations[0]
-    requested = _CheckInput(ordered, group, checked.wire, durations, None)
-    return _points(requested, since, checked.warnings)
-
-
-def _points(
-    requested: _CheckInput, since: float, warnings: tuple[Diagnostic, ...]
-) -> CheckedPoints:
-    ordered, group, durations = requested.ordered, requested.group, requested.durations
+def _quantised_durations(points: _CheckInput, since: float) -> Array:
+    """Round the durations to the wire's steps."""
     # Times are rounded, not durations: rounding errors would add up over a long stream.
-    steps = np.diff(np.rint(ordered.times * FIXED_SCALE), prepend=np.rint(since * FIXED_SCALE))
+    times = np.rint(points.ordered.times * FIXED_SCALE)
+    steps = np.diff(times, prepend=np.rint(since * FIXED_SCALE))
     # Rounding must not shorten a segment below the minimum that the planner follows.
-    least = np.rint(np.minimum(durations, group.policy.min_segment) * FIXED_SCALE)
-    wire = quantised(requested.wire, group)
-    last = LastPoint(len(ordered) + requested.origin, float(ordered.times[-1]), wire[-1])
-    return CheckedPoints(ordered, wire, np.maximum(steps, least) / FIXED_SCALE, last, warnings)
+    minimum = points.group.policy.min_segment
+    least = np.rint(np.minimum(points.durations, minimum) * FIXED_SCALE)
+    durations: Array = np.maximum(steps, least) / FIXED_SCALE
+    return durations
 
 
 def quantised(wire: Array, group: Group) -> Array:
@@ -247,7 +241,7 @@ def quantised(wire: Array, group: Group) -> Array:
     return steps
 
 
-def _fitting(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -> Trajectory:
+def _in_robot_order(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -> Trajectory:
     """Return the trajectory in the robot's columns; later checks need them."""
     findings = findings + group.name_faults(trajectory.names, trajectory.positions.shape[1])
     if not len(trajectory):
@@ -257,16 +251,6 @@ def _fitting(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -
     if findings:
         raise InvalidTrajectory(findings, exit_code=1)
     return trajectory.reordered(group.names)
-
-
-def _content(requested: _CheckInput) -> list[Diagnostic]:
-    """Run the checks common to a whole trajectory and a piece of one."""
-    return [f for look in (_finite, _times, _limits, _speeds, _short) for f in look(requested)]
-
-
-def _raise_errors(findings: list[Diagnostic]) -> None:
-    if any(d.severity is Severity.ERROR for d in findings):
-        raise InvalidTrajectory(findings, exit_code=1)
 
 
 def _finding(
@@ -282,17 +266,19 @@ def _finding(
     return error(code, span, message, help, notes=notes)
 
 
-def _capacity(trajectory: Trajectory, capacity: int) -> Iterator[Diagnostic]:
+def _too_many(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
     count = len(trajectory)
     if count <= capacity:
-        return
-    yield _finding(
-        "RG617",
-        f"{count} points, the driver holds {capacity}",
-        "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
-        "a larger `trajectory.capacity` in the configuration accepts more (build and deploy "
-        "again)",
-    )
+        return []
+    return [
+        _finding(
+            "RG617",
+            f"{count} points, the driver holds {capacity}",
+            "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
+            "a larger `trajectory.capacity` in the configuration accepts more (build and deploy "
+            "again)",
+        )
+    ]
 
 
 def _finite(requested: _CheckInput) -> Iterator[Diagnostic]:
@@ -430,7 +416,7 @@ def _short(requested: _CheckInput) -> list[Diagnostic]:
     return [result if requested.group.has_limits else replace(result, severity=Severity.WARNING)]
 
 
-def _fits(requested: _CheckInput) -> list[Diagnostic]:
+def _too_large_for_stream(requested: _CheckInput) -> list[Diagnostic]:
     values = np.concatenate([requested.wire, requested.durations[:, None]], axis=1)
     points = np.flatnonzero((np.abs(values) > FIXED_LIMIT).any(axis=1))
     if not len(points):

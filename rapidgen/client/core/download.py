@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rapidgen.client.core.checks import CheckedTrajectory
+from rapidgen.client.core.checks import CheckedPoints
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import (
     GOAL_TOLERANCE,
@@ -32,6 +32,7 @@ from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import MotionFailed, MotionStopped, ProtocolError, fault
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES, encode_trajectory
 from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 
 _MOVED = 1e-4
@@ -48,34 +49,41 @@ class Download(CommandedMotion):
     mode = "download"
 
     def __init__(
-        self, plan: CheckedTrajectory, group: Group, state_port: StatePort, *, silence: float
+        self, points: CheckedPoints, group: Group, state_port: StatePort, *, silence: float
     ) -> None:
         super().__init__(group, state_port, silence)
-        self.trajectory = plan.trajectory
-        self.warnings = plan.warnings
-        self.total = len(plan.trajectory)
-        self.frames = len(plan.wire)
+        self.trajectory = points.trajectory
+        self.warnings = points.warnings
+        self.total = len(points.trajectory)
+        self.frames = len(points.wire)
+        self._unsent = encode_trajectory(points.wire, points.durations)
         # A standard abb_driver reports no progress.
-        self.planned_seconds = self.longest = plan.total
-        self.goal = plan.wire[-1].tolist()
+        self.planned_seconds = self.longest = points.seconds
+        self.goal = points.wire[-1].tolist()
         self._pending: PendingReply | None = None
-        self.approach = float(plan.durations[0])
+        self.approach = float(points.durations[0])
         self._was_in_error = state_port.status.in_error is TriState.TRUE
         self._start = state_port.wire_joints
         self._looked_at = 0
         """Joint messages at the last evaluation."""
         self._seen_moving = False
         self._stood_since: float | None = None
-        self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)
+        self._is_still = bool(np.ptp(points.trajectory.positions, axis=0).max() < _MOVED)
 
-    def asked(self, pending: PendingReply) -> None:
-        """Record that the end frame goes out, after which the robot may move.
+    def take_points(self) -> bytes:
+        """Return all frames but the last one: the robot does not move yet."""
+        data, self._unsent = self._unsent[:-FRAME_BYTES], self._unsent[-FRAME_BYTES:]
+        return data
+
+    def take_end(self, pending: PendingReply) -> bytes:
+        """Return the end frame, after which the robot may move.
 
         `pending` is the reply to it.
         """
         self._pending = pending
         self.is_ordered = True
         self._looked_at = self._state_port.samples
+        return self._unsent
 
     @property
     def awaits_answer(self) -> bool:

@@ -119,6 +119,8 @@ class CommandedMotion(ABC):
         """Axis values of the last point, rad or m."""
         self.stood: tuple[float, ...] | None = None
         """Joints at which the controller reports a stop."""
+        self.rest: State | None = None
+        """State of the robot at rest after its caller has cancelled the motion."""
         self._group = group
         self._state_port = state_port
         self._silence = silence
@@ -167,6 +169,26 @@ class CommandedMotion(ABC):
     @abstractmethod
     def progress(self) -> Progress:
         """Current progress."""
+
+    @property
+    def stopped_position(self) -> tuple[float, ...] | None:
+        """Joints at which the robot stopped, as far as known."""
+        if self.stood is not None:
+            return self.stood
+        if self.result is not None:
+            return self.result.state.joints
+        if self.rest is not None:
+            return self.rest.joints
+        return self.error.states[-1].joints if self.error and self.error.states else None
+
+    def __str__(self) -> str:
+        """Describe the progress or the result."""
+        if self.error is not None:
+            return f"ended: {self.error}"
+        if self.result is not None:
+            done = self.result
+            return f"done: {done.points} {self.noun}s in {done.seconds:.2f} s by {done.mode}"
+        return progress_text(self.progress, self.noun)
 
     @property
     def mark(self) -> tuple[object, ...]:
@@ -381,6 +403,13 @@ class CommandedMotion(ABC):
             )
         )
         self.is_settled = True
+
+
+def progress_text(progress: Progress, noun: str = "point") -> str:
+    """Describe the progress of a motion."""
+    reached = "" if progress.reached is None else f"{progress.reached} of "
+    state = progress.state.name.lower()
+    return f"{state}: {reached}{progress.total} {noun}s, {progress.fraction:.0%}"
 
 
 def reason_of(number: int) -> Reason | None:

@@ -5,8 +5,8 @@ rules:
 
 1. The owner holds a lock (sync) or a loop (async) and moves the bytes. It calls `received` for each
    read, `poll` regularly, and sends what `due` returns.
-2. At most one motion is active. `ready` raises before `begin`, `begin_stream` or `begin_program` if
-   the robot reports a blocker; `motion.py` decides when a motion ends.
+2. At most one motion is active. `ready` raises before `begin` or `begin_program` if the robot
+   reports a blocker; `motion.py` decides when a motion ends.
 3. Replies are matched to requests by connection and type (`request_port.py`). A message on the
    motion port without a request, while an order awaits its answer, fails the motion.
 4. During a motion the controller gets heartbeats on the control port, and stops the robot when one
@@ -28,13 +28,11 @@ from math import isfinite
 from rapidgen import __version__
 from rapidgen.client.core.checks import (
     CheckedPoints,
-    CheckedTrajectory,
+    DriverLimits,
+    LastPoint,
     TransferMode,
-    check_points,
     check_trajectory,
     require_mode,
-    require_trajectory,
-    to_stream,
 )
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
@@ -60,7 +58,6 @@ from rapidgen.wire.simple_message import ContentError, FramingError, decode, enc
 from rapidgen.wire.simple_message.codec import number_of
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, batch_points
-from rapidgen.wire.simple_message.numpy_codec import pack_points
 from rapidgen.wire.simple_message.spec import (
     INDEX_WRAP,
     MAX_JOINTS,
@@ -332,17 +329,17 @@ class Core:
         if now - self._looked > _HELD_UP and port.last_message >= port.listening:
             port.listening = now
         self._looked = now
-        run = self.motion
-        if run is None:
+        motion = self.motion
+        if motion is None:
             return
-        if not run.is_over and self.heartbeat.is_late(now, port.listening):
-            run.failed(
+        if not motion.is_over and self.heartbeat.is_late(now, port.listening):
+            motion.failed(
                 self.state_port.late(
                     "the control port stopped answering while the robot may be moving",
                     "a STOP was sent; look at the robot",
                 )
             )
-        run.step()
+        motion.step()
 
     # Output without a request of the caller
 
@@ -355,8 +352,8 @@ class Core:
     @property
     def is_busy(self) -> bool:
         """True if `due` must be called regularly, also without input."""
-        run = self.motion
-        return (run is not None and not run.is_over) or self.heartbeat.is_armed
+        motion = self.motion
+        return (motion is not None and not motion.is_over) or self.heartbeat.is_armed
 
     def due(self, port: Port) -> bytes | None:
         """Return the next frame for this connection, or None.
@@ -373,15 +370,19 @@ class Core:
                 self.ports[port].pending.append(pending)
                 return frame
             return self._beat()
-        run = self.motion
-        if isinstance(run, PointStream) and run.has_due:
-            return run.next_frame(self.ports[port].request(run.queue.number))
+        motion = self.motion
+        if isinstance(motion, PointStream) and motion.has_due:
+            return motion.next_frame(self.ports[port].request(motion.queue.number))
         return None
 
     def _ask_again(self) -> bytes | None:
         """Send HELLO on the state port if PROGRESS stops during a motion."""
-        run, now = self.motion, self.clock()
-        if run is None or run.phase is not Phase.MOVING or not self.state_port.is_progress_lost:
+        motion, now = self.motion, self.clock()
+        if (
+            motion is None
+            or motion.phase is not Phase.MOVING
+            or not self.state_port.is_progress_lost
+        ):
             return None
         if now - self._asked_again < _ASK_AGAIN:
             return None
@@ -427,13 +428,17 @@ class Core:
 
         Each motion is reported once; the requests count as made.
         """
-        run = self.motion
+        motion = self.motion
         unmonitored = ConnectionLost | RobotTimeout | ProtocolError
-        if run is None or run is self._stopped_blindly or not isinstance(run.error, unmonitored):
+        if (
+            motion is None
+            or motion is self._stopped_blindly
+            or not isinstance(motion.error, unmonitored)
+        ):
             return []
-        if run.is_settled:
+        if motion.is_settled:
             return []
-        self._stopped_blindly = run
+        self._stopped_blindly = motion
         self.ports[Port.MOTION].forget_orders()
         # If no STOP arrives, the controller misses the heartbeat.
         self.heartbeat.forget()
@@ -491,13 +496,19 @@ class Core:
         return encode(requested, Comm.REQUEST)
 
     @property
-    def capacity(self) -> int:
-        """Points of one trajectory: the driver's number, else abb_driver's."""
-        hello = self.state_port.driver.hello
-        if hello is not None:
-            return hello.capacity
-        # A driver that does not report its capacity may be abb_driver, which drops further points.
-        return min(PLAIN_CAPACITY, self._group.policy.capacity if self._group else PLAIN_CAPACITY)
+    def limits(self) -> DriverLimits:
+        """Trajectories that the driver accepts."""
+        driver = self.state_port.driver
+        hello = driver.hello
+        if hello is None:
+            # A driver that does not report its capacity may be abb_driver, which drops further
+            # points.
+            policy = self._group.policy if self._group is not None else None
+            least = PLAIN_CAPACITY if policy is None else min(PLAIN_CAPACITY, policy.capacity)
+            return DriverLimits(least, goes_to_single=driver.is_rapidgen)
+        streams = Feature.STREAMING in Feature(hello.features) and hello.batch > 0
+        ring = hello.ring if streams else None
+        return DriverLimits(hello.capacity, ring, goes_to_single=driver.is_rapidgen)
 
     @property
     def batch(self) -> int:
@@ -505,43 +516,28 @@ class Core:
         hello = self.state_port.driver.hello
         return hello.batch if hello is not None and hello.batch > 0 else batch_points(MAX_JOINTS)
 
-    @property
-    def can_stream(self) -> bool:
-        """True if the driver accepts points during a motion."""
-        hello = self.state_port.driver.hello
-        return (
-            hello is not None and Feature.STREAMING in Feature(hello.features) and hello.batch > 0
-        )
-
-    def require_streaming(self) -> None:
-        """Raise NotSupported if the driver accepts no points during a motion."""
-        if not self.can_stream:
-            raise NotSupported.because(
-                "RG624",
-                "the driver does not take points while the robot moves",
-                "send the trajectory as a whole, or build and deploy a driver that streams",
-            )
-
     def check(
-        self, trajectory: Trajectory, mode: TransferMode | None = None
-    ) -> CheckedTrajectory | CheckedPoints:
-        """Check a trajectory for download, or as points of a stream.
+        self,
+        trajectory: Trajectory,
+        mode: TransferMode | None = None,
+        *,
+        before: LastPoint | None = None,
+        is_open: bool = False,
+    ) -> CheckedPoints:
+        """Check points against the robot and its driver: see `check_trajectory`.
 
-        Without a `mode`, a trajectory that exceeds the driver's ring buffer is streamed, so that
-        motion need not wait for the last point. Raises InvalidTrajectory, NotReady (no state yet),
-        NotSupported (the driver does not stream).
+        Raises NotReady before the robot has reported its position.
         """
-        require_trajectory(trajectory)
-        require_mode(mode)
-        if mode == "stream":
-            self.require_streaming()
-            return check_points(trajectory, self.known_group, before=None, start=self.start)
-        hello = self.state_port.driver.hello
-        fits = hello is None or len(trajectory) <= hello.ring
-        if mode == "download" or fits or not self.can_stream:
-            return self.check_whole(trajectory)
-        complete = self.check_whole(trajectory, len(trajectory))
-        return to_stream(complete, self.known_group, self.capacity)
+        start = self.start if before is None else None
+        return check_trajectory(
+            trajectory,
+            self.known_group,
+            self.limits,
+            mode,
+            start=start,
+            before=before,
+            is_open=is_open,
+        )
 
     def check_program(
         self, program: Program, mode: TransferMode | None = None
@@ -563,17 +559,6 @@ class Core:
         chosen = mode or ("download" if len(program) <= hello.ring else "stream")
         most = hello.ring if chosen == "download" else INDEX_WRAP - 1
         return check_program(program, self.known_group, start=self.start, most=most), chosen
-
-    def check_whole(self, trajectory: Trajectory, capacity: int | None = None) -> CheckedTrajectory:
-        """Check data for download. Raises InvalidTrajectory, NotReady."""
-        require_trajectory(trajectory)
-        return check_trajectory(
-            trajectory,
-            self.known_group,
-            start=self.start,
-            capacity=self.capacity if capacity is None else capacity,
-            goes_to_single=self.state_port.driver.is_rapidgen,
-        )
 
     @property
     def start(self) -> tuple[float, ...]:
@@ -640,35 +625,26 @@ class Core:
                 **self.evidence(),
             )
 
-    def begin(self, checked: CheckedTrajectory) -> Download:
-        """Start the motion of this trajectory as the active one."""
+    def begin(self, checked: CheckedPoints) -> Download | PointStream:
+        """Start the motion of these points as the active one."""
+        if checked.mode == "stream":
+            hello = self.state_port.driver.hello
+            assert hello is not None
+            stream = self._begin(PointQueue(hello.batch, len(self.known_group.names)))
+            stream.warnings = checked.warnings
+            stream.add(checked)
+            return stream
         self.override = 1.0
         self.motion = motion = Download(
             checked, self.known_group, self.state_port, silence=self.timeouts.silence
         )
         return motion
 
-    def begin_stream(self, checked: CheckedPoints) -> PointStream:
-        """Start a stream with these first points as the active motion."""
-        hello = self.state_port.driver.hello
-        assert hello is not None
-        motion = self._begin(PointQueue(hello.batch, len(self.known_group.names)))
-        motion.warnings = checked.warnings
-        self.go_on(motion, checked)
-        return motion
-
-    @staticmethod
-    def go_on(stream: PointStream, checked: CheckedPoints) -> None:
-        """Queue more points of a stream."""
-        assert isinstance(stream.queue, PointQueue)
-        stream.queue.put(pack_points(checked.durations, checked.wire))
-        stream.goes_on(checked.durations.tolist(), checked.last.wire.tolist())
-
     def begin_program(self, checked: CheckedProgram, mode: TransferMode) -> PointStream:
         """Start a program as the active motion."""
         motion = self._begin(InstructionQueue(checked.instructions, complete=mode == "download"))
         motion.mode, motion.noun, motion.warnings = mode, "instruction", checked.notes
-        motion.goes_on(checked.seconds, checked.goal)
+        motion.queued(checked.seconds, checked.goal)
         motion.end()
         return motion
 

@@ -26,7 +26,7 @@ from typing import Protocol
 
 import numpy as np
 
-from rapidgen.client.core.checks import TransferMode
+from rapidgen.client.core.checks import CheckedPoints, TransferMode
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import CommandedMotion, place_of, refused
 from rapidgen.client.core.request_port import PendingReply
@@ -207,8 +207,14 @@ class PointStream(CommandedMotion):
 
     # Input from the caller
 
-    def goes_on(self, durations: Sequence[float], goal: Sequence[float]) -> None:
-        """Queue more items with their durations in s, up to this posture."""
+    def add(self, checked: CheckedPoints) -> None:
+        """Queue more points."""
+        assert isinstance(self.queue, PointQueue)
+        self.queue.put(pack_points(checked.durations, checked.wire))
+        self.queued(checked.durations.tolist(), checked.last.wire.tolist())
+
+    def queued(self, durations: Sequence[float], goal: Sequence[float]) -> None:
+        """Count queued items with their durations in s, up to this posture."""
         self.goal = goal
         if not self.total:
             self.approach = float(durations[0])

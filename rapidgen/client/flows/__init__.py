@@ -1,15 +1,14 @@
-"""Flows of the client: generators of `effects` that a carrier executes."""
+"""Flows of the client: generators of `effects` that a runner executes."""
 
 from rapidgen.client.flows import (
     connect,
     control,
     data,
-    download,
-    job,
     motion,
     program,
     state,
     stop,
+    stream,
 )
 
-__all__ = ["connect", "control", "data", "download", "job", "motion", "program", "state", "stop"]
+__all__ = ["connect", "control", "data", "motion", "program", "state", "stop", "stream"]

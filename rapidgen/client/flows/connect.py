@@ -12,7 +12,7 @@ from rapidgen.client.errors import (
     RobotError,
     RobotTimeout,
 )
-from rapidgen.client.flows.effects import INTERRUPTIONS, Close, Flow, HangUp, Open, Send, Wait
+from rapidgen.client.flows.effects import INTERRUPTIONS, Close, CloseAll, Flow, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.messages import HELLO
 from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
@@ -31,7 +31,7 @@ def connect(core: Core) -> Flow[None]:
     try:
         yield from _open(core)
     except (RobotError, *INTERRUPTIONS):
-        yield HangUp()
+        yield CloseAll()
         raise
 
 

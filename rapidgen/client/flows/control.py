@@ -14,10 +14,7 @@ from rapidgen.wire.simple_message.spec import Feature, Port
 
 
 def pause(core: Core) -> Flow[None]:
-    """Pause the motion on its path.
-
-    Raises NotSupported, RequestRefused, RobotTimeout.
-    """
+    """Pause the motion on its path."""
     yield from ask(core, messages.PauseRequest(1), "pause")
 
 
@@ -27,10 +24,7 @@ def resume(core: Core) -> Flow[None]:
 
 
 def set_speed(core: Core, percent: float) -> Flow[None]:
-    """Move at 1 to 100 % of the programmed speed, until the next motion.
-
-    Raises as `pause`.
-    """
+    """Move at 1 to 100 % of the programmed speed, until the next motion."""
     if not 1 <= percent <= 100:
         raise ValueError(f"percent must be 1 to 100, not {percent}")
     yield from ask(core, messages.SpeedRequest(percent), f"go at {percent:g} %")

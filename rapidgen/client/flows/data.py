@@ -13,19 +13,12 @@ Datum = float | bool | str
 
 
 def read(core: Core, name: str) -> Flow[Datum]:
-    """Read a PERS of `data:` by its name there.
-
-    Raises NotSupported for an unlisted name, RequestRefused if the robot's program does not have
-    it, RobotTimeout.
-    """
+    """Read a PERS of `data:` by its name there."""
     return (yield from _reach(core, name, None, writes=False))
 
 
 def write(core: Core, name: str, value: Datum) -> Flow[Datum]:
-    """Write a PERS of `data:`; return its value as read afterwards.
-
-    Raises as `read_data`, and ValueError for a value that does not fit its type.
-    """
+    """Write a PERS of `data:`; return its value as read afterwards."""
     return (yield from _reach(core, name, value, writes=True))
 
 

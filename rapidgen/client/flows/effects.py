@@ -83,9 +83,9 @@ class Close:
 
 
 @dataclass(frozen=True, slots=True)
-class HangUp:
+class CloseAll:
     """Close all connections."""
 
 
-Effect = Open | Send | SendAtOnce | Wait | Close | HangUp
+Effect = Open | Send | SendAtOnce | Wait | Close | CloseAll
 Flow = Generator[Effect, bool | None, T]

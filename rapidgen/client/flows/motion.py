@@ -1,22 +1,32 @@
-"""Flows before a motion and until its end."""
+"""Flows of a motion: from the check of its points to its end.
+
+`execute` is the way of a trajectory: wait until the robot is ready, check the points, make sure
+that STOP works, send, wait for the reply.
+"""
 
 from collections.abc import Callable
 from functools import partial
 
+from rapidgen.client.core.checks import TransferMode
+from rapidgen.client.core.download import Download
 from rapidgen.client.core.motion import CommandedMotion, Result, fix_of
 from rapidgen.client.core.robot import Core
-from rapidgen.client.errors import NotReady
+from rapidgen.client.core.state import State
+from rapidgen.client.core.stream import PointStream
+from rapidgen.client.errors import NotReady, RobotError
 from rapidgen.client.flows.connect import SILENT, alive, reach_control
 from rapidgen.client.flows.effects import INTERRUPTIONS, Close, Flow, Send, Wait
-from rapidgen.client.flows.stop import ended, stop
-from rapidgen.wire.simple_message.messages import HELLO
+from rapidgen.client.flows.stop import PER_POINT, ended, stop
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.wire.simple_message.messages import HELLO, JOINT_TRAJ_PT
 from rapidgen.wire.simple_message.spec import Port, Reason, TrajectoryState
 
 
 def ready(core: Core) -> Flow[None]:
-    """Connect, and wait a moment for blockers of a motion to pass."""
+    """Connect, and wait a moment for blockers of a motion to pass. Raises NotReady."""
     yield from alive(core, to_move=True)
     yield Wait(lambda: not core.blockers() or not core.state_open, core.timeouts.ready)
+    core.ready()
 
 
 def armed(core: Core) -> Flow[None]:
@@ -85,8 +95,86 @@ def until(
         raise
 
 
-def wait_for_result(core: Core, motion: CommandedMotion, timeout: float | None) -> Flow[Result]:
-    """Wait for the end of a motion, and raise its error."""
+def execute(core: Core, trajectory: Trajectory, mode: TransferMode | None) -> Flow[CommandedMotion]:
+    """Start a trajectory by stream or download; None: choose."""
+    yield from ready(core)
+    checked = core.check(trajectory, mode)
+    yield from armed(core)
+    motion = core.begin(checked)
+    if isinstance(motion, PointStream):
+        motion.trajectory = checked.trajectory
+        motion.end()
+        yield from taken(core, motion)
+        return motion
+    try:
+        yield from send_points(core, motion)
+        yield from send_end(core, motion)
+        yield from accepted(core, motion)
+    except INTERRUPTIONS:
+        yield from stop(core)
+        raise
+    except RobotError as error:
+        motion.failed(error)
+        raise (yield from ended(core, motion)) from error.__cause__
+    return motion
+
+
+def send_points(core: Core, motion: Download) -> Flow[None]:
+    """Send all points but the last one: the robot does not move yet."""
+    yield Send(Port.MOTION, motion.take_points(), core.timeouts.send, motion)
+
+
+def send_end(core: Core, motion: Download) -> Flow[None]:
+    """Send the last point, after which the controller may begin to move."""
+    pending = core.ports[Port.MOTION].request(JOINT_TRAJ_PT.number)
+    yield Send(Port.MOTION, motion.take_end(pending), core.timeouts.send, motion)
+
+
+def accepted(core: Core, motion: Download) -> Flow[None]:
+    """Wait for the controller's reply to a downloaded trajectory."""
+    timeout = core.timeouts.reply + PER_POINT * motion.frames
+    yield Wait(lambda: motion.is_taken or motion.is_over, timeout)
+    if motion.is_taken:
+        return
+    if motion.error is not None:
+        raise motion.error
+    raise core.state_port.late(
+        f"the controller did not answer within {timeout:.1f} s if it accepted the trajectory",
+        "a STOP was sent; look at the robot",
+    )
+
+
+def taken(core: Core, stream: PointStream) -> Flow[None]:
+    """Wait until the controller accepts or refuses the first points.
+
+    For a program it is the whole of it. The motion may have ended already: then its result shows
+    how.
+    """
+    yield from streaming(core, stream, lambda: stream.is_taken)
+    if stream.error is not None and (stream.needs_stop or not stream.is_taken):
+        raise (yield from ended(core, stream))
+
+
+def streaming(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Flow[None]:
+    """Wait for the condition or the end of the stream.
+
+    Fails if the stream makes no progress.
+    """
+    if not (yield from until(core, stream, condition)):
+        stream.failed(
+            core.state_port.late(
+                f"the controller has not accepted points for {stall_timeout(core, stream):.1f} s",
+                "a STOP was sent; look at the robot",
+            )
+        )
+
+
+def result(core: Core, motion: CommandedMotion, timeout: float | None = None) -> Flow[Result]:
+    """Wait for the end, by default while the robot progresses or is paused.
+
+    Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout if it did not end in time (the
+    motion continues). Ctrl-C or cancelling this call stops the robot.
+    """
     yield from until(core, motion, lambda: False, timeout)
     if motion.error is not None:
         raise (yield from ended(core, motion))
@@ -97,3 +185,12 @@ def wait_for_result(core: Core, motion: CommandedMotion, timeout: float | None) 
             "wait longer with result(timeout), or stop()",
         )
     return motion.result
+
+
+def cancel(core: Core, motion: CommandedMotion | None) -> Flow[State | None]:
+    """Stop this motion; return the state at rest, or None if it has ended."""
+    if motion is None:
+        return None
+    if not motion.is_over or motion.needs_stop:
+        motion.rest = yield from stop(core)
+    return motion.rest

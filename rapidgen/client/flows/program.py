@@ -7,7 +7,6 @@ import numpy as np
 from rapidgen.axes.frames import Pose
 from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import CommandedMotion, Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import Event
@@ -20,8 +19,7 @@ from rapidgen.client.errors import (
     fault,
 )
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
-from rapidgen.client.flows.job import result, taken
-from rapidgen.client.flows.motion import armed, ready, until
+from rapidgen.client.flows.motion import armed, ready, result, taken, until
 from rapidgen.client.flows.stop import ended, stop
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike, Target
 from rapidgen.config.model import UserRoutine
@@ -46,27 +44,20 @@ _ANY = 1e6
 """s permitted to a routine without a time-out."""
 
 
-def run(core: Core, program: Program, mode: TransferMode | None) -> Flow[Job]:
+def run(core: Core, program: Program, mode: TransferMode | None) -> Flow[CommandedMotion]:
     """Run a program by download or stream; None: download if it fits."""
     yield from ready(core)
-    core.ready()
     checked, chosen = core.check_program(program, mode)
     yield from armed(core)
-    job = Job(core)
-    job.program = program
-    job.mode, job.is_ended = chosen, True
-    job.motion = job.stream = motion = core.begin_program(checked, chosen)
+    motion = core.begin_program(checked, chosen)
     yield from taken(core, motion)
-    return job
+    return motion
 
 
 def move_to(
     core: Core, joints: Sequence[float], *, speed: SpeedLike = SLOW, timeout: float | None = None
 ) -> Flow[Result]:
-    """Move all axes to joints (rad, m) together, and wait for the end.
-
-    Raises as `run`.
-    """
+    """Move all axes to joints (rad, m) together, and wait for the end."""
     return (yield from _go(core, Program(speed=speed).move_joints(joints), timeout))
 
 
@@ -78,13 +69,7 @@ def move_linear(
 
 
 def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
-    """Move joints by name, or the tool along x, y, z, by a small step.
-
-    A step has at most 0.2 rad or 0.1 m, in the work object; the flow waits for the end. The tool
-    moves on a line and keeps its orientation; joints and directions exclude each other. During the
-    motion the controller stops the robot if this client is silent for 0.2 s. Raises NotSupported
-    without a control connection, otherwise as `run`.
-    """
+    """Move joints by name, or the tool along x, y, z, by a small step."""
     yield from ready(core)
     state, group = core.state_port.state, core.known_group
     assert state is not None
@@ -135,26 +120,18 @@ def _check_steps(group: Group, by: Mapping[str, float]) -> None:
 
 
 def _go(core: Core, program: Program, timeout: float | None) -> Flow[Result]:
-    job = yield from run(core, program, None)
-    return (yield from result(job, timeout))
+    motion = yield from run(core, program, None)
+    return (yield from result(core, motion, timeout))
 
 
 def call(
     core: Core, routine: str, *arguments: Argument, timeout: float | None = None
 ) -> Flow[tuple[Left, ...]]:
-    """Call a procedure of the controller's program and wait for its end.
-
-    Returns its `inout` parameters in their order, then the value of a function. Without a time-out
-    it may take any time; if it exceeds a time-out, the controller leaves it and its state is
-    unknown (MotionFailed, OVERTIME). Raises RoutineFailed with number and name of its error, or if
-    the error stopped the robot's program; otherwise as `run`.
-    """
+    """Call a procedure of the controller's program and wait for its end."""
     limit = 0.0 if timeout is None else timeout
-    job = yield from run(core, Program().call(routine, *arguments, timeout=limit), None)
-    motion = job.motion
-    assert motion is not None
+    motion = yield from run(core, Program().call(routine, *arguments, timeout=limit), None)
     try:
-        return (yield from _called(core, job, motion, routine, timeout))
+        return (yield from _called(core, motion, routine, timeout))
     except INTERRUPTIONS:
         if not motion.is_over:
             yield from stop(core)
@@ -168,7 +145,7 @@ def call(
 
 
 def _called(
-    core: Core, job: Job, motion: CommandedMotion, routine: str, timeout: float | None
+    core: Core, motion: CommandedMotion, routine: str, timeout: float | None
 ) -> Flow[tuple[Left, ...]]:
     """Wait for the end of a routine and read its results. Raises as `call`."""
     motion.longest = _ANY if timeout is None else timeout + _GRACE
@@ -182,7 +159,7 @@ def _called(
     if result_reply.trajectory == motion.number and result_reply.error == 0:
         motion.done()
     try:
-        yield from result(job, max(0.0, deadline - core.clock()))
+        yield from result(core, motion, max(0.0, deadline - core.clock()))
     except MotionFailed as failed:
         if failed.reason is Reason.PROGRAM_STOPPED:
             yield from _why_it_stopped(core, routine, motion.events_before, failed)

@@ -11,10 +11,7 @@ from rapidgen.wire.simple_message.spec import Feature
 
 
 def wait_until(core: Core, condition: Callable[[State], bool], timeout: float) -> Flow[State]:
-    """Return the first state for which `condition` holds.
-
-    Raises RobotTimeout, ConnectionLost.
-    """
+    """Return the first state for which `condition` holds."""
     return (yield from _until(core, condition, timeout, "the awaited state"))
 
 
@@ -40,10 +37,7 @@ def _until(
 
 
 def next_state(core: Core, timeout: float | None = None) -> Flow[State]:
-    """Return the state of the next joint message.
-
-    Raises RobotTimeout, ConnectionLost.
-    """
+    """Return the state of the next joint message."""
     yield from alive(core)
     seen = core.state_port.samples
     longest = core.timeouts.state if timeout is None else timeout
@@ -53,10 +47,7 @@ def next_state(core: Core, timeout: float | None = None) -> Flow[State]:
 def next_event(
     core: Core, timeout: float | None = None, *, after: Event | None = None
 ) -> Flow[Event]:
-    """Return the next entry of the controller's log, or the one after `after`.
-
-    Without a time-out it waits while there is a connection. Raises RobotTimeout, ConnectionLost.
-    """
+    """Return the next entry of the controller's log, or the one after `after`."""
     yield from alive(core)
     state_port = core.state_port
     seen = state_port.event_count if after is None else after.number
@@ -71,10 +62,7 @@ def next_event(
 
 
 def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
-    """Return the next joints with the controller's time.
-
-    Raises NotSupported without feedback, RobotTimeout, ConnectionLost.
-    """
+    """Return the next joints with the controller's time."""
     yield from alive(core)
     state_port = core.state_port
     if Feature.FEEDBACK not in state_port.driver.features & core.subscribe:

@@ -29,7 +29,7 @@ from rapidgen.client.errors import (
     RobotTimeout,
     StopFailed,
 )
-from rapidgen.client.flows.effects import Close, Flow, HangUp, Open, SendAtOnce, Wait
+from rapidgen.client.flows.effects import Close, CloseAll, Flow, Open, SendAtOnce, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Port, TriState
 
@@ -69,12 +69,7 @@ def _connect_and_send(core: Core, port: Port) -> Flow[dict[Port, PendingReply]]:
 
 
 def stop(core: Core) -> Flow[State | None]:
-    """Stop at once, whatever else is active; return the state at rest.
-
-    STOP is written to both ports before anything is awaited. Without a connection only the motion
-    port is opened, no state shows the robot at rest, and None is returned. Raises StopFailed: use
-    the emergency stop.
-    """
+    """Stop at once, whatever else is active; return the state at rest."""
     motion = core.motion
     yield from _confirmed(core)
     if not core.state_open:
@@ -203,7 +198,7 @@ def close(core: Core) -> Flow[None]:
         elif motion is not None and not motion.is_over and core.ports[Port.MOTION].is_open:
             yield from stop(core)
     finally:
-        yield HangUp()
+        yield CloseAll()
 
 
 def _unread(motion: CommandedMotion | None) -> int:

@@ -6,7 +6,7 @@ import ssl
 import time
 import weakref
 from collections import deque
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from dataclasses import dataclass
 from typing import TypeVar
@@ -19,6 +19,7 @@ from websockets.exceptions import ConnectionClosed, WebSocketException
 from rapidgen._compat import Self
 from rapidgen.client import deadline
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
+from rapidgen.client.rws import flows
 from rapidgen.client.rws.api import RESTART_TIMEOUT, ControllerApi
 from rapidgen.client.rws.core import RateLimiter, RwsCore
 from rapidgen.client.rws.effects import (
@@ -34,10 +35,27 @@ from rapidgen.client.rws.effects import (
     resume,
 )
 from rapidgen.client.rws.errors import Busy
-from rapidgen.client.rws.flows import connect as connecting
-from rapidgen.client.rws.flows import mastership as holding
-from rapidgen.client.rws.flows import subscriptions
-from rapidgen.client.rws.model import ResourceEvent
+from rapidgen.client.rws.flows.cfg import Mode
+from rapidgen.client.rws.model import (
+    BuildError,
+    CfgInstance,
+    Dialog,
+    FileInfo,
+    Identity,
+    JointTarget,
+    LogEvent,
+    MastershipHolder,
+    Panel,
+    ProgramPointer,
+    ProgramState,
+    QueueMessage,
+    ResourceEvent,
+    RobTarget,
+    SignalState,
+    SymbolInfo,
+    TaskModule,
+    TaskState,
+)
 from rapidgen.client.rws.topics import Topic
 from rapidgen.client.rws.transport import (
     LOGOUT,
@@ -51,6 +69,7 @@ from rapidgen.client.rws.transport import (
     response_of,
     socket_options,
 )
+from rapidgen.client.rws.values import RapidValue
 from rapidgen.client.unclosed import drop_in_child, warn_unclosed
 
 T = TypeVar("T")
@@ -229,8 +248,8 @@ class AsyncSubscription:
     events: async for event in events: ...`
     """
 
-    def __init__(self, carrier: RwsAsyncRunner, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
-        self._carrier = carrier
+    def __init__(self, runner: RwsAsyncRunner, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
+        self._runner = runner
         self._core = core
         self._topics = chosen
         self._waiting: deque[ResourceEvent] = deque()
@@ -239,12 +258,12 @@ class AsyncSubscription:
         self._stack = AsyncExitStack()
         self._process = os.getpid()
 
-    async def _open(self, flow: Flow[subscriptions.SubscriptionGroup]) -> None:
-        opened = await self._carrier.run(flow)
+    async def _open(self, flow: Flow[flows.subscriptions.SubscriptionGroup]) -> None:
+        opened = await self._runner.run(flow)
         self._group = opened.group
         self._waiting.extend(opened.events)
         await self._stack.aclose()
-        self._socket = await self._carrier.open_socket(opened.path, self._stack)
+        self._socket = await self._runner.open_socket(opened.path, self._stack)
 
     async def next(self, timeout: float | None = None) -> ResourceEvent:
         """Return the next event. Raises RobotTimeout (RG602)."""
@@ -267,7 +286,7 @@ class AsyncSubscription:
             return
         data = message.encode() if isinstance(message, str) else message
         self._waiting.extend(
-            await self._carrier.run(subscriptions.events_of(self._core, self._topics, data))
+            await self._runner.run(flows.subscriptions.events_of(self._core, self._topics, data))
         )
 
     async def _again(self) -> None:
@@ -276,12 +295,12 @@ class AsyncSubscription:
         while True:
             try:
                 return await self._open(
-                    subscriptions.again(self._core, self._topics, RESTART_TIMEOUT)
+                    flows.subscriptions.again(self._core, self._topics, RESTART_TIMEOUT)
                 )
             except (ConnectionLost, Busy):
                 if time.monotonic() >= until:
                     raise
-                await self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
+                await self._runner.run(flows.subscriptions.unsubscribe(self._core, self._group))
 
     async def close(self) -> None:
         """End the subscription."""
@@ -289,7 +308,7 @@ class AsyncSubscription:
             # The websocket is the parent's.
             self._socket = None
         if self._socket is not None:
-            await self._carrier.run(subscriptions.unsubscribe(self._core, self._group))
+            await self._runner.run(flows.subscriptions.unsubscribe(self._core, self._group))
             await self._stack.aclose()
             self._socket = None
 
@@ -298,7 +317,7 @@ class AsyncSubscription:
             yield await self.next()
 
     async def __aenter__(self) -> Self:
-        await self._open(subscriptions.subscribe(self._core, self._topics))
+        await self._open(flows.subscriptions.subscribe(self._core, self._topics))
         return self
 
     async def __aexit__(self, *_: object) -> None:
@@ -311,17 +330,21 @@ class AsyncController(ControllerApi[RwsAsyncRunner]):
     As `Controller`, with awaitable methods.
     """
 
-    _carrier_type = RwsAsyncRunner
+    _runner_type = RwsAsyncRunner
+
+    async def _run(self, flow: Flow[T]) -> T:
+        """Run a flow on a connected controller."""
+        return await self._runner.run(flows.connect.connected(self._core, flow))
 
     async def connect(self) -> Self:
         """Connect and log in."""
-        await self._carrier.run(connecting.connect(self._core))
+        await self._runner.run(flows.connect.connect(self._core))
         return self
 
     async def close(self) -> None:
         """Release mastership, log out, and close."""
-        await self._carrier.run(connecting.close(self._core))
-        await self._carrier.close()
+        await self._runner.run(flows.connect.close(self._core))
+        await self._runner.close()
 
     @asynccontextmanager
     async def mastership(self, domain: str = "rapid", *, wait: float = 0.0) -> AsyncIterator[Self]:
@@ -333,14 +356,361 @@ class AsyncController(ControllerApi[RwsAsyncRunner]):
         try:
             yield self
         finally:
-            await self._carrier.run(holding.give(self._core, domain))
+            await self._runner.run(flows.mastership.give(self._core, domain))
 
     def subscribe(self, *topics: Topic) -> AsyncSubscription:
         """Subscribe to topics within `async with`: an iterator of events."""
-        return AsyncSubscription(self._carrier, self._core, topics)
+        return AsyncSubscription(self._runner, self._core, topics)
 
     async def __aenter__(self) -> Self:
         return await self.connect()
 
     async def __aexit__(self, *_: object) -> None:
         await self.close()
+
+    async def identity(self) -> Identity:
+        """Return the identity of the controller; one request."""
+        return await self._run(flows.panel.identity(self._core))
+
+    async def panel(self) -> Panel:
+        """Motors, mode and speed: three requests."""
+        return await self._run(flows.panel.panel(self._core))
+
+    async def execution(self) -> ProgramState:
+        """Return the state of the program's execution."""
+        return await self._run(flows.panel.execution(self._core))
+
+    async def motors(self, on: bool) -> None:
+        """Switch motors on or off; return when they are.
+
+        Raises RwsError (RG650), NotConfirmed (RG655): accepted without effect.
+        """
+        await self._run(flows.panel.motors(self._core, on))
+
+    async def set_speed(self, percent: int) -> None:
+        """Speed of all robots in percent, 0 to 100, in automatic mode; read back."""
+        await self._run(flows.panel.set_speed(self._core, percent))
+
+    async def pp_to_main(self) -> None:
+        """Set program pointers of all tasks to main; the program must be stopped."""
+        await self._run(flows.panel.pp_to_main(self._core))
+
+    async def start(self, *, cycle: str = "asis") -> None:
+        """Start the program of all selected tasks; return when it runs.
+
+        `cycle`: once, forever, asis. THE ROBOT MAY MOVE. Motors have to be on. Raises NotReady
+        (RG610): this session holds mastership, which prevents a start. NotConfirmed (RG655):
+        accepted, and the program does not run.
+        """
+        await self._run(flows.panel.start(self._core, cycle=cycle))
+
+    async def stop(self, *, everything: bool = False) -> None:
+        """Stop the program; return when it has stopped.
+
+        `everything`: also stop background tasks. Not a safety function.
+        """
+        await self._run(flows.panel.stop(self._core, everything=everything))
+
+    async def take_mastership(self, domain: str = "rapid", *, wait: float = 0.0) -> None:
+        """Take mastership of `rapid`, `cfg` or `motion`.
+
+        Waits s while another client holds it. Each take needs a release. Mastership is never taken
+        by force. Raises Held (RG654) with its holder.
+        """
+        await self._run(flows.mastership.take(self._core, domain, wait=wait))
+
+    async def give_mastership(self, domain: str = "rapid") -> None:
+        """Release mastership; harmless if it is not held."""
+        await self._run(flows.mastership.give(self._core, domain))
+
+    async def holder(self, domain: str = "rapid") -> MastershipHolder | None:
+        """Return the holder of a domain's mastership; None if there is none."""
+        return await self._run(flows.mastership.holder(self._core, domain))
+
+    async def grants(self) -> frozenset[str]:
+        """UAS names of this user's grants; empty if the controller reports none."""
+        return await self._run(flows.users.grants(self._core))
+
+    async def ask_rmmp(self, privilege: str = "modify", *, wait: float = 10.0) -> None:
+        """Request remote writing (`modify`) or running (`exec`) in manual mode.
+
+        Returns when the pendant's user grants it, and at once in automatic mode. It lasts until
+        `cancel_rmmp`, the end of the session or another mode. Raises NotReady (RG661): it was
+        denied, or not answered within s. NotSupported (RG659): RobotWare 8 has none that works.
+        """
+        await self._run(flows.users.ask_rmmp(self._core, privilege, wait=wait))
+
+    async def cancel_rmmp(self) -> None:
+        """Release remote writing in manual mode; harmless if there is none."""
+        await self._run(flows.users.cancel_rmmp(self._core))
+
+    async def tasks(self) -> tuple[TaskState, ...]:
+        """All tasks: one request."""
+        return await self._run(flows.rapid.tasks(self._core))
+
+    async def select_task(self, task: str, selected: bool) -> None:
+        """Select whether a NORMAL task starts with the program; read it back.
+
+        This is the task selection panel. The program must be stopped. Raises NotConfirmed (RG655).
+        """
+        await self._run(flows.rapid.select_task(self._core, task, selected))
+
+    async def modules(self, task: str) -> tuple[TaskModule, ...]:
+        """Modules of a task."""
+        return await self._run(flows.rapid.modules(self._core, task))
+
+    async def module_text(self, task: str, module: str) -> str:
+        """Source of a module, with initial values as they were written."""
+        return await self._run(flows.rapid.module_text(self._core, task, module))
+
+    async def load_module(self, task: str, path: str, *, replace: bool = False) -> None:
+        """Load a module file (`HOME/folder/a.mod`) into a task.
+
+        RAPID must be stopped in all tasks. `replace`: instead of a module of the same name.
+        `build_errors` reports its errors, not this method.
+        """
+        await self._run(flows.rapid.load_module(self._core, task, path, replace=replace))
+
+    async def unload_module(self, task: str, module: str) -> None:
+        """Unload a module of a task. RAPID must be stopped in all tasks."""
+        await self._run(flows.rapid.unload_module(self._core, task, module))
+
+    async def save_module(self, task: str, module: str, name: str, volume: str = "TEMP") -> str:
+        """Save a module with its current persistents; return its path.
+
+        The path is on a volume.
+        """
+        return await self._run(flows.rapid.save_module(self._core, task, module, name, volume))
+
+    async def build_errors(self, task: str) -> tuple[BuildError, ...]:
+        """Return the build errors of a task's program."""
+        return await self._run(flows.rapid.build_errors(self._core, task))
+
+    async def pointer(self, task: str) -> ProgramPointer:
+        """Return the program pointer of a task."""
+        return await self._run(flows.rapid.pointer(self._core, task))
+
+    async def set_pointer(self, task: str, module: str, routine: str) -> None:
+        """Set one task's program pointer to a routine.
+
+        Pointers of other tasks stay. The task must be stopped.
+        """
+        await self._run(flows.rapid.set_pointer(self._core, task, module, routine))
+
+    async def symbol(self, path: str) -> RapidValue:
+        """Return a datum as a Python value: bool, str or number.
+
+        Records and arrays are tuples.
+        """
+        return await self._run(flows.rapid.symbol(self._core, path))
+
+    async def symbol_text(self, path: str) -> str:
+        """Return a datum as a RAPID literal; one request.
+
+        Its path is `TASK/MODULE/NAME` (or `TASK/NAME`).
+        """
+        return await self._run(flows.rapid.symbol_text(self._core, path))
+
+    async def set_symbol(self, path: str, value: RapidValue) -> None:
+        """Set a datum and read it back.
+
+        Raises NotConfirmed (RG655): it has another value.
+        """
+        await self._run(flows.rapid.set_symbol(self._core, path, value))
+
+    async def symbols(
+        self, task: str, *, module: str = "", kind: str = "any", pattern: str = ""
+    ) -> tuple[SymbolInfo, ...]:
+        """Return data of a task.
+
+        `kind` is per, var, con or any; `pattern` a regular expression of the name.
+        """
+        return await self._run(
+            flows.rapid.symbols(self._core, task, module=module, kind=kind, pattern=pattern)
+        )
+
+    async def mechanical_units(self) -> tuple[str, ...]:
+        """Names of the mechanical units."""
+        return await self._run(flows.equipment.mechanical_units(self._core))
+
+    async def joint_target(self, unit: str = "ROB_1") -> JointTarget:
+        """Return the axis positions of a unit, deg and mm; one request.
+
+        9E9: the unit has no such axis.
+        """
+        return await self._run(flows.equipment.joint_target(self._core, unit))
+
+    async def rob_target(
+        self, unit: str = "ROB_1", *, tool: str = "tool0", wobj: str = "wobj0"
+    ) -> RobTarget:
+        """Return the TCP of a tool in a work object, mm and quaternion.
+
+        One request.
+        """
+        return await self._run(flows.equipment.rob_target(self._core, unit, tool=tool, wobj=wobj))
+
+    async def signals(self) -> tuple[SignalState, ...]:
+        """All signals: one request in RWS 1.0, one for a hundred in 2.0."""
+        return await self._run(flows.equipment.signals(self._core))
+
+    async def signal(self, name: str) -> SignalState:
+        """Return a signal by its name or as NETWORK/DEVICE/NAME; one request."""
+        return await self._run(flows.equipment.signal(self._core, name))
+
+    async def set_signal(self, name: str, value: float) -> SignalState:
+        """Set a signal and read it back; two requests.
+
+        Raises NotConfirmed (RG655): it has another value.
+        """
+        return await self._run(flows.equipment.set_signal(self._core, name, value))
+
+    async def dialog(self) -> Dialog | None:
+        """Return the open dialog with its parameters; None if there is none."""
+        return await self._run(flows.dialogs.dialog(self._core))
+
+    async def answer_dialog(self, value: RapidValue) -> None:
+        """Answer the open dialog: number of a key or button, a num, or a text.
+
+        Returns when it has closed. Raises RwsError (RG650; 404: no dialog is open), NotConfirmed
+        (RG655): the answer was accepted, and the dialog is still open.
+        """
+        await self._run(flows.dialogs.answer_dialog(self._core, value))
+
+    async def queues(self) -> tuple[str, ...]:
+        """Return the names of the clients' queues."""
+        return await self._run(flows.queues.queues(self._core))
+
+    async def make_queue(self, name: str, *, size: int = 10, largest: int = 444) -> None:
+        """Create a queue of `size` messages of `largest` bytes.
+
+        It ends with the session.
+        """
+        await self._run(flows.queues.make_queue(self._core, name, size=size, largest=largest))
+
+    async def delete_queue(self, name: str) -> None:
+        """Delete a queue."""
+        await self._run(flows.queues.delete_queue(self._core, name))
+
+    async def send_message(self, queue: str, data: str, *, sender: str = "", user: int = 0) -> None:
+        """Put a message into a queue.
+
+        A message to a task (`RMQ_T_ROB1`) is `type;value`, as `num;42`, and the program answers
+        `sender`, a queue of this session.
+        """
+        await self._run(
+            flows.queues.send_message(self._core, queue, data, sender=sender, user=user)
+        )
+
+    async def receive_message(self, queue: str, *, wait: float = 0.0) -> QueueMessage:
+        """Remove and return the first message of a queue of this session.
+
+        Waits s for one. Raises RobotTimeout (RG602): none arrived.
+        """
+        return await self._run(flows.queues.receive_message(self._core, queue, wait=wait))
+
+    async def list_files(self, path: str = "HOME") -> tuple[FileInfo, ...]:
+        """List the entries of a folder."""
+        return await self._run(flows.files.list_files(self._core, path))
+
+    async def read_file(self, path: str) -> bytes:
+        """Return the content of a file."""
+        return await self._run(flows.files.read_file(self._core, path))
+
+    async def write_file(self, path: str, data: bytes) -> bool:
+        """Write a whole file; return True if it is new.
+
+        Its folder must exist.
+        """
+        return await self._run(flows.files.write_file(self._core, path, data))
+
+    async def delete_file(self, path: str) -> bool:
+        """Delete a file, or a folder with its content; False if it is missing."""
+        return await self._run(flows.files.delete_file(self._core, path))
+
+    async def make_folder(self, path: str) -> None:
+        """Create a folder in an existing one."""
+        await self._run(flows.files.make_folder(self._core, path))
+
+    async def copy_file(self, path: str, name: str) -> None:
+        """Copy a file to another name in its folder."""
+        await self._run(flows.files.copy_file(self._core, path, name))
+
+    async def rename_file(self, path: str, name: str) -> None:
+        """Rename a file in its folder."""
+        await self._run(flows.files.rename_file(self._core, path, name))
+
+    async def cfg_domains(self) -> tuple[str, ...]:
+        """Names of the domains."""
+        return await self._run(flows.cfg.cfg_domains(self._core))
+
+    async def cfg_types(self, domain: str) -> tuple[str, ...]:
+        """Types of a domain."""
+        return await self._run(flows.cfg.cfg_types(self._core, domain))
+
+    async def cfg_instances(self, domain: str, type: str) -> tuple[CfgInstance, ...]:
+        """Instances of a type with their attributes: one request for seventy."""
+        return await self._run(flows.cfg.cfg_instances(self._core, domain, type))
+
+    async def cfg_set(
+        self, domain: str, type: str, instance: str, attributes: Mapping[str, str]
+    ) -> None:
+        """Set attributes of an instance, effective after a restart."""
+        await self._run(flows.cfg.cfg_set(self._core, domain, type, instance, attributes))
+
+    async def cfg_create(self, domain: str, type: str, instance: str) -> None:
+        """Create an instance with a name and default attributes."""
+        await self._run(flows.cfg.cfg_create(self._core, domain, type, instance))
+
+    async def cfg_delete(self, domain: str, type: str, instance: str) -> None:
+        """Delete an instance."""
+        await self._run(flows.cfg.cfg_delete(self._core, domain, type, instance))
+
+    async def cfg_load(self, path: str, *, mode: Mode = "add") -> None:
+        """Load a cfg file of a volume (`HOME/a.cfg`), effective after a restart.
+
+        `add`: an existing instance rejects the whole file. `replace`: existing ones are
+        overwritten. Raises RwsError (RG650).
+        """
+        await self._run(flows.cfg.cfg_load(self._core, path, mode=mode))
+
+    async def cfg_save(self, domain: str, path: str) -> None:
+        """Write a domain to a file on a volume."""
+        await self._run(flows.cfg.cfg_save(self._core, domain, path))
+
+    async def log(
+        self, *, domain: int = 0, after: int = 0, count: int = 50
+    ) -> tuple[LogEvent, ...]:
+        """Return the last `count` entries of a domain (0: all), oldest first.
+
+        Only those newer than number `after`; at most fifty on RobotWare 7. One request.
+        """
+        return await self._run(
+            flows.equipment.log(self._core, domain=domain, after=after, count=count)
+        )
+
+    async def backup(self, name: str, *, volume_name: str = "BACKUP") -> str:
+        """Make a backup in a new folder on the controller; return its path."""
+        return await self._run(flows.jobs.backup(self._core, name, volume_name=volume_name))
+
+    async def restore(self, path: str, *, wait: float = 180.0) -> None:
+        """Restart with a backup on the controller (`BACKUP/name`).
+
+        It replaces modules, cfg and HOME: call `backup` first. RAPID stops. Raises as `restart`;
+        RwsError (RG650): not a backup.
+        """
+        await self._run(flows.jobs.restore(self._core, path, wait=wait))
+
+    async def restart(self, *, wait: float = 180.0) -> None:
+        """Warm-start the controller, and wait s until it serves again.
+
+        RAPID stops. Returns when the controller is back and has tasks. Raises RobotTimeout (RG602),
+        NotConfirmed (RG655): the restart was accepted and did not happen.
+        """
+        await self._run(flows.jobs.restart(self._core, wait=wait))
+
+    async def wait_ready(self, *, wait: float = 180.0) -> None:
+        """Wait s until the controller answers, accepts a login and has tasks.
+
+        Raises RobotTimeout (RG602).
+        """
+        await self._run(flows.jobs.wait_ready(self._core, wait=wait))

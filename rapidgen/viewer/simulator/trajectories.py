@@ -14,7 +14,7 @@ import numpy as np
 from rapidgen.axes.frames import distance
 from rapidgen.axes.kinematics import Posture
 from rapidgen.client import Robot, Trajectory
-from rapidgen.client.core.checks import CheckedTrajectory, check_trajectory
+from rapidgen.client.core.checks import CheckedPoints, check_trajectory
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory, RobotError
 from rapidgen.client.trajectory import Array
@@ -48,7 +48,7 @@ class TrajectoryProvider:
         self._runner = runner
         self._controller = runner.controller
         self._shown = self._last_sent = UploadedTrajectory()
-        self._checked: CheckedTrajectory | None = None
+        self._checked: CheckedPoints | None = None
 
     def whole(self) -> Iterable[ToPage]:
         """Return the trajectory, if there is one."""
@@ -95,7 +95,7 @@ class TrajectoryProvider:
         return ""
 
     def _described(
-        self, group: MotionGroup, name: str, checked: CheckedTrajectory
+        self, group: MotionGroup, name: str, checked: CheckedPoints
     ) -> UploadedTrajectory:
         steps = max(1, min(20, _PLACES // len(checked.wire)))
         way = tuple(_way(group, _between(checked.wire, steps)))
@@ -105,7 +105,7 @@ class TrajectoryProvider:
         return UploadedTrajectory(
             group=group.name,
             file=name,
-            seconds=checked.total,
+            seconds=checked.seconds,
             points=len(checked.trajectory),
             way=way,
             pace=(0.0, *(distance(a, b) / s for a, b, s in legs)) if way else (),

@@ -204,7 +204,7 @@ def test_abandoned_write_access_is_released(tmp_path, served):
         return
     killed = Controller(served.address, **served.keywords)
     killed.take_mastership()
-    killed._carrier.close()
+    killed._runner.close()
     with Controller(served.address, **served.keywords) as controller:
         assert controller.holder().mine
         with controller.mastership():

@@ -74,7 +74,7 @@ def test_a_websocket_that_is_lost_at_its_opening_is_opened_again(served, monkeyp
         controller.subscribe(topics.symbol("T_ROB1/x")) as events,
     ):
         assert events.next(60).value == "1"
-        opened, carrier = [], type(events._carrier)
+        opened, carrier = [], type(events._runner)
         real = carrier.open_socket
 
         def lost_once(self, path, stack):

@@ -159,7 +159,7 @@ class AtDesk:
 def connect(line) -> RwsTransport:
     """A transport over a line, logged in."""
     carrier = type("AtThisDesk", (AtDesk,), {"line": line})
-    kind = type("ControllerAtDesk", (Controller,), {"_carrier_type": carrier})
+    kind = type("ControllerAtDesk", (Controller,), {"_runner_type": carrier})
     fingerprint = (
         "" if line.generation is Generation.ONE else hashlib.sha256(CERTIFICATE).hexdigest()
     )

@@ -38,7 +38,7 @@ def modules(controller_runner, task="T_ROB1"):
 def test_a_plan_and_a_look_change_nothing(rws, cell, wanted, tmp_path):
     controller_runner, transport = cell
     before = rws.home_of(controller_runner), rws.cfg_of(controller_runner)
-    line = transport.services._carrier.line
+    line = transport.services._runner.line
     plan = make_plan(transport, wanted)
     assert {m for m, t in line.log if not t.startswith("/users")} == {"GET"}
     assert (rws.home_of(controller_runner), rws.cfg_of(controller_runner)) == before
@@ -143,8 +143,13 @@ def test_what_the_pendant_denies_changes_nothing(rws, cell, wanted):
 
 def test_missing_grant_is_refused_before_changes(rws, cell, wanted):
     controller_runner, transport = cell
+<<<<<<< HEAD
     app = transport.services._carrier.line.app
     app.accounts = replace(app.accounts, denied=frozenset({"UAS_CFG_WRITE"}))
+=======
+    office = transport.services._runner.line.app.context
+    office.login = replace(office.login, denied=frozenset({"UAS_CFG_WRITE"}))
+>>>>>>> e12e2635 (client: check a trajectory once, and write calls as ordinary methods)
     plan = make_plan(transport, wanted)
     assert "! you: give the user UAS_CFG_WRITE in RobotStudio" in plan_text(plan)
     text = refused(rws.run, transport, wanted)
@@ -193,7 +198,7 @@ def test_people_are_waited_for(rws, cell, wanted):
 def test_run_end_releases_mastership_and_sessions(rws, cell, wanted):
     _, transport = cell
     rws.run(transport, wanted, restart=False)
-    app = transport.services._carrier.line.app
+    app = transport.services._runner.line.app
     for domain in ("cfg", "rapid"):
         assert transport.services.holder(domain) is None
     assert len(app.sessions) == 1
@@ -221,7 +226,7 @@ def test_pending_restart_is_shown_until_done(rws, cell, wanted):
 def test_restart_is_warm_and_needs_the_option(rws, cell, wanted):
     controller_runner, transport = cell
     rws.run(transport, wanted, restart=False)
-    line = transport.services._carrier.line
+    line = transport.services._runner.line
     assert not [t for _, t in line.log if "restart" in t]
     rws.run(transport, wanted)
     assert controller_runner.restarts == 1
@@ -231,7 +236,7 @@ def test_restart_is_warm_and_needs_the_option(rws, cell, wanted):
 
 def test_a_controller_that_restarts_is_busy_for_a_while(rws, cell, wanted):
     controller_runner, transport = cell
-    line, busy = transport.services._carrier.line, []
+    line, busy = transport.services._runner.line, []
     handle = line.handle
 
     def slow(got):
@@ -453,7 +458,7 @@ def test_foreign_mastership_prevents_any_stop(rws, cell, wanted, domain):
     controller_runner, transport = cell
     rws.run(transport, wanted)
     line = rws.Line(controller_runner, Generation.ONE)
-    line.app = transport.services._carrier.line.app
+    line.app = transport.services._runner.line.app
     other = rws.connect(line).services
     other.take_mastership(domain)
     line.app.sessions.all()[-1].application = "RobotStudio"

@@ -72,11 +72,7 @@ def cfg_delete(core: RwsCore, domain: str, type: str, instance: str) -> Flow[Non
 
 
 def cfg_load(core: RwsCore, path: str, *, mode: Mode = "add") -> Flow[None]:
-    """Load a cfg file of a volume (`HOME/a.cfg`), effective after a restart.
-
-    `add`: an existing instance rejects the whole file. `replace`: existing ones are overwritten.
-    Raises RwsError (RG650).
-    """
+    """Load a cfg file of a volume (`HOME/a.cfg`), effective after a restart."""
     if mode not in ("add", "replace"):
         raise ValueError("a cfg file is loaded by add or replace")
     form = {"filepath": volume(core, path), "action-type": mode}

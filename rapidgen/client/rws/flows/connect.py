@@ -13,6 +13,7 @@ from rapidgen.client.rws.effects import (
     Flow,
     LogIn,
     Response,
+    T,
     UseEndpoint,
 )
 from rapidgen.client.rws.errors import Busy, LoginFailed, NotRws
@@ -25,10 +26,7 @@ _FIRST = "/rw/system"
 
 
 def connect(core: RwsCore) -> Flow[None]:
-    """Identify the controller and log in; a second call does nothing.
-
-    Raises ConnectionFailed (RG601), LoginFailed (RG651, RG652), NotRws (RG653), Busy (RG656).
-    """
+    """Identify the controller and log in; a second call does nothing."""
     if core.connected:
         return
     core.check_login()
@@ -67,6 +65,12 @@ def connect(core: RwsCore) -> Flow[None]:
         },
         accepted=(400, 403, 404, 405, 409),
     )
+
+
+def connected(core: RwsCore, flow: Flow[T]) -> Flow[T]:
+    """Run a flow on a connected controller."""
+    yield from connect(core)
+    return (yield from flow)
 
 
 def _reach(core: RwsCore) -> Flow[str]:

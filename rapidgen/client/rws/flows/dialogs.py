@@ -37,11 +37,7 @@ def _waiting(core: RwsCore) -> Flow[Dialog]:
 
 
 def answer_dialog(core: RwsCore, value: RapidValue) -> Flow[None]:
-    """Answer the open dialog: number of a key or button, a num, or a text.
-
-    Returns when it has closed. Raises RwsError (RG650; 404: no dialog is open), NotConfirmed
-    (RG655): the answer was accepted, and the dialog is still open.
-    """
+    """Answer the open dialog: number of a key or button, a num, or a text."""
     waiting = yield from _waiting(core)
     if waiting.kind.lower().startswith("tp"):
         yield from _set(core, waiting, "TPAnswer", write(value))

@@ -50,10 +50,7 @@ def _signal(item: Item) -> SignalState:
 
 
 def set_signal(core: RwsCore, name: str, value: float) -> Flow[SignalState]:
-    """Set a signal and read it back; two requests.
-
-    Raises NotConfirmed (RG655): it has another value.
-    """
+    """Set a signal and read it back; two requests."""
     yield from ask(core, ops.SET_SIGNAL, {"signal": name}, {"lvalue": f"{float(value):g}"})
     now = yield from signal(core, name)
     if abs(now.value - value) > 1e-4 * max(1.0, abs(value)):
@@ -75,10 +72,7 @@ def mechanical_units(core: RwsCore) -> Flow[tuple[str, ...]]:
 
 
 def joint_target(core: RwsCore, unit: str = "ROB_1") -> Flow[JointTarget]:
-    """Return the axis positions of a unit, deg and mm; one request.
-
-    9E9: the unit has no such axis.
-    """
+    """Return the axis positions of a unit, deg and mm; one request."""
     item = yield from one(core, ops.JOINT_TARGET, "ms-jointtarget", unit=unit)
     robot = _numbers(core, item, [f"rax_{n}" for n in range(1, 7)])
     return JointTarget(robot, _numbers(core, item, [f"eax_{x}" for x in _EXTERNAL]))
@@ -87,10 +81,7 @@ def joint_target(core: RwsCore, unit: str = "ROB_1") -> Flow[JointTarget]:
 def rob_target(
     core: RwsCore, unit: str = "ROB_1", *, tool: str = "tool0", wobj: str = "wobj0"
 ) -> Flow[RobTarget]:
-    """Return the TCP of a tool in a work object, mm and quaternion.
-
-    One request.
-    """
+    """Return the TCP of a tool in a work object, mm and quaternion."""
     query = write_form({"tool": tool, "wobj": wobj, "coordinate": "Wobj"}).decode()
     body, _ = yield from ask(core, ops.ROB_TARGET, {"unit": unit}, query=query)
     item = body.first("ms-robtargets")
@@ -119,10 +110,7 @@ _TYPES = {"1": "info", "2": "warning", "3": "error"}
 def log(
     core: RwsCore, *, domain: int = 0, after: int = 0, count: int = 50
 ) -> Flow[tuple[LogEvent, ...]]:
-    """Return the last `count` entries of a domain (0: all), oldest first.
-
-    Only those newer than number `after`; at most fifty on RobotWare 7. One request.
-    """
+    """Return the last `count` entries of a domain (0: all), oldest first."""
     query = "lang=en" + (f"&elogseqnum={after}" if after else "")
     body, _ = yield from ask(core, ops.ELOG, {"domain": str(domain)}, query=query)
     result = sorted(

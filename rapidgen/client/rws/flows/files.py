@@ -33,10 +33,7 @@ def read_file(core: RwsCore, path: str) -> Flow[bytes]:
 
 
 def write_file(core: RwsCore, path: str, data: bytes) -> Flow[bool]:
-    """Write a whole file; return True if it is new.
-
-    Its folder must exist.
-    """
+    """Write a whole file; return True if it is new."""
     _, response = yield from ask(core, ops.WRITE_FILE, {"path": volume(core, path)}, data=data)
     return response.status == 201
 

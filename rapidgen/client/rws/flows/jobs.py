@@ -55,20 +55,12 @@ def backup(core: RwsCore, name: str, *, volume_name: str = "BACKUP") -> Flow[str
 
 
 def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
-    """Warm-start the controller, and wait s until it serves again.
-
-    RAPID stops. Returns when the controller is back and has tasks. Raises RobotTimeout (RG602),
-    NotConfirmed (RG655): the restart was accepted and did not happen.
-    """
+    """Warm-start the controller, and wait s until it serves again."""
     yield from _restarted(core, ops.RESTART, {"restart-mode": "restart"}, wait)
 
 
 def restore(core: RwsCore, path: str, *, wait: float = 180.0) -> Flow[None]:
-    """Restart with a backup on the controller (`BACKUP/name`).
-
-    It replaces modules, cfg and HOME: call `backup` first. RAPID stops. Raises as `restart`;
-    RwsError (RG650): not a backup.
-    """
+    """Restart with a backup on the controller (`BACKUP/name`)."""
     form = {"backup": f"/fileservice/{volume(core, path)}"}
     yield from _restarted(core, ops.RESTORE, form, wait)
 
@@ -111,10 +103,7 @@ def _gone(core: RwsCore, wait: float) -> Flow[None]:
 
 
 def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
-    """Wait s until the controller answers, accepts a login and has tasks.
-
-    Raises RobotTimeout (RG602).
-    """
+    """Wait s until the controller answers, accepts a login and has tasks."""
     until = core.clock() + wait
     last: Exception | None = None
     while core.clock() < until:

@@ -38,11 +38,7 @@ def held(core: RwsCore, domain: str, steps: Flow[T]) -> Flow[T]:
 
 
 def take(core: RwsCore, domain: str = "rapid", *, wait: float = 0.0) -> Flow[None]:
-    """Take mastership of `rapid`, `cfg` or `motion`.
-
-    Waits s while another client holds it. Each take needs a release. Mastership is never taken by
-    force. Raises Held (RG654) with its holder.
-    """
+    """Take mastership of `rapid`, `cfg` or `motion`."""
     name = domain_of(core, domain)
     if name in core.held:
         core.held[name] += 1

@@ -60,10 +60,7 @@ def execution(core: RwsCore) -> Flow[ProgramState]:
 
 
 def motors(core: RwsCore, on: bool) -> Flow[None]:
-    """Switch motors on or off; return when they are.
-
-    Raises RwsError (RG650), NotConfirmed (RG655): accepted without effect.
-    """
+    """Switch motors on or off; return when they are."""
     requested = "motoron" if on else "motoroff"
     yield from ask(core, ops.SET_CTRL_STATE, form={"ctrl-state": requested})
     state = ""
@@ -101,12 +98,7 @@ def pp_to_main(core: RwsCore) -> Flow[None]:
 
 
 def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
-    """Start the program of all selected tasks; return when it runs.
-
-    `cycle`: once, forever, asis. THE ROBOT MAY MOVE. Motors have to be on. Raises NotReady (RG610):
-    this session holds mastership, which prevents a start. NotConfirmed (RG655): accepted, and the
-    program does not run.
-    """
+    """Start the program of all selected tasks; return when it runs."""
     if core.held.keys() - {"write"}:
         raise NotReady.because(
             "RG658",
@@ -143,10 +135,7 @@ def _start_8(core: RwsCore, form: dict[str, str]) -> Flow[None]:
 
 
 def stop(core: RwsCore, *, everything: bool = False) -> Flow[None]:
-    """Stop the program; return when it has stopped.
-
-    `everything`: also stop background tasks. Not a safety function.
-    """
+    """Stop the program; return when it has stopped."""
     form = {"stopmode": "stop", "usetsp": "alltsk" if everything else "normal"}
     yield from ask(core, ops.STOP, form=form)
     for _ in range(_LOOKS):

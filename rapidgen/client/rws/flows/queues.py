@@ -20,10 +20,7 @@ def queues(core: RwsCore) -> Flow[tuple[str, ...]]:
 
 
 def make_queue(core: RwsCore, name: str, *, size: int = 10, largest: int = 444) -> Flow[None]:
-    """Create a queue of `size` messages of `largest` bytes.
-
-    It ends with the session.
-    """
+    """Create a queue of `size` messages of `largest` bytes."""
     form = {
         "dipc-queue-name": name,
         "dipc-queue-size": str(size),
@@ -40,11 +37,7 @@ def delete_queue(core: RwsCore, name: str) -> Flow[None]:
 def send_message(
     core: RwsCore, queue: str, data: str, *, sender: str = "", user: int = 0
 ) -> Flow[None]:
-    """Put a message into a queue.
-
-    A message to a task (`RMQ_T_ROB1`) is `type;value`, as `num;42`, and the program answers
-    `sender`, a queue of this session.
-    """
+    """Put a message into a queue."""
     form = {
         "dipc-src-queue-name": sender,
         "dipc-cmd": _COMMAND,
@@ -56,10 +49,7 @@ def send_message(
 
 
 def receive_message(core: RwsCore, queue: str, *, wait: float = 0.0) -> Flow[QueueMessage]:
-    """Remove and return the first message of a queue of this session.
-
-    Waits s for one. Raises RobotTimeout (RG602): none arrived.
-    """
+    """Remove and return the first message of a queue of this session."""
     until = core.clock() + wait
     while True:
         body, _ = yield from ask(core, ops.READ_MESSAGE, {"queue": queue})

@@ -35,10 +35,7 @@ def _task(item: Item) -> TaskState:
 
 
 def select_task(core: RwsCore, task: str, selected: bool) -> Flow[None]:
-    """Select whether a NORMAL task starts with the program; read it back.
-
-    This is the task selection panel. The program must be stopped. Raises NotConfirmed (RG655).
-    """
+    """Select whether a NORMAL task starts with the program; read it back."""
     operation = ops.ACTIVATE if selected else ops.DEACTIVATE
     yield from held(core, "rapid", ask(core, operation, {"task": task}, {"task": task}))
     now = yield from tasks(core)
@@ -76,11 +73,7 @@ def _of_task(core: RwsCore, task: str) -> tuple[dict[str, str], str]:
 
 
 def load_module(core: RwsCore, task: str, path: str, *, replace: bool = False) -> Flow[None]:
-    """Load a module file (`HOME/folder/a.mod`) into a task.
-
-    RAPID must be stopped in all tasks. `replace`: instead of a module of the same name.
-    `build_errors` reports its errors, not this method.
-    """
+    """Load a module file (`HOME/folder/a.mod`) into a task."""
     form = {"modulepath": _volume(core, path), "replace": "true" if replace else "false"}
     yield from held(core, "rapid", ask(core, ops.LOAD_MODULE, {"task": task}, form))
 
@@ -93,10 +86,7 @@ def unload_module(core: RwsCore, task: str, module: str) -> Flow[None]:
 def save_module(
     core: RwsCore, task: str, module: str, name: str, volume: str = "TEMP"
 ) -> Flow[str]:
-    """Save a module with its current persistents; return its path.
-
-    The path is on a volume.
-    """
+    """Save a module with its current persistents; return its path."""
     names, query = _of_task(core, task)
     names["module"] = module
     is_one = core.generation is Generation.ONE
@@ -132,10 +122,7 @@ def pointer(core: RwsCore, task: str) -> Flow[ProgramPointer]:
 
 
 def set_pointer(core: RwsCore, task: str, module: str, routine: str) -> Flow[None]:
-    """Set one task's program pointer to a routine.
-
-    Pointers of other tasks stay. The task must be stopped.
-    """
+    """Set one task's program pointer to a routine."""
     form = {"module": module, "routine": routine}
     if core.generation is not Generation.ONE:
         form["userlevel"] = "FALSE"
@@ -146,10 +133,7 @@ def set_pointer(core: RwsCore, task: str, module: str, routine: str) -> Flow[Non
 
 
 def symbol_text(core: RwsCore, path: str) -> Flow[str]:
-    """Return a datum as a RAPID literal; one request.
-
-    Its path is `TASK/MODULE/NAME` (or `TASK/NAME`).
-    """
+    """Return a datum as a RAPID literal; one request."""
     body, _ = yield from ask(core, ops.SYMBOL, {"symbol": path})
     item = body.first("rap-data")
     if item is None or "value" not in item.fields:
@@ -160,10 +144,7 @@ def symbol_text(core: RwsCore, path: str) -> Flow[str]:
 
 
 def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
-    """Return a datum as a Python value: bool, str or number.
-
-    Records and arrays are tuples.
-    """
+    """Return a datum as a Python value: bool, str or number."""
     text = yield from symbol_text(core, path)
     try:
         return read(text)
@@ -174,10 +155,7 @@ def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
 
 
 def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
-    """Set a datum and read it back.
-
-    Raises NotConfirmed (RG655): it has another value.
-    """
+    """Set a datum and read it back."""
     steps = ask(core, ops.SET_SYMBOL, {"symbol": path}, {"value": write(value)})
     if core.generation is Generation.ONE:
         yield from steps  # RobotWare 6 takes mastership by itself
@@ -193,10 +171,7 @@ def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
 def symbols(
     core: RwsCore, task: str, *, module: str = "", kind: str = "any", pattern: str = ""
 ) -> Flow[tuple[SymbolInfo, ...]]:
-    """Return data of a task.
-
-    `kind` is per, var, con or any; `pattern` a regular expression of the name.
-    """
+    """Return data of a task."""
     form = {
         "view": "block",
         "vartyp": "any",

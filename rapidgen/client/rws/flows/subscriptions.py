@@ -65,10 +65,7 @@ def unsubscribe(core: RwsCore, group: str) -> Flow[None]:
 def events_of(
     core: RwsCore, topics: Sequence[Topic], message: bytes
 ) -> Flow[tuple[ResourceEvent, ...]]:
-    """Return the events of a message; read values that it only links to.
-
-    Raises NotRws (RG653).
-    """
+    """Return the events of a message; read values that it only links to."""
     try:
         items = read_events(message)
     except Unreadable as error:

@@ -24,12 +24,7 @@ def grants(core: RwsCore) -> Flow[frozenset[str]]:
 
 
 def ask_rmmp(core: RwsCore, privilege: str = "modify", *, wait: float = 10.0) -> Flow[None]:
-    """Request remote writing (`modify`) or running (`exec`) in manual mode.
-
-    Returns when the pendant's user grants it, and at once in automatic mode. It lasts until
-    `cancel_rmmp`, the end of the session or another mode. Raises NotReady (RG661): it was denied,
-    or not answered within s. NotSupported (RG659): RobotWare 8 has none that works.
-    """
+    """Request remote writing (`modify`) or running (`exec`) in manual mode."""
     if (yield from _mode(core)) == "AUTO":
         return
     if core.generation is Generation.EIGHT:
