@@ -30,7 +30,7 @@ from rapidgen.client.flows.effects import (
     SendAtOnce,
     Wait,
 )
-from rapidgen.client.runner import FlowRunner, MakeCore
+from rapidgen.client.runner import FlowRunner, MakeCore, release_frames
 from rapidgen.client.unclosed import warn_unclosed
 from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
@@ -157,6 +157,13 @@ class AsyncFlowRunner(FlowRunner):
 
     async def run(self, flow: Flow[T]) -> T:
         """Run a flow on this loop."""
+        try:
+            return await self._run(flow)
+        except (RobotError, asyncio.CancelledError) as error:
+            release_frames(error)
+            raise
+
+    async def _run(self, flow: Flow[T]) -> T:
         self._connections.loop = asyncio.get_running_loop()
         outcome: bool | None = None
         failure: BaseException | None = None

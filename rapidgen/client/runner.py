@@ -1,7 +1,8 @@
 """What both runners of flows share."""
 
+import traceback
 from collections.abc import Callable
-from contextlib import AbstractContextManager
+from contextlib import AbstractContextManager, suppress
 
 from rapidgen.client.address import Address
 from rapidgen.client.core.robot import Core
@@ -26,3 +27,19 @@ class FlowRunner:
     def forked(self) -> None:
         """Drop the connections in a forked process."""
         self.core.forked()
+
+
+def release_frames(error: BaseException) -> None:
+    """Drop the local variables of the client's finished calls that an error passed.
+
+    A motion holds its error, whose traceback holds these calls and they the motion with all its
+    points: only a garbage collection would free a stopped trajectory.
+    """
+    chain: BaseException | None = error
+    while chain is not None:
+        for frame, _ in traceback.walk_tb(chain.__traceback__):
+            if frame.f_globals.get("__name__", "").startswith("rapidgen.client."):
+                # A frame that still runs cannot be cleared.
+                with suppress(RuntimeError):
+                    frame.clear()
+        chain = chain.__context__

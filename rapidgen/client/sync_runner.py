@@ -40,7 +40,7 @@ from rapidgen.client.flows.effects import (
     SendAtOnce,
     Wait,
 )
-from rapidgen.client.runner import FlowRunner, MakeCore
+from rapidgen.client.runner import FlowRunner, MakeCore, release_frames
 from rapidgen.client.unclosed import warn_unclosed
 from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
@@ -392,6 +392,13 @@ class SyncFlowRunner(FlowRunner):
 
         Ctrl-C may arrive anywhere here, and the flow must receive it to stop the robot.
         """
+        try:
+            return self._run(flow)
+        except (RobotError, KeyboardInterrupt) as error:
+            release_frames(error)
+            raise
+
+    def _run(self, flow: Flow[T]) -> T:
         outcome: bool | None = None
         failure: BaseException | None = None
         before = self.core.motion

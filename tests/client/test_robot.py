@@ -1,8 +1,11 @@
 """Both clients against a scripted controller: everything it can do, right and wrong."""
 
 import asyncio
+import contextlib
+import gc
 import socket
 import threading
+import weakref
 from types import SimpleNamespace
 
 import pytest
@@ -385,6 +388,31 @@ def test_stop_from_another_thread_while_sending(fake, patient, comes):
     assert -3 not in sequences
     # whole frames only, none left out
     assert sequences[:-1] == [-1, *range(1, len(sequences) - 1)]
+
+
+def test_trajectory_that_was_not_sent_is_freed(fake, patient, comes):
+    """A motion, its error and its traceback hold each other."""
+    controller = fake(capacity=300_000, read_bytes=68, read_pause=0.002)
+    points = Trajectory.from_points([[0.0] * 6] * 200_000, seconds=0.1)
+
+    def send():
+        with contextlib.suppress(MotionStopped):
+            robot.execute(points)
+
+    with Robot(controller.address, timeouts=patient()) as robot:
+        gc.disable()
+        try:
+            sender = threading.Thread(target=send)
+            sender.start()
+            assert comes(lambda: len(controller.frames) > 5)
+            motion = weakref.ref(robot._core.motion)
+            controller.script.read_pause, controller.script.read_bytes = 0.0, 65536
+            robot.stop()
+            sender.join(60)
+            robot._core.motion = None
+            assert motion() is None
+        finally:
+            gc.enable()
 
 
 def test_stopped_motion_sends_no_further_frame():

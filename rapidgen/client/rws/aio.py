@@ -337,7 +337,10 @@ class AsyncController(ControllerApi[RwsAsyncRunner]):
         return await self._runner.run(flows.connect.connected(self._core, flow))
 
     async def connect(self) -> Self:
-        """Connect and log in."""
+        """Connect and log in.
+
+        Raises ConnectionFailed, LoginFailed (RG651, RG652), NotRws (RG653).
+        """
         await self._runner.run(flows.connect.connect(self._core))
         return self
 
