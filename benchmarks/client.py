@@ -463,8 +463,8 @@ def stages():
             file for file, before in zip(files, [None, *files], strict=False) if file != before
         ]
         print(
-            f"{title:27s} {len(some):5d} calls, {len(set(some))} functions, {len(set(files))} files, "
-            f"{len(visits) - len(set(files))} returns to a file"
+            f"{title:27s} {len(some):5d} calls, {len(set(some))} functions, "
+            f"{len(set(files))} files, {len(visits) - len(set(files))} returns to a file"
         )
 
     count("execute to socket, all", calls[:sent])

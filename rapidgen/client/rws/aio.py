@@ -21,7 +21,7 @@ from rapidgen.client import deadline
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
 from rapidgen.client.rws import flows
 from rapidgen.client.rws.api import RESTART_TIMEOUT, ControllerApi
-from rapidgen.client.rws.core import RateLimiter, RwsCore
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import (
     DropConnections,
     Effect,
@@ -61,16 +61,16 @@ from rapidgen.client.rws.transport import (
     LOGOUT,
     LOGOUT_HEADERS,
     LOGOUT_TIMEOUT,
+    RwsRunner,
+    Session,
     auth_of,
     forked,
     no_verification,
     not_reached,
-    pinned_tls,
     response_of,
-    socket_options,
 )
 from rapidgen.client.rws.values import RapidValue
-from rapidgen.client.unclosed import drop_in_child, warn_unclosed
+from rapidgen.client.unclosed import warn_unclosed
 
 T = TypeVar("T")
 _LOGOUTS: set[asyncio.Task[None]] = set()
@@ -78,15 +78,11 @@ _LOGOUTS: set[asyncio.Task[None]] = set()
 
 
 @dataclass(slots=True, eq=False)
-class _Session:
-    """Session at a controller, apart from the runner that its user may drop."""
+class _Session(Session[httpx2.AsyncClient]):
+    """See Session."""
 
-    where: str
     loop: asyncio.AbstractEventLoop | None = None
     """The loop of the last call."""
-    client: httpx2.AsyncClient | None = None
-    base: str = ""
-    auth: httpx2.Auth | None = None
 
     def close_dropped(self) -> None:
         """Log out on the loop, with a warning: a session keeps its mastership for 5 min."""
@@ -111,23 +107,20 @@ class _Session:
         await client.aclose()
 
 
-class RwsAsyncRunner:
+class RwsAsyncRunner(RwsRunner[httpx2.AsyncClient]):
     """Runner of flows on the caller's loop, one after another."""
 
+    _session: _Session
+
     def __init__(self, core: RwsCore, timeout: float) -> None:
-        self._core = core
-        self._timeout = timeout
+        super().__init__(core, timeout, _Session(str(core.address)))
         self._lock = asyncio.Lock()
-        self._pace = RateLimiter()
-        self._session = _Session(str(core.address))
         weakref.finalize(self, self._session.close_dropped)
-        drop_in_child(self)
 
     def forked(self) -> None:
         """Drop the session in a forked process; it stays the parent's."""
         self._lock = asyncio.Lock()
-        self._session.client = None
-        self._core.forked()
+        super().forked()
 
     async def run(self, flow: Flow[T]) -> T:
         """Return the outcome of a flow.
@@ -167,33 +160,20 @@ class RwsAsyncRunner:
                 return await self._look(effect.port)
             case UseEndpoint():
                 await self.close()
-                scheme = "https" if effect.certificate else "http"
-                self._session.base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
-                verify = pinned_tls(effect.certificate) if effect.certificate else True
-                self._session.auth = None
-                self._session.client = httpx2.AsyncClient(
-                    verify=verify, trust_env=False, timeout=self._timeout, follow_redirects=False
-                )
+                self._use(effect, httpx2.AsyncClient)
             case LogIn():
                 self._session.auth = auth_of(effect, self._core)
             case DropConnections():
-                if self._session.client is not None:
-                    self._session.client.cookies.clear()
+                self._drop_cookies()
         return Response(0)
 
     async def _exchange(self, effect: Exchange) -> Response:
-        session = self._session
-        assert session.client is not None
+        client = self._session.client
+        assert client is not None
         await asyncio.sleep(self._pace.reserve(time.monotonic()))
         for left in (1, 0):
             try:
-                answer = await session.client.request(
-                    effect.method,
-                    session.base + effect.target,
-                    headers=dict(effect.headers),
-                    content=effect.body or None,
-                    auth=session.auth,
-                )
+                answer = await client.request(**self._request(effect))
             except httpx2.HTTPError as error:
                 if left and effect.repeat and not isinstance(error, httpx2.TimeoutException):
                     continue
@@ -221,16 +201,10 @@ class RwsAsyncRunner:
 
         Pings are off: RWS 2.0 disconnects a client that sends.
         """
-        session = self._session
-        assert session.client is not None
+        address, options = self._websocket(path)
+        opening = connect_socket(address, **options, open_timeout=self._timeout)
         try:
-            return await stack.enter_async_context(
-                connect_socket(
-                    session.base.replace("http", "ws", 1) + path,
-                    **socket_options(self._core, session.client.cookies),
-                    open_timeout=self._timeout,
-                )
-            )
+            return await stack.enter_async_context(opening)
         except (OSError, WebSocketException) as error:
             raise not_reached(self._core, error, self._timeout) from error
 

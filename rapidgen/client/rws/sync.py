@@ -21,7 +21,7 @@ from rapidgen._compat import Self
 from rapidgen.client.errors import ConnectionLost, RobotTimeout
 from rapidgen.client.rws import flows
 from rapidgen.client.rws.api import RESTART_TIMEOUT, ControllerApi
-from rapidgen.client.rws.core import RateLimiter, RwsCore
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import (
     DropConnections,
     Effect,
@@ -61,28 +61,23 @@ from rapidgen.client.rws.transport import (
     LOGOUT,
     LOGOUT_HEADERS,
     LOGOUT_TIMEOUT,
+    RwsRunner,
+    Session,
     auth_of,
     forked,
     no_verification,
     not_reached,
-    pinned_tls,
     response_of,
-    socket_options,
 )
 from rapidgen.client.rws.values import RapidValue
-from rapidgen.client.unclosed import drop_in_child, warn_unclosed
+from rapidgen.client.unclosed import warn_unclosed
 
 T = TypeVar("T")
 
 
 @dataclass(slots=True, eq=False)
-class _Session:
-    """Session at a controller, apart from the runner that its user may drop."""
-
-    where: str
-    client: httpx2.Client | None = None
-    base: str = ""
-    auth: httpx2.Auth | None = None
+class _Session(Session[httpx2.Client]):
+    """See Session."""
 
     def close_dropped(self) -> None:
         """Log out without waiting, with a warning: a session keeps its mastership for 5 min."""
@@ -104,24 +99,21 @@ class _Session:
         client.close()
 
 
-class RwsSyncRunner:
+class RwsSyncRunner(RwsRunner[httpx2.Client]):
     """Runner of flows on the caller's thread, one request at a time."""
 
+    _session: _Session
+
     def __init__(self, core: RwsCore, timeout: float) -> None:
-        self._core = core
-        self._timeout = timeout
+        super().__init__(core, timeout, _Session(str(core.address)))
         self._lock = threading.RLock()
-        self._pace = RateLimiter()
-        self._session = _Session(str(core.address))
         weakref.finalize(self, self._session.close_dropped)
-        drop_in_child(self)
 
     def forked(self) -> None:
         """Drop the session in a forked process; it stays the parent's."""
         # A thread that the child does not have may hold the old locks.
         self._lock = threading.RLock()
-        self._session.client = None
-        self._core.forked()
+        super().forked()
 
     def run(self, flow: Flow[T]) -> T:
         """Return the outcome of a flow.
@@ -159,40 +151,21 @@ class RwsSyncRunner:
             case FetchCertificate():
                 return self._look(effect.port)
             case UseEndpoint():
-                self._settle(effect)
+                self.close()
+                self._use(effect, httpx2.Client)
             case LogIn():
                 self._session.auth = auth_of(effect, self._core)
             case DropConnections():
-                self._forget()
+                self._drop_cookies()
         return Response(0)
 
-    def _settle(self, effect: UseEndpoint) -> None:
-        self.close()
-        scheme = "https" if effect.certificate else "http"
-        self._session.base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
-        verify = pinned_tls(effect.certificate) if effect.certificate else True
-        self._session.auth = None
-        self._session.client = httpx2.Client(
-            verify=verify, trust_env=False, timeout=self._timeout, follow_redirects=False
-        )
-
-    def _forget(self) -> None:
-        if self._session.client is not None:
-            self._session.client.cookies.clear()
-
     def _exchange(self, effect: Exchange) -> Response:
-        session = self._session
-        assert session.client is not None
+        client = self._session.client
+        assert client is not None
         time.sleep(self._pace.reserve(time.monotonic()))
         for left in (1, 0):
             try:
-                answer = session.client.request(
-                    effect.method,
-                    session.base + effect.target,
-                    headers=dict(effect.headers),
-                    content=effect.body or None,
-                    auth=session.auth,
-                )
+                answer = client.request(**self._request(effect))
             except httpx2.HTTPError as error:
                 if left and effect.repeat and not isinstance(error, httpx2.TimeoutException):
                     continue
@@ -216,15 +189,10 @@ class RwsSyncRunner:
 
         Pings are off: RWS 2.0 disconnects a client that sends.
         """
-        session = self._session
-        assert session.client is not None
+        address, options = self._websocket(path, threads=True)
         try:
             return stack.enter_context(
-                connect_socket(
-                    session.base.replace("http", "ws", 1) + path,
-                    **socket_options(self._core, session.client.cookies, threads=True),
-                    open_timeout=self._timeout,
-                )
+                connect_socket(address, **options, open_timeout=self._timeout)
             )
         except (OSError, WebSocketException) as error:
             raise not_reached(self._core, error, self._timeout) from error

@@ -5,14 +5,17 @@ environment's proxies are ignored, redirects are not followed.
 """
 
 import ssl
-from typing import TypedDict
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Generic, TypedDict, TypeVar
 
 import httpx2
 from websockets.typing import Subprotocol
 
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotError
-from rapidgen.client.rws.core import RwsCore
-from rapidgen.client.rws.effects import LogIn, Response
+from rapidgen.client.rws.core import RateLimiter, RwsCore
+from rapidgen.client.rws.effects import Exchange, LogIn, Response, UseEndpoint
+from rapidgen.client.unclosed import drop_in_child
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.events import PROTOCOLS
 from rapidgen.wire.rws.xhtml import LARGEST
@@ -48,6 +51,76 @@ def auth_of(effect: LogIn, core: RwsCore) -> httpx2.Auth:
         return httpx2.DigestAuth(core.user, core.login.password)
     assert core.certificate, "a password in clear is sent over TLS only"
     return httpx2.BasicAuth(core.user, core.login.password)
+
+
+class RequestOptions(TypedDict):
+    """Arguments of a request."""
+
+    method: str
+    url: str
+    headers: dict[str, str]
+    content: bytes | None
+    auth: httpx2.Auth | None
+
+
+Http = TypeVar("Http", httpx2.Client, httpx2.AsyncClient)
+
+
+@dataclass(slots=True, eq=False)
+class Session(Generic[Http]):
+    """Session at a controller, apart from the runner that its user may drop."""
+
+    where: str
+    client: Http | None = None
+    base: str = ""
+    auth: httpx2.Auth | None = None
+
+
+class RwsRunner(Generic[Http]):
+    """What both runners of flows share: the session, and its pace of requests."""
+
+    def __init__(self, core: RwsCore, timeout: float, session: Session[Http]) -> None:
+        self._core = core
+        self._timeout = timeout
+        self._pace = RateLimiter()
+        self._session: Session[Http] = session
+        drop_in_child(self)
+
+    def forked(self) -> None:
+        """Drop the session in a forked process; it stays the parent's."""
+        self._session.client = None
+        self._core.forked()
+
+    def _use(self, effect: UseEndpoint, make_client: Callable[..., Http]) -> None:
+        session = self._session
+        scheme = "https" if effect.certificate else "http"
+        session.base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
+        session.auth = None
+        session.client = make_client(
+            verify=pinned_tls(effect.certificate) if effect.certificate else True,
+            trust_env=False,
+            timeout=self._timeout,
+            follow_redirects=False,
+        )
+
+    def _drop_cookies(self) -> None:
+        if self._session.client is not None:
+            self._session.client.cookies.clear()
+
+    def _request(self, effect: Exchange) -> RequestOptions:
+        return RequestOptions(
+            method=effect.method,
+            url=self._session.base + effect.target,
+            headers=dict(effect.headers),
+            content=effect.body or None,
+            auth=self._session.auth,
+        )
+
+    def _websocket(self, path: str, *, threads: bool = False) -> tuple[str, "SocketOptions"]:
+        """Return address and options of a websocket of this session."""
+        assert self._session.client is not None
+        address = self._session.base.replace("http", "ws", 1) + path
+        return address, socket_options(self._core, self._session.client.cookies, threads=threads)
 
 
 class SocketOptions(TypedDict):

@@ -1,4 +1,4 @@
-"""Flows of the client: generators of `effects` that a carrier executes."""
+"""Flows of the client: generators of `effects` that a runner executes."""
 
 from rapidgen.client.rws.flows import (
     cfg,
