@@ -451,9 +451,10 @@ def stages():
         calls.append((code.co_filename, code.co_name, code.co_firstlineno, holds))
 
     with Running(period=0.02, features=3) as sink, robot_at(sink) as robot:
-        robot.execute(still(4)).result()
+        trajectory = still(4)
+        robot.execute(trajectory).result()
         sys.setprofile(profile)
-        execution = robot.execute(still(4))
+        execution = robot.execute(trajectory)
         sys.setprofile(None)
         execution.result()
 

@@ -235,9 +235,9 @@ class AsyncFlowRunner(FlowRunner):
     async def _send(
         self, connection: Connection, transport: asyncio.Transport, effect: Send
     ) -> None:
-        data = effect.data
+        data, motion = effect.data, effect.motion
         for count, at in enumerate(range(0, len(data), FRAME_BYTES), 1):
-            if effect.is_stopped:
+            if motion is not None and motion.stopping:
                 raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
             if self._by_port.get(connection.port) is not connection:
                 raise self.core.disconnected()

@@ -83,12 +83,12 @@ class Connection:
         Raises MotionStopped between two of them once a stop was requested, RobotTimeout if the peer
         reads no byte for the effect's time-out, ConnectionLost.
         """
-        view = memoryview(effect.data)
+        view, motion = memoryview(effect.data), effect.motion
         at = 0
         waited = 0.0
         while at < len(view):
             with self._lock:
-                if effect.is_stopped:
+                if motion is not None and motion.stopping:
                     raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
                 if self._is_offered and self._rest:
                     # Frames that were offered earlier go out first.

@@ -1,7 +1,7 @@
 """A path of joint positions with times, as frozen arrays."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
@@ -199,11 +199,22 @@ class Trajectory:
 
         Without names of its own it is unchanged. Raises KeyError for a missing name.
         """
-        if not self.names or self.names == tuple(names):
-            return replace(self, names=tuple(names)) if not self.names else self
-        column = {name: i for i, name in enumerate(self.names)}
-        order = [column[name] for name in names]
-        return replace(self, positions=self.positions[:, order], names=tuple(names))
+        names = tuple(names)
+        if self.names == names:
+            return self
+        positions = self.positions
+        if self.names:
+            column = {name: i for i, name in enumerate(self.names)}
+            positions = positions[:, [column[name] for name in names]]
+            positions.flags.writeable = False
+        if not len(set(names)) == len(names) == positions.shape[1]:
+            return replace(self, positions=positions, names=names)
+        # The arrays are known to fit: they are neither checked nor copied again.
+        result = object.__new__(Trajectory)
+        values = self.times, positions, names, self.path, self.lines
+        for field, value in zip(fields(self), values, strict=True):
+            object.__setattr__(result, field.name, value)
+        return result
 
     def scaled(self, speed: float) -> "Trajectory":
         """The same path at `speed` times the speed (0.5: twice the time)."""

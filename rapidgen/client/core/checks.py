@@ -92,11 +92,6 @@ class CheckedPoints:
     last: LastPoint
     warnings: tuple[Diagnostic, ...]
 
-    @property
-    def seconds(self) -> float:
-        """Commanded duration in s."""
-        return float(self.durations.sum())
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _CheckInput:
@@ -158,9 +153,10 @@ def check_trajectory(
     _require_arguments(trajectory, mode)
     if mode == "stream":
         limits.require_streaming()
-    exceeds_ring = limits.ring is not None and len(trajectory) > limits.ring
+    count = len(trajectory.times)
+    exceeds_ring = limits.ring is not None and count > limits.ring
     streams = mode == "stream" or (mode is None and exceeds_ring)
-    too_many = _too_many(trajectory, limits.capacity)
+    too_many = [_too_many(count, limits.capacity)] if count > limits.capacity else []
     ordered = _in_robot_order(trajectory, group, [] if streams else too_many)
     times = ordered.times
     since = times[0] - group.policy.min_segment if before is None else before.time
@@ -184,7 +180,7 @@ def check_trajectory(
         raise InvalidTrajectory(findings, exit_code=1)
     if streams:
         wire, durations = quantised(wire, group), _quantised_durations(points, since)
-    last = LastPoint(len(ordered) + points.origin, float(times[-1]), wire[-1])
+    last = LastPoint(count + points.origin, float(times[-1]), wire[-1])
     if is_single:
         wire = np.repeat(wire, 2, axis=0)
         # A rapidgen driver uses the second frame's duration, abb_driver uses both.
@@ -244,7 +240,7 @@ def quantised(wire: Array, group: Group) -> Array:
 def _in_robot_order(trajectory: Trajectory, group: Group, findings: list[Diagnostic]) -> Trajectory:
     """Return the trajectory in the robot's columns; later checks need them."""
     findings = findings + group.name_faults(trajectory.names, trajectory.positions.shape[1])
-    if not len(trajectory):
+    if not len(trajectory.times):
         findings.append(
             _finding("RG619", "the trajectory has no points", "give at least one point")
         )
@@ -266,19 +262,13 @@ def _finding(
     return error(code, span, message, help, notes=notes)
 
 
-def _too_many(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
-    count = len(trajectory)
-    if count <= capacity:
-        return []
-    return [
-        _finding(
-            "RG617",
-            f"{count} points, the driver holds {capacity}",
-            "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
-            "a larger `trajectory.capacity` in the configuration accepts more (build and deploy "
-            "again)",
-        )
-    ]
+def _too_many(count: int, capacity: int) -> Diagnostic:
+    return _finding(
+        "RG617",
+        f"{count} points, the driver holds {capacity}",
+        "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
+        "a larger `trajectory.capacity` in the configuration accepts more (build and deploy again)",
+    )
 
 
 def _finite(requested: _CheckInput) -> Iterator[Diagnostic]:

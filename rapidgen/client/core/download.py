@@ -54,11 +54,11 @@ class Download(CommandedMotion):
         super().__init__(group, state_port, silence)
         self.trajectory = points.trajectory
         self.warnings = points.warnings
-        self.total = len(points.trajectory)
+        self.total = len(points.trajectory.times)
         self.frames = len(points.wire)
         self._unsent = encode_trajectory(points.wire, points.durations)
         # A standard abb_driver reports no progress.
-        self.planned_seconds = self.longest = points.seconds
+        self.planned_seconds = self.longest = float(points.durations.sum())
         self.goal = points.wire[-1].tolist()
         self._pending: PendingReply | None = None
         self.approach = float(points.durations[0])

@@ -109,6 +109,8 @@ class StatePort:
         Delayed messages arrive together.
         """
         self._status: messages.StatusReport | None = None
+        self._decoded_status: tuple[messages.StatusReport | None, Driver, Status]
+        self._decoded_status = None, self.driver, Status()
         self._log: deque[tuple[float, Frame | str]] = deque(maxlen=KEPT_MESSAGES)
         self._state: State | None = None
 
@@ -225,7 +227,11 @@ class StatePort:
     @property
     def status(self) -> Status:
         """The newest status; all unknown before the first."""
-        return status_of(self._status, self.driver) if self._status else Status()
+        raw, driver, status = self._decoded_status
+        if raw is not self._status or driver is not self.driver:
+            status = status_of(self._status, self.driver) if self._status else Status()
+            self._decoded_status = self._status, self.driver, status
+        return status
 
     @property
     def wire_joints(self) -> tuple[float, ...] | None:

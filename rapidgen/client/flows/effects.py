@@ -47,11 +47,6 @@ class Send:
     timeout: float
     motion: CommandedMotion | None = None
 
-    @property
-    def is_stopped(self) -> bool:
-        """True if these points must no longer be sent."""
-        return self.motion is not None and self.motion.stopping
-
 
 @dataclass(frozen=True, slots=True)
 class SendAtOnce:

@@ -105,7 +105,7 @@ class TrajectoryProvider:
         return UploadedTrajectory(
             group=group.name,
             file=name,
-            seconds=checked.seconds,
+            seconds=float(checked.durations.sum()),
             points=len(checked.trajectory),
             way=way,
             pace=(0.0, *(distance(a, b) / s for a, b, s in legs)) if way else (),
