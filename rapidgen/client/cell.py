@@ -18,7 +18,13 @@ from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import InvalidTarget, InvalidTrajectory, RobotError
 from rapidgen.client.flows.effects import Flow
-from rapidgen.client.flows.motion import accepted, armed, ready, send_end, send_points
+from rapidgen.client.flows.motion import (
+    control_answers,
+    download_accepted,
+    ready,
+    send_end,
+    send_points,
+)
 from rapidgen.client.sync import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
@@ -49,7 +55,7 @@ class _Start:
             motion = self._cores[name].begin(checked)
             assert isinstance(motion, Download)
             self.motions[name] = motion
-        for step in (send_points, send_end, accepted):
+        for step in (send_points, send_end, download_accepted):
             for name, motion in self.motions.items():
                 yield name, step(self._cores[name], motion)
 
@@ -105,7 +111,7 @@ class Cell:
         moving = _chosen(self.robots, trajectories)
         _each(moving, lambda robot: robot._runner.run(ready(robot._core)))
         start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
-        _each(moving, lambda robot: robot._runner.run(armed(robot._core)))
+        _each(moving, lambda robot: robot._runner.run(control_answers(robot._core)))
         try:
             for name, flow in start.steps():
                 moving[name]._runner.run(flow)
@@ -218,7 +224,7 @@ class AsyncCell:
         moving = _chosen(self.robots, trajectories)
         await _gather({name: r._runner.run(ready(r._core)) for name, r in moving.items()})
         start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
-        await _gather({name: r._runner.run(armed(r._core)) for name, r in moving.items()})
+        await _gather({name: r._runner.run(control_answers(r._core)) for name, r in moving.items()})
         try:
             for name, flow in start.steps():
                 await moving[name]._runner.run(flow)

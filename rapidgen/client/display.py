@@ -27,8 +27,8 @@ def robot_text(core: Core, address: Address) -> str:
     if not core.is_connected:
         return f"{whom}, not connected"
     driver = core.state_port.driver
-    who = f"rapidgen {driver.version}" if driver.is_rapidgen else "plain simple_message"
-    return f"{whom}: {who}, {core.state_port.status}"
+    name = f"rapidgen {driver.version}" if driver.is_rapidgen else "plain simple_message"
+    return f"{whom}: {name}, {core.state_port.status}"
 
 
 def state_table(caption: str, group: Group, joints: Sequence[float]) -> str:

@@ -35,7 +35,7 @@ class JointRecording:
         if sample.stamp is not None or not self.by_controller:
             self._samples.append(sample)
 
-    def taken(self, time: float) -> None:
+    def accepted(self, time: float) -> None:
         """Record the client's time at which the controller accepted a motion."""
         self._taken.append(time)
 

@@ -89,9 +89,9 @@ def test_what_stirs_and_is_as_before_when_the_caller_looks_has_stirred():
     motion.progress = Progress(TrajectoryState.MOVING, total=1)
     waiting = until(SimpleNamespace(override=1.0), motion, lambda: False)
     wait = next(waiting)
-    motion.mark = 2
+    motion.progress_marker = 2
     assert wait.until()
-    motion.mark = 1
+    motion.progress_marker = 1
     wait = waiting.send(True)
     assert not wait.until()
     with pytest.raises(StopIteration) as end:

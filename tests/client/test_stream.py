@@ -124,7 +124,7 @@ def test_stop_from_another_thread(connected):
         # the controller's own word, by the control port
         assert stream.stopped_position == pytest.approx(controller.script.stream.position)
         assert state.joints == pytest.approx(controller.script.stream.position, abs=1e-6)
-        assert robot._core.motion.stood is not None
+        assert robot._core.motion.stopped_joints is not None
 
 
 def test_closing_stops_a_stream(connected):

@@ -47,7 +47,7 @@ def recorded(group, *, feedback, jitter=0.0, begins=1.0, off=0.0):
         axes = (*group.map.to_controller(joints), 0.0, 0.0, 0.0, 0.0)
         came = 100 + now + float(random.uniform(0, jitter)) if jitter else 100 + now
         if n == round(begins * 10):
-            recording.taken(came)
+            recording.accepted(came)
         recording.add(Sample(came, axes))
         if feedback:
             recording.add(Sample(came, axes, 7000 + now))

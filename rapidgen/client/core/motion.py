@@ -91,7 +91,7 @@ class CommandedMotion(ABC):
         self.phase = Phase.SENDING
         self.result: Result | None = None
         self.error: RobotError | None = None
-        self.is_taken = False
+        self.is_accepted = False
         """True once the controller has accepted the motion; `result` follows."""
         self.is_ordered = False
         """True once bytes were sent after which the controller may move."""
@@ -117,7 +117,7 @@ class CommandedMotion(ABC):
         """Longest time without progress, s."""
         self.goal: Sequence[float] = ()
         """Axis values of the last point, rad or m."""
-        self.stood: tuple[float, ...] | None = None
+        self.stopped_joints: tuple[float, ...] | None = None
         """Joints at which the controller reports a stop."""
         self.rest: State | None = None
         """State of the robot at rest after its caller has cancelled the motion."""
@@ -173,8 +173,8 @@ class CommandedMotion(ABC):
     @property
     def stopped_position(self) -> tuple[float, ...] | None:
         """Joints at which the robot stopped, as far as known."""
-        if self.stood is not None:
-            return self.stood
+        if self.stopped_joints is not None:
+            return self.stopped_joints
         if self.result is not None:
             return self.result.state.joints
         if self.rest is not None:
@@ -191,7 +191,7 @@ class CommandedMotion(ABC):
         return progress_text(self.progress, self.noun)
 
     @property
-    def mark(self) -> tuple[object, ...]:
+    def progress_marker(self) -> tuple[object, ...]:
         """Value that changes with the progress of the motion."""
         progress = self.progress
         return (progress.state, progress.reached, progress.received)
@@ -201,9 +201,9 @@ class CommandedMotion(ABC):
         if self.is_over:
             return
         self._note(f"{self.total} {self.noun}s by {self.mode} were accepted")
-        self._state_port.taken()
+        self._state_port.motion_accepted()
         self.phase = Phase.MOVING
-        self.is_taken = True
+        self.is_accepted = True
         self.number = number
         self._began = self._state_port.clock()
         self._first_sample = self._state_port.samples
@@ -283,13 +283,16 @@ class CommandedMotion(ABC):
             return
         if self._at_rest_since is None:
             self._at_rest_since = state.time
-        stood = state.time - self._at_rest_since
+        at_rest = state.time - self._at_rest_since
         if self.stopping:
             self.stopped()
         elif self._deviation(state) <= GOAL_TOLERANCE:
-            if stood > _ARRIVED and state.time - self._began > self.planned_seconds - self.approach:
+            if (
+                at_rest > _ARRIVED
+                and state.time - self._began > self.planned_seconds - self.approach
+            ):
                 self._succeed()
-        elif stood > _STRANDED:
+        elif at_rest > _STRANDED:
             self.failed(
                 self._state_port.late(
                     "the driver no longer reports the progress of the motion, and the robot rests "

@@ -164,7 +164,7 @@ class Core:
         self.override = 1.0
         """Share of the programmed speed that this client has set."""
         self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
-        self._stopped_blindly: Download | PointStream | None = None
+        self._stopped_unmonitored: Download | PointStream | None = None
         self.may_reach_control = False
         """True if another attempt to connect the control port is worthwhile."""
         self._control_answered = clock()
@@ -214,11 +214,11 @@ class Core:
         return True
 
     def _replies(self, port: Port, data: bytes) -> None:
-        talk = self.ports[port]
+        requests = self.ports[port]
         if port is Port.CONTROL:
             self._control_answered = self.clock()
-        talk.splitter.feed(data)
-        while (frame := talk.splitter.next()) is not None:
+        requests.splitter.feed(data)
+        while (frame := requests.splitter.next()) is not None:
             self.state_port.keep(frame)
             try:
                 content = decode(frame)
@@ -226,11 +226,11 @@ class Core:
                 self._senseless(port, str(error))
                 continue
             if isinstance(content, messages.Stopped):
-                self._stood(content)
+                self._note_stop(content)
                 continue
             # A rapidgen driver answers orders with data: its bare replies belong to STOP.
             has_data = self.state_port.driver.is_rapidgen
-            if frame.comm != Comm.REPLY or not talk.answered(
+            if frame.comm != Comm.REPLY or not requests.answered(
                 frame.number, content, orders_have_data=has_data
             ):
                 self._senseless(port, "this message was not requested")
@@ -249,10 +249,10 @@ class Core:
                 )
             )
 
-    def _stood(self, report: messages.Stopped) -> None:
+    def _note_stop(self, report: messages.Stopped) -> None:
         """Process the controller's report of the position after a stop."""
         if self.motion is not None and self._group is not None:
-            self.motion.stood = self._group.from_wire(report.joints)
+            self.motion.stopped_joints = self._group.from_wire(report.joints)
 
     def lost(self, port: Port, why: str) -> None:
         """Record that a connection was lost."""
@@ -291,8 +291,8 @@ class Core:
             self.state_port.note("closed", logging.INFO)
         self.fault = None
         self.state_open = False
-        for talk in self.ports.values():
-            talk.is_open = False
+        for requests in self.ports.values():
+            requests.is_open = False
 
     def forked(self) -> None:
         """Forget the connections and the motion: they belong to the parent process.
@@ -308,7 +308,7 @@ class Core:
             self.motion.failed(error)
             # An error of this process must not stop the parent's motion.
             self.motion.is_settled = True
-        connected = self.state_open or any(talk.is_open for talk in self.ports.values())
+        connected = self.state_open or any(requests.is_open for requests in self.ports.values())
         self.closed()
         self.ports = {port: RequestPort() for port in self.ports}
         self.reconnect = 0.0
@@ -400,15 +400,15 @@ class Core:
         timeout = self.heartbeat.due(now, moves=moves)
         if timeout is None:
             return None
-        pace = self.state_port.pace if self.simulated else 1.0
-        if pace is None:
+        rate = self.state_port.clock_rate if self.simulated else 1.0
+        if rate is None:
             return None
-        if pace > _SIMULATION:
+        if rate > _SIMULATION:
             # A stall of this machine shortens the time by the same factor; no real robot is
             # concerned.
-            pace *= _SLACK
+            rate *= _SLACK
         self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
-        return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
+        return encode(messages.HeartbeatRequest(timeout * max(1.0, rate)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
         """Queue a request for the control port.
@@ -432,17 +432,17 @@ class Core:
         unmonitored = ConnectionLost | RobotTimeout | ProtocolError
         if (
             motion is None
-            or motion is self._stopped_blindly
+            or motion is self._stopped_unmonitored
             or not isinstance(motion.error, unmonitored)
         ):
             return []
         if motion.is_settled:
             return []
-        self._stopped_blindly = motion
+        self._stopped_unmonitored = motion
         self.ports[Port.MOTION].forget_orders()
         # If no STOP arrives, the controller misses the heartbeat.
         self.heartbeat.forget()
-        ports = [port for port, talk in self.ports.items() if talk.is_open]
+        ports = [port for port, requests in self.ports.items() if requests.is_open]
         for port in ports:
             self.request_stop(port)
             why = f"STOP over the {port.name.lower()} port: no states arrive from the robot"

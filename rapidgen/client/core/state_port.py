@@ -56,7 +56,7 @@ class Listener(Protocol):
     def add(self, sample: Sample) -> None:
         """Add a joint message, or a feedback."""
 
-    def taken(self, time: float) -> None:
+    def accepted(self, time: float) -> None:
         """Record the client's time at which the controller accepted a motion."""
 
 
@@ -84,7 +84,7 @@ class StatePort:
         self.progresses = 0
         self._progress_at = (0.0, 0)
         """Time of the last PROGRESS, and the joint messages until then."""
-        self._pace = ClockRateEstimator()
+        self._clock_rate = ClockRateEstimator()
         self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
         """The last entries of the controller's log, oldest first."""
         self.event_count = 0
@@ -121,7 +121,7 @@ class StatePort:
         self.progress = None
         self.driver = Driver()
         self._arrivals.clear()
-        self._pace = ClockRateEstimator()
+        self._clock_rate = ClockRateEstimator()
         self._status = None
         self.samples = 0
         self.event_count = 0
@@ -160,7 +160,7 @@ class StatePort:
             case messages.JointPosition():
                 sample = Sample(now, content.joints)
                 self.samples += 1
-                self._pace.add_sample(now, self.samples)
+                self._clock_rate.add_sample(now, self.samples)
                 self._recent.append(sample)
                 if self._arrivals and self._arrivals[-1][0].time == now:
                     self._arrivals.pop()
@@ -199,10 +199,10 @@ class StatePort:
         """Return s of a clock that continues when the wire's wraps around."""
         return content.time + self._laps * FEEDBACK_WRAP
 
-    def taken(self) -> None:
+    def motion_accepted(self) -> None:
         """Record that the controller accepted a motion."""
         for listener in self.listeners:
-            listener.taken(self.clock())
+            listener.accepted(self.clock())
 
     @property
     def feedback(self) -> Feedback | None:
@@ -267,7 +267,7 @@ class StatePort:
         return (number - before) / (last.time - first.time)
 
     @property
-    def pace(self) -> float | None:
+    def clock_rate(self) -> float | None:
         """Rate of the driver's clock relative to this one, by its states.
 
         None before enough states have arrived; 1 if the rate cannot be measured. A simulation may
@@ -276,7 +276,7 @@ class StatePort:
         period = self.driver.hello.state_period if self.driver.hello is not None else 0.0
         if period <= 0:
             return 1.0
-        rate = self._pace.rate
+        rate = self._clock_rate.rate
         return None if rate is None else rate * period
 
     @property

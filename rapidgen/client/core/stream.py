@@ -46,7 +46,7 @@ from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, Trajectory
 
 
 @dataclass(slots=True)
-class _Flight:
+class _SentBatch:
     """A sent batch; `end` is the number of points including it."""
 
     pending: PendingReply
@@ -176,7 +176,7 @@ class PointStream(CommandedMotion):
         self._ring = hello.ring
         self._send_limit = hello.ring
         """Limit of the points that may be sent, as far as known now."""
-        self._flights: deque[_Flight] = deque()
+        self._unanswered: deque[_SentBatch] = deque()
         self._looked_at = 0
         """PROGRESS messages at the last evaluation."""
         self._is_flushing = False
@@ -193,12 +193,12 @@ class PointStream(CommandedMotion):
     @property
     def awaits_answer(self) -> bool:
         """See CommandedMotion."""
-        return bool(self._flights) and not self.is_over
+        return bool(self._unanswered) and not self.is_over
 
     @property
     def is_complete(self) -> bool:
         """See CommandedMotion."""
-        return self._end_is_sent and not self._flights
+        return self._end_is_sent and not self._unanswered
 
     @property
     def is_paused(self) -> bool:
@@ -250,7 +250,7 @@ class PointStream(CommandedMotion):
         The driver must start although it waits for more seconds of motion.
         """
         moves = self._state_port.status.in_motion is TriState.TRUE
-        return not (self._flights or moves or self._is_filled or self.is_paused)
+        return not (self._unanswered or moves or self._is_filled or self.is_paused)
 
     def next_frame(self, pending: PendingReply) -> bytes:
         """Return the batch that is due; `pending` is its reply."""
@@ -272,7 +272,7 @@ class PointStream(CommandedMotion):
         frame = self.queue.frame(self.stream, self._sent, size, flags)
         self._sent += size
         self.is_ordered = True
-        self._flights.append(_Flight(pending, self._sent, self._state_port.clock()))
+        self._unanswered.append(_SentBatch(pending, self._sent, self._state_port.clock()))
         return frame
 
     # Input from the controller
@@ -282,13 +282,15 @@ class PointStream(CommandedMotion):
 
         Call it after each message, and regularly without one.
         """
-        while not self.is_over and self._flights and self._flights[0].pending.reply is not None:
-            flight = self._flights.popleft()
-            assert flight.pending.reply is not None
-            self._answered(flight.end, flight.pending.reply)
+        while (
+            not self.is_over and self._unanswered and self._unanswered[0].pending.reply is not None
+        ):
+            oldest = self._unanswered.popleft()
+            assert oldest.pending.reply is not None
+            self._answered(oldest.end, oldest.pending.reply)
         if self.is_over:
             return
-        waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
+        waited = self._state_port.clock() - self._unanswered[0].sent if self._unanswered else 0.0
         if waited > self._reply_timeout:
             self.failed(
                 self._state_port.late(

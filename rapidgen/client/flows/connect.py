@@ -63,10 +63,10 @@ def _open(core: Core) -> Flow[None]:
             ),
             limits.state,
         )
-    _meet(core, state_port.hello)
+    _check_driver(core, state_port.hello)
     report = state_port.driver.hello
-    who = f"rapidgen {state_port.driver.version}, build {report.build_id}" if report else "plain"
-    state_port.note(f"connected: {who}, {state_port.status}", logging.INFO)
+    name = f"rapidgen {state_port.driver.version}, build {report.build_id}" if report else "plain"
+    state_port.note(f"connected: {name}, {state_port.status}", logging.INFO)
     if core.watch:
         return
     yield Open(Port.MOTION, limits.connect)
@@ -84,7 +84,7 @@ def _open(core: Core) -> Flow[None]:
     if core.is_another_moving:
         core.without_control(OTHERS_MOTION, again=True)
     else:
-        yield from _meet_control(core)
+        yield from _open_control(core)
 
 
 def reach_control(core: Core) -> Flow[None]:
@@ -92,10 +92,10 @@ def reach_control(core: Core) -> Flow[None]:
     if core.may_reach_control and not core.ports[Port.CONTROL].is_open:
         core.may_reach_control = False
         core.without_control("")
-        yield from _meet_control(core)
+        yield from _open_control(core)
 
 
-def _meet_control(core: Core) -> Flow[None]:
+def _open_control(core: Core) -> Flow[None]:
     """Open the control connection if it belongs to this driver."""
     trouble = "another driver answers on the control port"
     try:
@@ -117,7 +117,7 @@ def _meet_control(core: Core) -> Flow[None]:
     core.without_control(trouble, again=trouble == SILENT)
 
 
-def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:
+def _check_driver(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:
     """Check that versions and joint maps fit.
 
     Without a configuration the driver's data is used.

@@ -29,7 +29,7 @@ def ready(core: Core) -> Flow[None]:
     core.ready()
 
 
-def armed(core: Core) -> Flow[None]:
+def control_answers(core: Core) -> Flow[None]:
     """Make sure that the driver's control port answers. Raises NotReady.
 
     This is the last step before an order: a new connection there ends the motion of the client
@@ -74,21 +74,21 @@ def until(
     def holds() -> bool:
         return motion.is_over or condition()
 
-    def stirs(marker: tuple[object, ...]) -> bool:
-        return holds() or motion.mark != marker
+    def has_progressed(marker: tuple[object, ...]) -> bool:
+        return holds() or motion.progress_marker != marker
 
     try:
         if timeout is not None:
             yield Wait(holds, timeout)
             return holds()
         while True:
-            marker = motion.mark
+            marker = motion.progress_marker
             # The mark may have changed back before this flow resumes: the observation of the wait
             # counts.
-            stirred = yield Wait(partial(stirs, marker), stall_timeout(core, motion))
+            progressed = yield Wait(partial(has_progressed, marker), stall_timeout(core, motion))
             if holds():
                 return True
-            if not stirred and motion.progress.state is not TrajectoryState.PAUSED:
+            if not progressed and motion.progress.state is not TrajectoryState.PAUSED:
                 return False
     except INTERRUPTIONS:
         yield from stop(core)
@@ -99,17 +99,17 @@ def execute(core: Core, trajectory: Trajectory, mode: TransferMode | None) -> Fl
     """Start a trajectory by stream or download; None: choose."""
     yield from ready(core)
     checked = core.check(trajectory, mode)
-    yield from armed(core)
+    yield from control_answers(core)
     motion = core.begin(checked)
     if isinstance(motion, PointStream):
         motion.trajectory = checked.trajectory
         motion.end()
-        yield from taken(core, motion)
+        yield from stream_accepted(core, motion)
         return motion
     try:
         yield from send_points(core, motion)
         yield from send_end(core, motion)
-        yield from accepted(core, motion)
+        yield from download_accepted(core, motion)
     except INTERRUPTIONS:
         yield from stop(core)
         raise
@@ -130,11 +130,11 @@ def send_end(core: Core, motion: Download) -> Flow[None]:
     yield Send(Port.MOTION, motion.take_end(pending), core.timeouts.send, motion)
 
 
-def accepted(core: Core, motion: Download) -> Flow[None]:
+def download_accepted(core: Core, motion: Download) -> Flow[None]:
     """Wait for the controller's reply to a downloaded trajectory."""
     timeout = core.timeouts.reply + PER_POINT * motion.frames
-    yield Wait(lambda: motion.is_taken or motion.is_over, timeout)
-    if motion.is_taken:
+    yield Wait(lambda: motion.is_accepted or motion.is_over, timeout)
+    if motion.is_accepted:
         return
     if motion.error is not None:
         raise motion.error
@@ -144,14 +144,14 @@ def accepted(core: Core, motion: Download) -> Flow[None]:
     )
 
 
-def taken(core: Core, stream: PointStream) -> Flow[None]:
+def stream_accepted(core: Core, stream: PointStream) -> Flow[None]:
     """Wait until the controller accepts or refuses the first points.
 
     For a program it is the whole of it. The motion may have ended already: then its result shows
     how.
     """
-    yield from streaming(core, stream, lambda: stream.is_taken)
-    if stream.error is not None and (stream.needs_stop or not stream.is_taken):
+    yield from streaming(core, stream, lambda: stream.is_accepted)
+    if stream.error is not None and (stream.needs_stop or not stream.is_accepted):
         raise (yield from ended(core, stream))
 
 

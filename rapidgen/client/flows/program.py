@@ -19,7 +19,7 @@ from rapidgen.client.errors import (
     fault,
 )
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
-from rapidgen.client.flows.motion import armed, ready, result, taken, until
+from rapidgen.client.flows.motion import control_answers, ready, result, stream_accepted, until
 from rapidgen.client.flows.stop import ended, stop
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike, Target
 from rapidgen.config.model import UserRoutine
@@ -48,9 +48,9 @@ def run(core: Core, program: Program, mode: TransferMode | None) -> Flow[Command
     """Run a program by download or stream; None: download if it fits."""
     yield from ready(core)
     checked, chosen = core.check_program(program, mode)
-    yield from armed(core)
+    yield from control_answers(core)
     motion = core.begin_program(checked, chosen)
-    yield from taken(core, motion)
+    yield from stream_accepted(core, motion)
     return motion
 
 

@@ -119,8 +119,8 @@ def _confirmed(core: Core) -> Flow[None]:
                 read = (yield from _connect_and_send(core, Port.MOTION))[Port.MOTION]
     needed = read is not None and (after or received is None or received.reply is None)
     if read is not None and needed:
-        left, talk = limit + PER_POINT * _unread(motion), ports[Port.MOTION]
-        yield Wait(lambda: read.reply is not None or not talk.is_open, left)
+        left, requests = limit + PER_POINT * _unread(motion), ports[Port.MOTION]
+        yield Wait(lambda: read.reply is not None or not requests.is_open, left)
     report = [one.reply for one in (received, read) if one is not None and one.reply is not None]
     last = read if needed else received
     assert last is not None
@@ -140,7 +140,7 @@ def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
     if not motion.needs_stop:
         return error
     motion.is_settled = True
-    if motion.is_taken and core.state_open and not any(t.is_open for t in core.ports.values()):
+    if motion.is_accepted and core.state_open and not any(t.is_open for t in core.ports.values()):
         # A new connection and STOP would stop the motion of the client that has replaced this one;
         # without one the driver itself stops for the connections that it has lost.
         yield Wait(lambda: motion.is_superseded or not core.state_open, _SUPERSEDED)
@@ -156,7 +156,7 @@ def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
         unknown = failed.diagnostics[0].message
     hello, driver = core.state_port.hello, core.state_port.driver
     if not core.state_open:
-        reopened = yield from _see_again(core)
+        reopened = yield from _reopen_state(core)
     if core.state_open:
         try:
             state = yield from _until_standing(core)
@@ -167,8 +167,8 @@ def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
         core.fault = error
         core.state_port.hello, core.state_port.driver = hello, driver
     if state is not None and not unknown:
-        if motion.stood is None:
-            motion.stood = state.joints
+        if motion.stopped_joints is None:
+            motion.stopped_joints = state.joints
         error.amend("a STOP was sent, and the robot is at rest", "look at the robot, then continue")
         return error
     unknown = unknown or "STOP was answered, and the state port stopped sending data"
@@ -179,7 +179,7 @@ def ended(core: Core, motion: CommandedMotion) -> Flow[RobotError]:
     return error
 
 
-def _see_again(core: Core) -> Flow[bool]:
+def _reopen_state(core: Core) -> Flow[bool]:
     """Reopen the state port to observe the stop; True if it is open."""
     try:
         yield Open(Port.STATE, min(core.timeouts.connect, core.timeouts.stop))

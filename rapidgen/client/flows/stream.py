@@ -42,12 +42,12 @@ def append(source: PointSource, times: npt.ArrayLike, positions: npt.ArrayLike) 
     if stream is None:
         yield from motion.ready(core)
         checked = core.check(points, "stream", is_open=True)
-        yield from motion.armed(core)
+        yield from motion.control_answers(core)
         begun = core.begin(checked)
         assert isinstance(begun, PointStream)
         source.mode, source.motion, source.last = "stream", begun, checked.last
         stream = begun
-        yield from motion.taken(core, stream)
+        yield from motion.stream_accepted(core, stream)
     else:
         yield from _until_short(core, stream)
         checked = core.check(points, "stream", before=source.last, is_open=True)

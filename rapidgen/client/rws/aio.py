@@ -170,7 +170,7 @@ class RwsAsyncRunner(RwsRunner[httpx2.AsyncClient]):
     async def _exchange(self, effect: Exchange) -> Response:
         client = self._session.client
         assert client is not None
-        await asyncio.sleep(self._pace.reserve(time.monotonic()))
+        await asyncio.sleep(self._limiter.reserve(time.monotonic()))
         for left in (1, 0):
             try:
                 answer = await client.request(**self._request(effect))

@@ -162,7 +162,7 @@ class RwsSyncRunner(RwsRunner[httpx2.Client]):
     def _exchange(self, effect: Exchange) -> Response:
         client = self._session.client
         assert client is not None
-        time.sleep(self._pace.reserve(time.monotonic()))
+        time.sleep(self._limiter.reserve(time.monotonic()))
         for left in (1, 0):
             try:
                 answer = client.request(**self._request(effect))

@@ -82,7 +82,7 @@ class RwsRunner(Generic[Http]):
     def __init__(self, core: RwsCore, timeout: float, session: Session[Http]) -> None:
         self._core = core
         self._timeout = timeout
-        self._pace = RateLimiter()
+        self._limiter = RateLimiter()
         self._session: Session[Http] = session
         drop_in_child(self)
 
