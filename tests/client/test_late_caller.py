@@ -83,9 +83,9 @@ def test_late_caller_after_stop_sees_robot_at_rest(monkeypatch):
             unseen.send(True)
 
 
-def test_what_stirs_and_is_as_before_when_the_caller_looks_has_stirred():
+def test_progress_that_is_undone_before_the_caller_looks_counts():
     """As a stream that starves, by a state that is older than the controller's last reply."""
-    motion = SimpleNamespace(is_over=False, longest=1.0, mark=1)
+    motion = SimpleNamespace(is_over=False, longest=1.0, progress_marker=1)
     motion.progress = Progress(TrajectoryState.MOVING, total=1)
     waiting = until(SimpleNamespace(override=1.0), motion, lambda: False)
     wait = next(waiting)

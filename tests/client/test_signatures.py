@@ -43,7 +43,7 @@ def public(kind):
 
 CALLS = [
     pytest.param(kind, twin, name, id=f"{kind.__name__}.{name}")
-    for kind, twin in PAIRS
+    for kind, twin in [*PAIRS, (Cell, AsyncCell)]
     for name in sorted(public(kind))
     if inspect.isfunction(getattr(kind, name))
 ]
@@ -82,8 +82,10 @@ def test_both_clients_have_the_same_call(kind, twin, name):
     sync, other = getattr(kind, name), getattr(twin, name)
     if name not in OWN_BODY:
         assert without_async(str(inspect.signature(other))) == str(inspect.signature(sync))
-        assert other.__doc__ == sync.__doc__
-        assert body(other) == body(sync)
+        assert sync is other or name == "stream" or inspect.iscoroutinefunction(other)
+        if kind is not Cell:
+            assert other.__doc__ == sync.__doc__
+            assert body(other) == body(sync)
     names = [list(inspect.signature(call).parameters) for call in (sync, other)]
     assert names[0] == names[1]
 

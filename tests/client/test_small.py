@@ -1,7 +1,6 @@
 """Addresses, targets, changes of status, the public surface, cells on the scripted controller."""
 
 import asyncio
-import inspect
 import re
 from concurrent.futures import ThreadPoolExecutor
 
@@ -10,20 +9,15 @@ import pytest
 import rapidgen.client
 from rapidgen.client import (
     AsyncCell,
-    AsyncExecution,
     AsyncRobot,
-    AsyncStream,
     Cell,
     ConnectionFailed,
     ConnectionLost,
-    Event,
-    Execution,
     InvalidTrajectory,
     MotionFailed,
     Robot,
     RobotError,
     Status,
-    Stream,
     Trajectory,
     TrajectoryRefused,
 )
@@ -123,44 +117,6 @@ def test_exported_members():
     assert sorted(rapidgen.client.__all__) == rapidgen.client.__all__
     for name in rapidgen.client.__all__:
         assert getattr(rapidgen.client, name).__doc__
-
-
-@pytest.mark.parametrize(
-    ("blocking", "asynchronous"), [(Robot, AsyncRobot), (Execution, AsyncExecution),
-                                   (Stream, AsyncStream), (Cell, AsyncCell)]
-)  # fmt: skip
-def test_both_clients_have_the_same_surface(blocking, asynchronous):
-    """Names, signatures and docstrings; what iterates or gives a handle of its own but for that."""
-
-    def surface(kind):
-        result = {}
-        for name in dir(kind):
-            member = getattr(kind, name)
-            # `data[...]` cannot be awaited: both have read_data and write_data.
-            if name.startswith("_") or name == "data":
-                continue
-            signature = inspect.signature(member) if callable(member) else None
-            result[name] = (
-                str(signature).replace("AsyncIterator", "Iterator"),
-                inspect.getdoc(member),
-            )
-            if name == "extend" or (name == "execute" and "Cell" in kind.__name__):
-                result[name] = list(signature.parameters)
-        return result
-
-    assert surface(blocking) == surface(asynchronous)
-    assert surface(blocking)
-
-
-def test_a_method_shows_its_parameters_its_outcome_and_its_docstring():
-    for kind in (Robot, AsyncRobot):
-        signature = inspect.signature(kind.next_event)
-        assert str(signature.replace(return_annotation=int)) == (
-            "(self, timeout: float | None = None, *, "
-            "after: rapidgen.client.core.state.Event | None = None) -> int"
-        )
-        assert signature.return_annotation is Event
-        assert "Raises RobotTimeout, ConnectionLost" in kind.next_event.__doc__
 
 
 def test_the_tree_of_exceptions_is_the_one_that_is_drawn():

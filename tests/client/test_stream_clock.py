@@ -530,8 +530,8 @@ def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
     [(100, None), (5000, None), (100, "download"), (100, "stream"), (0, "append")],
 )
 def test_a_trajectory_is_checked_once(monkeypatch, points, mode):
-    checks, content = [], checks_module._content
-    monkeypatch.setattr(checks_module, "_content", lambda *a: checks.append(a) or content(*a))
+    checks, finite = [], checks_module._finite
+    monkeypatch.setattr(checks_module, "_finite", lambda *a: checks.append(a) or finite(*a))
 
     with streamed() as (robot, _):
         if mode == "append":

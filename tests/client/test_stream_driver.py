@@ -66,7 +66,8 @@ def test_a_fault_that_only_the_driver_finds(monkeypatch):
         points = list(wave(200))
         points[120][1][2] = 9.0
         stream = robot.stream()
-        monkeypatch.setattr(client_checks, "_content", lambda _: [])
+        for rule in ("_limits", "_speeds"):
+            monkeypatch.setattr(client_checks, rule, lambda _: [])
         monkeypatch.setattr(client_checks, "quantised", lambda wire, group: wire)
         stream.extend(points)
         with pytest.raises(MotionFailed, match="point 120, joint_3: a joint is outside") as error:
