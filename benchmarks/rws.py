@@ -209,8 +209,8 @@ def ceiling(generation, threads=8, seconds=10.0):
     process = Process(generation)
     sent, refused = [], []
     with process.client() as client:
-        carrier = client._carrier
-        exchange = carrier._exchange
+        runner = client._runner
+        exchange = runner._exchange
 
         def counted_exchange(effect):
             reply = exchange(effect)
@@ -218,7 +218,7 @@ def ceiling(generation, threads=8, seconds=10.0):
             refused.extend([effect.target] * (reply.status == 503))
             return reply
 
-        carrier._exchange = counted_exchange
+        runner._exchange = counted_exchange
         end = time.monotonic() + seconds
 
         def ask():

@@ -143,13 +143,8 @@ def test_what_the_pendant_denies_changes_nothing(rws, cell, wanted):
 
 def test_missing_grant_is_refused_before_changes(rws, cell, wanted):
     controller_runner, transport = cell
-<<<<<<< HEAD
-    app = transport.services._carrier.line.app
+    app = transport.services._runner.line.app
     app.accounts = replace(app.accounts, denied=frozenset({"UAS_CFG_WRITE"}))
-=======
-    office = transport.services._runner.line.app.context
-    office.login = replace(office.login, denied=frozenset({"UAS_CFG_WRITE"}))
->>>>>>> e12e2635 (client: check a trajectory once, and write calls as ordinary methods)
     plan = make_plan(transport, wanted)
     assert "! you: give the user UAS_CFG_WRITE in RobotStudio" in plan_text(plan)
     text = refused(rws.run, transport, wanted)
