@@ -2,6 +2,7 @@
 MODULE moves
     ! source: [manual] S4 MoveL to MoveC, CRobT, CPos, CJointT, CalcJointT, CalcRobT, PDispSet, PDispOn, WaitRob, CirPathMode
     ! robot: irb120
+    ! case: unreachable_target=handler
     ! expect: [364.354,0,594] [0.5,0,0.866025,0]
     ! expect: 30 9E+09
     ! expect: [374.354,40,624]
@@ -158,6 +159,23 @@ MODULE moves_setting
         TRYNEXT;
     ENDPROC
 ENDMODULE
+!=== unreachable
+MODULE unreachable
+    ! source: saved event logs of controllers with 5.61 and 6.03: E 50050, no error of the statement, in 9 of 9 cases
+    ! robot: irb120
+    ! case:
+    ! fault: ERR_OUTSIDE_REACH 11
+    ! case: unreachable_target=handler
+    ! expect: handled
+    PROC main()
+        MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
+        ! 3 m beyond the robot.
+        MoveJ [[3364,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v200, fine, tool0;
+    ERROR
+        TPWrite "handled";
+        TRYNEXT;
+    ENDPROC
+ENDMODULE
 !=== no_configuration
 MODULE no_configuration
     ! source: [manual 3HAC050917 CalcJointT] ERR_ROBLIMIT: an axis would be outside its range; \ErrorNumber
@@ -311,7 +329,7 @@ MODULE touching
     ! log: 112753 L
     ! warned of one corner, not of the other one
     ! do: pp-to-main, routine warned, start, run 3
-    ! log: 50024 rob1: the corner is executed as a stop point (touching/corner/75)
+    ! log: 50024 Task T_ROB1: the corner at /touching/corner/MoveL/75 became a stop.
     ! do: pp-to-main, routine not_warned, start, run 3
     ! log: 50024
     CONST jointtarget start := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
