@@ -15,9 +15,9 @@ the command (servo settling), so that its total times are compared with 35 ms mo
 TCP speeds are means over 16 ms, and over 40 ms: the robot's samples are 8 ms apart, by a clock that
 is up to 1.5 ms early or late. RobotStudio itself differs from the robot by 5.8 and 3.1 %.
 
-`--fit N` chooses three constants on every N-th log of every other program, each from three values,
-and judges them on the programs between: the factor on the published accelerations, the time of
-smoothing and the size of corners.
+`--fit N` chooses three constants on one of N logs (drawn) of every other program, each from three
+values, and judges them on the programs between: the factor on the published accelerations, the
+time of smoothing and the size of corners.
 """
 
 import argparse
@@ -31,6 +31,7 @@ from concurrent.futures import Executor, ProcessPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import numpy.typing as npt
@@ -436,7 +437,8 @@ def main() -> None:
     with ProcessPoolExecutor() as pool:
         constants = None
         if given.fit:
-            constants = fit(pool, [c for c in chosen if c.name in names[::2]][:: given.fit])
+            fitted = [case for case in chosen if case.name in names[::2]]
+            constants = fit(pool, Random(0).sample(fitted, len(fitted) // given.fit))
             print(f"chosen on {', '.join(names[::2])}: {constants}; judged on the others:")
             chosen = [case for case in chosen if case.name in names[1::2]]
         rows = figures(pool, chosen, constants)

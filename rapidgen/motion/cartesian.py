@@ -76,6 +76,7 @@ class CartesianPath:
     def __init__(
         self,
         origin: Posture,
+        flange: Pose,
         move: CartesianMove,
         kinematics: Kinematics,
         limits: AxisLimits,
@@ -83,11 +84,12 @@ class CartesianPath:
         from_rest: bool,
         check: ConfigurationCheck,
     ) -> None:
+        """`flange` is that of `origin`."""
         self._kinematics = kinematics
         self.carrier = move.carrier
         self.limits = limits
         self._places = external_places(kinematics)
-        self.shape = _shape(move.carrier.at(origin).pose(kinematics.forward(origin)), move)
+        self.shape = _shape(move.carrier.at(origin).pose(flange), move)
         self._external = (origin, move.external)
         self.measure = Measure(
             self.shape.length, self.shape.angle, *_external_measure(kinematics, origin, move)

@@ -93,16 +93,17 @@ class MoveFrames:
 
     def flange(self, pose: Pose) -> Pose:
         """Where the flange is when the TCP has a pose in the object."""
-        placed = compose(self.object, pose)
+        placed = pose if self.object == IDENTITY else compose(self.object, pose)
         if self.stationary:
             return compose(self.tool, invert(placed))
-        return compose(placed, invert(self.tool))
+        return placed if self.tool == IDENTITY else compose(placed, invert(self.tool))
 
     def pose(self, flange: Pose) -> Pose:
         """The pose of the TCP in the object for a flange."""
         if self.stationary:
             return compose(invert(compose(flange, self.object)), self.tool)
-        return compose(invert(self.object), compose(flange, self.tool))
+        tool = flange if self.tool == IDENTITY else compose(flange, self.tool)
+        return tool if self.object == IDENTITY else compose(invert(self.object), tool)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,7 +1,6 @@
 """Pieces of path: where the axes are at each place of the nominal time, and the limits there."""
 
 from collections.abc import Callable, Sequence
-from copy import copy
 from itertools import pairwise
 from math import ceil, inf, sqrt
 
@@ -67,15 +66,29 @@ class Piece:
 
     def until(self, end: float, *, stop: bool = False) -> "Piece":
         """The part of this piece before `end`."""
-        part = copy(self)
+        part = self._copied()
         part.end = end
         part.stop = stop
         return part
 
     def since(self, start: float) -> "Piece":
         """The part of this piece behind `start`."""
-        part = copy(self)
+        part = self._copied()
         part.start = start
+        return part
+
+    def _copied(self) -> "Piece":
+        limits = self.speed, self.shares
+        part = Piece(
+            self.start,
+            self.end,
+            self.at,
+            limits,
+            self.tcp,
+            straight=self.straight,
+            programmed=self.programmed,
+        )
+        part.stop, part.corner = self.stop, self.corner
         return part
 
 

@@ -27,6 +27,7 @@ class Planner:
 
     __slots__ = (
         "_accelerations",
+        "_flange",
         "config",
         "kinematics",
         "modal",
@@ -41,6 +42,8 @@ class Planner:
         self.kinematics = Kinematics.of(config)
         """None: the model has no geometry, so the robot moves in joints only."""
         self._accelerations = of_posture(config)
+        self._flange: tuple[Posture, Pose] | None = None
+        """The posture whose flange was asked for last, and that flange."""
         self.modal = ModalSettings()
         self.tool: Pose = IDENTITY
         """The active TCP in the flange."""
@@ -52,6 +55,13 @@ class Planner:
         if self.kinematics is None:
             raise MotionFault(FaultReason.NO_GEOMETRY, self.config.name)
         return self.kinematics
+
+    def flange(self, posture: Posture) -> Pose:
+        """The flange of a posture. A move asks for that of its start more than once."""
+        known = self._flange
+        if known is None or known[0] is not posture:
+            known = self._flange = posture, self.geometry().forward(posture)
+        return known[1]
 
     @property
     def ramp(self) -> float:
@@ -103,10 +113,9 @@ class Planner:
         if isinstance(move, JointMove):
             return all(abs(a - b) < NOTHING_M for a, b in zip(move.target, ends, strict=True))
         assert isinstance(move, CartesianMove)
-        own = self.geometry()
         if move.via is not None:
             return False
-        position, orientation = move.carrier.at(ends).pose(own.forward(ends))
+        position, orientation = move.carrier.at(ends).pose(self.flange(ends))
         return (
             frames.distance(position, move.target[0]) < NO_WAY
             and frames.angle_between(orientation, move.target[1]) < NO_WAY
@@ -144,7 +153,8 @@ class Planner:
         self, origin: Posture, move: CartesianMove, limits: AxisLimits, *, from_rest: bool
     ) -> CartesianPath:
         own, check = self.geometry(), self.settings.configuration_check
-        path = CartesianPath(origin, move, own, limits, from_rest=from_rest, check=check)
+        flange = self.flange(origin)
+        path = CartesianPath(origin, flange, move, own, limits, from_rest=from_rest, check=check)
         if move.wanted is not None and not own.matches(path.target, move.wanted, check):
             reached = own.configuration(path.target)
             raise MotionFault(FaultReason.CONFIGURATION, list(reached), list(move.wanted))

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from math import pi
-from types import FrameType
+from types import CodeType, FrameType
 from typing import TypeAlias
 
 from rapidgen.axes import frames
@@ -61,9 +61,19 @@ def here(task: Task) -> Callable[[], Location | None] | None:
     while frame is not None:
         file = frame.f_code.co_filename
         if file in codes:
-            return partial(task.place_of, file, frame.f_lineno)
+            return partial(_place, task, frame.f_code, frame.f_lasti)
         frame = frame.f_back
     return None
+
+
+def _place(task: Task, code: CodeType, instruction: int) -> Location | None:
+    """Return the location of an instruction of a compiled routine.
+
+    Finding its line takes a time that grows with the routine, so no move asks for it.
+    """
+    rows = code.co_lines()
+    line = next((line for first, last, line in rows if first <= instruction < last), None)
+    return None if line is None else task.place_of(code.co_filename, line)
 
 
 def group_of(task: RapidTask) -> MotionGroup:
