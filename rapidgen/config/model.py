@@ -38,9 +38,9 @@ class Joint:
     offset: float = 0.0
     source: str = ""
     unsure: bool = False
-    brake_deceleration: float = 0.0
+    brake_deceleration: float = field(default=0.0, metadata=SPARSE)
     """By the brakes (stop category 0); 0: not known."""
-    stop_deceleration: float = 0.0
+    stop_deceleration: float = field(default=0.0, metadata=SPARSE)
     """Of a quick stop on the path (stop category 1); 0: not known."""
 
 

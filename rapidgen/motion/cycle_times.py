@@ -8,8 +8,7 @@ limits a move; what a move takes longer than its phases belongs to the stops at 
 
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass, field
-from itertools import pairwise
-from math import ceil, inf
+from math import inf
 
 from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S, Scheduler
@@ -27,12 +26,11 @@ from rapidgen.motion.drive import MANUAL_REDUCED
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import FINE, Zone
+from rapidgen.motion.moves import FINE, MoveFrames, Zone
 from rapidgen.motion.path import piece_at
 
 _PERIOD = 0.02
 """s between the samples of the TCP's speed in a move."""
-_MOST_SAMPLES = 64
 _NONE = 1e-9
 """s that count as no time."""
 
@@ -87,6 +85,12 @@ class CycleTimes:
         self._stood = 0.0
         self._motion = group.motion
         self._ceilings = self._now()
+        self._carrier: MoveFrames | None = None
+        self._sampled = self.start
+        """s of the last sample of the TCP."""
+        self._point: frames.Vector = (0.0, 0.0, 0.0)
+        self._shares: list[tuple[MoveTime, float]] = []
+        """Moves since the last sample, with their seconds."""
         self._stop = FINE_POINT
         """Why the robot stands at the beginning of the next leg; empty if it does not."""
         group.observers.append(self._replaced)
@@ -99,7 +103,7 @@ class CycleTimes:
         self.end = self._scheduler.now / S
         self._evaluate(self._motion, self._scheduler.now)
         for leg in list(self._open):
-            self._close(leg)
+            self._close(leg, "")
 
     def stood(self, now: int) -> float:
         """Return how long the robot has stood up to a time (ns) of the present motion, s."""
@@ -115,7 +119,7 @@ class CycleTimes:
     def _replaced(self, motion: Motion) -> None:
         self._evaluate(self._motion, motion.since)
         for leg in set(self._open).difference(motion.legs):
-            self._close(leg)  # a cleared path
+            self._close(leg, STOP)  # taken off the path, or put aside with it
         self._done.intersection_update(motion.legs)
         self._motion = motion
         self._ceilings = self._now()
@@ -129,7 +133,7 @@ class CycleTimes:
             self._find_limits(motion, end)
             for leg in passed:
                 self._done.add(leg)
-                self._close(leg)
+                self._close(leg, stop_cause(leg))
         elif end > motion.since:
             self._add_unprogrammed(motion, end)
         begin = max(motion.end, motion.since) / S
@@ -166,23 +170,46 @@ class CycleTimes:
 
     def _sample(self, motion: Motion, leg: Leg, begin: float, end: float) -> None:
         """Add the time and the TCP's path between two times."""
-        timing, kinematics = self._timing(leg, begin), self.group.kinematics
+        timing = self._timing(leg, begin)
         if not timing.duration:
             timing.start = begin
         timing.duration += end - begin
         timing.end = end
-        if kinematics is None or end - begin < _NONE:
+        if self.group.kinematics is None:
             return
-        count = min(_MOST_SAMPLES, ceil((end - begin) / _PERIOD))
-        carrier, points = leg.move.carrier, []
-        for k in range(count + 1):
-            pose = kinematics.forward(
-                motion.posture(round((begin + (end - begin) * k / count) * S))
-            )
-            points.append(pose[0] if carrier.stationary else frames.compose(pose, carrier.tool)[0])
-        steps = [frames.distance(a, b) for a, b in pairwise(points)]
-        timing.length += sum(steps)
-        timing.fastest = max(timing.fastest, max(steps) * count / (end - begin))
+        carrier = leg.move.carrier
+        if carrier != self._carrier or begin > self._sampled + _PERIOD + _NONE:
+            self._measure(motion, begin)
+            self._carrier = carrier
+            self._sampled, self._point = begin, self._tcp(motion, begin)
+        # Samples have a fixed distance in time: a dense path costs no more than a long move.
+        while self._sampled + _PERIOD < end:
+            self._shares.append((timing, self._sampled + _PERIOD - begin))
+            begin = self._sampled + _PERIOD
+            self._measure(motion, begin)
+        self._shares.append((timing, end - begin))
+        if round(end * S) >= motion.end:
+            self._measure(motion, end)
+
+    def _measure(self, motion: Motion, time: float) -> None:
+        """Sample the TCP, and divide its path since the last sample among the moves."""
+        elapsed = sum(seconds for _, seconds in self._shares)
+        if elapsed > _NONE:
+            point = self._tcp(motion, time)
+            speed = frames.distance(self._point, point) / elapsed
+            for timing, seconds in self._shares:
+                timing.length += speed * seconds
+                timing.fastest = max(timing.fastest, speed)
+            self._point = point
+        self._shares.clear()
+        self._sampled = time
+
+    def _tcp(self, motion: Motion, time: float) -> frames.Vector:
+        kinematics, carrier = self.group.geometry(), self._carrier
+        pose = kinematics.forward(motion.posture(round(time * S)))
+        if carrier is None or carrier.stationary:
+            return pose[0]
+        return frames.compose(pose, carrier.tool)[0]
 
     def _find_limits(self, motion: Motion, until: int) -> None:
         """Count the phases of the planned motion for the legs."""
@@ -225,10 +252,10 @@ class CycleTimes:
         last.duration += end - begin
         last.add(limit, end - begin)
 
-    def _close(self, leg: Leg) -> None:
+    def _close(self, leg: Leg, stop: str) -> None:
         """Let the limits of an ended leg add up to its duration."""
         timing = self._open.pop(leg)
-        timing.stop = stop_cause(leg)
+        timing.stop = stop
         counted = sum(timing.limits.values())
         rest = timing.duration - counted
         cause = STOP if STOP in timing.limits else timing.stop or self._stop

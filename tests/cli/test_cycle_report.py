@@ -78,7 +78,7 @@ def test_limits_of_moves(robot):
     }
     short, last = (next(m for m in robot["moves"] if m["line"] == n) for n in (12, 20))
     assert list(short["limits"])[1] == "acceleration of axis 1"
-    assert last["limits"]["corner"] > 0
+    assert last["limits"]["corner"] > 0.01
 
 
 def test_durations_and_speeds(robot):
