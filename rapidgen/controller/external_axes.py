@@ -13,6 +13,7 @@ which units hold work objects.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from math import isclose
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose
@@ -25,6 +26,7 @@ LINEAR_SPEED, ANGULAR_SPEED = 1.0, 1.5708
 """m/s and rad/s of an axis whose speed no file gives: a usual track, a usual positioner."""
 SPEED_TIME = 0.5
 """s from standstill to full speed of such an axis."""
+_ROUNDED = 2e-5
 _AXES = tuple(f"rax_{n}" for n in range(1, 7))
 
 
@@ -52,11 +54,17 @@ def with_limits(group: GroupConfig, cfg: ControllerCfg | None) -> GroupConfig:
 
 
 def _limited(joint: Joint, mount: RobotMount) -> Joint:
-    """Return a joint of the robot with the limits of the cfg."""
-    if joint.axis not in _AXES:
+    """Return a joint with the limits of the cfg."""
+    external = {a.external: (a.lower, a.upper) for u in mount.units for a in u.axes}
+    limits = dict(zip(_AXES, mount.limits, strict=True)).get(joint.axis) or external.get(joint.axis)
+    if limits is None:
         return joint
-    limits = mount.limits[_AXES.index(joint.axis)]
-    return joint if limits is None else replace(joint, lower=limits[0], upper=limits[1])
+    # A value that differs in the rounding of the file only is the model's own.
+    lower, upper = (
+        own if isclose(own, limit, rel_tol=_ROUNDED) else limit
+        for own, limit in zip((joint.lower, joint.upper), limits, strict=True)
+    )
+    return replace(joint, lower=lower, upper=upper)
 
 
 def _with_units(

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.controller.controller import ControllerOptions, VirtualController
+from rapidgen.controller.external_axes import with_limits
 from rapidgen.controller.programs import Programs, UnlinkedModule
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 from rapidgen.rapid import Dialect, parse
@@ -57,6 +58,8 @@ def boot(
         system = before
         why = [d.message for d in fault.diagnostics]
         events += [(_SYSTEM_FAILURE, "Configuration error", text, "") for text in why]
+    robots = (group.config for group in old.motion.groups.values())
+    options["robots"] = tuple(with_limits(robot, cfg) for robot in robots)
     options["autostart"] = options["entry_needed"] = False
     options["faults"] = None  # a plan's times are those of the first run
     controller = _booted(system, tasks, options)

@@ -330,3 +330,16 @@ def test_properties_name_the_type_as_its_record_and_the_datum_of_the_module(tmp_
             (item,) = caller.get(f"/rw/rapid/symbol/properties/{path}/settings")
             assert (item.text("dattyp"), item.text("symburl")) == ("MySettings", f"{path}/settings")
             assert item.text("typurl") == f"{path}/MySettings"
+
+
+def test_a_changed_axis_limit_holds_after_a_restart(two):
+    """The mechanics read the cfg database, too."""
+    edit = "?mastership=implicit"
+    path = "/rw/cfg/MOC/ARM/instances/rob1_1"
+    before = next(iter(two.application.controller.motion.groups.values())).config.joints
+    raw = two.send("POST", f"{path}{edit}", body=b"upper_joint_bound=[1.5,1]")
+    assert raw.status == 204
+    caller = restart(two)
+    after = next(iter(caller.application.controller.motion.groups.values())).config.joints
+    assert after[0].upper == pytest.approx(1.5, rel=1e-5)
+    assert (after[0].lower, after[1:]) == (before[0].lower, before[1:])
