@@ -88,10 +88,12 @@ class FlowChecker:
     ) -> None:
         """Report the first statement that cannot be reached.
 
-        Statements after an endless loop, and those that a RETURN disables at the end of a routine,
-        such as moves for teaching, are usually meant to be there.
+        Statements after an endless loop or after branches that all leave, and those that a RETURN
+        disables at the end of a routine, such as moves for teaching, are usually meant to be there.
         """
-        is_meant = type(leaving) is While or (type(leaving) is Return and body is self.routine.body)
+        is_meant = type(leaving) in (While, If, Test) or (
+            type(leaving) is Return and body is self.routine.body
+        )
         report = self.findings.remark if is_meant else self.warn
         report(
             "RG323",

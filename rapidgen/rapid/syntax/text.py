@@ -123,7 +123,7 @@ def _touching(source: Source) -> list[Diagnostic]:
                     f"a blank is missing between {number} and {source.tokens[at + 1]}",
                     "put a blank between them",
                     notes=("[K §2.2] requires one; controllers seem to accept its absence",),
-                    severity=Severity.WARNING,
+                    severity=Severity.INFO,
                 )
             ]
     return []

@@ -85,7 +85,7 @@ ENDMODULE
 MODULE Demo
     VAR num a1TO;
     PROC main()
-        IF a1TO = 1THEN  ! -> RG205?
+        IF a1TO = 1THEN  ! -> RG205~
             a1TO := 7DIV 2;  ! as the first: reported once
         ENDIF
         FOR i FROM 1TO 3.5DO
