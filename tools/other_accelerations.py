@@ -20,8 +20,12 @@ from rapidgen.verification.suite import CASES
 from rapidgen.verification.suite_runner import Starter
 
 OF_ACCELERATIONS = {
-    "corners": "each zone is computed from the accelerations",
+    "corners",
+    "corners-slowed",
+    "largest-corner",
+    "resting-corner",
 }
+"""Cases that compute each zone from the accelerations."""
 
 
 def with_accelerations(config: RobotConfig, factor: float) -> RobotConfig:

@@ -87,6 +87,21 @@ def test_a_larger_zone_is_not_slower(seed):
     assert never_slower([seconds(*path, speed, size) for size in ZONES])
 
 
+@pytest.mark.parametrize("first", range(1000, 1400, 20))
+def test_neither_is_slower_on_many_paths(first):
+    """Both at once, over 400 paths."""
+    slower = []
+    for seed in range(first, first + 20):
+        *path, rng = random_path(seed)
+        size = rng.choice(ZONES)
+        if not never_slower([seconds(*path, speed, size) for speed in SPEEDS]):
+            slower.append((seed, "speed"))
+        speed = rng.choice(SPEEDS)
+        if not never_slower([seconds(*path, speed, size) for size in ZONES]):
+            slower.append((seed, "zone"))
+    assert slower == []
+
+
 @pytest.mark.parametrize("model", MODELS)
 def test_a_line_at_full_speed_is_the_fastest(model):
     """The example with which it was found: v500 0.95 s, v1000 1.19 s, v7000 1.41 s."""
