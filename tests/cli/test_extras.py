@@ -18,6 +18,7 @@ else:
 
 # Importable names of rapidgen that need no extra are all but those below these.
 BEYOND = {
+    "rapidgen.client.egm": "egm",
     "rapidgen.client.rws.": "web",
     "rapidgen.deploy.transports.rws": "web",
     "rapidgen.servers.rws.server": "web",
