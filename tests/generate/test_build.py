@@ -96,7 +96,7 @@ def test_set_changes_only_the_named_key(output):
     ids = [line for line in result if changed.build_id in line]
     remaining = sorted(line for line in result if changed.build_id not in line)
     # One in each module, and one in the reply to HELLO.
-    assert len(ids) == 17
+    assert len(ids) == 11
     assert remaining == ["CONST num ROS_CAPACITY := 5000;", "LOCAL CONST num PORT := 12000;"]
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from rapidgen.config.model import Joint
 from rapidgen.verification import messages
 from rapidgen.verification.case import SuiteGroup
+from rapidgen.verification.instruction_hooks import Instruction, wrapped
 from rapidgen.verification.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState
 from rapidgen.verification.model import CheckFailed
 from rapidgen.verification.position_checks import Position, changed, small_unit
@@ -324,6 +325,41 @@ def _of_other_builds(bench: Bench, table: Table) -> None:
     table.ask()
     table.shows(RawTrajectoryState.REFUSED, 0, mixed)
     task[name] = own
+
+
+@case(
+    "point-reads",
+    "a point of a download is read with few instructions",
+)
+def _few_reads(bench: Bench) -> None:
+    """Count the reads of each point that comes alone, as a topic or as a request."""
+    number, joints = 0, len(bench.group.joints)
+
+    def counted(as_before: Instruction) -> Instruction:
+        def counting(*arguments: object) -> object:
+            nonlocal number
+            number += 1
+            return as_before(*arguments)
+
+        return counting
+
+    absent = messages.MAX_JOINTS - joints
+    # The header of four words, sequence number, duration, joints and those that are zero.
+    expected = 6 + joints + absent
+    points, link, since = bench.wave(12, duration=0.5), bench.motion(), bench.now
+    link.send(raw_point(_BEGIN, *points[0]))
+    bench.run(0.1)
+    wrapped(bench.rapid_task("ROS_motionServer"), "UnpackRawBytes", counted)
+    for sequence, point in enumerate(points[1:-1], 1):
+        comm, number = RawComm.REQUEST if sequence % 4 == 0 else RawComm.TOPIC, 0
+        link.send(raw_point(sequence, *point, comm))
+        bench.run(0.1)
+        if number != expected:
+            raise CheckFailed(f"point {sequence}, {comm.name}: {number} reads, not {expected}")
+        if comm is RawComm.REQUEST and messages.decode(link.expect_reply(0.1, "it")) != _TAKEN:
+            raise CheckFailed(f"point {sequence} as a request is not confirmed")
+    link.send(raw_point(_END, *points[-1]))
+    bench.arrives(points, since, 20)
 
 
 @case("one-more", "lines for refusals that come at once", "R19")
