@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "0075bc12132a";
+    CONST string ROS_BUILD_MOTION := "8715e72ce308";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [1000,500,1000,1000];
@@ -177,7 +177,8 @@ MODULE ROS_motion
             ! The next points will arrive soon.
             WaitTime POLL_PERIOD;
         ELSE
-            WaitUntil ROS_phase = ROS_TRAJ_RECEIVING OR ROS_head <> ROS_tail
+            ! A trajectory may be received and started between two checks, and its points follow.
+            WaitUntil ROS_phase = ROS_TRAJ_RECEIVING OR ROS_is_active() OR ROS_head <> ROS_tail
                 OR ROS_abort <> ROS_abort_done \MaxTime:=IDLE_TIMEOUT \TimeFlag:=timed_out \PollRate:=POLL_RATE;
         ENDIF
     ENDPROC

@@ -10,7 +10,7 @@ MODULE ROS_stream
     ! checksum was verified. At a fault the stream is cut: the accepted points are executed, later ones
     ! are not.
 
-    CONST string ROS_BUILD_STREAM := "0075bc12132a";
+    CONST string ROS_BUILD_STREAM := "8715e72ce308";
 
     ! Duration of the points that must wait in the ring buffer before the robot starts or continues, s.
     LOCAL CONST num PRELOAD := 0.5;
@@ -90,7 +90,7 @@ MODULE ROS_stream
             RETURN;
         ENDIF
         ROS_read_progress progress;
-        ROS_pack_header data, 40, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
+        ROS_pack_header data, 40, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_SUCCESS \filled;
         PackRawBytes stream_number, data, 17 \IntX:=DINT;
         PackRawBytes trajectory, data, 21 \IntX:=DINT;
         PackRawBytes accepted, data, 25 \IntX:=DINT;
@@ -111,7 +111,7 @@ MODULE ROS_stream
 
     LOCAL PROC pack_refused(VAR rawbytes data, num stream_id, num trajectory_id, num accepted_points,
         num reason_code, num point_index)
-        ROS_pack_header data, 36, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
+        ROS_pack_header data, 36, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE \filled;
         PackRawBytes stream_id, data, 17 \IntX:=DINT;
         PackRawBytes trajectory_id, data, 21 \IntX:=DINT;
         PackRawBytes accepted_points, data, 25 \IntX:=DINT;
@@ -353,11 +353,10 @@ MODULE ROS_stream
             IF batch_points > 0 ROS_read_instructions data, at + HEADER_BYTES, next_byte,
                 batch_points, checksum, next_head;
         ENDIF
-        WHILE remaining > 0 DO
-            remaining := remaining - 1;
-            read_point data, next_byte, remaining = 0 AND has_flag(ROS_STREAM_END);
-            next_byte := next_byte + POINT_BYTES;
-        ENDWHILE
+        IF remaining > 0 THEN
+            read_batch data, next_byte, next_byte + POINT_BYTES * remaining;
+            next_byte := next_byte + POINT_BYTES * remaining;
+        ENDIF
         UnpackRawBytes data, next_byte, received_checksum \IntX:=DINT;
         IF is_damaged OR received_checksum <> checksum THEN
             next_head := head;
@@ -374,9 +373,10 @@ MODULE ROS_stream
         TRYNEXT;
     ENDPROC
 
-    ! Check the point at byte `at` of `data`. Write it into the ring buffer, unless it or an earlier one
-    ! is wrong.
-    LOCAL PROC read_point(VAR rawbytes data, num at, bool last)
+    ! Check the points from byte `at` of `data` to before `end_byte`. Write each into the ring buffer,
+    ! unless it or an earlier one is wrong. This is one routine with a loop, because a routine call for
+    ! each point takes time.
+    LOCAL PROC read_batch(VAR rawbytes data, num at, num end_byte)
         VAR dnum word_1;
         VAR dnum word_2;
         VAR dnum word_3;
@@ -391,67 +391,76 @@ MODULE ROS_stream
         VAR num joint_5;
         VAR num joint_6;
 
-        UnpackRawBytes data, at, word_1 \IntX:=DINT;
-        UnpackRawBytes data, at + 4, word_2 \IntX:=DINT;
-        UnpackRawBytes data, at + 8, word_3 \IntX:=DINT;
-        UnpackRawBytes data, at + 12, word_4 \IntX:=DINT;
-        UnpackRawBytes data, at + 16, word_5 \IntX:=DINT;
-        UnpackRawBytes data, at + 20, word_6 \IntX:=DINT;
-        UnpackRawBytes data, at + 24, word_7 \IntX:=DINT;
-        ! This is add_to_checksum for all words at once. The result stays below 2^44, so a dnum
-        ! represents it exactly.
-        checksum := (128 * checksum
-            + 64 * word_1 + 32 * word_2 + 16 * word_3 + 8 * word_4 + 4 * word_5 + 2 * word_6
-            + word_7
-            + 127 * ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
-        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
-        ROS_previous := ROS_new_point.target;
-        ROS_duration := DnumToNum(word_1 / STEPS_PER_UNIT);
-        IF NOT (0 < ROS_duration AND ROS_duration <= ROS_MAX_DURATION) ROS_check_duration;
-        joint_1 := DnumToNum(word_2 * DEG_PER_STEP);
-        IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1}
-            AND Abs(joint_1 - ROS_previous.robax.rax_1) <= ROS_MAX_SPEED{1} * ROS_duration)
-            joint_1 := ROS_check_joint(joint_1, ROS_previous.robax.rax_1, 1);
-        joint_2 := DnumToNum(word_3 * DEG_PER_STEP);
-        IF NOT (ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2}
-            AND Abs(joint_2 - ROS_previous.robax.rax_2) <= ROS_MAX_SPEED{2} * ROS_duration)
-            joint_2 := ROS_check_joint(joint_2, ROS_previous.robax.rax_2, 2);
-        joint_3 := DnumToNum(word_4 * DEG_PER_STEP);
-        IF NOT (ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3}
-            AND Abs(joint_3 - ROS_previous.robax.rax_3) <= ROS_MAX_SPEED{3} * ROS_duration)
-            joint_3 := ROS_check_joint(joint_3, ROS_previous.robax.rax_3, 3);
-        joint_4 := DnumToNum(word_5 * DEG_PER_STEP);
-        IF NOT (ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4}
-            AND Abs(joint_4 - ROS_previous.robax.rax_4) <= ROS_MAX_SPEED{4} * ROS_duration)
-            joint_4 := ROS_check_joint(joint_4, ROS_previous.robax.rax_4, 4);
-        joint_5 := DnumToNum(word_6 * DEG_PER_STEP);
-        IF NOT (ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5}
-            AND Abs(joint_5 - ROS_previous.robax.rax_5) <= ROS_MAX_SPEED{5} * ROS_duration)
-            joint_5 := ROS_check_joint(joint_5, ROS_previous.robax.rax_5, 5);
-        joint_6 := DnumToNum(word_7 * DEG_PER_STEP);
-        IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
-            AND Abs(joint_6 - ROS_previous.robax.rax_6) <= ROS_MAX_SPEED{6} * ROS_duration)
-            joint_6 := ROS_check_joint(joint_6, ROS_previous.robax.rax_6, 6);
-        ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],
-            [9E9,9E9,9E9,9E9,9E9,9E9]];
-        IF ROS_is_first THEN
-            check_first_point;
-        ELSE
-            IF ROS_duration < ROS_MIN_SEGMENT AND (NOT last)
-                ROS_set_fault ROS_REASON_SEGMENT_TOO_SHORT;
-            ! A point at the same place again means: stand still for the duration.
-            ROS_new_point.dwell := (ROS_new_point.target = ROS_previous);
-            IF ROS_point_fault = ROS_REASON_NONE ROS_check_tcp;
-        ENDIF
-        IF ROS_point_fault <> ROS_REASON_NONE RETURN;
-        ROS_point_count := ROS_point_count + 1;
-        IF ROS_point_count = ROS_INDEX_WRAP ROS_point_count := 0;
-        ROS_new_point.index := ROS_point_count;
-        ROS_new_point.duration := ROS_duration;
-        ROS_ring{next_head MOD ROS_RING_SIZE + 1} := ROS_new_point;
-        next_head := next_head + 1;
-        IF next_head = ROS_WRAP next_head := 0;
-        held_seconds := held_seconds + ROS_duration;
+        WHILE at < end_byte AND ROS_point_fault = ROS_REASON_NONE DO
+            UnpackRawBytes data, at, word_1 \IntX:=DINT;
+            UnpackRawBytes data, at + 4, word_2 \IntX:=DINT;
+            UnpackRawBytes data, at + 8, word_3 \IntX:=DINT;
+            UnpackRawBytes data, at + 12, word_4 \IntX:=DINT;
+            UnpackRawBytes data, at + 16, word_5 \IntX:=DINT;
+            UnpackRawBytes data, at + 20, word_6 \IntX:=DINT;
+            UnpackRawBytes data, at + 24, word_7 \IntX:=DINT;
+            at := at + POINT_BYTES;
+            ! This is add_to_checksum for all words at once. The result stays below 2^44, so a dnum
+            ! represents it exactly.
+            checksum := (128 * checksum
+                + 64 * word_1 + 32 * word_2 + 16 * word_3 + 8 * word_4 + 4 * word_5 + 2 * word_6
+                + word_7
+                + 127 * ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
+            ROS_previous := ROS_new_point.target;
+            ROS_duration := DnumToNum(word_1 / STEPS_PER_UNIT);
+            IF NOT (0 < ROS_duration AND ROS_duration <= ROS_MAX_DURATION) ROS_check_duration;
+            joint_1 := DnumToNum(word_2 * DEG_PER_STEP);
+            joint_2 := DnumToNum(word_3 * DEG_PER_STEP);
+            joint_3 := DnumToNum(word_4 * DEG_PER_STEP);
+            joint_4 := DnumToNum(word_5 * DEG_PER_STEP);
+            joint_5 := DnumToNum(word_6 * DEG_PER_STEP);
+            joint_6 := DnumToNum(word_7 * DEG_PER_STEP);
+            ! A joint that is correct passes ROS_check_joint, too.
+            IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1}
+                AND Abs(joint_1 - ROS_previous.robax.rax_1) <= ROS_MAX_SPEED{1} * ROS_duration
+                AND ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2}
+                AND Abs(joint_2 - ROS_previous.robax.rax_2) <= ROS_MAX_SPEED{2} * ROS_duration
+                AND ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3}
+                AND Abs(joint_3 - ROS_previous.robax.rax_3) <= ROS_MAX_SPEED{3} * ROS_duration
+                AND ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4}
+                AND Abs(joint_4 - ROS_previous.robax.rax_4) <= ROS_MAX_SPEED{4} * ROS_duration
+                AND ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5}
+                AND Abs(joint_5 - ROS_previous.robax.rax_5) <= ROS_MAX_SPEED{5} * ROS_duration
+                AND ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
+                AND Abs(joint_6 - ROS_previous.robax.rax_6) <= ROS_MAX_SPEED{6} * ROS_duration) THEN
+                joint_1 := ROS_check_joint(joint_1, ROS_previous.robax.rax_1, 1);
+                joint_2 := ROS_check_joint(joint_2, ROS_previous.robax.rax_2, 2);
+                joint_3 := ROS_check_joint(joint_3, ROS_previous.robax.rax_3, 3);
+                joint_4 := ROS_check_joint(joint_4, ROS_previous.robax.rax_4, 4);
+                joint_5 := ROS_check_joint(joint_5, ROS_previous.robax.rax_5, 5);
+                joint_6 := ROS_check_joint(joint_6, ROS_previous.robax.rax_6, 6);
+            ENDIF
+            ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],
+                [9E9,9E9,9E9,9E9,9E9,9E9]];
+            IF ROS_is_first THEN
+                check_first_point;
+            ELSE
+                IF ROS_duration < ROS_MIN_SEGMENT AND (at < end_byte OR (NOT has_flag(ROS_STREAM_END)))
+                    ROS_set_fault ROS_REASON_SEGMENT_TOO_SHORT;
+                ! A point at the same place again means: stand still for the duration.
+                ROS_new_point.dwell := (ROS_new_point.target = ROS_previous);
+                IF ROS_point_fault = ROS_REASON_NONE ROS_check_tcp;
+            ENDIF
+            IF ROS_point_fault = ROS_REASON_NONE THEN
+                ROS_point_count := (ROS_point_count + 1) MOD ROS_INDEX_WRAP;
+                ROS_new_point.index := ROS_point_count;
+                ROS_new_point.duration := ROS_duration;
+                ROS_ring{next_head MOD ROS_RING_SIZE + 1} := ROS_new_point;
+                next_head := (next_head + 1) MOD ROS_WRAP;
+                held_seconds := held_seconds + ROS_duration;
+            ENDIF
+        ENDWHILE
+        ! The words after a wrong point belong to the checksum only.
+        WHILE at < end_byte DO
+            UnpackRawBytes data, at, word_1 \IntX:=DINT;
+            checksum := add_to_checksum(checksum, word_1);
+            at := at + 4;
+        ENDWHILE
     ERROR
         SkipWarn;
         is_damaged := TRUE;

@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "06370c5bde1a";
+    CONST string ROS_BUILD_MOTION := "c6626475d580";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [5000,500,5000,1000];
@@ -173,7 +173,8 @@ MODULE ROS_motion
             ! The next points will arrive soon.
             WaitTime POLL_PERIOD;
         ELSE
-            WaitUntil ROS_phase_1 = ROS_TRAJ_RECEIVING OR ROS_head_1 <> ROS_tail_1
+            ! A trajectory may be received and started between two checks, and its points follow.
+            WaitUntil ROS_phase_1 = ROS_TRAJ_RECEIVING OR ROS_is_active() OR ROS_head_1 <> ROS_tail_1
                 OR ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=IDLE_TIMEOUT \TimeFlag:=timed_out \PollRate:=POLL_RATE;
         ENDIF
     ENDPROC

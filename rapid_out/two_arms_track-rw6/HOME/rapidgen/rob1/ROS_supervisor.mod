@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "06370c5bde1a";
+    CONST string ROS_BUILD_SUPERVISOR := "c6626475d580";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;

@@ -20,7 +20,7 @@ MODULE ROS_motionServer
         num commands;
     ENDRECORD
 
-    CONST string ROS_BUILD_MOTION_SERVER := "06370c5bde1a";
+    CONST string ROS_BUILD_MOTION_SERVER := "c6626475d580";
 
     ! ---- Connections ----
 
@@ -689,48 +689,47 @@ MODULE ROS_motionServer
         ROS_previous := ROS_new_point.target;
         UnpackRawBytes data, at + 64, ROS_duration \Float4;
         IF NOT (0 < ROS_duration AND ROS_duration <= ROS_MAX_DURATION) ROS_check_duration;
-
         UnpackRawBytes data, at + 20, joint_1 \Float4;
         joint_1 := joint_1 * ROS_DEG;
-        IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1}
-            AND Abs(joint_1 - ROS_previous.robax.rax_1) <= ROS_MAX_SPEED{1} * ROS_duration)
-            joint_1 := ROS_check_joint(joint_1, ROS_previous.robax.rax_1, 1);
-
         UnpackRawBytes data, at + 24, joint_2 \Float4;
         joint_2 := joint_2 * ROS_DEG;
-        IF NOT (ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2}
-            AND Abs(joint_2 - ROS_previous.robax.rax_2) <= ROS_MAX_SPEED{2} * ROS_duration)
-            joint_2 := ROS_check_joint(joint_2, ROS_previous.robax.rax_2, 2);
-
         UnpackRawBytes data, at + 28, joint_3 \Float4;
         joint_3 := joint_3 * ROS_DEG;
-        IF NOT (ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3}
-            AND Abs(joint_3 - ROS_previous.robax.rax_3) <= ROS_MAX_SPEED{3} * ROS_duration)
-            joint_3 := ROS_check_joint(joint_3, ROS_previous.robax.rax_3, 3);
-
         UnpackRawBytes data, at + 32, joint_4 \Float4;
         joint_4 := joint_4 * ROS_DEG;
-        IF NOT (ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4}
-            AND Abs(joint_4 - ROS_previous.robax.rax_4) <= ROS_MAX_SPEED{4} * ROS_duration)
-            joint_4 := ROS_check_joint(joint_4, ROS_previous.robax.rax_4, 4);
-
         UnpackRawBytes data, at + 36, joint_5 \Float4;
         joint_5 := joint_5 * ROS_DEG;
-        IF NOT (ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5}
-            AND Abs(joint_5 - ROS_previous.robax.rax_5) <= ROS_MAX_SPEED{5} * ROS_duration)
-            joint_5 := ROS_check_joint(joint_5, ROS_previous.robax.rax_5, 5);
-
         UnpackRawBytes data, at + 40, joint_6 \Float4;
         joint_6 := joint_6 * ROS_DEG;
-        IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
-            AND Abs(joint_6 - ROS_previous.robax.rax_6) <= ROS_MAX_SPEED{6} * ROS_duration)
+        ! A joint that is correct passes ROS_check_joint, too.
+        IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1}
+            AND Abs(joint_1 - ROS_previous.robax.rax_1) <= ROS_MAX_SPEED{1} * ROS_duration
+            AND ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2}
+            AND Abs(joint_2 - ROS_previous.robax.rax_2) <= ROS_MAX_SPEED{2} * ROS_duration
+            AND ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3}
+            AND Abs(joint_3 - ROS_previous.robax.rax_3) <= ROS_MAX_SPEED{3} * ROS_duration
+            AND ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4}
+            AND Abs(joint_4 - ROS_previous.robax.rax_4) <= ROS_MAX_SPEED{4} * ROS_duration
+            AND ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5}
+            AND Abs(joint_5 - ROS_previous.robax.rax_5) <= ROS_MAX_SPEED{5} * ROS_duration
+            AND ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
+            AND Abs(joint_6 - ROS_previous.robax.rax_6) <= ROS_MAX_SPEED{6} * ROS_duration) THEN
+            joint_1 := ROS_check_joint(joint_1, ROS_previous.robax.rax_1, 1);
+            joint_2 := ROS_check_joint(joint_2, ROS_previous.robax.rax_2, 2);
+            joint_3 := ROS_check_joint(joint_3, ROS_previous.robax.rax_3, 3);
+            joint_4 := ROS_check_joint(joint_4, ROS_previous.robax.rax_4, 4);
+            joint_5 := ROS_check_joint(joint_5, ROS_previous.robax.rax_5, 5);
             joint_6 := ROS_check_joint(joint_6, ROS_previous.robax.rax_6, 6);
-
+        ENDIF
         ! Joints that this robot does not have must be zero.
-        FOR joint FROM 7 TO ROS_MAX_JOINTS DO
-            UnpackRawBytes data, at + 16 + 4 * joint, padding \Float4;
-            IF NOT (padding = 0) ROS_set_fault 100 * joint + ROS_REASON_BAD_PADDING;
-        ENDFOR
+        UnpackRawBytes data, at + 44, padding \Float4;
+        IF NOT (padding = 0) ROS_set_fault 100 * 7 + ROS_REASON_BAD_PADDING;
+        UnpackRawBytes data, at + 48, padding \Float4;
+        IF NOT (padding = 0) ROS_set_fault 100 * 8 + ROS_REASON_BAD_PADDING;
+        UnpackRawBytes data, at + 52, padding \Float4;
+        IF NOT (padding = 0) ROS_set_fault 100 * 9 + ROS_REASON_BAD_PADDING;
+        UnpackRawBytes data, at + 56, padding \Float4;
+        IF NOT (padding = 0) ROS_set_fault 100 * 10 + ROS_REASON_BAD_PADDING;
 
         ROS_new_point.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],
             [9E9,9E9,9E9,9E9,9E9,9E9]];
