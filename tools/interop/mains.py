@@ -9,8 +9,8 @@ repositories come first. RESULTS.jsonl receives one line
 for each main; mains that are in it already are not repeated.
 
 "waits for a peer" is a main that waits at a named socket, file, dialog or guide, or that stops at
-what an inferred peer sent. A server that has answered several messages and waits for the next one
-cycles.
+what an inferred peer sent. A server that has answered several messages and waits for the next one,
+or for the next client, cycles.
 """
 
 import hashlib

@@ -37,6 +37,7 @@ _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")
 _PARTNER = re.compile(
     r"Socket|bytes from|waits for an answer|message|ERR_SOCK|ERR_FILE|ERR_TP_|EGM |ERR_UDPUC"
 )
+_NEXT = re.compile("waits for bytes from|waits for a client")
 _TIME = 300.0
 _STATEMENTS = 2_000_000
 _LITTLE = 0.6
@@ -133,7 +134,7 @@ def _end(
     if finished == "finished":
         return "whole"
     if any(_PARTNER.search(where) for where in waits):
-        again = served and any("bytes from" in where for where in waits)
+        again = served and any(_NEXT.search(where) for where in waits)
         return "waits for the next message" if again else "waits for a partner"
     return "goes round" if finished in ("time", "statements") else "waits for ever"
 
