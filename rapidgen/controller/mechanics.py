@@ -83,7 +83,7 @@ def mechanics(
         robots: Sequence[GroupConfig] = ()
         if model:
             robots = robots_named(model)
-        elif types:
+        elif any(types.values()):
             unit = units.get(task) or list(types)[min(i, len(types) - 1)]
             robots, report = _of_type(types.get(unit.casefold(), ""), unit)
             notes += report

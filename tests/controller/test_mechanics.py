@@ -7,7 +7,7 @@ from rapidgen.config import load_config
 from rapidgen.config.variant_group import group_of
 from rapidgen.config.variant_library import variants
 from rapidgen.controller.mechanics import groups_for, mechanics, model_of, robots_named
-from rapidgen.diagnostics import DiagnosticError
+from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.system.model import MechanicalUnitGroup, System, TaskSpec
 
 
@@ -93,6 +93,14 @@ def test_backup_moves_robots_of_its_type():
         "T_ROB2": "irb4600",
     }
     assert notes == ()
+
+
+def test_a_backup_without_a_robot_type_moves_a_replacement():
+    """The backups that the virtual controller writes name the unit, not a type of ABB."""
+    system = System("one", (TaskSpec("T_ROB1", motion=True),), robot_types=(("ROB_1", ""),))
+    (group,), (note,) = mechanics(system)
+    assert (group.model, group.mechanical_unit) == ("irb120", "ROB_1")
+    assert (note.code, note.severity) == ("RG432", Severity.WARNING)
 
 
 def test_unshipped_variant_moves_as_in_library():
