@@ -10,7 +10,7 @@ MODULE ROS_control
     ! one task may stop and restart the robot. If the supervisor does not answer, this task stops the
     ! robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "8715e72ce308";
+    CONST string ROS_BUILD_CONTROL := "d4389793e198";
 
     LOCAL CONST num PORT := 11001;
     ! Time between two checks for new clients and for the end of a trajectory, s.

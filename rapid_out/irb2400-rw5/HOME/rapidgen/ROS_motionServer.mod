@@ -20,7 +20,7 @@ MODULE ROS_motionServer
         num commands;
     ENDRECORD
 
-    CONST string ROS_BUILD_MOTION_SERVER := "8715e72ce308";
+    CONST string ROS_BUILD_MOTION_SERVER := "d4389793e198";
 
     ! ---- Connections ----
 

@@ -20,7 +20,7 @@ MODULE ROS_motionServer
         num commands;
     ENDRECORD
 
-    CONST string ROS_BUILD_MOTION_SERVER := "c6626475d580";
+    CONST string ROS_BUILD_MOTION_SERVER := "283cd0805983";
 
     ! ---- Connections ----
 

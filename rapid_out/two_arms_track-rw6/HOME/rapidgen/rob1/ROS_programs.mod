@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! must give that pose. So the limits of the joints can be checked, the configuration (robconf) is
     ! the controller's own, and a client with a wrong robot model is rejected before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "c6626475d580";
+    CONST string ROS_BUILD_PROGRAMS := "283cd0805983";
 
     ! Upper limits: speeds in mm/s and deg/s, sizes of a zone in mm and deg.
     LOCAL CONST num MAX_TCP_SPEED := 5000;

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! of one moment, and no other task waits for this one. A client that does not read would block the
     ! sends to the other clients, so a send that takes too long is ended and its client is disconnected.
 
-    CONST string ROS_BUILD_STATE_SERVER := "c6626475d580";
+    CONST string ROS_BUILD_STATE_SERVER := "283cd0805983";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num SEND_PERIOD := 0.1;

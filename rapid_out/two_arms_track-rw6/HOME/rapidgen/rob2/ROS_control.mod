@@ -10,7 +10,7 @@ MODULE ROS_control
     ! one task may stop and restart the robot. If the supervisor does not answer, this task stops the
     ! robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "c6626475d580";
+    CONST string ROS_BUILD_CONTROL := "283cd0805983";
 
     LOCAL CONST num PORT := 11011;
     ! Time between two checks for new clients and for the end of a trajectory, s.
