@@ -168,7 +168,11 @@ DEFECTS = {
         "ROS_refuse_download ROS_REASON_CAPACITY, ROS_point_count, sequence = ROS_SEQ_END;",
         "",
     ),
-    "padding": ("ROS_motionServer", "IF NOT (padding = 0) ROS_set_fault", "IF FALSE ROS_set_fault"),
+    "padding": (
+        "ROS_motionServer",
+        "IF NOT (padding = 0) ROS_set_fault 100 * 8",
+        "IF FALSE ROS_set_fault 100 * 8",
+    ),
     "newest-takes-over": (
         "ROS_motionServer",
         "is_taken_over := (silence >= TAKEOVER_DELAY);",
