@@ -8,10 +8,10 @@ import numpy.typing as npt
 from rapidgen._compat import Self
 from rapidgen.axes.frames import Pose
 from rapidgen.client import flows
-from rapidgen.client.api import AcceptedMotion, ExecutionApi, RobotApi, RunApi, StreamApi
+from rapidgen.client.api import ExecutionApi, RobotApi, RunApi, StreamApi
 from rapidgen.client.async_runner import AsyncFlowRunner
 from rapidgen.client.core.checks import TransferMode
-from rapidgen.client.core.motion import Result
+from rapidgen.client.core.motion import CommandedMotion, Result
 from rapidgen.client.core.point_source import PointSource, batches
 from rapidgen.client.core.state import Event, Feedback, State
 from rapidgen.client.flows.data import Datum
@@ -19,7 +19,12 @@ from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike
 from rapidgen.client.trajectory import Trajectory
 
 
-class _AsyncAccepted(AcceptedMotion[AsyncFlowRunner]):
+class _AsyncEnding:
+    """Calls that end an accepted motion."""
+
+    _runner: AsyncFlowRunner
+    _subject: CommandedMotion
+
     async def result(self, timeout: float | None = None) -> Result:
         """Wait for the end, by default while the robot progresses or is paused.
 
@@ -34,11 +39,11 @@ class _AsyncAccepted(AcceptedMotion[AsyncFlowRunner]):
         return await self._runner.run(flows.motion.cancel(self._runner.core, self._subject))
 
 
-class AsyncExecution(_AsyncAccepted, ExecutionApi[AsyncFlowRunner]):
+class AsyncExecution(_AsyncEnding, ExecutionApi[AsyncFlowRunner]):
     """`Execution` with awaitable methods."""
 
 
-class AsyncProgramRun(_AsyncAccepted, RunApi[AsyncFlowRunner]):
+class AsyncProgramRun(_AsyncEnding, RunApi[AsyncFlowRunner]):
     """`ProgramRun` with awaitable methods."""
 
 

@@ -86,8 +86,10 @@ class MotionHandle(Generic[R, Subject]):
         return self._subject.stopped_position
 
 
-class AcceptedMotion(MotionHandle[R, CommandedMotion]):
+class AcceptedMotion:
     """A trajectory or program that the controller has accepted."""
+
+    _subject: CommandedMotion
 
     @property
     def warnings(self) -> Sequence[Diagnostic]:
@@ -100,7 +102,7 @@ class AcceptedMotion(MotionHandle[R, CommandedMotion]):
         return self._subject.mode
 
 
-class ExecutionApi(AcceptedMotion[R]):
+class ExecutionApi(AcceptedMotion, MotionHandle[R, CommandedMotion]):
     """A trajectory that the controller has accepted."""
 
     @property
@@ -115,7 +117,7 @@ class ExecutionApi(AcceptedMotion[R]):
         return self._subject.planned_seconds
 
 
-class RunApi(AcceptedMotion[R]):
+class RunApi(AcceptedMotion, MotionHandle[R, CommandedMotion]):
     """A program that the controller has accepted, or its first part."""
 
     def __init__(self, runner: R, motion: CommandedMotion, program: Program) -> None:

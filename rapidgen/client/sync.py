@@ -9,9 +9,9 @@ import numpy.typing as npt
 from rapidgen._compat import Self
 from rapidgen.axes.frames import Pose
 from rapidgen.client import flows
-from rapidgen.client.api import AcceptedMotion, ExecutionApi, RobotApi, RunApi, StreamApi
+from rapidgen.client.api import ExecutionApi, RobotApi, RunApi, StreamApi
 from rapidgen.client.core.checks import TransferMode
-from rapidgen.client.core.motion import Result
+from rapidgen.client.core.motion import CommandedMotion, Result
 from rapidgen.client.core.point_source import PointSource, batches
 from rapidgen.client.core.state import Event, Feedback, State
 from rapidgen.client.flows.data import Datum
@@ -48,7 +48,12 @@ class CellData(Mapping[str, Datum]):
         return len(self.names)
 
 
-class _Accepted(AcceptedMotion[SyncFlowRunner]):
+class _Ending:
+    """Calls that end an accepted motion."""
+
+    _runner: SyncFlowRunner
+    _subject: CommandedMotion
+
     def result(self, timeout: float | None = None) -> Result:
         """Wait for the end, by default while the robot progresses or is paused.
 
@@ -63,11 +68,11 @@ class _Accepted(AcceptedMotion[SyncFlowRunner]):
         return self._runner.run(flows.motion.cancel(self._runner.core, self._subject))
 
 
-class Execution(_Accepted, ExecutionApi[SyncFlowRunner]):
+class Execution(_Ending, ExecutionApi[SyncFlowRunner]):
     """A trajectory that the controller has accepted."""
 
 
-class ProgramRun(_Accepted, RunApi[SyncFlowRunner]):
+class ProgramRun(_Ending, RunApi[SyncFlowRunner]):
     """A program that the controller has accepted."""
 
 
