@@ -121,7 +121,7 @@ diagrams: $(STAMP)
 	$(BIN)/python -m tests.docs.robots_picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
-# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros2, ros_nodes, rws_suites, state_machine, text_pairs, text_servers; default: any).
+# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, mains, motion_program_exec, open_abb, rfl, ros2, ros_nodes, rws_suites, state_machine, text_pairs, text_servers; default: any).
 PROGRAM = trial
 interop: $(STAMP)
 	$(BIN)/python -m tools.interop.$(PROGRAM) $(FOREIGN)
@@ -178,6 +178,15 @@ seeded-faults: $(STAMP) ## 1 min: 100 faults in RAPID programs, and how many `ch
 
 motion-logs: $(STAMP) ## 3 min: simulated motion against the logs of a robot in the folder LOGS
 	$(BIN)/python benchmarks/motion_logs.py $(LOGS)
+
+error-bands: $(STAMP) ## 10 min: error of durations with estimated accelerations, judged on logs; LOGS=folder
+	$(BIN)/python benchmarks/error_bands.py $(LOGS)
+
+picking-cycles: $(STAMP) ## 5 min: picking cycles of all models beside published ones
+	$(BIN)/python benchmarks/picking_cycles.py
+
+other-accelerations: $(STAMP) ## 20 min: the driver's cases on robots with half and twice its accelerations
+	$(BIN)/python -m tools.other_accelerations
 
 reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
 	$(BIN)/python benchmarks/reach.py

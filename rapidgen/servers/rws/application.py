@@ -17,10 +17,10 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import TYPE_CHECKING
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.runner import ControllerRunner
+from rapidgen.servers.rws.client_queue import ClientQueue
 from rapidgen.servers.rws.mastership import ManualPrivilege, Masterships
 from rapidgen.servers.rws.messages import (
     HttpRequest,
@@ -38,9 +38,6 @@ from rapidgen.wire.rws.forms import FORM, read_form, split_target
 from rapidgen.wire.rws.grants import GRANTS, missing, needed
 from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, wanted
 from rapidgen.wire.rws.operations import Route, RwsOperation
-
-if TYPE_CHECKING:
-    from rapidgen.servers.rws.handlers.queues import ClientQueue
 
 SESSION, CONNECTION = "-http-session-", "ABBCX"
 """Cookies of the session and of the TCP connection."""

@@ -4,15 +4,14 @@ A message to a task is `type;value` [doc: PC SDK, RAPID message queue], as one f
 between clients it is any text of at most 444 bytes.
 """
 
-from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 from rapidgen.runtime.compiler.link import find_type
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.queues import Message, Queue
-from rapidgen.runtime.text import NotALiteral, literal_text, parse_value
+from rapidgen.runtime.queues import Message
+from rapidgen.runtime.text import NotALiteral, parse_value
 from rapidgen.servers.rws.application import RwsApplication, serves
+from rapidgen.servers.rws.client_queue import MESSAGE_KINDS, ClientQueue, ClientText
 from rapidgen.servers.rws.messages import RequestDenied, RwsRequest, RwsResponse, show, whole
 from rapidgen.servers.rws.subscriptions import EventSource, Notify, Topic, subscribable
 from rapidgen.system.model import QueueSpec
@@ -22,41 +21,6 @@ from rapidgen.wire.rws.bodies import Item
 LARGEST = 444
 """Largest message [RWS manual], bytes."""
 _OF_A_TASK = "rmq_"
-MESSAGE_KINDS = ("IPC_SEND", "IPC_PACKAGE")
-"""Kinds of messages, by `dipc-msgtype`."""
-
-
-@dataclass(frozen=True, slots=True)
-class ClientText:
-    """Message from one client to another."""
-
-    sender: str
-    data: str
-    command: str
-    user: str
-    kind: str
-
-
-@dataclass(slots=True, eq=False)
-class ClientQueue:
-    """A queue that a client has made; tasks put their answers into `queue`."""
-
-    name: str
-    queue: Queue
-    texts: deque[ClientText] = field(default_factory=deque)
-
-    def __len__(self) -> int:
-        return len(self.texts) + len(self.queue.messages)
-
-    def take(self) -> ClientText | None:
-        """Remove and return the first message; None if the queue is empty."""
-        if self.texts:
-            return self.texts.popleft()
-        if not self.queue.messages:
-            return None
-        message = self.queue.messages.popleft()
-        data = f"{message.type.name};{literal_text(message.value, message.type)}"
-        return ClientText(message.sender, data, "0", f"{message.user:g}", MESSAGE_KINDS[1])
 
 
 def find(app: RwsApplication, name: str) -> ClientQueue:
