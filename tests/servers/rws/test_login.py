@@ -1,12 +1,17 @@
 """Logins and cookies: a login is valid once, for its own request [RFC 7616, 3.4, 5.5]."""
 
 import hashlib
+import urllib.error
+import urllib.request
 
 import pytest
-from served import Caller
+from served import Caller, make_runner
 
+from rapidgen.servers.rws.application import Accounts
 from rapidgen.servers.rws.messages import HttpRequest
+from rapidgen.servers.rws.server import serve_rws
 from rapidgen.wire.rws import login
+from rapidgen.wire.rws.bodies import Generation
 
 
 def md5(text):
@@ -95,3 +100,37 @@ def test_session_without_login_begins_none(one):
     assert one.application.handle(HttpRequest("GET", "/rw/system", {"host": "h"})).status == 401
     assert len(one.application.sessions) == before
     assert Caller(one.application).get("/rw/system")
+
+
+def status_of(opener, address):
+    try:
+        with opener.open(address, timeout=20) as reply:
+            return reply.status
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+@pytest.mark.parametrize(
+    ("given", "user", "password", "status"),
+    [
+        (None, "Default User", "robotics", 200),
+        ({"me": "secret"}, "me", "secret", 200),
+        ({"me": "secret"}, "Default User", "robotics", 401),
+    ],
+    ids=["public", "given", "public beside given"],
+)
+def test_given_accounts_replace_the_public_ones(tmp_path, given, user, password, status):
+    with make_runner(tmp_path, clock="real") as runner:
+        runner.start()
+        service = serve_rws(runner, Generation.ONE, accounts=Accounts(given) if given else None)
+        try:
+            address = f"http://{service.host}:{service.port}/rw/system"
+            passwords = urllib.request.HTTPPasswordMgrWithDefaultRealm()
+            passwords.add_password(None, address, user, password)
+            no_proxy = urllib.request.ProxyHandler({})
+            opener = urllib.request.build_opener(
+                no_proxy, urllib.request.HTTPDigestAuthHandler(passwords)
+            )
+            assert status_of(opener, address) == status
+        finally:
+            service.close()

@@ -314,6 +314,27 @@ def test_networks_and_devices_one_by_one(caller):
     assert caller.send("GET", "/rw/iosystem/networks/Else").status == 404
 
 
+@pytest.mark.parametrize(
+    ("sought", "found"),
+    [
+        ({"name": ""}, None),
+        ({"name": "LOC"}, 1),
+        ({"name": "else"}, 0),
+        ({"state": "running"}, 1),
+        ({"state": "stopped"}, 0),
+        ({"name": "else", "state": "running"}, 0),
+        ({"name": "local", "state": "stopped"}, 0),
+    ],
+    ids=str,
+)
+def test_networks_are_sought_by_name_and_state(one, sought, found):
+    reply = one.send("POST", "/rw/iosystem/networks?action=search", sought)
+    if found is None:
+        assert reply.status == 400
+    else:
+        assert len(media.read(reply.body, reply.header("content-type")).items) == found
+
+
 def test_a_locked_mode_cannot_be_changed(caller):
     path, man = "/rw/panel/opmode", {"opmode": "man"}
     setting = f"{path}?action=setopmode" if caller.is_one else path
