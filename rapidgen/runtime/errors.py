@@ -157,6 +157,8 @@ PYTHON_ERRORS: dict[type[Exception], str] = {
     ZeroDivisionError: "ERR_DIVZERO",
     KeyError: "ERR_OUTOFBND",
     OverflowError: "ERR_NUM_LIMIT",
+    # NaN where a whole number is needed: raw bytes of a socket can contain one.
+    ValueError: "ERR_ARGVALERR",
 }
 RECOVERABLE: tuple[type[Exception], ...] = (RapidError, *PYTHON_ERRORS)
 

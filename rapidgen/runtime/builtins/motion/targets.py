@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Callable
 from functools import partial
-from math import pi
+from math import isnan, pi
 from types import CodeType, FrameType
 from typing import TypeAlias
 
@@ -142,8 +142,11 @@ def speed_of(data: Value, tcp: float | None, modal: ModalSettings) -> MoveSpeed:
     The override scales all parts, the limit only that of the TCP.
     """
     fraction = modal.speed_override
+    point = data.v_tcp if tcp is None else tcp
+    if isnan(point + data.v_ori + data.v_leax + data.v_reax):
+        raise RapidError("ERR_ARGVALERR", "a part of the speed is no number")
     return MoveSpeed(
-        tcp=min((data.v_tcp if tcp is None else tcp) * fraction / 1000, modal.speed_limit),
+        tcp=min(point * fraction / 1000, modal.speed_limit),
         orientation=data.v_ori * fraction * RAD,
         linear=data.v_leax * fraction / 1000,
         rotary=data.v_reax * fraction * RAD,
@@ -157,7 +160,7 @@ def time_of(time: float | None, group: MotionGroup) -> float | None:
     """
     if time is None:
         return None
-    if time <= 0:
+    if not time > 0:
         raise RapidError("ERR_ARGVALERR", f"\\T:={time:g}")
     return time / group.modal.speed_override if group.settings.velset_timed else time
 
@@ -167,6 +170,8 @@ def zone_of(data: Value, radius: float | None, stop: Value = None) -> Zone:
     if data.finep or stop is not None:
         return Zone(fine=True)
     tcp = data.pzone_tcp if radius is None else radius
+    if isnan(tcp):
+        raise RapidError("ERR_ARGVALERR", "the zone is no number")
     fraction = tcp / data.pzone_tcp if radius is not None and data.pzone_tcp > 0 else 1.0
     return Zone(
         fine=False,
