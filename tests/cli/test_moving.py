@@ -283,7 +283,7 @@ def test_interrupted_move_stops_and_prints_position(cell, capsys, ignored, numbe
 def test_calibrate_moves_only_the_chosen_axis(cell, capsys, tmp_path):
     at_home(cell, capsys)
     log = tmp_path / "log.csv"
-    words = ("--amplitude", "joint_1=40", "--speed", "0.5", "--record", str(log))
+    words = ("--amplitude", "joint_1=100", "--speed", "0.5", "--record", str(log))
     displayed = run_command(capsys, "calibrate", cell[0], *words, "--to", "sim")
     # The acceleration of the simulated robot is that of the configuration.
     acceleration = float(re.search(r"joint_1: (\d+) deg", displayed.out)[1])
@@ -291,8 +291,8 @@ def test_calibrate_moves_only_the_chosen_axis(cell, capsys, tmp_path):
     assert displayed.out.count("not measured") == 5
     recorded = Trajectory.from_csv(log)
     turned = recorded.positions[:, 0]
-    assert math.degrees(turned.min()) == pytest.approx(-40, abs=0.1)
-    assert math.degrees(turned.max()) == pytest.approx(40, abs=0.1)
+    assert math.degrees(turned.min()) == pytest.approx(-100, abs=0.1)
+    assert math.degrees(turned.max()) == pytest.approx(100, abs=0.1)
     others = recorded.positions[:, [1, 2, 3, 5]]
     assert abs(others).max() < 1e-4
 
