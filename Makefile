@@ -224,6 +224,9 @@ driver-boundary: $(STAMP) ## 2 h: boundary values in every field of every messag
 stop-trials: $(STAMP) ## 5 min: 2,000 random stops with up to three operator actions, and the way back from them
 	$(BIN)/python tools/stop_trials.py --jobs 2
 
+egm-bench: $(STAMP) ## 2 min: period of EGM frames, and the client's time to answer
+	$(BIN)/python benchmarks/egm.py --seconds 60
+
 egm-campaign: $(STAMP) ## 45 min: 20,000 runs of a guided robot with faults of its partner and actions of an operator
 	$(BIN)/python tools/egm_campaign.py --jobs 2 --results build/egm.jsonl
 

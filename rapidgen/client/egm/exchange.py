@@ -80,6 +80,10 @@ class PartnerExchange:
     _path_time: float = 0.0
     _last: int = -1
     _last_time: float = 0.0
+    _message: RobotMessage | None = None
+    _joints: Joints = ()
+    _now: float = 0.0
+    _age: float | None = None
 
     def execute(self, order: Target | Path | Stop) -> None:
         """Take an order of the caller; the newest target counts."""
@@ -90,8 +94,8 @@ class PartnerExchange:
         else:
             self.target, self._path = order, None
 
-    def answer(self, frame: bytes, now: float) -> tuple[bytes, EgmState]:
-        """Return the answer to a frame, and the state. EgmMessageError: it is no frame."""
+    def answer(self, frame: bytes, now: float) -> bytes:
+        """Return the answer to a frame. EgmMessageError: it is no frame."""
         message = decode_robot(frame)
         joints = self._urdf(message.measured.joints, message.measured.external)
         guided = message.state == "running"
@@ -107,12 +111,20 @@ class PartnerExchange:
         age = None if self.target is None else now - self.target.at
         if guided:
             self._advance(reference, cycle, age)
-        state = EgmState(
-            time=now,
-            joints=joints,
+        self._message, self._joints, self._now, self._age = message, joints, now, age
+        return self._encode(reference)
+
+    def state(self) -> EgmState:
+        """Return the state after the last answer; apart from it, so that answers are early."""
+        message, reference = self._message, self.reference
+        assert message is not None
+        assert reference is not None
+        return EgmState(
+            time=self._now,
+            joints=self._joints,
             planned=self._urdf(message.planned.joints, message.planned.external),
             reference=reference.positions,
-            guided=guided,
+            guided=message.state == "running",
             motors_on=message.motors_on,
             program_runs=message.program_runs,
             converged=message.converged,
@@ -120,10 +132,9 @@ class PartnerExchange:
             utilization=message.utilization or 0.0,
             sequence=message.sequence,
             missed=self.missed,
-            age=age,
+            age=self._age,
             remaining=0.0 if self._path is None else self._path.times[-1] - self._path_time,
         )
-        return self._encode(reference), state
 
     def _begin(self, joints: Joints) -> None:
         self.reference = Reference(self.envelope, joints)

@@ -34,14 +34,14 @@ def serve(pipe: Connection, link: socket.socket, exchange: PartnerExchange) -> N
         if frame is None:
             continue
         try:
-            answer, state = exchange.answer(frame, time.monotonic())
+            answer = exchange.answer(frame, time.monotonic())
         except EgmMessageError:
             continue
         # Any datagram may be lost.
         with contextlib.suppress(BlockingIOError, ConnectionRefusedError):
             link.sendto(answer, source)
         if select.select([], [pipe.fileno()], [], 0)[1]:
-            pipe.send(state)
+            pipe.send(exchange.state())
 
 
 def _newest(link: socket.socket) -> "tuple[bytes | None, tuple[str, int]]":

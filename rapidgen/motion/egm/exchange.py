@@ -12,7 +12,7 @@ on the virtual clock, or in a process of its own that serves a partner in real t
 
 from collections import Counter
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Literal, Protocol, TypeAlias
 
 from rapidgen._extras import named
 from rapidgen.axes.kinematics import Posture
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
 
 Outcome: TypeAlias = Literal["", "converged", "stopped", "silent", "unreachable", "bounds"]
 """How a run ended; empty: it has not."""
-_LATE: Final = 1e-9
 
 
 class Link(Protocol):
@@ -144,7 +143,8 @@ class Exchange:
     """Where the run began, also after a stop of the program."""
     _heard: float = 0.0
     """When the last message came, or the run began, s."""
-    _next_message: float = 0.0
+    _left: int = 0
+    """Cycles until the next message: times of a real clock are not exact."""
     _now: float = 0.0
 
     @property
@@ -162,7 +162,7 @@ class Exchange:
             case StartRun(run):
                 self.run, self.guide, self._ending, self._origin = run, None, "", None
                 # A run is a new session for its partner (abb_libegm: sequence number 0).
-                self.sequence, self._heard, self._next_message = 0, self._now, self._now
+                self.sequence, self._heard, self._left = 0, self._now, 0
             case StopRun(hold, ramp_out):
                 if self.guide is None:
                     self._end()
@@ -192,7 +192,8 @@ class Exchange:
             position, outcome, reason = self._guided(inputs, fresh=fresh)
         guide = self.guide
         reference = None if guide is None else guide.reference
-        if self.running and now >= self._next_message - _LATE:
+        self._left -= 1
+        if self.running and self._left <= 0:
             try:
                 self._send(link, inputs, now)
             except ConnectionRefusedError:
@@ -274,7 +275,7 @@ class Exchange:
 
     def _send(self, link: Link, inputs: Inputs, now: float) -> None:
         guide, activation = self.guide, self.activation
-        self._next_message = now + max(CYCLE, activation.sample_time)
+        self._left = max(1, round(activation.sample_time / CYCLE))
         ordered = inputs.commanded if guide is None else guide.ordered
         measured = inputs.measured if guide is None else guide.position
         message = RobotMessage(

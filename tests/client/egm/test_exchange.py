@@ -38,9 +38,9 @@ class Controller:
         axes = AxisPositions(tuple(map(math.degrees, self.joints)))
         mode = "running" if running else "stopped"
         message = RobotMessage(number, round(self.now * 1000), axes, axes, True, mode, True, False)
-        data, state = self.exchange.answer(encode_robot(message, (7, 0)), self.now)
+        data = self.exchange.answer(encode_robot(message, (7, 0)), self.now)
         answer = decode_sensor(data)
-        return tuple(map(math.radians, answer.joints)), state
+        return tuple(map(math.radians, answer.joints)), self.exchange.state()
 
 
 @pytest.mark.parametrize(

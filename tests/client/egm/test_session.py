@@ -51,8 +51,8 @@ def test_trajectory_in_lock_step(tmp_path):
         states = []
 
         def partner(frame):
-            answer, state = exchange.answer(frame, controller.scheduler.now * 1e-9)
-            states.append((state, robot.positions()))
+            answer = exchange.answer(frame, controller.scheduler.now * 1e-9)
+            states.append((exchange.state(), robot.positions()))
             return answer
 
         controller.egm.connect("PC", partner)
