@@ -1,4 +1,4 @@
-"""Picking cycles of all models, beside published ones.
+"""Picking cycles of all models, with published ones.
 
     python benchmarks/picking_cycles.py [MODEL ...] [--draw]
 

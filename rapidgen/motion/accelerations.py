@@ -23,7 +23,7 @@ def duration_error_band(group: GroupConfig) -> tuple[bool, float]:
 
 
 def duration_note(group: GroupConfig) -> str:
-    """Return the text beside a simulated duration: `estimated, ±16 %`, or `±3 %`."""
+    """Return the text after a simulated duration: `estimated, ±16 %`, or `±3 %`."""
     measured, band = duration_error_band(group)
     return f"{'' if measured else 'estimated, '}±{band:.0%}".replace("%", " %")
 

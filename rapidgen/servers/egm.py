@@ -2,7 +2,7 @@
 
 The controller is the UDP client: it sends first, and its partner answers to the port from which the
 datagram came. A process of its own keeps the period of 4 ms while the controller executes RAPID
-(beside a busy thread of the same process a period was up to 71 ms late). Controller and process
+(next to a busy thread of the same process a period was up to 71 ms late). Controller and process
 exchange orders, the state of the robot and results over a socket pair.
 """
 

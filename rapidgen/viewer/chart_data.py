@@ -146,7 +146,7 @@ class TimeAxis:
 
 
 def idle_cuts(layers: "Sequence[JointCurves]") -> list[Cut]:
-    """Return the cuts of standstills that are long beside the movement.
+    """Return the cuts of standstills that are long compared with the movement.
 
     A standstill of all layers longer than a quarter of the movement, and than 1 s, keeps a
     twentieth of the movement, half of it on each side.

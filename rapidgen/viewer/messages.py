@@ -58,7 +58,7 @@ class SeenRobot(MessageModel):
     """In wire order, that of `RobotPlace.axes`."""
     has_geometry: bool
     durations: str = ""
-    """The text beside a simulated duration: its error, and whether it is estimated."""
+    """The text after a simulated duration: its error, and whether it is estimated."""
     base: Pose = Pose(position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0))
     """Pose of the drawn root: apart from robots that would overlap."""
 

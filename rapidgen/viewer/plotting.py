@@ -112,8 +112,8 @@ def plot(
 
     One chart a joint in degrees or mm, with all items and the limits of `group` (a recording of a
     robot has its own); then the second minus the first. A recording of the simulation begins with
-    the TCP's speed and path. Standstills that are long beside the movement are cut. `labels` are
-    names of the items, `linear` joints in m that no group declares.
+    the TCP's speed and path. Standstills that are long compared with the movement are cut. `labels`
+    are names of the items, `linear` joints in m that no group declares.
     """
     for thing in displayed:
         if not isinstance(thing, Plottable):

@@ -15,6 +15,8 @@ from rapidgen.config.model import GroupConfig
 
 Joints: TypeAlias = tuple[float, ...]
 _ENOUGH = 1e-12
+_SMALLEST = 1e-9
+"""rad or m that count as none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +121,10 @@ class Reference:
                 )
             ],
         )
+
+        # Rounding must not keep it from its target.
+        pairs = zip(self.positions, target, strict=True)
+        self.positions = tuple(t if abs(t - q) < _SMALLEST else q for q, t in pairs)
 
     def brake(self, time: float) -> None:
         """Advance by a time in s and slow down."""

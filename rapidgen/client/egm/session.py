@@ -182,7 +182,13 @@ class EgmSession:
             RobotTimeout: It did not end within `timeout` s; None: its time and 5 s.
         """
         times = tuple(float(t) for t in trajectory.times)
-        positions = tuple(tuple(map(float, row)) for row in trajectory.positions)
+        names = self.envelope.names
+        if trajectory.names and sorted(trajectory.names) != sorted(names):
+            raise _rejected(f"the trajectory has other joints than {', '.join(names)}")
+        order = [(trajectory.names or names).index(name) for name in names]
+        if trajectory.positions.shape[1] != len(names):
+            raise _rejected(f"{trajectory.positions.shape[1]} columns for {len(names)} joints")
+        positions = tuple(tuple(float(row[i]) for i in order) for row in trajectory.positions)
         with self._changed:
             self._check_path(times, positions, self._guided().reference)
             self._last = None
@@ -257,5 +263,5 @@ class EgmSession:
 
 def _rejected(text: str) -> TargetRejected:
     return TargetRejected.because(
-        "RG680", f"target not sent: {text}", "`session.state` tells what the robot does"
+        "RG680", f"target not sent: {text}", "`session.state` shows what the robot does"
     )

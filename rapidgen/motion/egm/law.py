@@ -138,7 +138,6 @@ class Brake:
     def __init__(self, origin: Posture, speeds: Posture, time: float) -> None:
         self._origin, self._first, self._time = origin, speeds, time
         self._age = 0.0
-        self.speeds = speeds
 
     @property
     def done(self) -> bool:
@@ -153,7 +152,6 @@ class Brake:
     def advance(self, cycle: float) -> Posture:
         """Return the position after a further cycle."""
         self._age = min(self._age + cycle, self._time)
-        self.speeds = tuple(v * (1 - self._age / self._time) for v in self._first)
         return self._at(self._age)
 
     def end(self) -> Posture:
@@ -171,7 +169,6 @@ class Line:
     def __init__(self, origin: Posture, target: Posture, time: float) -> None:
         self._origin, self._target, self._time = origin, target, time
         self._age = 0.0
-        self.speeds: Posture = (0.0,) * len(origin)
 
     @property
     def done(self) -> bool:
@@ -187,13 +184,11 @@ class Line:
         """Return the position after a further cycle."""
         self._age = min(self._age + cycle, self._time)
         if self.done:
-            self.speeds = (0.0,) * len(self._origin)
             return self._target
         u = self._age / self._time
-        part, rate = u * u * (3 - 2 * u), 6 * u * (1 - u) / self._time
-        ways = [end - q for q, end in zip(self._origin, self._target, strict=True)]
-        self.speeds = tuple(way * rate for way in ways)
-        return tuple(q + way * part for q, way in zip(self._origin, ways, strict=True))
+        part = u * u * (3 - 2 * u)
+        pairs = zip(self._origin, self._target, strict=True)
+        return tuple(q + (end - q) * part for q, end in pairs)
 
 
 class Return:
@@ -210,11 +205,6 @@ class Return:
     def done(self) -> bool:
         """True at the end."""
         return self._parts[1].done
-
-    @property
-    def speeds(self) -> Posture:
-        """Return the present speeds."""
-        return self._current.speeds
 
     @property
     def left(self) -> float:

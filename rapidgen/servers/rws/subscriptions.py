@@ -4,7 +4,7 @@ Priority 0 is 5 s, 1 is 200 ms, 2 at once and only for signals and persistents [
 resource that changes all the time has events 5.25 s and 0.4 s apart, and at priority 2 each change:
 two persistents changed every 50 ms, RobotWare 6 [Clement-RACINET/abb-rws-client-python-rw6]. Events
 are XHTML in either generation; a signal's event repeats the text that was subscribed. Sources of
-events are beside the handlers of the same resources, with `@subscribable(...)`.
+events are in the files of the handlers of these resources, with `@subscribable(...)`.
 """
 
 import re

@@ -115,7 +115,13 @@ def test_targets_over_udp(served):
         session.follow(Trajectory([0, 1], [[0.5, 0, 0, 0, 0.5, 0], [0.5, 0, 0, 0, 0.5, 0]]))
     with pytest.raises(TargetRejected, match="allowed is"):
         session.follow(Trajectory([0, 0.01], [goal, [0.5, 0.02, 0, 0, START[4], 0]]))
-    session.follow(Trajectory([0, 0.5], [goal, START]), timeout=60)
+    names = session.envelope.names
+    with pytest.raises(TargetRejected, match="other joints"):
+        session.follow(Trajectory([0, 1], [goal, START], ["a", *names[1:]]))
+    # In another order of joints: read as the same positions.
+    turned = [goal[::-1], START[::-1]]
+    session.follow(Trajectory([0, 0.5], turned, names[::-1]), timeout=60)
+    assert session.state.reference == START
     session.stop()
     while not session.state.stopped:
         session.next_state(10)
