@@ -4,15 +4,15 @@ This sets units and defaults, and checks what the schema cannot see.
 """
 
 import math
-from ipaddress import IPv4Address
 from pathlib import Path
 
 from rapidgen.config import model, schema
 from rapidgen.config.axis_sets import resolve_held_axes
 from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
+from rapidgen.config.egm import check_partners, egm_of
 from rapidgen.config.joints import inertias_of, joints_of
-from rapidgen.config.plausibility import Arm, is_radians, length_of
+from rapidgen.config.plausibility import Arm, is_host, is_radians, length_of
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.tools import data_of, routine_of, tool_of, work_object_of
 from rapidgen.config.variant_model import label
@@ -56,11 +56,12 @@ def build(
         )
     basic = configuration.profile == "basic"
     groups = [
-        _group(index, configuration.groups[draft.name], draft, report, basic=basic)
+        _group(index, configuration, draft, report, basic=basic)
         for index, draft in enumerate(drafts)
     ]
     _check_ports(configuration, groups, report)
     _check_tasks(groups, report)
+    check_partners(groups, report)
     if report.failed:
         return None
     settings = configuration.trajectory
@@ -171,7 +172,7 @@ def _check_network(configuration: schema.ConfigurationKeys, report: DraftFinding
     if configuration.network.bind not in ("lan", "service"):
         addresses.append((("network", "bind"), configuration.network.bind))
     for path, address in addresses:
-        if _is_address(address):
+        if is_host(address):
             continue
         if path[-1] == "bind":
             help = (
@@ -204,24 +205,16 @@ def _check_signals(configuration: schema.ConfigurationKeys, report: DraftFinding
             )
 
 
-def _is_address(text: str) -> bool:
-    """True if it is a host address, as a controller writes it."""
-    try:
-        address = IPv4Address(text)
-    except ValueError:
-        return False
-    return not (address.is_unspecified or address.is_multicast or address.is_reserved)
-
-
 def _group(
     index: int,
-    keys: schema.GroupKeys,
+    configuration: schema.ConfigurationKeys,
     draft: GroupDraft,
     report: DraftFindings,
     *,
     basic: bool,
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
+    keys = configuration.groups[draft.name]
     joints = joints_of(keys, draft, path, report)
     saved = resolve_held_axes(draft, dict(keys.held_axes.items()), path, report)
     names = {joint.name for joint in draft.joints}
@@ -302,6 +295,7 @@ def _group(
         max_payload=draft.max_payload,
         inertias=inertias_of(keys, draft, report),
         acceleration_source=keys.source.get("accelerations", ""),
+        egm=egm_of(index, configuration, joints, path, report),
     )
 
 

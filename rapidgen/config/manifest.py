@@ -82,6 +82,8 @@ def _in(hint: Hint, value: Json, where: str, path: Path) -> object:
         if value not in arguments:
             raise ValueError(f"{where} is {value!r}")
         return value
+    if origin is types.UnionType and len(arguments) == 2 and arguments[1] is types.NoneType:
+        return None if value is None else _in(arguments[0], value, where, path)
     if origin in (typing.Union, types.UnionType):
         raise TypeError(f"{where}: unions have no place in the model")
     if hint is float and isinstance(value, int | float) and not isinstance(value, bool):

@@ -183,6 +183,34 @@ class Ports:
 
 
 @dataclass(frozen=True, slots=True)
+class EgmSettings:
+    """Externally guided motion of one group: partner, and what the controller enforces."""
+
+    device: str
+    """Name of the UdpUc device, and of the external motion interface data."""
+    address: str
+    port: int
+    max_deviation: float
+    """rad from the position at the beginning of a session, each axis."""
+    max_speed: float
+    """rad/s, each axis."""
+    filter: float = 20.0
+    """Hz; 0: none."""
+    gain: float = 5.0
+    """1/s"""
+    ramp: float = 0.5
+    """s from the beginning until the robot follows completely."""
+    stop_ramp: float = 0.2
+    """s from a stop until the robot stands."""
+    timeout: float = 0.25
+    """s without a heartbeat of the client until the robot is stopped."""
+    idle_timeout: float = 600.0
+    """s at the target after which a session ends."""
+    feedback: bool = False
+    """Positions are sent during trajectories, too."""
+
+
+@dataclass(frozen=True, slots=True)
 class Positioner:
     """A mechanical unit with work objects: chain from root to user frame.
 
@@ -241,6 +269,8 @@ class GroupConfig:
     """Axes whose acceleration depends on the posture."""
     acceleration_source: str = field(default="", metadata=SPARSE)
     """Where accelerations were measured; empty: they are estimated."""
+    egm: EgmSettings | None = field(default=None, metadata=SPARSE)
+    """None: the driver has no externally guided motion."""
     unit_group: str = field(default="", metadata=SPARSE)
     """Name of the mechanical unit group, if a backup has another than the unit's."""
 

@@ -8,6 +8,7 @@ m, rad or g.
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from ipaddress import IPv4Address
 from typing import Literal, TypeAlias
 
 from rapidgen.config.draft import JointDraft
@@ -201,6 +202,15 @@ def is_radians(angle: float) -> bool:
     eighths = angle / (math.pi / 4)
     near = round(eighths)
     return 0 < abs(near) <= 8 and abs(angle - near * math.pi / 4) < _ANGLE
+
+
+def is_host(text: str) -> bool:
+    """True if it is a host address, as a controller writes it."""
+    try:
+        address = IPv4Address(text)
+    except ValueError:
+        return False
+    return not (address.is_unspecified or address.is_multicast or address.is_reserved)
 
 
 def axis_doubts(draft: JointDraft) -> Iterator[tuple[str, str, str]]:

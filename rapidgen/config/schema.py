@@ -342,6 +342,56 @@ class PortsKeys(StrictModel):
 
 
 @dataclass(frozen=True)
+class EgmKeys(StrictModel):
+    """Externally guided motion of the group: options 689-1 and 3124-1, RobotWare 6.07 or later."""
+
+    address: Annotated[str, Rule("IPv4 address of the computer that guides the robot.")]
+    max_deviation: Annotated[
+        float,
+        Rule(
+            "Largest distance of an axis from its position at the beginning of a session, deg; the "
+            "controller itself enforces it.",
+            gt=0,
+            le=1000,
+        ),
+    ]
+    max_speed: Annotated[
+        float,
+        Rule("Largest speed of an axis, deg/s; the controller itself enforces it.", gt=0, le=1000),
+    ]
+    port: Annotated[
+        int | None,
+        Rule("UDP port of that computer; 6510, and one more for each next group.", ge=1, le=65535),
+    ] = None
+    device: Annotated[
+        Identifier | None,
+        Rule("UdpUc device and motion profile that the build declares; `ROS_EGM` without one."),
+    ] = None
+    filter: Annotated[
+        float, Rule("Low-pass filter of the references, Hz; 0: none.", ge=0, le=100)
+    ] = 20.0
+    gain: Annotated[float, Rule("Gain of the position, 1/s.", gt=0, le=20)] = 5.0
+    ramp: Annotated[
+        float,
+        Rule("Seconds at the beginning until the robot follows completely.", ge=0.5, le=10),
+    ] = 0.5
+    stop_ramp: Annotated[
+        float, Rule("Seconds from a stop until the robot stands.", ge=0.005, le=1)
+    ] = 0.2
+    timeout: Annotated[
+        float,
+        Rule("Seconds without a sign of the client until the robot is stopped.", ge=0.05, le=1),
+    ] = 0.25
+    idle_timeout: Annotated[
+        float,
+        Rule("Seconds at the target after which a session ends by itself.", ge=1, le=86400),
+    ] = 600.0
+    feedback: Annotated[
+        bool, Rule("Positions at 250 Hz during trajectories, too; nothing is guided then.")
+    ] = False
+
+
+@dataclass(frozen=True)
 class UrdfKeys(StrictModel):
     """A robot description.
 
@@ -465,6 +515,9 @@ class GroupKeys(StrictModel):
         float, Rule("Ceiling of the tool's speed, mm/s; at least 10.", gt=0, le=10000)
     ] = 5000.0
     ports: Annotated[PortsKeys, Rule("TCP ports.")] = field(default_factory=PortsKeys)
+    egm: Annotated[EgmKeys | None, Rule("Externally guided motion; without it there is none.")] = (
+        None
+    )
     source: Annotated[
         dict[GroupFigure, Text],
         Rule("Source of the group's figures."),

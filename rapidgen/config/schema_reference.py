@@ -23,6 +23,7 @@ SECTIONS = (
     schema.FrameKeys,
     schema.LoadKeys,
     schema.PortsKeys,
+    schema.EgmKeys,
     schema.TrajectoryKeys,
     schema.StateKeys,
     schema.NetworkKeys,
