@@ -7,8 +7,21 @@
 The 4 ms loop runs in a process of its own, so that pauses of Python do not reach the robot.
 """
 
-from rapidgen.client.egm.envelope import Envelope
-from rapidgen.client.egm.exchange import EgmState
-from rapidgen.client.egm.session import EgmSession, listen
+from rapidgen._extras import named
+from rapidgen.client.egm.envelope import Envelope, TcpLimits
+from rapidgen.client.egm.lag import Lag
+from rapidgen.client.egm.session import AsyncEgmSession, EgmSession, listen, listen_async
 
-__all__ = ["EgmSession", "EgmState", "Envelope", "listen"]
+with named():
+    from rapidgen.client.egm.exchange import EgmState
+
+__all__ = [
+    "AsyncEgmSession",
+    "EgmSession",
+    "EgmState",
+    "Envelope",
+    "Lag",
+    "TcpLimits",
+    "listen",
+    "listen_async",
+]

@@ -1,22 +1,82 @@
-"""Limits that a client keeps on its own, and the reference that keeps them.
+"""Limits that a client keeps on its own, and the checks of targets before they are sent.
 
 They are apart from the limits that the controller enforces (`\\MaxPosDeviation` and
 `\\MaxSpeedDeviation`), and hold for whatever a program sends. All values are rad and m, rad/s and
-m/s, rad/s^2 and m/s^2, in the order of the robot's joints.
+m/s, rad/s^2 and m/s^2; joints are in the order of the URDF.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import copysign, inf, isfinite, sqrt
+from dataclasses import dataclass, field
+from math import inf, isfinite, sqrt
 from typing import TypeAlias
 
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose, Vector
 from rapidgen.client.errors import TargetRejected
 from rapidgen.config.model import GroupConfig
 
 Joints: TypeAlias = tuple[float, ...]
-_ENOUGH = 1e-12
-_SMALLEST = 1e-9
-"""rad or m that count as none."""
+_TOLERANCE = 1e-9
+_ANYWHERE: Vector = (inf, inf, inf)
+
+
+@dataclass(frozen=True, slots=True)
+class TcpLimits:
+    """Limits of a TCP, for guidance by poses.
+
+    Attributes:
+        lower, upper: Positions, m, in the frame in which the controller reports the TCP.
+        speed, rotation: Highest speeds, m/s and rad/s.
+        acceleration, rotation_acceleration: m/s^2 and rad/s^2, also of a stop.
+        step, turn: Largest difference between a target and the one before, m and rad.
+    """
+
+    lower: Vector = (-inf, -inf, -inf)
+    upper: Vector = _ANYWHERE
+    speed: float = 0.25
+    acceleration: float = 1.0
+    rotation: float = 0.5
+    rotation_acceleration: float = 2.0
+    step: float = 0.05
+    turn: float = 0.1
+
+    def check(self, target: Pose, before: Pose) -> Pose:
+        """Return a target with a unit quaternion. Raises TargetRejected."""
+        place, orientation = target
+        if len(place) != 3 or len(orientation) != 4:
+            raise _rejected("a pose is ((x, y, z), (w, x, y, z))")
+        if not all(map(isfinite, (*place, *orientation))):
+            raise _rejected(f"pose {target}")
+        x, y, z = map(float, place)
+        for axis, value, low, high in zip("xyz", (x, y, z), self.lower, self.upper, strict=True):
+            if not low <= value <= high:
+                raise _rejected(f"{axis} = {value:.4f}, allowed are {low:.4f} to {high:.4f}")
+        size = sqrt(sum(value * value for value in orientation))
+        if not 0.99 <= size <= 1.01:
+            raise _rejected(f"the quaternion has length {size:.3f}")
+        a, b, c, d = (float(value) for value in orientation)
+        result: Pose = ((x, y, z), frames.normalise((a, b, c, d)))
+        step = frames.distance(result[0], before[0])
+        if step > self.step:
+            raise _rejected(f"the TCP would step by {step:.4f}, allowed is {self.step:g}")
+        turn = frames.angle_between(before[1], result[1])
+        if turn > self.turn:
+            raise _rejected(f"the TCP would turn by {turn:.4f}, allowed is {self.turn:g}")
+        return result
+
+    def check_speeds(self, speeds: Sequence[float]) -> Joints:
+        """Return (6,) speeds of the TCP as a tuple. Raises TargetRejected."""
+        values = tuple(map(float, speeds))
+        if len(values) != 6 or not all(map(isfinite, values)):
+            raise _rejected("speeds of a TCP are vx, vy, vz, wx, wy and wz")
+        for name, limit, three in (
+            ("speed", self.speed, values[:3]),
+            ("rotation", self.rotation, values[3:]),
+        ):
+            size = sqrt(sum(value * value for value in three))
+            if size > limit * (1 + _TOLERANCE):
+                raise _rejected(f"{name} = {size:.4f}, allowed is {limit:.4f}")
+        return values
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +89,7 @@ class Envelope:
         speed: Highest speeds.
         acceleration: Highest accelerations, also of a stop.
         step: Largest difference between a target and the one before, or the robot's position.
+        tcp: Limits for guidance by poses.
     """
 
     names: tuple[str, ...]
@@ -37,9 +98,16 @@ class Envelope:
     speed: Joints
     acceleration: Joints
     step: float = inf
+    tcp: TcpLimits = field(default_factory=TcpLimits)
 
     @classmethod
-    def of(cls, group: GroupConfig, fraction: float = 0.25, step: float = 0.1) -> "Envelope":
+    def of(
+        cls,
+        group: GroupConfig,
+        fraction: float = 0.25,
+        step: float = 0.1,
+        tcp: TcpLimits | None = None,
+    ) -> "Envelope":
         """Return the limits of a configuration, speeds and accelerations times a fraction.
 
         ValueError: the fraction is not in (0, 1], or the step is not positive.
@@ -59,17 +127,14 @@ class Envelope:
             tuple(joint.speed * fraction for joint in joints),
             tuple(joint.acceleration * fraction for joint in joints),
             step,
+            tcp or TcpLimits(),
         )
 
     def check(self, target: Sequence[float], before: Joints) -> Joints:
         """Return a target as a tuple. Raises TargetRejected."""
-        values = tuple(map(float, target))
-        if len(values) != len(self.names):
-            raise _rejected(f"{len(values)} values for {len(self.names)} joints")
+        values = self._of_joints(target)
         for i, (value, last) in enumerate(zip(values, before, strict=True)):
             name = self.names[i]
-            if not isfinite(value):
-                raise _rejected(f"{name} = {value}")
             if not self.lower[i] <= value <= self.upper[i]:
                 low, high = self.lower[i], self.upper[i]
                 raise _rejected(f"{name} = {value:.4f}, allowed are {low:.4f} to {high:.4f}")
@@ -77,6 +142,23 @@ class Envelope:
                 raise _rejected(
                     f"{name} would step by {value - last:.4f}, allowed is {self.step:g}"
                 )
+        return values
+
+    def check_speeds(self, speeds: Sequence[float]) -> Joints:
+        """Return speeds as a tuple. Raises TargetRejected."""
+        values = self._of_joints(speeds)
+        for name, value, top in zip(self.names, values, self.speed, strict=True):
+            if abs(value) > top * (1 + _TOLERANCE):
+                raise _rejected(f"{name} would have speed {value:.4f}, allowed is {top:.4f}")
+        return values
+
+    def _of_joints(self, given: Sequence[float]) -> Joints:
+        values = tuple(map(float, given))
+        if len(values) != len(self.names):
+            raise _rejected(f"{len(values)} values for {len(self.names)} joints")
+        for name, value in zip(self.names, values, strict=True):
+            if not isfinite(value):
+                raise _rejected(f"{name} = {value}")
         return values
 
 
@@ -90,70 +172,3 @@ def _rejected(text: str) -> TargetRejected:
     return TargetRejected.because(
         "RG680", f"target not sent: {text}", "send targets close to the position of the robot"
     )
-
-
-class Reference:
-    """What is sent: it follows targets, and never faster than the envelope allows."""
-
-    def __init__(self, envelope: Envelope, start: Joints) -> None:
-        self.envelope = envelope
-        self.positions = start
-        self.speeds: Joints = (0.0,) * len(start)
-
-    @property
-    def is_standing(self) -> bool:
-        """True at speed zero."""
-        return not any(self.speeds)
-
-    def follow(self, target: Joints, time: float) -> None:
-        """Advance by a time in s towards a target."""
-        self._advance(
-            time,
-            [
-                _towards(t - q, v, top, a, time)
-                for t, q, v, top, a in zip(
-                    target,
-                    self.positions,
-                    self.speeds,
-                    self.envelope.speed,
-                    self.envelope.acceleration,
-                    strict=True,
-                )
-            ],
-        )
-
-        # Rounding must not keep it from its target.
-        pairs = zip(self.positions, target, strict=True)
-        self.positions = tuple(t if abs(t - q) < _SMALLEST else q for q, t in pairs)
-
-    def brake(self, time: float) -> None:
-        """Advance by a time in s and slow down."""
-        pairs = zip(self.speeds, self.envelope.acceleration, strict=True)
-        self._advance(time, [copysign(max(0.0, abs(v) - a * time), v) for v, a in pairs])
-
-    def _advance(self, time: float, speeds: list[float]) -> None:
-        envelope, positions = self.envelope, []
-        for i, (q, v) in enumerate(zip(self.positions, speeds, strict=True)):
-            # A robot may begin outside of its range; it does not go further.
-            low, high = min(envelope.lower[i], q), max(envelope.upper[i], q)
-            position = min(high, max(low, q + v * time))
-            positions.append(position)
-            if position != q + v * time:
-                speeds[i] = 0.0
-        self.positions = tuple(positions)
-        self.speeds = tuple(0.0 if abs(v) < _ENOUGH else v for v in speeds)
-
-
-def _towards(distance: float, speed: float, top: float, acceleration: float, time: float) -> float:
-    """Return the speed of the next cycle: straight to the target if that keeps the limits.
-
-    Otherwise the axis moves so that it can still stop at the target.
-    """
-    change = acceleration * time
-    direct = distance / time
-    if abs(direct) <= top and abs(direct - speed) <= change:
-        return direct
-    # From v the axis stops within v^2 / 2a + v * time / 2.
-    stoppable = -change / 2 + sqrt(change * change / 4 + 2 * acceleration * abs(distance))
-    wanted = copysign(min(top, max(0.0, stoppable)), distance)
-    return max(speed - change, min(speed + change, wanted))

@@ -1,23 +1,48 @@
-"""The partner's side of a session, without clock and sockets: one answer to each frame."""
+"""The partner's side of a session, without clock and sockets: one answer to each frame.
+
+The controller does not say whether it guides joints or the TCP, so a session is made for one of
+them. Guidance of joints answers with the robot's position until there is a target. Guidance of the
+TCP answers without a pose until then: the frame in which the controller expects poses
+(`SensorFrame`) is known to its program only, and a position that is repeated in another frame would
+be a motion.
+"""
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from math import degrees
+from typing import Literal, TypeAlias
 
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
 from rapidgen.axes.mapping import ABSENT, JointMap
-from rapidgen.client.egm.envelope import Envelope, Joints, Reference
+from rapidgen.client.egm.envelope import Envelope, Joints
+from rapidgen.client.egm.reference import PoseReference, Reference, Twist, rotated
 from rapidgen.wire.egm.codec import decode_robot, encode_sensor
-from rapidgen.wire.egm.values import RobotMessage, SensorMessage
+from rapidgen.wire.egm.values import (
+    AxisPositions,
+    CartesianPose,
+    EgmMessageError,
+    RapidData,
+    RobotMessage,
+    SensorMessage,
+)
 
+Guidance: TypeAlias = Literal["joints", "pose"]
 CYCLE = 0.004
 """s between two frames, nominally."""
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Where the robot shall be; `at` is the time on the caller's clock, s."""
+    """Where the robot shall be, and how fast it shall move on from there.
 
-    joints: Joints
+    Without joints and pose it shall take over the speeds. `at`: s on the caller's clock.
+    """
+
     at: float
+    joints: Joints | None = None
+    pose: Pose | None = None
+    speeds: Joints | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +58,10 @@ class Stop:
     """Slow down and stay."""
 
 
+Order: TypeAlias = Target | Path | Stop | RapidData
+"""RAPID data are part of every answer from then on."""
+
+
 @dataclass(frozen=True, slots=True)
 class EgmState:
     """State of a session, from the last frame. Positions are rad and m in URDF order."""
@@ -44,7 +73,7 @@ class EgmState:
     planned: Joints
     """As the controller orders them."""
     reference: Joints
-    """As the answer had them."""
+    """As the answer had them; guidance of the TCP repeats the measured ones."""
     guided: bool
     """True while the controller executes answers."""
     motors_on: bool
@@ -61,6 +90,16 @@ class EgmState:
     """s between the newest target and the answer; None: no target."""
     remaining: float = 0.0
     """s of a trajectory that is followed."""
+    controller_time: float = 0.0
+    """s on the clock of the controller."""
+    pose: Pose | None = None
+    """TCP in the work object of EGMAct, as measured; None: the controller does not send it."""
+    reference_pose: Pose | None = None
+    """As the answer had it; None: it had no pose."""
+    data: RapidData | None = None
+    """Of the RAPID program (`\\DOtoSensor`, `\\DataToSensor`)."""
+    answer_time: float = 0.0
+    """s from the arrival of the frame to the answer, in this computer."""
 
 
 @dataclass(slots=True)
@@ -71,10 +110,13 @@ class PartnerExchange:
     envelope: Envelope
     timeout: float
     """s without a target after which the robot stops."""
+    guidance: Guidance = "joints"
     sequence: int = 0
     reference: Reference | None = None
+    pose_reference: PoseReference | None = None
     stopped: bool = False
     target: Target | None = None
+    data: RapidData | None = None
     missed: int = 0
     _path: Path | None = None
     _path_time: float = 0.0
@@ -84,15 +126,20 @@ class PartnerExchange:
     _joints: Joints = ()
     _now: float = 0.0
     _age: float | None = None
+    _sent_pose: Pose | None = field(default=None)
 
-    def execute(self, order: Target | Path | Stop) -> None:
+    def execute(self, order: Order) -> None:
         """Take an order of the caller; the newest target counts."""
-        if isinstance(order, Stop):
-            self.stopped = True
-        elif isinstance(order, Path):
-            self._path, self._path_time = order, 0.0
-        else:
-            self.target, self._path = order, None
+        match order:
+            case Stop():
+                self.stopped = True
+            case Path():
+                # Its end needs no further target: the robot stays there.
+                self._path, self._path_time, self.target = order, 0.0, None
+            case RapidData():
+                self.data = order
+            case Target():
+                self.target, self._path = order, None
 
     def answer(self, frame: bytes, now: float) -> bytes:
         """Return the answer to a frame. EgmMessageError: it is no frame."""
@@ -105,25 +152,21 @@ class PartnerExchange:
         else:
             self.missed += message.sequence - self._last - 1
         self._last, cycle = message.sequence, self._cycle(message)
-        reference = self.reference
-        if reference is None:
-            reference = self.reference = Reference(self.envelope, joints)
         age = None if self.target is None else now - self.target.at
         if guided:
-            self._advance(reference, cycle, age)
+            self._advance(message, joints, cycle, age)
         self._message, self._joints, self._now, self._age = message, joints, now, age
-        return self._encode(reference)
+        return self._encode(joints)
 
-    def state(self) -> EgmState:
+    def state(self, answer_time: float = 0.0) -> EgmState:
         """Return the state after the last answer; apart from it, so that answers are early."""
         message, reference = self._message, self.reference
         assert message is not None
-        assert reference is not None
         return EgmState(
             time=self._now,
             joints=self._joints,
             planned=self._urdf(message.planned.joints, message.planned.external),
-            reference=reference.positions,
+            reference=self._joints if reference is None else reference.positions,
             guided=message.state == "running",
             motors_on=message.motors_on,
             program_runs=message.program_runs,
@@ -134,10 +177,16 @@ class PartnerExchange:
             missed=self.missed,
             age=self._age,
             remaining=0.0 if self._path is None else self._path.times[-1] - self._path_time,
+            controller_time=message.milliseconds / 1000,
+            pose=_pose(message.measured),
+            reference_pose=self._sent_pose,
+            data=message.data,
+            answer_time=answer_time,
         )
 
     def _begin(self, joints: Joints) -> None:
-        self.reference = Reference(self.envelope, joints)
+        self.reference = Reference(self.envelope, joints) if self.guidance == "joints" else None
+        self.pose_reference = None
         self.target, self.stopped, self.missed = None, False, 0
         self._path, self._last = None, -1
 
@@ -147,32 +196,80 @@ class PartnerExchange:
         self._last_time = time
         return time - before if 0 < time - before <= 0.1 else CYCLE
 
-    def _advance(self, reference: Reference, cycle: float, age: float | None) -> None:
+    # -- references -------------------------------------------------------------------------
+
+    def _advance(
+        self, message: RobotMessage, joints: Joints, cycle: float, age: float | None
+    ) -> None:
+        target = self.target
+        if age is not None and age > self.timeout and self._path is None:
+            self.stopped = True
+        if self.guidance == "joints":
+            if self.reference is None:
+                self.reference = Reference(self.envelope, joints)
+            self._advance_joints(self.reference, target, cycle, age or 0.0)
+            return
+        pose = self.pose_reference
+        if pose is None and target is not None and not self.stopped:
+            start = _pose(message.planned) or _pose(message.measured)
+            if start is None:
+                raise EgmMessageError("the controller sends no pose")
+            pose = self.pose_reference = PoseReference(self.envelope.tcp, start)
+        if pose is not None:
+            self._advance_pose(pose, target, cycle, age or 0.0)
+
+    def _advance_joints(
+        self, reference: Reference, target: Target | None, cycle: float, age: float
+    ) -> None:
         path = self._path
         if self.stopped:
             reference.brake(cycle)
         elif path is not None:
             self._path_time = min(self._path_time + cycle, path.times[-1])
-            reference.follow(_at(path, self._path_time), cycle)
+            reference.follow(*_at(path, self._path_time, cycle))
             if self._path_time >= path.times[-1] and reference.positions == path.positions[-1]:
                 self._path = None
-        elif age is not None and age > self.timeout:
-            self.stopped = True
+        elif target is not None and target.joints is not None:
+            rates = target.speeds
+            moved = target.joints
+            if rates is not None:
+                moved = tuple(q + v * age for q, v in zip(moved, rates, strict=True))
+            reference.follow(moved, cycle, rates)
+        elif target is not None and target.speeds is not None:
+            reference.drive(target.speeds, cycle)
+
+    def _advance_pose(
+        self, reference: PoseReference, target: Target | None, cycle: float, age: float
+    ) -> None:
+        if self.stopped or target is None:
             reference.brake(cycle)
-        elif self.target is not None:
-            reference.follow(self.target.joints, cycle)
+        elif target.pose is not None:
+            pose = target.pose
+            if target.speeds is not None:
+                pose = _moved(pose, target.speeds, age)
+            reference.follow(pose, cycle, target.speeds)
+        elif target.speeds is not None:
+            reference.drive(target.speeds, cycle)
 
     def _urdf(self, joints: tuple[float, ...], external: tuple[float, ...]) -> Joints:
         robax = (*joints, *(0.0,) * (6 - len(joints)))
         extax = (*external, *(ABSENT,) * (6 - len(external)))
         return self.map.to_urdf(self.map.from_rapid(robax, extax, (0.0,) * len(self.map.joints)))
 
-    def _encode(self, reference: Reference) -> bytes:
-        joints, external = self.map.to_rapid(self.map.to_controller(reference.positions))
-        rates = self.map.rates_to_controller(reference.speeds)
+    # -- answers ----------------------------------------------------------------------------
+
+    def _encode(self, measured: Joints) -> bytes:
+        self.sequence += 1
+        self._sent_pose = None
+        if self.guidance == "pose":
+            return encode_sensor(self._pose_message())
+        reference = self.reference
+        positions = measured if reference is None else reference.positions
+        joints, external = self.map.to_rapid(self.map.to_controller(positions))
+        none = (0.0,) * len(measured)
+        rates = self.map.rates_to_controller(none if reference is None else reference.speeds)
         speeds, external_speeds = self.map.to_rapid(rates)
         present = tuple(v for v in external if v < ABSENT / 2)
-        self.sequence += 1
         return encode_sensor(
             SensorMessage(
                 sequence=self.sequence,
@@ -180,14 +277,49 @@ class PartnerExchange:
                 external=present or None,
                 joint_speeds=speeds,
                 external_speeds=external_speeds[: len(present)] or None,
+                data=self.data,
             )
         )
 
+    def _pose_message(self) -> SensorMessage:
+        reference = self.pose_reference
+        if reference is None:
+            return SensorMessage(sequence=self.sequence, data=self.data)
+        self._sent_pose = reference.pose
+        (x, y, z), orientation = reference.pose
+        linear, angular = reference.speeds[:3], reference.speeds[3:]
+        return SensorMessage(
+            sequence=self.sequence,
+            pose=CartesianPose((x * 1000, y * 1000, z * 1000), orientation),
+            cartesian_speeds=(*(v * 1000 for v in linear), *map(degrees, angular)),
+            data=self.data,
+        )
 
-def _at(path: Path, time: float) -> Joints:
-    """Return the position of a path at a time, on lines between its points."""
+
+def _pose(positions: AxisPositions) -> Pose | None:
+    """Return a pose of a message in m."""
+    if positions.pose is None:
+        return None
+    x, y, z = positions.pose.position
+    return (x / 1000, y / 1000, z / 1000), positions.pose.orientation
+
+
+def _moved(pose: Pose, speeds: Twist, time: float) -> Pose:
+    """Return a pose that has moved on for a time in s."""
+    vx, vy, vz, wx, wy, wz = (v * time for v in speeds)
+    return frames.add(pose[0], (vx, vy, vz)), rotated(pose[1], (wx, wy, wz))
+
+
+def _at(path: Path, time: float, cycle: float) -> tuple[Joints, float, Joints | None]:
+    """Return the arguments of `Reference.follow` at a time of a path.
+
+    The path is made of lines between its points; at its end the target stands.
+    """
     after = min(bisect_right(path.times, time), len(path.times) - 1)
     first, last = path.times[after - 1], path.times[after]
-    part = (time - first) / (last - first)
-    pairs = zip(path.positions[after - 1], path.positions[after], strict=True)
-    return tuple(q + (end - q) * min(1.0, part) for q, end in pairs)
+    part = min(1.0, (time - first) / (last - first))
+    pairs = list(zip(path.positions[after - 1], path.positions[after], strict=True))
+    positions = tuple(q + (end - q) * part for q, end in pairs)
+    if time >= path.times[-1]:
+        return positions, cycle, None
+    return positions, cycle, tuple((end - q) / (last - first) for q, end in pairs)

@@ -33,15 +33,17 @@ def serve(pipe: Connection, link: socket.socket, exchange: PartnerExchange) -> N
         frame, source = _newest(link)
         if frame is None:
             continue
+        arrived = time.monotonic()
         try:
-            answer = exchange.answer(frame, time.monotonic())
+            answer = exchange.answer(frame, arrived)
         except EgmMessageError:
             continue
         # Any datagram may be lost.
         with contextlib.suppress(BlockingIOError, ConnectionRefusedError):
             link.sendto(answer, source)
+        answered = time.monotonic()
         if select.select([], [pipe.fileno()], [], 0)[1]:
-            pipe.send(exchange.state())
+            pipe.send(exchange.state(answered - arrived))
 
 
 def _newest(link: socket.socket) -> "tuple[bytes | None, tuple[str, int]]":

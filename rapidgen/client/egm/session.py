@@ -1,5 +1,10 @@
-"""A session as its user sees it; the loop is in `process.py`."""
+"""A session as its user sees it; the loop is in `process.py`.
 
+`EgmSession` and `AsyncEgmSession` have the same methods. Those that wait are coroutines of the
+latter; the others return at once and are shared.
+"""
+
+import asyncio
 import contextlib
 import os
 import socket
@@ -8,19 +13,32 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
+from math import isfinite
 from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING
 
 from rapidgen._compat import Self
 from rapidgen._extras import named
+from rapidgen.axes.frames import Pose
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.egm.envelope import Envelope, Joints
 from rapidgen.client.errors import ConnectionFailed, NotReady, RobotTimeout, TargetRejected
 from rapidgen.config import load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.wire.egm.values import MAX_NUMBERS, RapidData
 
 with named():
-    from rapidgen.client.egm.exchange import EgmState, PartnerExchange, Path, Stop, Target
+    from rapidgen.client.egm.exchange import (
+        EgmState,
+        Guidance,
+        Order,
+        PartnerExchange,
+        Path,
+        Stop,
+        Target,
+    )
+
+from rapidgen.client.egm.lag import Lag, LagMeter
 
 if TYPE_CHECKING:
     from rapidgen.client.trajectory import Trajectory
@@ -31,9 +49,11 @@ DEFAULT_PORT = 6510
 def listen(
     config: str | RobotConfig,
     *,
+    guidance: Guidance = "joints",
     port: int = DEFAULT_PORT,
     host: str = "127.0.0.1",
     group: str = "",
+    envelope: Envelope | None = None,
     fraction: float = 0.25,
     step: float = 0.1,
     timeout: float = 0.1,
@@ -41,13 +61,16 @@ def listen(
     """Wait for frames of a controller and answer them.
 
     Nothing moves before the first `send` or `follow`: until then answers repeat the position of the
-    robot.
+    robot, or for guidance of the TCP have no pose.
 
     Args:
         config: Configuration, its file, or a shipped name.
+        guidance: What the program guides: "joints" (EGMRunJoint) or "pose" (EGMRunPose).
         port: UDP port to which the controller sends: RemotePortNumber of its UdpUc device.
         host: Address of this computer in the network of the robot; loopback is the simulator's.
         group: Motion group; empty: the only one.
+        envelope: Limits of what is sent; None: those of the configuration, with
+            `fraction` and `step`.
         fraction: Of the speeds and accelerations of the configuration (0 to 1) that are sent.
         step: Largest difference between two targets, rad and m.
         timeout: s without a new target after which the robot stops.
@@ -56,35 +79,64 @@ def listen(
         DiagnosticError: No such configuration or group.
         ConnectionFailed: The port cannot be opened.
     """
+    chosen = choose_group(config, group)
+    limits = envelope or Envelope.of(chosen, fraction, step)
+    return EgmSession(chosen, limits, host, port, timeout, guidance)
+
+
+def listen_async(
+    config: str | RobotConfig,
+    *,
+    guidance: Guidance = "joints",
+    port: int = DEFAULT_PORT,
+    host: str = "127.0.0.1",
+    group: str = "",
+    envelope: Envelope | None = None,
+    fraction: float = 0.25,
+    step: float = 0.1,
+    timeout: float = 0.1,
+) -> "AsyncEgmSession":
+    """Return a session for asyncio; arguments and errors are those of `listen`."""
+    chosen = choose_group(config, group)
+    limits = envelope or Envelope.of(chosen, fraction, step)
+    return AsyncEgmSession(chosen, limits, host, port, timeout, guidance)
+
+
+def choose_group(config: str | RobotConfig, name: str) -> GroupConfig:
+    """Return a motion group; without a name the only one.
+
+    Raises NotReady (no such group), DiagnosticError (no such configuration).
+    """
     robot = config if isinstance(config, RobotConfig) else load_config(config)
-    return EgmSession(
-        _group(robot, group), Envelope.of(_group(robot, group), fraction, step), host, port, timeout
-    )
-
-
-def _group(config: RobotConfig, name: str) -> GroupConfig:
-    names = [group.name for group in config.groups]
+    names = [group.name for group in robot.groups]
     if not name and len(names) == 1:
-        return config.groups[0]
-    for group in config.groups:
+        return robot.groups[0]
+    for group in robot.groups:
         if group.name == name:
             return group
     raise NotReady.because("RG681", f"no motion group {name!r}", f"groups: {', '.join(names)}")
 
 
-class EgmSession:
-    """The partner of one robot. Joints are rad and m in URDF order.
-
-    All methods may be called from any thread.
-    """
+class _Session:
+    """Process, states and targets of a session: all that does not wait."""
 
     def __init__(
-        self, group: GroupConfig, envelope: Envelope, host: str, port: int, timeout: float
+        self,
+        group: GroupConfig,
+        envelope: Envelope,
+        host: str,
+        port: int,
+        timeout: float,
+        guidance: Guidance = "joints",
     ) -> None:
         self.envelope = envelope
+        self.guidance = guidance
         self._last: Joints | None = None
+        self._last_pose: Pose | None = None
         self._state: EgmState | None = None
+        self._meter = LagMeter()
         self._changed = threading.Condition()
+        self._listeners: list[Callable[[], object]] = []
         self._closed = False
         opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
@@ -97,7 +149,7 @@ class EgmSession:
                 "end the program that uses the port, or give an address of this computer",
             ) from fault
         self.port: int = opened.getsockname()[1]
-        exchange = PartnerExchange(JointMap.of(group), envelope, timeout)
+        exchange = PartnerExchange(JointMap.of(group), envelope, timeout, guidance)
         ours, theirs = socket.socketpair()
         with theirs, opened:
             numbers = (theirs.fileno(), opened.fileno())
@@ -119,13 +171,19 @@ class EgmSession:
                 state = self._pipe.recv()
                 with self._changed:
                     self._state = state
+                    self._meter.add(state)
                     if not state.guided or state.stopped:
-                        self._last = None
-                    self._changed.notify_all()
+                        self._last = self._last_pose = None
+                    self._notify()
         except (EOFError, OSError):
             with self._changed:
                 self._closed = True
-                self._changed.notify_all()
+                self._notify()
+
+    def _notify(self) -> None:
+        self._changed.notify_all()
+        for listener in self._listeners:
+            listener()
 
     # -- states -----------------------------------------------------------------------------
 
@@ -134,53 +192,76 @@ class EgmSession:
         """Return the last state; None: no frame came yet."""
         return self._state
 
-    def wait_until_guided(self, timeout: float = 10.0) -> EgmState:
-        """Wait until the controller executes answers. Raises RobotTimeout, NotReady."""
-        return self._wait(lambda state: state.guided, timeout, "the controller does not guide")
-
-    def next_state(self, timeout: float = 1.0) -> EgmState:
-        """Wait for the next state. Raises RobotTimeout, NotReady."""
-        before = self._state
-        return self._wait(lambda state: state is not before, timeout, "no frame has come")
-
-    def _wait(self, ready: Callable[[EgmState], bool], timeout: float, missing: str) -> EgmState:
-        due = time.monotonic() + timeout
+    @property
+    def lag(self) -> Lag | None:
+        """Return how far the robot is behind what is sent; None: it has not moved enough."""
         with self._changed:
-            while True:
-                if self._closed:
-                    raise NotReady.because("RG681", "the EGM session is closed", "listen again")
-                if self._state is not None and ready(self._state):
-                    return self._state
-                left = due - time.monotonic()
-                if left <= 0:
-                    raise RobotTimeout.because(
-                        "RG681",
-                        f"{missing} within {timeout:g} s",
-                        "start the program with EGMRunJoint, and check address and port of the "
-                        "UdpUc device",
-                    )
-                self._changed.wait(left)
+            return self._meter.lag()
 
     # -- targets ----------------------------------------------------------------------------
 
-    def send(self, joints: Sequence[float]) -> None:
-        """Send a target: (k,) positions.
+    def send(
+        self,
+        joints: Sequence[float] | None = None,
+        *,
+        pose: Pose | None = None,
+        speeds: Sequence[float] | None = None,
+    ) -> None:
+        """Send a target.
 
-        Raises TargetRejected: it is beyond the envelope, or the robot is not guided.
+        Args:
+            joints: (k,) positions.
+            pose: TCP, m and a quaternion (w, x, y, z), in the `SensorFrame` of EGMActPose, which
+                must be the work object of that instruction.
+            speeds: (k,) of the joints, or (6,) of the TCP: m/s along and rad/s about x, y and z.
+                The target moves on with them until the next one. Without a target the robot takes
+                them over.
+
+        Raises TargetRejected: it is beyond the envelope, the session guides the other, or the robot
+        is not guided.
         """
+        if (joints is not None and pose is not None) or (joints, pose, speeds) == (None,) * 3:
+            raise _rejected("a target is joints, a pose, or speeds")
+        given = "joints" if joints is not None else "pose" if pose is not None else self.guidance
+        if given != self.guidance:
+            raise _other_guidance(given, self.guidance)
         with self._changed:
             state = self._guided()
-            values = self.envelope.check(joints, self._last or state.reference)
-            self._last = values
-            self._post(Target(values, time.monotonic()))
+            limits = self.envelope if self.guidance == "joints" else self.envelope.tcp
+            rates = None if speeds is None else limits.check_speeds(speeds)
+            values = None if joints is None else self.envelope.check(joints, self._before(state))
+            place = None if pose is None else self.envelope.tcp.check(pose, self._pose(state))
+            self._last, self._last_pose = values, place
+            self._post(Target(time.monotonic(), values, place, rates))
 
-    def follow(self, trajectory: "Trajectory", timeout: float | None = None) -> None:
-        """Follow a trajectory from now on, and wait for its end.
+    def _before(self, state: EgmState) -> Joints:
+        return self._last or state.reference
 
-        Raises:
-            TargetRejected: It does not begin where the robot is, or is faster than the envelope.
-            RobotTimeout: It did not end within `timeout` s; None: its time and 5 s.
+    def _pose(self, state: EgmState) -> Pose:
+        pose = self._last_pose or state.reference_pose or state.pose
+        if pose is None:
+            raise _rejected("the controller sends no pose")
+        return pose
+
+    def write(self, numbers: Sequence[float] = (), digital: bool | None = None) -> None:
+        """Send data to the RAPID program with every answer, RobotWare 7.7 and later.
+
+        Args:
+            numbers: At most 40, for the array of `\\DataFromSensor`.
+            digital: For the signal of `\\DIfromSensor`; None: not sent.
+
+        Raises TargetRejected: too many numbers, or not finite.
         """
+        values = tuple(map(float, numbers))
+        if len(values) > MAX_NUMBERS or not all(map(isfinite, values)):
+            raise _rejected(f"data are at most {MAX_NUMBERS} finite numbers")
+        with self._changed:
+            self._post(RapidData(digital, values))
+
+    def _begin_path(self, trajectory: "Trajectory") -> tuple[float, Joints]:
+        """Send a trajectory; return its duration and its end."""
+        if self.guidance != "joints":
+            raise _other_guidance("joints", self.guidance)
         times = tuple(float(t) for t in trajectory.times)
         names = self.envelope.names
         if trajectory.names and sorted(trajectory.names) != sorted(names):
@@ -193,14 +274,7 @@ class EgmSession:
             self._check_path(times, positions, self._guided().reference)
             self._last = None
             self._post(Path(times, positions))
-        end = positions[-1]
-        self._wait(
-            lambda state: state.reference == end or state.stopped or not state.guided,
-            times[-1] + 5.0 if timeout is None else timeout,
-            "the trajectory did not end",
-        )
-        if self._state is None or self._state.reference != end:
-            raise _rejected("the trajectory was interrupted by a stop")
+        return times[-1], positions[-1]
 
     def _check_path(
         self, times: tuple[float, ...], positions: tuple[Joints, ...], start: Joints
@@ -225,7 +299,7 @@ class EgmSession:
     def stop(self) -> None:
         """Slow down and stay; a new EGMRun of the program ends that."""
         with self._changed:
-            self._last = None
+            self._last = self._last_pose = None
             self._post(Stop())
 
     def _guided(self) -> EgmState:
@@ -236,16 +310,25 @@ class EgmSession:
             raise _rejected("the robot was stopped; a new EGMRun is needed")
         return state
 
-    def _post(self, order: Target | Path | Stop) -> None:
+    def _post(self, order: Order) -> None:
         try:
             self._pipe.send(order)
         except OSError as fault:
             raise _rejected("the process of the session has ended") from fault
 
-    # -- end --------------------------------------------------------------------------------
+    # -- waiting and end --------------------------------------------------------------------
 
-    def close(self) -> None:
-        """Stop answering; the controller then ends the run by its time-out."""
+    def _ready(self, ready: Callable[[EgmState], bool]) -> EgmState | None:
+        """Return the state if it is what is waited for. NotReady: there will be none."""
+        if self._closed:
+            raise NotReady.because("RG681", "the EGM session is closed", "listen again")
+        return self._state if self._state is not None and ready(self._state) else None
+
+    def _check_end(self, end: Joints) -> None:
+        if self._state is None or self._state.reference != end:
+            raise _rejected("the trajectory was interrupted by a stop")
+
+    def _end(self) -> None:
         if not self._closed:
             # It may have ended already.
             with contextlib.suppress(OSError):
@@ -254,6 +337,51 @@ class EgmSession:
         self._thread.join()
         self._pipe.close()
 
+
+class EgmSession(_Session):
+    """The partner of one robot. Joints are rad and m in URDF order.
+
+    All methods may be called from any thread.
+    """
+
+    def wait_until_guided(self, timeout: float = 10.0) -> EgmState:
+        """Wait until the controller executes answers. Raises RobotTimeout, NotReady."""
+        return self._wait(lambda state: state.guided, timeout, "the controller does not guide")
+
+    def next_state(self, timeout: float = 1.0) -> EgmState:
+        """Wait for the next state. Raises RobotTimeout, NotReady."""
+        before = self._state
+        return self._wait(lambda state: state is not before, timeout, "no frame has come")
+
+    def follow(self, trajectory: "Trajectory", timeout: float | None = None) -> None:
+        """Follow a trajectory from now on, and wait for its end.
+
+        Raises:
+            TargetRejected: It does not begin where the robot is, or is faster than the envelope.
+            RobotTimeout: It did not end within `timeout` s; None: its time and 5 s.
+        """
+        duration, end = self._begin_path(trajectory)
+        self._wait(
+            lambda state: state.reference == end or state.stopped or not state.guided,
+            duration + 5.0 if timeout is None else timeout,
+            "the trajectory did not end",
+        )
+        self._check_end(end)
+
+    def close(self) -> None:
+        """Stop answering; the controller then ends the run by its time-out."""
+        self._end()
+
+    def _wait(self, ready: Callable[[EgmState], bool], timeout: float, missing: str) -> EgmState:
+        due = time.monotonic() + timeout
+        with self._changed:
+            while (state := self._ready(ready)) is None:
+                left = due - time.monotonic()
+                if left <= 0:
+                    raise _late(missing, timeout)
+                self._changed.wait(left)
+            return state
+
     def __enter__(self) -> Self:
         return self
 
@@ -261,7 +389,91 @@ class EgmSession:
         self.close()
 
 
+class AsyncEgmSession(_Session):
+    """`EgmSession` with awaitable methods, used by `async with`."""
+
+    async def wait_until_guided(self, timeout: float = 10.0) -> EgmState:
+        """Wait until the controller executes answers. Raises RobotTimeout, NotReady."""
+        return await self._wait(
+            lambda state: state.guided, timeout, "the controller does not guide"
+        )
+
+    async def next_state(self, timeout: float = 1.0) -> EgmState:
+        """Wait for the next state. Raises RobotTimeout, NotReady."""
+        before = self._state
+        return await self._wait(lambda state: state is not before, timeout, "no frame has come")
+
+    async def follow(self, trajectory: "Trajectory", timeout: float | None = None) -> None:
+        """Follow a trajectory from now on, and wait for its end.
+
+        Raises:
+            TargetRejected: It does not begin where the robot is, or is faster than the envelope.
+            RobotTimeout: It did not end within `timeout` s; None: its time and 5 s.
+        """
+        duration, end = self._begin_path(trajectory)
+        await self._wait(
+            lambda state: state.reference == end or state.stopped or not state.guided,
+            duration + 5.0 if timeout is None else timeout,
+            "the trajectory did not end",
+        )
+        self._check_end(end)
+
+    async def close(self) -> None:
+        """Stop answering; the controller then ends the run by its time-out."""
+        await asyncio.to_thread(self._end)
+
+    async def _wait(
+        self, ready: Callable[[EgmState], bool], timeout: float, missing: str
+    ) -> EgmState:
+        loop, changed = asyncio.get_running_loop(), asyncio.Event()
+
+        def listener() -> None:
+            # The loop may be closed while the process still sends states.
+            with contextlib.suppress(RuntimeError):
+                loop.call_soon_threadsafe(changed.set)
+
+        with self._changed:
+            self._listeners.append(listener)
+        due = loop.time() + timeout
+        try:
+            while True:
+                changed.clear()
+                with self._changed:
+                    state = self._ready(ready)
+                if state is not None:
+                    return state
+                try:
+                    await asyncio.wait_for(changed.wait(), due - loop.time())
+                except asyncio.TimeoutError:
+                    raise _late(missing, timeout) from None
+        finally:
+            with self._changed:
+                self._listeners.remove(listener)
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+
+def _late(missing: str, timeout: float) -> RobotTimeout:
+    return RobotTimeout.because(
+        "RG681",
+        f"{missing} within {timeout:g} s",
+        "start the program with EGMRunJoint, and check address and port of the UdpUc device",
+    )
+
+
 def _rejected(text: str) -> TargetRejected:
     return TargetRejected.because(
         "RG680", f"target not sent: {text}", "`session.state` shows what the robot does"
+    )
+
+
+def _other_guidance(given: str, guidance: str) -> TargetRejected:
+    return TargetRejected.because(
+        "RG682",
+        f"target not sent: {given} in a session that guides by {guidance}",
+        f'open the session with guidance="{given}", and execute the matching EGMRun',
     )

@@ -1,13 +1,16 @@
 """The partner's side: envelope, reference and answers, without sockets."""
 
+import itertools
 import math
 import random
 
 import pytest
 
+from rapidgen.axes import frames
 from rapidgen.axes.mapping import JointMap
-from rapidgen.client.egm.envelope import Envelope, Reference
+from rapidgen.client.egm.envelope import Envelope, TcpLimits
 from rapidgen.client.egm.exchange import CYCLE, PartnerExchange, Path, Stop, Target
+from rapidgen.client.egm.reference import PoseReference, Reference
 from rapidgen.client.errors import TargetRejected
 from rapidgen.config import load_config
 from rapidgen.wire.egm.codec import decode_sensor, encode_robot
@@ -107,7 +110,7 @@ def test_targets_are_answered(envelope):
     controller.frame()
     goal = (0.05, 0.0, 0.0, 0.0, 0.5, 0.0)
     for _ in range(200):
-        controller.exchange.execute(Target(goal, controller.now))
+        controller.exchange.execute(Target(controller.now, goal))
         answer, state = controller.frame()
     assert answer == pytest.approx(goal)
     assert state.age == pytest.approx(CYCLE)
@@ -116,12 +119,12 @@ def test_targets_are_answered(envelope):
 def test_missing_targets_stop_the_robot(envelope):
     controller = Controller(envelope)
     controller.frame()
-    controller.exchange.execute(Target((1.0, 0, 0, 0, 0.5, 0), controller.now))
+    controller.exchange.execute(Target(controller.now, (1.0, 0, 0, 0, 0.5, 0)))
     answers = [controller.frame() for _ in range(200)]
     assert answers[-1][1].stopped
     assert answers[-1][0] == answers[-2][0]
     # Later targets do not count, until the program begins a new run.
-    controller.exchange.execute(Target((0.5, 0, 0, 0, 0.5, 0), controller.now))
+    controller.exchange.execute(Target(controller.now, (0.5, 0, 0, 0, 0.5, 0)))
     assert controller.frame()[0] == answers[-1][0]
     controller.joints = answers[-1][0]
     answer, state = controller.frame(sequence=0)
@@ -145,9 +148,105 @@ def test_stop(envelope):
 def test_target_of_an_ended_run_is_forgotten(envelope):
     controller = Controller(envelope)
     controller.frame()
-    controller.exchange.execute(Target((0.05, 0, 0, 0, 0.5, 0), controller.now))
+    controller.exchange.execute(Target(controller.now, (0.05, 0, 0, 0, 0.5, 0)))
     controller.frame(running=False)
     assert controller.frame(sequence=0)[0] == pytest.approx(HOME)
+
+
+def test_target_moves_on_with_its_speeds(envelope):
+    """A caller at 10 Hz and a reference at 250 Hz: the robot moves evenly."""
+    controller = Controller(envelope)
+    controller.frame()
+    answers, begin = [], controller.now
+    for i in range(500):
+        if i % 25 == 0:
+            at = 0.2 * (controller.now - begin)
+            goal, rates = (at, 0.0, 0.0, 0.0, 0.5, 0.0), (0.2, 0.0, 0.0, 0.0, 0.0, 0.0)
+            controller.exchange.execute(Target(controller.now, goal, speeds=rates))
+        answers.append(controller.frame()[0][0])
+    assert answers[-1] == pytest.approx(0.2 * (controller.now - begin), abs=1e-3)
+    steps = [b - a for a, b in itertools.pairwise(answers[250:])]
+    assert steps == pytest.approx([0.2 * CYCLE] * len(steps), abs=1e-6)
+
+
+def test_speeds_without_a_target(envelope):
+    controller = Controller(envelope)
+    controller.frame()
+    rates = (0.1, 0.0, 0.0, 0.0, -0.2, 0.0)
+    for _ in range(250):
+        controller.exchange.execute(Target(controller.now, speeds=rates))
+        _, state = controller.frame()
+    # It accelerates for about 0.1 s.
+    assert state.reference[0] == pytest.approx(0.1, abs=0.01)
+    assert state.reference[4] == pytest.approx(0.3, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("speeds", "reason"),
+    [([9.0, 0, 0, 0, 0, 0], "would have speed"), ([math.nan] * 6, "nan"), ([0.1], "1 values")],
+)
+def test_rejected_speeds(envelope, speeds, reason):
+    with pytest.raises(TargetRejected, match=reason):
+        envelope.check_speeds(speeds)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_driven_axes_stop_before_their_range_ends(envelope, seed):
+    """Any speeds for any time: an axis brakes within its acceleration and stays in its range."""
+    chance = random.Random(seed)
+    reference = Reference(envelope, HOME)
+    rates = HOME
+    for _ in range(3_000):
+        if chance.random() < 0.005:
+            rates = tuple(chance.choice((-9.0, 0.0, 9.0)) for _ in HOME)
+        before, speeds = reference.positions, reference.speeds
+        reference.drive(rates, CYCLE)
+        for i, (q, v) in enumerate(zip(reference.positions, reference.speeds, strict=True)):
+            assert envelope.lower[i] <= q <= envelope.upper[i]
+            assert abs(q - before[i]) <= envelope.speed[i] * CYCLE * (1 + 1e-9)
+            assert abs(v - speeds[i]) <= envelope.acceleration[i] * CYCLE * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_pose_keeps_the_limits(seed):
+    chance = random.Random(seed)
+    limits = TcpLimits(lower=(-0.1, -0.2, 0.0), upper=(0.3, 0.2, 0.4))
+    reference = PoseReference(limits, ((0.0, 0.0, 0.1), frames.UNIT))
+    turn = limits.rotation * CYCLE * (1 + 1e-9)
+    target = reference.pose
+    for _ in range(2_000):
+        if chance.random() < 0.01:
+            axis = frames.scale((1.0, 1.0, 1.0), 3**-0.5)
+            target = (
+                (chance.uniform(-0.1, 0.3), chance.uniform(-0.2, 0.2), chance.uniform(0, 0.4)),
+                frames.about(axis, chance.uniform(-3, 3)),
+            )
+        before = reference.pose
+        reference.follow(target, CYCLE)
+        assert frames.distance(before[0], reference.pose[0]) <= limits.speed * CYCLE * (1 + 1e-9)
+        assert frames.angle_between(before[1], reference.pose[1]) <= turn
+    for _ in range(5_000):
+        reference.follow(target, CYCLE)
+    assert reference.is_standing
+    assert reference.pose[0] == pytest.approx(target[0], abs=1e-9)
+    assert frames.angle_between(reference.pose[1], target[1]) < 1e-7
+
+
+@pytest.mark.parametrize(
+    ("pose", "reason"),
+    [
+        (((0.1, 0, 0), frames.UNIT), "would step by 0.1000"),
+        (((0, 0, 0), (math.cos(0.1), math.sin(0.1), 0, 0)), "would turn by 0.2000"),
+        (((0, 0, 0), (2.0, 0, 0, 0)), "has length 2"),
+        (((math.nan, 0, 0), frames.UNIT), "nan"),
+        (((0, 0, -0.01), frames.UNIT), "z = -0.0100"),
+        (((0, 0), frames.UNIT), "a pose is"),
+    ],
+)
+def test_rejected_poses(pose, reason):
+    limits = TcpLimits(lower=(-1.0, -1.0, 0.0))
+    with pytest.raises(TargetRejected, match=reason):
+        limits.check(pose, frames.IDENTITY)
 
 
 def test_missed_frames_are_counted(envelope):
