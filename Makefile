@@ -179,6 +179,9 @@ seeded-faults: $(STAMP) ## 1 min: 100 faults in RAPID programs, and how many `ch
 motion-logs: $(STAMP) ## 3 min: simulated motion against the logs of a robot in the folder LOGS
 	$(BIN)/python benchmarks/motion_logs.py $(LOGS)
 
+configuration-pairs: $(STAMP) ## 1 min: confdata beside robtargets of the backups in the folders FOLDERS
+	$(BIN)/python tools/configuration_pairs.py $(FOLDERS)
+
 error-bands: $(STAMP) ## 10 min: error of durations with estimated accelerations, judged on logs; LOGS=folder
 	$(BIN)/python benchmarks/error_bands.py $(LOGS)
 

@@ -31,6 +31,7 @@ from rapidgen.axes.chain import Posture as Posture
 from rapidgen.axes.chain import Step, along, steps_of
 from rapidgen.axes.four_axes import BRANCHES as FOUR_BRANCHES
 from rapidgen.axes.four_axes import Branch as FourBranch
+from rapidgen.axes.four_axes import Scara
 from rapidgen.axes.frames import Pose, Quaternion
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.axes.mapping import JointMap
@@ -44,6 +45,8 @@ if TYPE_CHECKING:
 
 AxisConfiguration = tuple[int, int, int, int]
 """cf1, cf4, cf6, cfx"""
+ArmKind: TypeAlias = Literal["serial", "parallel rod", "seven axes", "palletiser", "SCARA", "other"]
+"""Families of arms with one rule of configuration data each, see `axes.configuration`."""
 ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
 """Allowed distance of axes 1, 4 and 6 from their quarters, see `Kinematics.room`."""
 _ENOUGH = 8
@@ -281,6 +284,17 @@ class Kinematics:
         return [tuple(p) for p in result]
 
     # -- configuration ----------------------------------------------------------------------
+
+    @cached_property
+    def kind(self) -> ArmKind:
+        """Return the family of the arm, from its axes and rods, not its name."""
+        if self.seventh >= 0:
+            return "seven axes"
+        if self._four is not None:
+            return "SCARA" if isinstance(self._four.arm, Scara) else "palletiser"
+        if self._wrist is None:
+            return "other"
+        return "parallel rod" if self.group.coupling else "serial"
 
     def configuration(self, posture: Posture) -> AxisConfiguration:
         """Return confdata of a posture: quarters of axes 1, 4 and 6, and cfx.
