@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 _CONFIG_SUFFIXES = (".yaml", ".yml")
 _TASK_FOLDERS = ("PROGMOD", "SYSMOD")
+_MAX_ROUNDS = 5
+"""Rounds of fixes in one command."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,19 +82,51 @@ def check(
     ] = None,
     format: Annotated[Format, typer.Option(help="Format of the findings.")] = Format.FULL,
     as_json: Annotated[bool, typer.Option("--json", help="Same as --format json.")] = False,
+    fix: Annotated[
+        bool, typer.Option("--fix", help="Write safe corrections into RAPID files first.")
+    ] = False,
 ) -> int:
     """Check configurations and RAPID files.
 
     A single file may use names of other modules; a backup may not. With --backup, configurations
     and generated folders are checked for that controller. Defaults are in the project file,
-    rapidgen.toml. Reads only.
+    rapidgen.toml. Reads only, unless --fix is given.
     """
     format = Format.JSON if as_json else format
     cell = _cell(backup)
+    names = paths or _paths_of_project()
+    findings = _findings_of(names, cell, robotware, robot, strict, backup)
+    if fix:
+        from rapidgen.cli.safe_fixes import apply_safe_fixes
+
+        # A syntax error hides other findings of its routine, so that a fix may bring further ones.
+        for _ in range(_MAX_ROUNDS):
+            if not apply_safe_fixes(findings):
+                break
+            findings = _findings_of(names, cell, robotware, robot, strict, backup)
+    import sys
+
+    typer.echo(render(findings, format, colour=use_colour(sys.stdout)), nl=False)
+    errors = sum(d.severity is Severity.ERROR for d in findings)
+    if format is Format.FULL:
+        warnings = sum(d.severity is Severity.WARNING for d in findings)
+        typer.echo(f"{errors} error(s), {warnings} warning(s)", err=True)
+    return 1 if errors else 0
+
+
+def _findings_of(
+    names: "Sequence[str]",
+    cell: "Cell | None",
+    robotware: str | None,
+    robot: str,
+    strict: bool | None,
+    backup: Path | None,
+) -> list[Diagnostic]:
+    """Return the findings of all that a command names, each with the settings of its project."""
     findings: list[Diagnostic] = []
     modules: dict[_Settings, list[Path]] = {}
     known: dict[Path | None, _Settings] = {}
-    for name in paths or _paths_of_project():
+    for name in names:
         path = Path(name)
         is_name = not path.exists() and not path.suffix and len(path.parts) == 1
         project = find_project(path)
@@ -119,14 +153,7 @@ def check(
         findings += _reported(found, settings)
     for settings, files in modules.items():
         findings += _reported(_named(files, settings), settings)
-    import sys
-
-    typer.echo(render(findings, format, colour=use_colour(sys.stdout)), nl=False)
-    errors = sum(d.severity is Severity.ERROR for d in findings)
-    if format is Format.FULL:
-        warnings = sum(d.severity is Severity.WARNING for d in findings)
-        typer.echo(f"{errors} error(s), {warnings} warning(s)", err=True)
-    return 1 if errors else 0
+    return findings
 
 
 def _paths_of_project() -> list[str]:

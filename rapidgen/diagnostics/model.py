@@ -4,7 +4,7 @@ This module formats no text for a terminal: see render.py.
 """
 
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -38,10 +38,41 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A second place that explains the first ("declared here")."""
+    """A second place that explains the first ("declared here").
+
+    Without a text it is a further place of the same finding, which only editors show.
+    """
 
     span: Span
     text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """Replacement of a span by a text; an empty span (both ends equal) is an insertion."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """Edits that remove a finding.
+
+    A safe fix does not change what the program does, or is the only meaning of a wrong text:
+    `check --fix` applies safe ones. Editors offer all.
+    """
+
+    title: str
+    edits: tuple[Edit, ...]
+    is_safe: bool = False
+
+
+class Tag(StrEnum):
+    """Properties of the marked text that editors show: faded out, or struck through."""
+
+    UNNECESSARY = "unnecessary"
+    DEPRECATED = "deprecated"
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +91,8 @@ class Diagnostic:
     help: str = ""
     notes: tuple[str, ...] = ()
     related: tuple[Label, ...] = ()
+    fixes: tuple[Fix, ...] = ()
+    tags: tuple[Tag, ...] = ()
 
 
 def error(
@@ -72,12 +105,40 @@ def error(
     notes: Sequence[str] = (),
     related: Sequence[Label] = (),
     severity: Severity = Severity.ERROR,
+    fixes: Sequence[Fix] = (),
+    tags: Sequence[Tag] = (),
 ) -> Diagnostic:
     """Create an error.
 
     `at` is its place, `help` says what to do.
     """
-    return Diagnostic(code, severity, message, at, label, help, tuple(notes), tuple(related))
+    return Diagnostic(
+        code, severity, message, at, label, help, tuple(notes), tuple(related), tuple(fixes),
+        tuple(tags),
+    )  # fmt: skip
+
+
+def replacement(title: str, at: Span, text: str, *, is_safe: bool = False) -> tuple[Fix, ...]:
+    """Return the fix that replaces one span."""
+    return (Fix(title, (Edit(at, text),), is_safe),)
+
+
+def apply_edits(text: str, edits: Iterable[Edit], offset: Callable[[int, int], int]) -> str:
+    """Return a text after edits of its own spans.
+
+    `offset` converts line and column to an offset. Of edits that overlap, the first one counts.
+    """
+    ranges = sorted(
+        (offset(e.span.line, e.span.column), offset(e.span.end_line, e.span.end_column), e.text)
+        for e in edits
+    )
+    result, end = [], 0
+    for start, stop, replaced in ranges:
+        if start < end:
+            continue
+        result += [text[end:start], replaced]
+        end = stop
+    return "".join([*result, text[end:]])
 
 
 def _notes(d: Diagnostic) -> list[str]:

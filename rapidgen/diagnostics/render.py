@@ -106,6 +106,24 @@ def _as_json(d: Diagnostic) -> Json:
             }
             for r in d.related
         ],
+        "fixes": [
+            {
+                "title": fix.title,
+                "safe": fix.is_safe,
+                "edits": [
+                    {
+                        "path": e.span.path,
+                        "line": e.span.line,
+                        "column": e.span.column,
+                        "end_line": e.span.end_line,
+                        "end_column": e.span.end_column,
+                        "text": e.text,
+                    }
+                    for e in fix.edits
+                ],
+            }
+            for fix in d.fixes
+        ],
     }
 
 
@@ -137,14 +155,15 @@ def _full(d: Diagnostic, lines_of: Callable[[str], Sequence[str]], colour: bool)
     head = f"{d.severity.value}[{d.code}]"
     out = [paint(head, sgr) + paint(f": {_clean(d.message)}", "1")]
     bar = paint("|", "1;34")
-    numbers = [s.line for s in ([d.span] if d.span else []) + [r.span for r in d.related]]
+    explained = [r for r in d.related if r.text]
+    numbers = [s.line for s in ([d.span] if d.span else []) + [r.span for r in explained]]
     width = len(str(max(numbers, default=0)))
     pad = " " * width
     if d.span:
         arrow = paint("-->", "1;34")
         out.append(f"{pad}{arrow} {_clean(d.span.path)}:{d.span.line}:{d.span.column}")
         out += _excerpt(d.span, d.label, lines_of(d.span.path), width, bar, lambda t: paint(t, sgr))
-    for related in d.related:
+    for related in explained:
         if d.span is None or related.span.path != d.span.path:
             out.append(
                 f"{pad}{paint(':::', '1;34')} {_clean(related.span.path)}:"

@@ -284,3 +284,24 @@ def test_findings_of_equal_files_are_reported_once(tmp_path, capsys):
     assert out.count("RG323") == 2
     assert "also in 1 equal file" in out
     assert "2 warning(s)" in err
+
+
+def test_safe_fixes_keep_encoding_and_line_ends(folder, capsys):
+    lines = ("MODULE M", "! gr\xfcn", "PROC main()", "VAR num n;", "TPErase();", "ENDPROC")
+    text = "\r\n".join((*lines, "ENDMODULE", ""))
+    (folder / "bad.mod").write_bytes(text.encode("latin-1"))
+    assert main(["check", "bad.mod", "--fix"]) == 0
+    after = text.replace("VAR num n;\r\n", "").replace("();", ";")
+    assert (folder / "bad.mod").read_bytes() == after.encode("latin-1")
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("fixed 1 finding(s) in bad.mod\n") == 2
+
+
+def test_files_of_a_generated_folder_are_not_fixed(folder, capsys):
+    text = GOOD.replace("TPErase;", "TPErase();")
+    (folder / "good.mod").write_text(text)
+    (folder / "manifest.json").write_text('{"rapidgen": "1", "configuration": {}}')
+    assert main(["check", "good.mod", "--fix"]) == 1
+    assert (folder / "good.mod").read_text() == text
+    assert "not changed: good.mod is generated" in capsys.readouterr().err

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final, Protocol, cast
 
-from rapidgen.diagnostics import Severity
+from rapidgen.diagnostics import Severity, Tag
 from rapidgen.rapid.binding import (
     ArgumentFault,
     DataSymbol,
@@ -194,6 +194,7 @@ class CallChecker:
             if dialect.is_known
             else "name its RobotWare with --robotware",
             severity=Severity.ERROR if dialect.is_known else Severity.INFO,
+            tags=(Tag.DEPRECATED,) if until is not None and dialect.robotware >= until else (),
         )
 
     def _fitting(
@@ -273,6 +274,7 @@ class CallChecker:
             if likely
             else (f"it has {displayed}" if displayed else ""),
             related=self.declared(symbol),
+            fixes=self.findings.spelling(likely, argument.first + optional),
         )
 
     # -- one argument --------------------------------------------------------------------

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from rapidgen.diagnostics import Severity
+from rapidgen.diagnostics import Edit, Fix, Severity, replacement
 from rapidgen.rapid.binding import DataSymbol, RoutineScope, Symbol, TypeSymbol
 from rapidgen.rapid.binding.names import array, datum_symbol, parameter_symbol
 from rapidgen.rapid.checks.findings import Findings
@@ -11,6 +11,7 @@ from rapidgen.rapid.checks.flow import FlowChecker
 from rapidgen.rapid.checks.labels import bodies, check_labels, flat
 from rapidgen.rapid.checks.moves import MoveChecker
 from rapidgen.rapid.checks.typing import TypeChecker
+from rapidgen.rapid.syntax.damage import Damage
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
     AliasDeclaration,
@@ -39,16 +40,17 @@ _LISTED: Final = 5
 _LOADED: Final = frozenset(("tooldata", "loaddata"))
 
 
-def check_module(findings: Findings) -> None:
-    """Check all declarations of a module."""
-    _ModuleChecker(findings).module()
+def check_module(findings: Findings, damage: Damage) -> None:
+    """Check all declarations of a module but routines with a syntax error."""
+    _ModuleChecker(findings, damage).module()
 
 
 class _ModuleChecker:
     """Checks the declarations of one module."""
 
-    def __init__(self, findings: Findings) -> None:
+    def __init__(self, findings: Findings, damage: Damage) -> None:
         self.findings = findings
+        self.damage = damage
         self.report, self.warn, self.declared = findings.report, findings.warn, findings.declared
         self.scope = findings.module
         self.types = TypeChecker(findings)
@@ -60,7 +62,8 @@ class _ModuleChecker:
             if isinstance(declaration, DataDeclaration):
                 self._data(declaration, routine=False)
             elif isinstance(declaration, RoutineDeclaration):
-                self._routine(declaration)
+                if declaration not in self.damage.routines:
+                    self._routine(declaration)
             elif isinstance(declaration, RecordDeclaration):
                 self._record(declaration)
             elif isinstance(declaration, AliasDeclaration):
@@ -118,6 +121,7 @@ class _ModuleChecker:
                 f"'{node.type}' is itself an alias",
                 node,
                 help=f"name its base type: ALIAS {target.base} {node.name};",
+                fixes=self.findings.spelling(target.base or "", node.last - 2),
                 notes=("no alias of an alias [K §2.15]",),
             )
 
@@ -319,6 +323,7 @@ class _ModuleChecker:
                     "a switch is an optional parameter without a mode",
                     parameter,
                     help=f"write \\switch {parameter.name}",
+                    fixes=self._rewritten(parameter, f"\\switch {parameter.name}"),
                     notes=("[K §5.1]",),
                 )
         elif parameter.mode != "VAR" and self.scope.type_class(base) in ("nonvalue", "semivalue"):
@@ -329,6 +334,13 @@ class _ModuleChecker:
                 help=f"write VAR {parameter.type} {parameter.name}",
                 notes=("value classes [K §2.16]",),
             )
+
+    def _rewritten(self, parameter: Parameter, text: str) -> tuple[Fix, ...]:
+        """Return the fix that writes a parameter in another way."""
+        source = self.scope.tree.source
+        # A separator, such as the comma of an alternative, may be part of the node's tokens.
+        first = parameter.first + (source.tokens[parameter.first] in (",", "|"))
+        return replacement(f"Change to {text}", source.span(first, parameter.last), text)
 
     def _error_numbers(self, node: RoutineDeclaration) -> None:
         for number in (node.error.numbers or []) if node.error else []:
@@ -366,7 +378,26 @@ class _ModuleChecker:
             f"{listed}{more} {'is' if is_one else 'are'} never read",
             symbols[0].token,
             help=f"remove {'its declaration' if is_one else 'their declarations'}",
+            fixes=self._removals(symbols),
         )
+
+    def _removals(self, symbols: Sequence[DataSymbol]) -> tuple[Fix, ...]:
+        """Return the fix that takes out declarations of data that no statement names.
+
+        A datum that is written, but never read, has further uses.
+        """
+        edits: list[Edit] = []
+        source = self.scope.tree.source
+        for symbol in symbols:
+            node, routine = symbol.node, symbol.routine
+            if not isinstance(node, DataDeclaration) or routine is None:
+                return ()
+            named = source.tokens[routine.first : routine.last + 1]
+            if sum(token.lower() == symbol.name.lower() for token in named) > 1:
+                return ()
+            edits += [e for fix in self.findings.removal("", node) for e in fix.edits]
+        title = f"Remove {', '.join(symbol.name for symbol in symbols)}"
+        return (Fix(title, tuple(edits), is_safe=True),)
 
     def _unused_local(self) -> None:
         """Report LOCAL objects without a use in the module.
@@ -379,15 +410,26 @@ class _ModuleChecker:
             for _, body in bodies(routine)
             for statement in flat(body)
         )
-        for symbol in self.scope.own.values():
+        late = late or self._has_late_call_in_damage()
+        for key, symbol in self.scope.own.items():
             if symbol in self.findings.used or not symbol.local or symbol.kind == "PERS":
+                continue
+            if key in self.damage.names:
                 continue
             node = symbol.node
             if isinstance(node, RoutineDeclaration) and not late:
                 self.findings.remark(
-                    "RG324", f"the LOCAL '{symbol.name}' is never called", node.name_token
+                    "RG324",
+                    f"the LOCAL '{symbol.name}' is never called",
+                    node.name_token,
+                    fixes=self.findings.removal(f"Remove {symbol.name}", node),
                 )
             elif isinstance(node, DataDeclaration):
                 self.findings.remark(
                     "RG324", f"the LOCAL '{symbol.name}' is never read", node.name_token
                 )
+
+    def _has_late_call_in_damage(self) -> bool:
+        """Return True if a late call may stand in a part with a syntax error."""
+        tokens = self.scope.tree.source.tokens
+        return any("%" in tokens[first : last + 1] for first, last in self.damage.ranges)

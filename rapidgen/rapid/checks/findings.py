@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Final, Literal
 
-from rapidgen.diagnostics import Diagnostic, Label, Severity, Span, error
+from rapidgen.diagnostics import Diagnostic, Fix, Label, Severity, Span, Tag, error, replacement
 from rapidgen.rapid.binding import (
     DATA,
     ROUTINES,
@@ -45,6 +45,8 @@ _OF_SIGNALS: Final = frozenset((None, "num", "dnum", "number", "anytype"))
 """Expected types of an expression in which a signal may stand."""
 _LISTED: Final = 8
 """Unknown names that a note shows."""
+_LABELLED: Final = 200
+"""Unknown names whose places a note has."""
 
 
 class Findings:
@@ -72,6 +74,8 @@ class Findings:
         notes: tuple[str, ...] = (),
         related: tuple[Label, ...] = (),
         severity: Severity = Severity.ERROR,
+        fixes: tuple[Fix, ...] = (),
+        tags: tuple[Tag, ...] = (),
     ) -> None:
         """Add a finding at a node or a token."""
         first, last = (node, node) if isinstance(node, int) else (node.first, node.last)
@@ -86,19 +90,59 @@ class Findings:
                 notes=notes,
                 related=related,
                 severity=severity,
+                fixes=fixes,
+                tags=tags,
             )
         )
 
     def warn(
-        self, code: str, message: str, node: Node | int, *, label: str = "", help: str = ""
+        self,
+        code: str,
+        message: str,
+        node: Node | int,
+        *,
+        label: str = "",
+        help: str = "",
+        fixes: tuple[Fix, ...] = (),
     ) -> None:
         """Add a warning."""
-        self.report(code, message, node, label=label, help=help, severity=Severity.WARNING)
+        severity = Severity.WARNING
+        self.report(code, message, node, label=label, help=help, severity=severity, fixes=fixes)
 
-    def remark(self, code: str, message: str, node: Node | int, *, help: str = "") -> None:
+    def remark(
+        self,
+        code: str,
+        message: str,
+        node: Node | int,
+        *,
+        help: str = "",
+        fixes: tuple[Fix, ...] = (),
+    ) -> None:
         """Add what is no fault, but superfluous: a warning of a strict check, else a note."""
         severity = Severity.WARNING if self.given.strict else Severity.INFO
-        self.report(code, message, node, help=help, severity=severity)
+        tags = (Tag.UNNECESSARY,)
+        self.report(code, message, node, help=help, severity=severity, fixes=fixes, tags=tags)
+
+    def spelling(self, likely: str, token: int) -> tuple[Fix, ...]:
+        """Return the fix of a name that is probably misspelled; none without a likely name."""
+        if not likely:
+            return ()
+        return replacement(f"Change to '{likely}'", self._span(token), likely)
+
+    def removal(self, title: str, node: Node, *, is_safe: bool = False) -> tuple[Fix, ...]:
+        """Return the fix that takes out a declaration, with its line if it has one alone.
+
+        A declaration that shares its lines with others or with a comment leaves those.
+        """
+        source = self.module.tree.source
+        span = source.span(node.first, node.last)
+        start = source.offset(span.line, 1)
+        end = source.offset(span.end_line + 1, 1)
+        before = source.text[start : source.starts[node.first]]
+        after = source.text[source.offset(span.end_line, span.end_column) : end]
+        if not before.strip() and not after.strip():
+            span = Span(span.path, span.line, 1, *source.position(end))
+        return replacement(title, span, "", is_safe=is_safe)
 
     def add_warnings(self, judge: Callable[[], None], note: str) -> None:
         """Add the findings of a check as warnings.
@@ -154,6 +198,7 @@ class Findings:
         inside = self._data_of_routine(name) if role == "datum" else None
         likely = "" if inside else closest(name, self._candidates(kinds, expected))
         help = f"did you mean '{likely}'?" if likely else ""
+        fixes = self.spelling(likely, node if isinstance(node, int) else node.first)
         if inside is not None:
             routine, token = inside
             self.report(
@@ -172,9 +217,11 @@ class Findings:
                 node,
                 label="not declared",
                 help=help or self._strict_help(role, expected),
+                fixes=fixes,
             )
         elif likely and expected not in HARDWARE:
-            self.warn(code, f"no {role} '{name}' is declared here or built in", node, help=help)
+            message = f"no {role} '{name}' is declared here or built in"
+            self.warn(code, message, node, help=help, fixes=fixes)
         else:
             known = role if role in ("function", "trap") else expected
             is_reported = f"{name} ({known})" if known not in (None, "anytype") else name
@@ -218,8 +265,18 @@ class Findings:
                 f"not declared here: {', '.join(listed[:_LISTED])}{more}",
                 names[0][1],
                 notes=(_MAY_COME[code],),
+                related=self._further(names),
                 severity=Severity.INFO,
             )
+
+    def _further(self, names: list[tuple[str, Node | int]]) -> tuple[Label, ...]:
+        """Return a label at each name but the first, which the note marks itself.
+
+        They have no text: editors show them, a terminal does not.
+        """
+        nodes = [node for _, node in names[1:_LABELLED]]
+        tokens = [node if isinstance(node, int) else node.first for node in nodes]
+        return tuple(Label(self._span(token), "") for token in tokens)
 
     def _candidates(self, kinds: frozenset[str], expected: str | None) -> Iterable[str]:
         """Return names for a suggestion; data must have the expected type."""

@@ -104,6 +104,7 @@ def check_labels(findings: Findings, routine: RoutineDeclaration) -> None:
                 f"there is no label '{goto.name}' in this routine",
                 goto,
                 help=f"did you mean '{likely}'?" if likely else "",
+                fixes=findings.spelling(likely, goto.last - 1),
             )
             continue
         reached.add(key)

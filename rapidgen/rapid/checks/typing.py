@@ -223,6 +223,7 @@ class TypeChecker:
                 help=f"did you mean '{likely}'?" if likely else f"it has {listed}",
                 notes=("not all names of its components are public",) if partly else (),
                 severity=Severity.WARNING if partly else Severity.ERROR,
+                fixes=self.findings.spelling(likely, node.last),
             )
             return None
         return components[node.component.lower()]

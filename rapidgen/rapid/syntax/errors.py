@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Label, Span, error
+from rapidgen.diagnostics import Diagnostic, Fix, Label, Span, error, replacement
 from rapidgen.rapid.syntax import lexer
 from rapidgen.rapid.syntax.source import Source
 
@@ -201,7 +201,31 @@ def unexpected(
         label=f"expected {expected}",
         notes=(note,) if note else (),
         related=related,
+        fixes=_fixes(source, kinds, at, expected),
     )
+
+
+def _fixes(source: Source, kinds: Sequence[str], at: int, expected: str) -> tuple[Fix, ...]:
+    """Return corrections of frequent slips.
+
+    They are safe where a text can have but one meaning: an assignment with `=`, a comparison with
+    `==`, empty parentheses of a procedure call.
+    """
+    before = _token(source, at - 1)
+    if kinds[at] == "=" and "':='" in expected:
+        twice = _token(source, at + 1) == "=" and _touches(source, at)
+        span = source.span(at, at + 1 if twice else at)
+        return replacement("Change to ':='", span, ":=", is_safe=True)
+    if kinds[at] == "=" and before == "=" and _touches(source, at - 1):
+        return replacement("Change to '='", source.span(at - 1, at), "=", is_safe=True)
+    if kinds[at] == ")" and before == "(" and expected == "an argument":
+        return replacement("Remove the parentheses", source.span(at - 1, at), "", is_safe=True)
+    starts_line = at > 0 and (at >= len(source.tokens) or source.line(at) > source.line(at - 1))
+    if "';'" in expected and starts_line:
+        end = source.span(at - 1, at - 1)
+        place_after = Span(end.path, end.end_line, end.end_column, end.end_line, end.end_column)
+        return replacement("Insert ';'", place_after, ";")
+    return ()
 
 
 def _help(source: Source, kinds: Sequence[str], at: int, expected: str) -> str:
@@ -241,7 +265,24 @@ def unclosed(
         label=f"expected {CLOSER[inner[-1][0]]}",
         notes=(note,),
         related=related,
+        fixes=_closing(source, at, inner),
     )
+
+
+def _closing(source: Source, at: int, inner: Sequence[Block]) -> tuple[Fix, ...]:
+    """Return the fix that adds the missing ends, each indented like its block."""
+    if at >= len(source.tokens) or source.line(at) == source.line(at - 1):
+        return ()
+    lines = []
+    for keyword, opened in reversed(inner):
+        line = source.line(opened)
+        start = source.offset(line, 1)
+        text = source.text[start : source.starts[opened]]
+        indent = text[: len(text) - len(text.lstrip())]
+        lines.append(f"{indent}{CLOSER[keyword]}\n")
+    closers = " and ".join(CLOSER[keyword] for keyword, _ in reversed(inner))
+    line = source.line(at)
+    return replacement(f"Add {closers}", Span(source.path, line, 1, line, 1), "".join(lines))
 
 
 def too_many(last: Diagnostic, limit: int) -> Diagnostic:

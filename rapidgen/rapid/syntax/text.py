@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import isinf
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Severity, Span, error
+from rapidgen.diagnostics import Diagnostic, Edit, Fix, Severity, Span, error, replacement
 from rapidgen.rapid.syntax import errors
 from rapidgen.rapid.syntax.lexer import (
     BAD_RADIX,
@@ -101,13 +101,20 @@ def _unseen(tokens: Tokens) -> Diagnostic:
     named = sorted({f"U+{ord(tokens.unread[at]):04X}" for at in places})
     line, column = source.position(places[0])
     more = f", in {len(places)} places" if len(places) > 1 else ""
+    edits = tuple(Edit(_character(source, at), " ") for at in places)
     return error(
         "RG204",
         Span(source.path, line, column),
         f"this character has no meaning in RAPID: {' and '.join(named[:3])}{more}",
         "put a blank in its place",
         notes=("the character is invisible or looks like a blank",),
+        fixes=(Fix("Put blanks in their place", edits, is_safe=True),),
     )
+
+
+def _character(source: Source, at: int) -> Span:
+    line, column = source.position(at)
+    return Span(source.path, line, column, line, column + 1)
 
 
 def _touching(source: Source) -> list[Diagnostic]:
@@ -124,9 +131,16 @@ def _touching(source: Source) -> list[Diagnostic]:
                     "put a blank between them",
                     notes=("[K §2.2] requires one; controllers seem to accept its absence",),
                     severity=Severity.INFO,
+                    fixes=replacement("Insert a blank", _between(source, at), " ", is_safe=True),
                 )
             ]
     return []
+
+
+def _between(source: Source, at: int) -> Span:
+    """Return the empty span behind token `at`."""
+    span = source.span(at, at)
+    return Span(span.path, span.end_line, span.end_column, span.end_line, span.end_column)
 
 
 def spellings(tokens: Tokens) -> list[Diagnostic]:
@@ -156,6 +170,12 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
                     "write \\09 in its place",
                     notes=("the characters of a string [K §2.1, 2.7]",),
                     severity=Severity.WARNING,
+                    fixes=replacement(
+                        "Write tabs as \\09",
+                        tokens.source.span(at, at),
+                        text.replace("\t", "\\09"),
+                        is_safe=True,
+                    ),
                 )
             )
         if kind is NAME and len(text) > MAX_NAME and text.lower() not in folded:
