@@ -233,6 +233,9 @@ egm-bench: $(STAMP) ## 2 min: period of EGM frames, and the client's time to ans
 egm-campaign: $(STAMP) ## 45 min: 20,000 runs of a guided robot with faults of its partner and actions of an operator
 	$(BIN)/python tools/egm_campaign.py --jobs 2 --results build/egm.jsonl
 
+collision-trials: $(STAMP) ## 5 min: 10,000 moves of a needle past a thin plate, against 4,001 samples each
+	$(BIN)/python tools/collision_trials.py
+
 driver-frames: $(STAMP) ## 1 h: 200,000 hostile openings on all ports, half of them with boundary values, a good client after each
 	$(BIN)/python tools/driver_campaign.py frames --jobs 2 --results build/frames.jsonl
 
@@ -266,7 +269,7 @@ endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten s
 many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
 	$(BIN)/python benchmarks/many_controllers.py
 
-BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready ros stop_start view
+BENCHES := startup start_of_run programs parsing kernels backup motion state client deploy driver streaming rws recording ready ros stop_start view collision
 bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
 	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
 

@@ -7,6 +7,7 @@ from rapidgen.diagnostics import Diagnostic, error
 
 EXTRAS = {
     "aiohttp": "web",
+    "coal": "collision",
     "distributed": "cluster",
     "google": "egm",
     "httpx2": "web",

@@ -11,13 +11,13 @@ from itertools import dropwhile
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 from rapidgen.axes import frames
+from rapidgen.axes.alignment import aligned
 from rapidgen.axes.chain import along, steps_of
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
 from rapidgen.config.urdf.robot import UrdfJoint
 from rapidgen.config.urdf.visual_trees import Tree
 from rapidgen.config.urdf.visuals import Visual
-from rapidgen.viewer.alignment import aligned
 from rapidgen.viewer.primitive_urdf import BASE, ENDLESS, Drawing
 from rapidgen.viewer.primitives import text
 

@@ -67,7 +67,13 @@ def test_missing_package_names_its_extra():
     every = extras.pop("all")
     # The import name of protobuf is google.protobuf.
     extras["egm"] = [line.replace("protobuf", "google") for line in extras["egm"]]
-    listed = {line.partition(">=")[0]: extra for extra, lines in extras.items() for line in lines}
+    # NumPy is a dependency anyway; coal needs a newer one.
+    listed = {
+        line.partition(">=")[0]: extra
+        for extra, lines in extras.items()
+        for line in lines
+        if not line.startswith("numpy")
+    }
     assert listed == EXTRAS
     assert every == [f"rapidgen[{','.join(sorted(extras))}]"]
 

@@ -1,0 +1,1 @@
+"""Collision checks: shapes of robots and cells, proofs between samples, clearance."""
