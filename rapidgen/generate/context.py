@@ -23,11 +23,14 @@ from rapidgen.generate import layout
 from rapidgen.generate.hello_reply import hello_reply
 from rapidgen.generate.lint import MAX_LINE
 from rapidgen.generate.numbers import inward, literal
+from rapidgen.generate.parameters import REMOTE_ADDRESS, UDP_SECTIONS
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.instructions import MOST_SIGNALS
 from rapidgen.wire.simple_message.spec import MOST_ARGUMENTS, ReplyCode
 
+HEARTBEAT_SINCE = (7, 7)
+"""RobotWare from which RAPID receives data of the EGM partner."""
 # Frames of a program's own values, before a program sets any.
 _OWN_TOOL = Tool("ROS_own_tool", load=Load(1.0, (0.0, 0.0, 0.001)))
 _OWN_WORK_OBJECT = WorkObject("ROS_own_wobj")
@@ -164,9 +167,46 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "target_reply": messages.TARGET.reply(ReplyCode.SUCCESS).length,
         "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
         "most_marks": MOST_SIGNALS,
+        "egm": _egm(config, group),
+        "busy": _busy(group),
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
     }
+
+
+def _egm(config: RobotConfig, group: GroupConfig) -> dict[str, object] | None:
+    """Return the settings of externally guided motion in RAPID's units."""
+    egm = group.egm
+    if egm is None:
+        return None
+    return {
+        "address": egm.address,
+        "port": egm.port,
+        "device": egm.device,
+        "section": UDP_SECTIONS[config.robotware[0] >= 7],
+        "attribute": REMOTE_ADDRESS[config.robotware[0] >= 7],
+        "unit": group.mechanical_unit,
+        "axes": range(1, len(group.joints) + 1),
+        "max_deviation": literal(round(math.degrees(egm.max_deviation), 4)),
+        "max_speed": literal(round(math.degrees(egm.max_speed), 4)),
+        "filter": literal(egm.filter),
+        "ramp": literal(egm.ramp),
+        "stop_ramp": literal(egm.stop_ramp),
+        "timeout": literal(egm.timeout),
+        "idle_timeout": literal(egm.idle_timeout),
+        "feedback": egm.feedback,
+        # \\DataFromSensor [manual 3HAC073318, revisions].
+        "heartbeat": config.robotware >= HEARTBEAT_SINCE,
+        "reply": messages.EGM.reply(ReplyCode.SUCCESS).length,
+    }
+
+
+def _busy(group: GroupConfig) -> str:
+    """Return the condition under which no other motion may take the place of the active one."""
+    conditions = ["ROS_is_guided()"] * bool(group.egm) + ["ROS_is_in_routine()"] * bool(
+        group.routines
+    )
+    return f"({' OR '.join(conditions)})" if len(conditions) > 1 else "".join(conditions)
 
 
 def _near(tolerance: float) -> dict[str, str]:

@@ -21,6 +21,8 @@ def features(config: RobotConfig, group: GroupConfig) -> Feature:
         result |= Feature.CONTROL
         if config.signals:
             result |= Feature.SIGNALS
+        if group.egm is not None:
+            result |= Feature.EGM
     return result
 
 

@@ -20,6 +20,7 @@ from rapidgen.system.model import TaskType
 
 COMMON, SERVER = "ROS_common", "ROS_server"
 STREAM, PROGRAMS, EXECUTION = "ROS_stream", "ROS_programs", "ROS_execution"
+EGM = "ROS_egm"
 
 OF_FULL = (STREAM, PROGRAMS, EXECUTION)
 """Modules that the profile `basic` lacks."""
@@ -36,7 +37,7 @@ class TaskRole:
 
 
 ROLES = (
-    TaskRole("motion", "", (COMMON, EXECUTION, "ROS_motion")),
+    TaskRole("motion", "", (COMMON, EXECUTION, EGM, "ROS_motion")),
     TaskRole("motion_server", "T_ROS_RECV", (COMMON, SERVER, PROGRAMS, STREAM, "ROS_motionServer")),
     TaskRole("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
     TaskRole("control", "T_ROS_CONTROL", (COMMON, SERVER, "ROS_control")),
@@ -46,8 +47,10 @@ SYSTEM_MODULES = (COMMON, SERVER)
 
 
 def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
-    """Return the tasks of a group, with the modules of its profile."""
+    """Return the tasks of a group, with the modules of its profile and options."""
     left_out = () if config.profile == "full" else OF_FULL
+    if group.egm is None:
+        left_out = (*left_out, EGM)
     return tuple(
         replace(role, modules=tuple(m for m in role.modules if m not in left_out))
         for role in ROLES

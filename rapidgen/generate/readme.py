@@ -3,7 +3,7 @@
 import math
 
 from rapidgen import __version__
-from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.model import EgmSettings, GroupConfig, RobotConfig
 from rapidgen.generate import layout
 from rapidgen.generate.context import to_rapid
 from rapidgen.generate.numbers import inward, literal
@@ -28,6 +28,7 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "address": _address(config.groups[0]),
         "yumi": all(group.model == "irb14000" for group in config.groups),
         "multi": len(config.groups) > 1,
+        "guided": any(group.egm for group in config.groups),
         "commissioning": config.commissioning,
         "full": config.profile == "full",
         "call_main": config.call_main,
@@ -78,6 +79,16 @@ def _address(group: GroupConfig) -> str:
     return f"ROBOT:{group.ports.motion},{group.ports.state}"
 
 
+def _egm(egm: EgmSettings) -> dict[str, object]:
+    return {
+        "device": egm.device,
+        "address": egm.address,
+        "port": egm.port,
+        "max_deviation": literal(round(math.degrees(egm.max_deviation), 4)),
+        "max_speed": literal(round(math.degrees(egm.max_speed), 4)),
+    }
+
+
 def _elsewhere(group: GroupConfig) -> list[dict[str, str]]:
     """Return the data that the user's motion task has to declare."""
     result = [(t.name, "PERS tooldata") for t in (group.tool, *group.tools) if t.elsewhere]
@@ -120,6 +131,7 @@ def _group(config: RobotConfig, n: int) -> dict[str, object]:
             }
             for joint in group.joints
         ],
+        "egm": None if group.egm is None else _egm(group.egm),
         "data": [{"name": d.name, "type": d.type, "access": d.access} for d in group.data],
         "kept": [
             {"n": axis.axis[-1], "at": literal(math.degrees(axis.value)) if axis.must_stand else ""}

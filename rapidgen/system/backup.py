@@ -15,10 +15,17 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, er
 from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.cfg_loading import faults_within
-from rapidgen.system.cfg_reader import ModuleEntry, arc_signals, modules_of, tasks_of, with_cfg
+from rapidgen.system.cfg_reader import (
+    ModuleEntry,
+    arc_signals,
+    modules_of,
+    tasks_of,
+    udp_devices_of,
+    with_cfg,
+)
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.loading import load_entries, load_module
-from rapidgen.system.model import ModuleFile, System, TaskSpec, UdpDevice
+from rapidgen.system.model import ModuleFile, System, TaskSpec
 from rapidgen.system.paths import inside, is_there, module_files, read_limited
 
 _TASK_LINE = re.compile(rb">>TASK(\d+):\s*\(\s*([^,()\s]+)")
@@ -95,7 +102,7 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         robot_types=() if moc is None else _robot_types(moc),
         arc=() if proc is None else arc_signals(proc),
         cameras=() if sio is None else _cameras(sio),
-        udp_devices=None if sio is None else _udp_devices(sio),
+        udp_devices=None if sio is None else udp_devices_of(sio),
         cfg=ControllerCfg(robotware, (sys_cfg, eio_cfg, *further.values())),
     )
     return with_cfg(result, sys_cfg, eio_cfg)
@@ -141,24 +148,6 @@ def _cameras(sio: CfgText) -> tuple[str, ...]:
     """Return cameras: COM_APP instances of type CAMERA [cfg]."""
     rows = sio.instances("COM_APP")
     return tuple(row.text("Name") for row in rows if row.text("Type").upper() == "CAMERA")
-
-
-def _udp_devices(sio: CfgText) -> tuple[UdpDevice, ...]:
-    """Return UDPUC devices of SIO.
-
-    COM_TRP of type UDPUC, whose address is spelt with one d, and UDPUC_HOST, whose default port is
-    6510 [cfg: MCUBE 6.03, rparak 6.x, GoFa 7.6; manual 3HAC073318].
-    """
-    rows = [row for row in sio.instances("COM_TRP") if row.text("Type").upper() == "UDPUC"]
-    rows += sio.instances("UDPUC_HOST")
-    return tuple(
-        UdpDevice(
-            row.text("Name"),
-            row.text("RemoteAdress") or row.text("RemoteAddress"),
-            int(row.number("RemotePortNumber", 6510)),
-        )
-        for row in rows
-    )
 
 
 def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]) -> ControllerCfg:

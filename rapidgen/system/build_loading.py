@@ -9,7 +9,7 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, refusal
 from rapidgen.system.base import Robot, base_system
 from rapidgen.system.cfg import parse_cfg
 from rapidgen.system.cfg_loading import CfgFileLoad, add
-from rapidgen.system.cfg_reader import ModuleEntry, modules_of, tasks_of, with_cfg
+from rapidgen.system.cfg_reader import ModuleEntry, modules_of, tasks_of, udp_devices_of, with_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
@@ -123,7 +123,9 @@ def onto(
     for task in tasks_of(sys):
         known = replace(task, modules=before.get(task.name.casefold(), under.common))
         tasks.append(replace(task, modules=load(known, entries, own[0].path if own else "")))
-    system = replace(under.system, tasks=tuple(tasks), cfg=loaded.cfg)
+    # Without a device the cell's are unknown, as before.
+    devices = udp_devices_of(loaded.cfg.domain("SIO")) or under.system.udp_devices
+    system = replace(under.system, tasks=tuple(tasks), cfg=loaded.cfg, udp_devices=devices)
     return with_cfg(system, sys, eio)
 
 

@@ -97,6 +97,13 @@ DEFAULTS: Final[Mapping[tuple[str, str], Mapping[str, Default]]] = {
     ("MOC", "ARM_CALIB"): _rows("backups", cal_offset=0.0),
     ("MOC", "MECHANICAL_UNIT"): _rows("backups", use_activation_relay="", use_brake_relay=""),
     ("MOC", "JOINT"): _rows("backups", follower_to_joint="", use_process="", drive_module=1),
+    ("MOC", "EXT_MOTION_DATA"): _rows(
+        "manual",
+        ext_motion_level=1,
+        ramp_time=0.5,
+        ext_motion_Kp=5.0,
+        ext_motion_filter_bandwidth=20.0,
+    ),
     ("MOC", "TRANSMISSION"): _rows("manual", transm_joint=1.0),
 }
 

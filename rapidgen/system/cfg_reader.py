@@ -24,6 +24,7 @@ from rapidgen.system.model import (
     TaskSpec,
     TaskType,
     TrustLevel,
+    UdpDevice,
 )
 
 # [mem] The file has "None" where the pendant shows NoSafety.
@@ -294,6 +295,24 @@ def with_cfg(system: System, sys: CfgText, eio: CfgText) -> System:
         cross=crosses_of(eio),
         events=events_of(sys),
         groups=groups_of(sys),
+    )
+
+
+def udp_devices_of(sio: CfgText) -> tuple[UdpDevice, ...]:
+    """Return UDPUC devices of SIO.
+
+    COM_TRP of type UDPUC, whose address is spelt with one d, and UDPUC_HOST, whose default port is
+    6510 [cfg: MCUBE 6.03, rparak 6.x, GoFa 7.6; manual 3HAC073318].
+    """
+    rows = [row for row in sio.instances("COM_TRP") if row.text("Type").upper() == "UDPUC"]
+    rows += sio.instances("UDPUC_HOST")
+    return tuple(
+        UdpDevice(
+            row.text("Name"),
+            row.text("RemoteAdress") or row.text("RemoteAddress"),
+            int(row.number("RemotePortNumber", 6510)),
+        )
+        for row in rows
     )
 
 

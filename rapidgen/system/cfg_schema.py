@@ -92,6 +92,8 @@ _COMMON = {
     ("EIO", "EIO_ACCESS"): "Name Rapid LocalManual LocalAuto RemoteManual RemoteAuto",
 }
 _GROUP = "Name Robot UseMotionPlanner" + "".join(f" MechanicalUnit_{n}" for n in range(1, 7))
+_EGM = "name ext_motion_level do_not_restart_after_motors_off return_to_program_position"
+_EGM += " ramp_time ext_motion_Kp ext_motion_filter_bandwidth"
 _COM_TRP = "Name Type PhyChannel RemoteAdress RemotePortNumber"
 
 
@@ -100,6 +102,9 @@ def sections(main: int, *, multimove: bool) -> Mapping[tuple[str, str], frozense
     rows = dict(_COMMON)
     if multimove:
         rows["SYS", "MECHANICAL_UNIT_GROUP"] = _GROUP
+    if main >= 6:
+        # Its one attribute without a source is not written [mem].
+        rows["MOC", "EXT_MOTION_DATA"] = _EGM
     if main <= 5:
         rows["EIO", "EIO_SIGNAL"] = f"{_SIGNAL} Unit UnitMap SignalLabel"
     else:

@@ -22,7 +22,7 @@ INDEX_WRAP = 2**23
 
 PING, JOINT_POSITION, JOINT_TRAJ_PT, STATUS, JOINT_FEEDBACK = 1, 10, 11, 13, 15
 HELLO, PROGRESS, POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT = range(1300, 1309)
-PROGRAM, RESULT, DATA, TARGET = range(1309, 1313)
+PROGRAM, RESULT, DATA, TARGET, EGM = range(1309, 1314)
 POINT_BYTES, STATE_BYTES = 68, 60 + 44
 """Bytes of a JOINT_TRAJ_PT, and of the messages to every state client: JOINT and STATUS."""
 
@@ -76,6 +76,7 @@ class RawFeature(IntFlag):
     EVENTS = 16
     FEEDBACK = 32
     PROGRAMS = 64
+    EGM = 128
 
 
 class RawStreamFlag(IntFlag):
@@ -429,6 +430,18 @@ class RawTargetReply(NamedTuple):
     joints: tuple[float, ...]
 
 
+class RawEgm(NamedTuple):
+    """EGM: start (1) or end (0) a session of externally guided motion."""
+
+    active: int
+
+
+class RawEgmReply(NamedTuple):
+    """Reply to EGM: number of the session."""
+
+    trajectory: int
+
+
 class RawAccepted(NamedTuple):
     """Reply to an end frame: number of the accepted trajectory."""
 
@@ -462,6 +475,7 @@ _Request: TypeAlias = (
     | RawResult
     | RawTarget
     | RawDatum
+    | RawEgm
 )
 _Done: TypeAlias = (
     RawHelloReply
@@ -471,6 +485,7 @@ _Done: TypeAlias = (
     | RawResultReply
     | RawTargetReply
     | RawDatumReply
+    | RawEgmReply
 )
 _Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
 RawContent: TypeAlias = (
@@ -512,6 +527,9 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (DATA, 0, RawDatum, "i i f 80s"),
     (DATA, 1, RawDatumReply, "i f 80s"),
     (DATA, 2, RawNotDone, "i"),
+    (EGM, 0, RawEgm, "i"),
+    (EGM, 1, RawEgmReply, "i"),
+    (EGM, 2, RawNotDone, "i"),
 )
 _ASKED = {kind: (number, layout) for number, code, kind, layout in _LAYOUTS if code == 0}
 _KNOWN = {

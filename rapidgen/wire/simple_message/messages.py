@@ -554,6 +554,34 @@ TARGET = MessageType(
     replies=(Reply(ReplyCode.SUCCESS, TargetReply), Reply(ReplyCode.FAILURE, Failure)),
 )
 
+
+class EgmRequest(NamedTuple):
+    """Starts or ends a session of externally guided motion.
+
+    It starts only if heartbeats are expected on this connection, and nothing else is under way.
+    Meanwhile trajectories are refused. The reply to the end is sent after EGMStop, before the robot
+    stands.
+    """
+
+    active: Annotated[int, int32("1 start, 0 end")]
+
+
+class EgmReply(NamedTuple):
+    """Reply to EGM: the session has started, or it is being ended."""
+
+    trajectory: Annotated[int, int32("number of the session among the trajectories")]
+
+
+EGM = MessageType(
+    "EGM",
+    1313,
+    EgmRequest,
+    _CLIENT,
+    (Port.CONTROL,),
+    since=4,
+    replies=(Reply(ReplyCode.SUCCESS, EgmReply), _NOT_DONE),
+)
+
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))
 """All of them, by number."""
 

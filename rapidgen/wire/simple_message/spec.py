@@ -124,6 +124,8 @@ class Feature(IntFlag):
     EVENTS = 16
     FEEDBACK = 32
     PROGRAMS = 64
+    EGM = 128
+    """The control port starts and ends sessions of externally guided motion."""
 
 
 class StreamFlag(IntFlag):
@@ -270,6 +272,9 @@ class Reason(IntEnum):
     ROUTINE = 51, "a routine has raised an error"
     OVERTIME = 52, "a routine took longer than it may"
     TASK_ENDED = 53, "a server task of the driver has ended"
+    GUIDED = 54, "another program guides the robot (EGM)"
+    NO_EGM = 55, "the controller does not have the device or profile for EGM"
+    NO_HEARTBEAT = 56, "the client sends no heartbeat, or one that is too slow"
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:
