@@ -7,12 +7,16 @@ import re
 import runpy
 import subprocess
 import sys
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
 import pytest
 
 from rapidgen.client import Robot, Timeouts
+from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.testing.egm import guide
 from rapidgen.viewer import plotting
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -26,7 +30,13 @@ SAYS = {
     "two_arms.py": r"rob_l: 2 points.*\nrob_r: 2 points",
     "record_and_plot.py": r"executed\.svg\nexecuted minus commanded \d\.\d+ degrees",
 }
-APART = {"deployment.py", "web_services.py", "test_counting.py", "trying.py"}
+GUIDED = {
+    "egm_sine.py": r"lag 20 ms, residual 0\.\d+ degrees",
+    "egm_joystick.py": r"moved by 80, 0, 40 mm",
+    "egm_hand_guiding.py": r"0\.\d mm from where the hand pulls",
+    "egm_camera.py": r"above the part within [01]\.\d mm",
+}
+APART = {"deployment.py", "web_services.py", "test_counting.py", "trying.py", "guiding.py"}
 
 
 @pytest.fixture
@@ -45,13 +55,41 @@ def test_all_are_named():
     named = (EXAMPLES / "README.md").read_text()
     files = {path.name for path in EXAMPLES.iterdir() if path.is_file()} - {"README.md"}
     assert [name for name in sorted(files) if f"`{name}`" not in named] == []
-    assert {name for name in files if name.endswith(".py")} == {*SAYS, *APART}
+    assert {name for name in files if name.endswith(".py")} == {*SAYS, *GUIDED, *APART}
 
 
 @pytest.mark.parametrize("name", SAYS)
 def test_programs(here, capsys, name):
     runpy.run_path(str(EXAMPLES / name), run_name="__main__")
     assert re.search(SAYS[name], capsys.readouterr().out)
+
+
+@contextmanager
+def lock_step(program="guided.mod"):
+    """What `guiding.session_of` gives, on the virtual clock."""
+    guidance = "pose" if program == "guided_tcp.mod" else "joints"
+    with VirtualController.from_files(
+        {"T_ROB1": [EXAMPLES / program]}, robots=load_config("irb120").groups, cycle="once"
+    ) as controller:
+        session = guide(controller, "PC", "irb120", guidance=guidance)
+        session.wait_until_guided()
+        yield session
+
+
+@pytest.mark.parametrize("name", GUIDED)
+def test_guided_robots(here, capsys, monkeypatch, name):
+    monkeypatch.setattr(importlib.import_module("guiding"), "session_of", lock_step)
+    runpy.run_path(str(EXAMPLES / name), run_name="__main__")
+    assert re.search(GUIDED[name], capsys.readouterr().out)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", GUIDED)
+def test_guided_robots_of_sim(here, name):
+    """Over UDP. A loaded computer changes the figures, so only the end is compared."""
+    done = run(EXAMPLES / name, cwd=here)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert re.search(r"\d", done.stdout)
 
 
 def run(*words, cwd):

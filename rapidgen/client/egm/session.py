@@ -6,15 +6,11 @@ latter; the others return at once and are shared.
 
 import asyncio
 import contextlib
-import os
-import socket
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import isfinite
-from multiprocessing.connection import Connection
 from typing import TYPE_CHECKING
 
 from rapidgen._compat import Self
@@ -22,7 +18,7 @@ from rapidgen._extras import named
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.egm.envelope import Envelope, Joints
-from rapidgen.client.errors import ConnectionFailed, NotReady, RobotTimeout, TargetRejected
+from rapidgen.client.errors import NotReady, RobotTimeout, TargetRejected
 from rapidgen.config import load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.wire.egm.values import MAX_NUMBERS, RapidData
@@ -39,6 +35,7 @@ with named():
     )
 
 from rapidgen.client.egm.lag import Lag, LagMeter
+from rapidgen.client.egm.loop import Loop, LoopProcess
 
 if TYPE_CHECKING:
     from rapidgen.client.trajectory import Trajectory
@@ -81,7 +78,8 @@ def listen(
     """
     chosen = choose_group(config, group)
     limits = envelope or Envelope.of(chosen, fraction, step)
-    return EgmSession(chosen, limits, host, port, timeout, guidance)
+    exchange = PartnerExchange(JointMap.of(chosen), limits, timeout, guidance)
+    return EgmSession(limits, guidance, partial(LoopProcess, exchange, host, port))
 
 
 def listen_async(
@@ -99,7 +97,8 @@ def listen_async(
     """Return a session for asyncio; arguments and errors are those of `listen`."""
     chosen = choose_group(config, group)
     limits = envelope or Envelope.of(chosen, fraction, step)
-    return AsyncEgmSession(chosen, limits, host, port, timeout, guidance)
+    exchange = PartnerExchange(JointMap.of(chosen), limits, timeout, guidance)
+    return AsyncEgmSession(limits, guidance, partial(LoopProcess, exchange, host, port))
 
 
 def choose_group(config: str | RobotConfig, name: str) -> GroupConfig:
@@ -118,19 +117,18 @@ def choose_group(config: str | RobotConfig, name: str) -> GroupConfig:
 
 
 class _Session:
-    """Process, states and targets of a session: all that does not wait."""
+    """States and targets of a session: all that does not wait."""
 
     def __init__(
         self,
-        group: GroupConfig,
         envelope: Envelope,
-        host: str,
-        port: int,
-        timeout: float,
-        guidance: Guidance = "joints",
+        guidance: Guidance,
+        connect: Callable[[Callable[[EgmState], None], Callable[[], None]], Loop],
+        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.envelope = envelope
         self.guidance = guidance
+        self._clock = clock
         self._last: Joints | None = None
         self._last_pose: Pose | None = None
         self._state: EgmState | None = None
@@ -138,47 +136,25 @@ class _Session:
         self._changed = threading.Condition()
         self._listeners: list[Callable[[], object]] = []
         self._closed = False
-        opened = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        try:
-            opened.bind((host, port))
-        except OSError as fault:
-            opened.close()
-            raise ConnectionFailed.because(
-                "RG681",
-                f"cannot listen on {host}:{port}: {fault.strerror}",
-                "end the program that uses the port, or give an address of this computer",
-            ) from fault
-        self.port: int = opened.getsockname()[1]
-        exchange = PartnerExchange(JointMap.of(group), envelope, timeout, guidance)
-        ours, theirs = socket.socketpair()
-        with theirs, opened:
-            numbers = (theirs.fileno(), opened.fileno())
-            self._process = subprocess.Popen(
-                [sys.executable, "-m", "rapidgen.client.egm.process", *map(str, numbers)],
-                pass_fds=numbers,
-                stdin=subprocess.DEVNULL,
-                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
-            )
-        self._pipe = Connection(ours.detach())
-        self._pipe.send(exchange)
-        self._thread = threading.Thread(target=self._read, name="EGM states", daemon=True)
-        self._thread.start()
+        self._loop = connect(self._receive, self._receive_end)
 
-    def _read(self) -> None:
-        """Receive states until the process ends."""
-        try:
-            while True:
-                state = self._pipe.recv()
-                with self._changed:
-                    self._state = state
-                    self._meter.add(state)
-                    if not state.guided or state.stopped:
-                        self._last = self._last_pose = None
-                    self._notify()
-        except (EOFError, OSError):
-            with self._changed:
-                self._closed = True
-                self._notify()
+    @property
+    def port(self) -> int:
+        """Return the UDP port to which the controller sends."""
+        return self._loop.port
+
+    def _receive(self, state: EgmState) -> None:
+        with self._changed:
+            self._state = state
+            self._meter.add(state)
+            if not state.guided or state.stopped:
+                self._last = self._last_pose = None
+            self._notify()
+
+    def _receive_end(self) -> None:
+        with self._changed:
+            self._closed = True
+            self._notify()
 
     def _notify(self) -> None:
         self._changed.notify_all()
@@ -232,7 +208,7 @@ class _Session:
             values = None if joints is None else self.envelope.check(joints, self._before(state))
             place = None if pose is None else self.envelope.tcp.check(pose, self._pose(state))
             self._last, self._last_pose = values, place
-            self._post(Target(time.monotonic(), values, place, rates))
+            self._post(Target(self._clock(), values, place, rates))
 
     def _before(self, state: EgmState) -> Joints:
         return self._last or state.reference
@@ -312,7 +288,7 @@ class _Session:
 
     def _post(self, order: Order) -> None:
         try:
-            self._pipe.send(order)
+            self._loop.post(order)
         except OSError as fault:
             raise _rejected("the process of the session has ended") from fault
 
@@ -327,15 +303,6 @@ class _Session:
     def _check_end(self, end: Joints) -> None:
         if self._state is None or self._state.reference != end:
             raise _rejected("the trajectory was interrupted by a stop")
-
-    def _end(self) -> None:
-        if not self._closed:
-            # It may have ended already.
-            with contextlib.suppress(OSError):
-                self._pipe.send(None)
-        self._process.wait()
-        self._thread.join()
-        self._pipe.close()
 
 
 class EgmSession(_Session):
@@ -370,7 +337,7 @@ class EgmSession(_Session):
 
     def close(self) -> None:
         """Stop answering; the controller then ends the run by its time-out."""
-        self._end()
+        self._loop.close()
 
     def _wait(self, ready: Callable[[EgmState], bool], timeout: float, missing: str) -> EgmState:
         due = time.monotonic() + timeout
@@ -420,7 +387,7 @@ class AsyncEgmSession(_Session):
 
     async def close(self) -> None:
         """Stop answering; the controller then ends the run by its time-out."""
-        await asyncio.to_thread(self._end)
+        await asyncio.to_thread(self._loop.close)
 
     async def _wait(
         self, ready: Callable[[EgmState], bool], timeout: float, missing: str
