@@ -13,5 +13,6 @@ MODULE guided
     ERROR
         ! ERR_UDPUC_COMM: the partner is silent. A new start of main begins anew.
         EGMReset id;
+        RETURN;
     ENDPROC
 ENDMODULE

@@ -14,5 +14,6 @@ MODULE guided_tcp
         EGMReset id;
     ERROR
         EGMReset id;
+        RETURN;
     ENDPROC
 ENDMODULE

@@ -44,6 +44,7 @@ COMMANDS = {
     "stop": ("motion", "Stop all motion groups of a robot, or one."),
     "monitor": ("observation", "Show the joints, mode and message rate of a robot live."),
     "record": ("observation", "Record the joint positions of a robot as CSV."),
+    "egm": ("egm", "Check externally guided motion: frames, rate, state."),
     "status": ("controller", "Show the mode, motors, speed and tasks of a controller."),
     "log": ("controller", "Show and explain the event log of a controller."),
     "start-program": ("controller", "Start the program of a controller (THE ROBOT MAY MOVE)."),

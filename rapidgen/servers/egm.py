@@ -13,6 +13,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from multiprocessing.connection import Connection
+from time import monotonic, sleep
 from typing import TYPE_CHECKING, Final
 
 from rapidgen.motion.egm.exchange import Exchange, Inputs, Order, Result
@@ -75,7 +76,7 @@ class UdpLink:
 class ProcessLoop:
     """An exchange in another process."""
 
-    def __init__(self, exchange: Exchange, address: Address, started: float) -> None:
+    def __init__(self, exchange: Exchange, address: Address, now: float) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
@@ -85,7 +86,8 @@ class ProcessLoop:
                 env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
             )
         self._pipe = Connection(ours.detach())
-        self._pipe.send((exchange, address, started))
+        # The process needs some time to start; its clock is this one nevertheless.
+        self._pipe.send((exchange, address, now - monotonic()))
 
     def execute(self, order: Order) -> None:
         """Send an order."""
@@ -141,11 +143,12 @@ def serve_egm(
     return controller.egm.close
 
 
-def run_exchange(pipe: Connection, exchange: Exchange, link: UdpLink, started: float) -> None:
-    """Execute cycles until the controller closes the pipe. `started` is its time in s."""
-    from time import monotonic, sleep
+def run_exchange(pipe: Connection, exchange: Exchange, link: UdpLink, offset: float) -> None:
+    """Execute cycles until the controller closes the pipe.
 
-    begin = due = monotonic()
+    `offset` is the time of the controller minus that of the monotonic clock, s.
+    """
+    due = monotonic()
     waiting: list[Result] = []
     inputs: Inputs | None = None
     while True:
@@ -160,7 +163,7 @@ def run_exchange(pipe: Connection, exchange: Exchange, link: UdpLink, started: f
             return
         now = monotonic()
         if inputs is not None and exchange.running:
-            waiting.append(exchange.cycle(link, inputs, started + now - begin))
+            waiting.append(exchange.cycle(link, inputs, offset + now))
             # A controller that is behind must not make this process late.
             if select.select([], [pipe], [], 0)[1]:
                 try:

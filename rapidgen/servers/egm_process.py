@@ -5,6 +5,7 @@ import signal
 import sys
 from multiprocessing.connection import Connection
 
+from rapidgen.motion.egm.exchange import codec
 from rapidgen.servers.egm import UdpLink, run_exchange
 
 
@@ -13,13 +14,15 @@ def main() -> None:
     # Ctrl-C ends the controller, which closes the pipe.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     pipe = Connection(int(sys.argv[1]))
-    exchange, address, started = pipe.recv()
+    exchange, address, offset = pipe.recv()
     link = UdpLink(address)
+    # Its import takes many cycles.
+    codec()
     gc.collect()
     gc.freeze()
     gc.disable()
     try:
-        run_exchange(pipe, exchange, link, started)
+        run_exchange(pipe, exchange, link, offset)
     finally:
         link.close()
 

@@ -20,6 +20,7 @@ else:
 BEYOND = {
     "rapidgen.client.egm": "egm",
     "rapidgen.client.rws.": "web",
+    "rapidgen.testing.egm": "egm",
     "rapidgen.deploy.transports.rws": "web",
     "rapidgen.servers.rws.server": "web",
     "rapidgen.servers.aiohttp_thread": "web",
@@ -98,6 +99,7 @@ def test_extra_is_needed_only_by_its_modules():
         ("sim irb120 --ports auto --view", "web"),
         ("sim irb120 --ports auto --record never.mcap", "recording"),
         ("view never.mcap", "recording"),
+        ("egm irb120 --port 0", "egm"),
         ("test irb120 --cluster tcp://127.0.0.1:1", "cluster"),
     ],
 )

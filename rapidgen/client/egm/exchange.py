@@ -98,6 +98,8 @@ class EgmState:
     """As the answer had it; None: it had no pose."""
     data: RapidData | None = None
     """Of the RAPID program (`\\DOtoSensor`, `\\DataToSensor`)."""
+    release: tuple[int, int] = (0, 0)
+    """Earliest RobotWare that sends the fields of the frame."""
     answer_time: float = 0.0
     """s from the arrival of the frame to the answer, in this computer."""
 
@@ -181,6 +183,7 @@ class PartnerExchange:
             pose=_pose(message.measured),
             reference_pose=self._sent_pose,
             data=message.data,
+            release=_release(message),
             answer_time=answer_time,
         )
 
@@ -302,6 +305,16 @@ def _pose(positions: AxisPositions) -> Pose | None:
         return None
     x, y, z = positions.pose.position
     return (x / 1000, y / 1000, z / 1000), positions.pose.orientation
+
+
+def _release(message: RobotMessage) -> tuple[int, int]:
+    if message.data is not None:
+        return 7, 7
+    if message.move_index is not None or message.collision is not None:
+        return 7, 6
+    if message.utilization is not None:
+        return 6, 10
+    return (6, 7) if message.measured.time is not None else (0, 0)
 
 
 def _moved(pose: Pose, speeds: Twist, time: float) -> Pose:

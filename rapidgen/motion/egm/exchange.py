@@ -207,7 +207,7 @@ class Exchange:
         if data is None:
             return False, ""
         try:
-            message = _codec().decode_sensor(data)
+            message = codec().decode_sensor(data)
         except EgmMessageError as fault:
             self.rejected[str(fault)] += 1
             return False, str(fault) if self.rejected[str(fault)] == 1 else ""
@@ -292,11 +292,11 @@ class Exchange:
             collision=False,
         )
         self.sequence += 1
-        link.send(_codec().encode_robot(message, self.release))
+        link.send(codec().encode_robot(message, self.release))
 
 
-def _codec() -> "ModuleType":
+def codec() -> "ModuleType":
     """Return the codec, which needs an extra; only a partner makes it necessary."""
     with named():
-        from rapidgen.wire.egm import codec
-    return codec
+        from rapidgen.wire.egm import codec as result
+    return result
