@@ -16,7 +16,7 @@ from rapidgen.verification.model import Counterexample
 from rapidgen.verification.raw_programs import Programmer, RawMove, called, in_rapid, orders
 from rapidgen.verification.schedule_exploration import Recording, ScheduleResult
 from rapidgen.verification.settings import Setting
-from rapidgen.verification.suite.programs import MotionDiffers, program_matches_rapid
+from rapidgen.verification.suite.program_moves import MotionDiffers, program_matches_rapid
 from rapidgen.verification.testbench import FAILURES, Bench
 
 LONGEST = 12

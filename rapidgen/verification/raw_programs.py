@@ -4,6 +4,7 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TypeAlias
 
 from rapidgen.axes.frames import Pose
 from rapidgen.config.model import RobotConfig
@@ -92,6 +93,15 @@ class RawMove:
         return [int(first), *millionths([*values, *self.joints])]
 
 
+Item: TypeAlias = RawMove | Sequence[int]
+"""An instruction of a program: a move, or the words of any other one."""
+
+
+def words(item: Item) -> list[int]:
+    """Return the words of an item on the wire."""
+    return item.words if isinstance(item, RawMove) else list(item)
+
+
 class Programmer:
     """Send programs one after the other to the motion server."""
 
@@ -101,24 +111,30 @@ class Programmer:
         self.number = 0
 
     def send(
-        self, orders: Sequence[RawMove], flags: RawStreamFlag = ALL, start: Position | None = None
+        self, items: Sequence[Item], flags: RawStreamFlag = ALL, start: Position | None = None
     ) -> messages.RawContent:
         """Send a program in several messages.
 
         Returns the last reply, or the first rejection.
         """
         self.number += 1
+        parts = [words(item) for item in items]
         values, own, at = millionths(self.bench.position if start is None else start), flags, 0
-        for number, order in enumerate(orders, 1):
-            values += order.words
-            last = number == len(orders)
-            if not last and len(values) + len(orders[number].words) <= _WORDS:
+        for number, part in enumerate(parts, 1):
+            values += part
+            last = number == len(parts)
+            if not last and len(values) + len(parts[number]) <= _WORDS:
                 continue
             reply = self.say(values, number - at, own if last else own & ~END, first=at)
             values, own, at = [], flags & ~BEGIN, number
             if isinstance(reply, messages.RawPointsRefused):
                 break
         return reply
+
+    def batch(self, items: Sequence[Item], flags: RawStreamFlag, first: int) -> messages.RawContent:
+        """Send a further batch of the present program and return the reply."""
+        values = [word for item in items for word in words(item)]
+        return self.say(values, len(items), flags, first=first)
 
     def say(
         self, values: Sequence[int], count: int, flags: RawStreamFlag, first: int = 0

@@ -12,21 +12,14 @@ from rapidgen.verification.messages import RawComm, RawReason, RawTrajectoryStat
 from rapidgen.verification.model import CheckFailed, NotApplicable
 from rapidgen.verification.position_checks import Point, Position, changed, inward, small_unit
 from rapidgen.verification.raw_programs import WHOLE, Programmer, orders
-from rapidgen.verification.stream import BEGIN, END, FLUSH, NONE, Streamer, way
-from rapidgen.verification.stream_steps import (
+from rapidgen.verification.steps import (
     WAY,
-    Accepted,
     Alone,
     At,
-    Batch,
-    Begin,
-    Change,
-    Changed,
     Disconnected,
     Download,
     Executed,
     Fails,
-    Foreign,
     Healthy,
     Logged,
     MovesOn,
@@ -38,21 +31,30 @@ from rapidgen.verification.stream_steps import (
     Points,
     Progress,
     Reconnect,
-    Refused,
     Rest,
+    Run,
     Standing,
     StartAgain,
     Status,
     Stayed,
     Step,
     Stop,
-    StreamRun,
     Took,
     Way,
-    Whole,
     Works,
     generated,
     steps,
+)
+from rapidgen.verification.stream import BEGIN, END, FLUSH, NONE, Streamer, way
+from rapidgen.verification.stream_steps import (
+    Accepted,
+    Batch,
+    Begin,
+    Change,
+    Changed,
+    Foreign,
+    Refused,
+    Whole,
     unrelated,
 )
 from rapidgen.verification.suite.motion_task import datum
@@ -198,14 +200,14 @@ class _Counts:
     def __init__(self, ring: int) -> None:
         self._places = ring - 1
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Compare the reply with the ring buffer."""
         bench, reply = run.bench, run.stream.accepted("a batch")
         # The motion task may take points between the two readings, of planned and then of places:
         # the first points are short, and random task order decides how many.
         setting = bench.setting
         otherwise = setting.seed or setting.group or setting.random_schedule
-        between = 4 if otherwise or setting.slowness > 1 else 0
+        between = 4 if otherwise or setting.slowness > 1 else 1
         task = bench.controller.task(bench.task("ROS_motion"))
         in_it = task[datum(bench, "ros_head")] - task[datum(bench, "ros_tail")]
         if (
@@ -229,9 +231,9 @@ class _Pieces:
     def __init__(self, size: int) -> None:
         self._size = size
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Send the pieces, and read both replies."""
-        stream = run.stream = Streamer(run.bench, run.stream.link, number=run.stream.number + 1)
+        stream = run.stream = Streamer(run.bench, run.link, number=run.stream.number + 1)
         run.trajectory += 1
         run.of_stream = run.trajectory
         data = stream.frame(run.way[:15], BEGIN) + stream.frame(run.way[15:], END, 15)
@@ -330,7 +332,7 @@ class _Fill:
         self._places = ring - 1
         self.sent = 3
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Fill the ring buffer."""
         stream, most = run.stream, batches.batch_points(len(run.bench.position))
         stream.put(())
@@ -348,7 +350,7 @@ class _Empty:
     def __init__(self, ring: int) -> None:
         self._places = ring - 1
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Ask with batches without points."""
         while run.stream.accepted("a stream after one that was stopped").room < self._places:
             run.bench.run(0.1)
@@ -462,11 +464,11 @@ class _Sent:
     def __init__(self, data: bytes, *, answered: bool = False) -> None:
         self._data, self._answered = data, answered
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Send the bytes."""
-        run.stream.link.send(self._data)
+        run.link.send(self._data)
         if self._answered:
-            answer = messages.decode(run.stream.link.expect_reply(2, "a failure is the reply"))
+            answer = messages.decode(run.link.expect_reply(2, "a failure is the reply"))
             if not isinstance(answer, messages.RawPointsRefused | messages.RawFailure):
                 raise CheckFailed(f"the reply is {answer}")
 
@@ -487,9 +489,9 @@ class _Beginning:
     def __str__(self) -> str:
         return str(self._message)
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Send the message as the beginning."""
-        run.stream = Streamer(run.bench, run.stream.link, number=run.stream.number + 1)
+        run.stream = Streamer(run.bench, run.link, number=run.stream.number + 1)
         run.trajectory += 1
         run.of_stream = run.trajectory
         self._message.play(run)
@@ -645,7 +647,7 @@ class _Damaged:
     def __init__(self, place: int, stream: int) -> None:
         self._place, self._stream = place, stream
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Send the beginning; the driver may take it for one or not."""
         data = bytearray(batches.points_frame(3, 0, run.way, BEGIN))
         data[self._place : self._place + 8] = b"\xff" * 8
@@ -749,7 +751,7 @@ class _Reason:
     def __init__(self, reasons: RawReason | tuple[RawReason, ...]) -> None:
         self._reasons = reasons if isinstance(reasons, tuple) else (reasons,)
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Read PROGRESS."""
         run.pause()
         seen = run.bench.progress(run.watcher)
@@ -781,10 +783,10 @@ class _ProgramRefused:
     def __init__(self, reasons: tuple[RawReason, ...]) -> None:
         self._reasons = reasons
 
-    def play(self, run: StreamRun) -> None:
+    def play(self, run: Run) -> None:
         """Send the first part of a program."""
         run.trajectory += 1
-        program = Programmer(run.bench, run.stream.link)
+        program = Programmer(run.bench, run.link)
         reply = program.send(orders(run.bench, 3, random.Random(3)), BEGIN | WHOLE)
         if not isinstance(reply, messages.RawPointsRefused) or reply.reason not in self._reasons:
             raise CheckFailed(f"the first part of a program is answered by {reply}")

@@ -3,27 +3,58 @@
 import math
 import random
 import struct
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import zip_longest
 
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.config.model import UserRoutine
 from rapidgen.runtime.builtins.motion.targets import data_of
 from rapidgen.runtime.motion_interface import NO_OFFSETS
 from rapidgen.system.model import ModuleFile, System
-from rapidgen.verification import messages
 from rapidgen.verification.batches import millionths
 from rapidgen.verification.case import SuiteGroup
-from rapidgen.verification.messages import RawInstruction, RawReason, RawTrajectoryState
+from rapidgen.verification.messages import (
+    RawFailure,
+    RawInstruction,
+    RawNotDone,
+    RawPointsRefused,
+    RawReason,
+    RawResult,
+    RawResultReply,
+    RawSpeed,
+    RawTarget,
+    RawTargetReply,
+    RawTrajectoryState,
+)
 from rapidgen.verification.model import CheckFailed, NotApplicable
+from rapidgen.verification.program_steps import (
+    TAKEN,
+    Ended,
+    Go,
+    No,
+    Program,
+    Reached,
+    instruction,
+)
 from rapidgen.verification.raw_connection import RawLink
-from rapidgen.verification.raw_programs import ALL, Programmer, computes, orders, reached
-from rapidgen.verification.suite.control import not_done, stop
+from rapidgen.verification.raw_programs import RawMove, computes, orders, reached
+from rapidgen.verification.steps import (
+    Ask,
+    Elsewhere,
+    MovesOn,
+    Pass,
+    Rest,
+    Run,
+    Step,
+    Stop,
+    generated,
+)
+from rapidgen.verification.suite.program_moves import joint_move, to_pose
 from rapidgen.verification.testbench import Bench
 
 case = SuiteGroup("own routines", needs="stream")
 
-_CALL = RawInstruction.CALL
 _MODULE = b"""MODULE cell
     PERS num calls := 0;
     PERS bool undone := FALSE;
@@ -76,6 +107,25 @@ _DISPLACEMENTS = (
 _HOLDERS = ("cell", "nocell")
 
 
+WELD, LONG, ABSENT, TEACH = range(4)
+"""Numbers of the routines in the configuration for these cases (tools/cell.yaml)."""
+_THESE = {
+    "cell:weld": ("num", "bool", "bool", "string"),
+    "cell:wait_long": (),
+    "nocell:weld": (),
+    "cell:teach": ("robtarget", "jointtarget", "jointtarget"),
+}
+_HALF = math.sqrt(0.5)
+_DISPLACEMENTS = (
+    ((0.05, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)),
+    ((0.0, 0.0, 0.0), (_HALF, 0.0, 0.0, _HALF)),
+)
+"""Of a user program: position (m) and orientation of a robtarget's zero."""
+_HOLDERS = ("cell", "nocell")
+BAD_VALUE, NO_ROUTINE = RawReason.BAD_VALUE, RawReason.NO_ROUTINE
+POSE_MISMATCH = RawReason.POSE_MISMATCH
+
+
 def knows_these(bench: Bench) -> bool:
     """True if the configuration's routines are those of this module."""
     own = {r.call: tuple(p.type for p in r.parameters) for r in bench.group.routines}
@@ -87,263 +137,32 @@ def _has_these(bench: Bench) -> bool:
     return knows_these(bench) and bench.setting.dialect.installed_modules_exist
 
 
-@case("routine-absent", "a routine of a module that is not there refuses its program")
-def _absent(bench: Bench) -> None:
-    """Reject absent routines at once with index; without routines, no CALL."""
-    client = Programmer(bench)
-    if not bench.group.routines:
-        reply = _calls(client, LONG)
-        client.refused(reply, RawReason.NO_INSTRUCTION, 0, "a driver without routines")
-        return
-    for number, routine in enumerate(bench.group.routines):
-        poses = any(p.type == "robtarget" for p in routine.parameters)
-        if ":" in routine.call and not routine.returns and (computes(bench) or not poses):
-            reply = _calls(client, number, _zeros(bench, routine))
-            client.refused(reply, RawReason.NO_ROUTINE, 0, f"{routine.call} is not there")
-    if knows_these(bench) and not bench.setting.dialect.installed_modules_exist:
-        with bench.second_controller(_with_module(bench)) as other:
-            reply = _calls(Programmer(other), WELD, weld_words(1.0))
-            client.refused(
-                reply, RawReason.NO_ROUTINE, 0, "a module that the configuration does not list"
-            )
-    if not _has_these(bench):
-        return
-    with bench.second_controller(_with_module(bench)) as other:
-        client = Programmer(other)
-        for number in (ABSENT, 4, -1):
-            client.refused(_calls(client, number), RawReason.NO_ROUTINE, 0, f"routine {number}")
-        for seconds in (-1.0, 2001.0):
-            reply = _calls(client, LONG, seconds=seconds)
-            client.refused(reply, RawReason.BAD_VALUE, 0, f"a routine that may take {seconds} s")
-        reply = _calls(client, WELD, weld_words(1.0, dry=2))
-        client.refused(reply, RawReason.BAD_VALUE, 0, "a bool that is 2")
-        reply = _calls(client, WELD, [2143289344, *weld_words(1.0)[1:]])
-        client.refused(reply, RawReason.NOT_FINITE, 0, "a num that is none")
-        for length in (-1.0, 2.5, 81.0):
-            values = [*weld_words(1.0)[:3], *millionths([length]), *[0] * 21]
-            reply = _calls(client, WELD, values)
-            client.refused(reply, RawReason.BAD_VALUE, 0, f"a text of {length} characters")
-        other.assert_at_rest(0.5, "no routine was called")
+def _needs_these(make: Callable[[Bench], Iterator[Step]]) -> Callable[[Bench], None]:
+    """Return the function of a case with these steps on a controller that has the module."""
+
+    @generated
+    def steps(bench: Bench) -> Iterator[Step]:
+        if not _has_these(bench):
+            raise NotApplicable("the routines that are tried are not in the configuration")
+        yield Elsewhere(_with_modules(bench, _CELL), make)
+
+    return steps
 
 
-@case("routine-missing", "a procedure that its module does not have ends the program in its turn")
-def _missing(bench: Bench) -> None:
-    """Load no module: earlier instructions run, no other routine is called."""
-    if not _has_these(bench):
-        raise NotApplicable("the routines that are tried are not in the configuration")
-    system = _with_module(bench, ModuleFile("nocell", "nocell.mod", b"MODULE nocell\nENDMODULE\n"))
-    with bench.second_controller(system) as other:
-        client, watcher = Programmer(other), other.watcher()
-        client.number += 1
-        wait = [RawInstruction.WAIT, *millionths([0.1])]
-        words = [*millionths(other.position), *wait, _CALL, *millionths([ABSENT, 0.0]), *wait]
-        _taken(client.say(words, 3, ALL))
-        other.assert_at_rest(1, "there is no such procedure")
-        seen = other.progress(watcher)
-        expected = (RawTrajectoryState.FAILED, RawReason.NO_ROUTINE, 1)
-        if (seen.state, seen.reason, seen.reached) != expected:
-            raise CheckFailed(f"a procedure is missing, PROGRESS says {seen}")
-        _taken(_calls(client, WELD, weld_words(1.0)))
-        if _ended(other, client, 4).values[0] != 2:
-            raise CheckFailed("a routine after one that is missing has not run")
-    empty = tuple(ModuleFile(n, f"{n}.mod", f"MODULE {n}\nENDMODULE\n".encode()) for n in _HOLDERS)
-    with bench.second_controller(_with_modules(bench, *empty)) as other:
-        client, watcher = Programmer(other), other.watcher()
-        for number, routine in enumerate(other.group.routines):
-            if number == TEACH and not computes(other):
-                continue
-            _taken(_calls(client, number, _zeros(other, routine)))
-            other.assert_at_rest(0.5, f"there is no {routine.call}")
-            seen = other.progress(watcher)
-            if (seen.reason, seen.reached) != (RawReason.NO_ROUTINE, 0):
-                raise CheckFailed(f"{routine.call} is missing, PROGRESS says {seen}")
+def call(number: int, arguments: Sequence[int] = (), *, seconds: float = 0.0) -> list[int]:
+    """Return the words of a call, which may take so long; 0: as long as it takes."""
+    return [*instruction(RawInstruction.CALL, number, seconds), *arguments]
 
 
-@case("routine-results", "a routine's parameters and its error come back")
-def _results(bench: Bench) -> None:
-    """Return numbers, texts and errors; the program continues or ends."""
-    if not _has_these(bench):
-        raise NotApplicable("the routines that are tried are not in the configuration")
-    with bench.second_controller(_with_module(bench)) as other:
-        client, watcher = Programmer(other), other.watcher()
-        for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
-            _taken(_calls(client, WELD, weld_words(seam, dry=dry, good=good)))
-            reply = _ended(other, client, 4)
-            same = float(dry == good)
-            if (reply.error, reply.values[:3], reply.text) != (0, (2 * seam, dry, same), "abab"):
-                raise CheckFailed(f"weld({seam}, {dry}) is reported as {reply}")
-            if _asks(client, 1).text or _asks(client, 9).text or _asks(client, -1).text:
-                raise CheckFailed("a parameter that is no string has a text")
-        for text in ("", "x" * 40, "12345"):
-            _taken(_calls(client, WELD, weld_words(1.0, text=text)))
-            reply = _ended(other, client, 4)
-            if (reply.values[0], reply.text) != (2.0, 2 * text):
-                raise CheckFailed(f"a text is to come back twice: {reply}")
-        _taken(_calls(client, WELD, weld_words(-1.0)))
-        reply = _ended(other, client, 0)
-        if reply.error == 0 or reply.text != "weld_failed":
-            raise CheckFailed(f"weld has raised weld_failed, RESULT says {reply}")
-        other.run(0.5)
-        seen = other.progress(watcher)
-        if (seen.state, seen.reason) != (RawTrajectoryState.FAILED, RawReason.ROUTINE):
-            raise CheckFailed(f"a routine has raised an error, PROGRESS says {seen}")
-        if other.controller.task(other.group.task)["cell:calls"] != 8:
-            raise CheckFailed("weld was not called eight times")
-
-
-@case("routine-alone", "nothing else begins while a routine runs", needs="control")
-def _alone(bench: Bench) -> None:
-    """Do not interrupt a routine by clients; STOP and time-outs end it.
-
-    UNDO runs.
-    """
-    if not _has_these(bench):
-        raise NotApplicable("the routines that are tried are not in the configuration")
-    with bench.second_controller(_with_module(bench)) as other:
-        client, watcher = Programmer(other), other.watcher()
-        own = other.controller.task(other.group.task)
-        trajectory = _taken(_calls(client, LONG))
-        other.run(0.5)
-        reply = _calls(client, LONG)
-        client.refused(reply, RawReason.MOVING, -1, "a program into a routine")
-        reply = other.control().ask(messages.RawSpeed(50.0))
-        not_done(reply, RawReason.IN_ROUTINE, "SPEED of a routine")
-        points = other.wave(4)
-        client.link.send(other.download(points))
-        newer = RawLink(other, other.group.ports.motion)
-        newer.send(other.download(points))
-        newer.wait_disconnected(3, "a newer client's motion into a routine")
-        seen = other.progress(watcher)
-        if (seen.trajectory, seen.state) != (trajectory, RawTrajectoryState.MOVING):
-            raise CheckFailed(f"a routine runs, PROGRESS says {seen}")
-        other.until(lambda: own["cell:calls"] == 1, 10, "the routine comes to its end")
-        other.run(0.5)
-        if own["cell:undone"] or other.progress(watcher).state != RawTrajectoryState.DONE:
-            raise CheckFailed("the routine did not end by itself")
-        other.assert_at_rest(1, "a trajectory was turned away")
-        for reason, seconds in ((RawReason.OVERTIME, 1.0), (RawReason.STOPPED, 0.0)):
-            _taken(_calls(client, LONG, seconds=seconds))
-            other.run(2)
-            if reason is RawReason.STOPPED:
-                stop(other.control())
-            other.run(1)
-            seen = other.progress(watcher)
-            if (seen.reason, own["cell:undone"], own["cell:calls"]) != (reason, True, 1):
-                raise CheckFailed(f"{reason.name} of a routine: PROGRESS says {seen}")
-        # The rejected path is accepted now. At its second corner the state and the control server
-        # look for clients at the same time: with random task order it may be a stop.
-        other.assert_moves_through(client.link, points)
-        program = orders(other, 2, random.Random(28))
-        client.takes("a program after a routine", program)
-        other.wait_until_at(program[-1].joints, 60)
-
-
-@case("program-displaced", "a displacement of the customer's own program moves no program of ours")
-def _displaced(bench: Bench) -> None:
-    """Displace in a routine: the program ends before the next pose.
-
-    PDispOn and EOffsOn would lead it to an unchecked position.
-    """
-    if not computes(bench):
-        raise NotApplicable("the driver computes no poses")
-    _displaced_before(bench)
-    if not _has_these(bench):
-        return
-    with bench.second_controller(_with_module(bench)) as other:
-        client, watcher, modal = Programmer(other), other.watcher(), other.motion_group.modal
-        data = data_of(other.rapid_task("ROS_motion"), other.motion_group)
-        line = replace(orders(other, 4, random.Random(33))[-1], kind=RawInstruction.MOVE_L)
-        line = replace(line, pose=reached(other, line.joints))
-        joints = replace(line, kind=RawInstruction.MOVE_ABSJ, pose=None)
-        for move, displacement in (
-            *((line, displacement) for displacement in (*_DISPLACEMENTS, None)),
-            (joints, _DISPLACEMENTS[0]),
-        ):
-            modal.displacement, data.external_offset = IDENTITY, NO_OFFSETS
-            client.number += 1
-            call = [_CALL, *millionths([LONG, 0.0])]
-            _taken(client.say([*millionths(other.position), *call, *move.words], 2, ALL))
-            # As the routine may do.
-            other.run(4)
-            if displacement is None:
-                data.external_offset = (0.0, 5.0, 0.0, 0.0, 0.0, 0.0)
-            else:
-                modal.displacement = displacement
-            if move is joints:
-                other.wait_until_at(move.joints, 60)
-                return
-            other.assert_at_rest(7, "a routine has displaced the poses after it")
-            seen = other.progress(watcher)
-            if (seen.reason, seen.reached) != (RawReason.POSE_MISMATCH, 1):
-                raise CheckFailed(f"poses are displaced, PROGRESS says {seen}")
-
-
-def _displaced_before(bench: Bench) -> None:
-    """Displace before the program: rejected, or ended without motion.
-
-    Without the displacement it moves.
-    """
-    first, *_, last = orders(bench, 3, random.Random(33))
-    last = replace(last, kind=RawInstruction.MOVE_ABSJ, pose=None)
-    client, modal = Programmer(bench), bench.motion_group.modal
-    client.takes("a program", [first])
-    bench.wait_until_at(first.joints, 60)
-    move = replace(last, kind=RawInstruction.MOVE_J, pose=reached(bench, last.joints), zone=None)
-    for displacement in _DISPLACEMENTS:
-        modal.displacement = displacement
-        reply = client.send([move])
-        if isinstance(reply, messages.RawPointsRefused):
-            client.refused(reply, RawReason.POSE_MISMATCH, 0, "poses that are displaced")
-        bench.assert_at_rest(1, "the customer's program has displaced the poses")
-    client.takes("joints, which no displacement takes elsewhere", [last])
-    bench.wait_until_at(last.joints, 60)
-    client.takes("the way back", [first])
-    bench.wait_until_at(first.joints, 60)
-    modal.displacement = IDENTITY
-    client.takes("a program without a displacement", [move])
-    bench.wait_until_at(move.joints, 60)
-
-
-@case("routine-targets", "targets that a routine leaves come back")
-def _targets(bench: Bench) -> None:
-    """Report targets with their numbers, in m and rad; none if absent."""
-    if not _has_these(bench) or not computes(bench):
-        raise NotApplicable("the routines that are tried are not there, or no poses are computed")
-    with bench.second_controller(_with_module(bench)) as other:
-        client = Programmer(other)
-        first, second = (order.joints for order in orders(other, 3, random.Random(29))[1:])
-        (x, y, z), turn = reached(other, first)
-        away = millionths([x + 0.1, y, z, *turn, *first, *first, *second])
-        reply = _calls(client, TEACH, away)
-        client.refused(reply, RawReason.POSE_MISMATCH, 0, "joints that reach another pose")
-        values = millionths([x, y, z, *turn, *first, *first, *second])
-        _taken(_calls(client, TEACH, values))
-        _ended(other, client, 0)
-        reply = _asks_target(client, 0, 1)
-        _near("robtarget", (*reply.position, *reply.orientation), (x + 0.25, y, z, *turn))
-        _near("configuration", reply.configuration, (-1, 2, -3, 4))
-        for number, joints in ((1, second), (2, first)):
-            reply = _asks_target(client, 1, number)
-            _near(f"jointtarget {number}", reply.joints[: len(joints)], joints)
-            if any(reply.joints[len(joints) :]) or any(reply.position) or any(reply.orientation):
-                raise CheckFailed(f"TARGET of a jointtarget is answered by {reply}")
-        for kind, number in ((0, 0), (0, 2), (1, 0), (1, 3), (2, 1), (-1, 1), (1, -1)):
-            requested = messages.RawTarget(kind, number)
-            if not isinstance(client.link.ask(requested), messages.RawFailure):
-                raise CheckFailed(f"a routine has no target {requested}")
-
-
-def _asks_target(client: Programmer, joints: int, parameter: int) -> messages.RawTargetReply:
-    reply = client.link.ask(messages.RawTarget(joints, parameter))
-    if not isinstance(reply, messages.RawTargetReply):
-        raise CheckFailed(f"TARGET is answered by {reply}")
-    return reply
-
-
-def _near(what: str, reply: Sequence[float], expected: Sequence[float]) -> None:
-    """Check that numbers equal the sent ones within the wire's precision."""
-    if not all(abs(a - b) < 1e-5 for a, b in zip(reply, expected, strict=True)):
-        raise CheckFailed(f"the {what} has come back as {reply}, not {expected}")
+def weld_words(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
+    """Return words of weld's arguments: a num as float32, two bools, a text."""
+    number = struct.unpack("<i", struct.pack("<f", seam))[0]
+    letters = text.encode() + bytes(-len(text) % 4)
+    return [
+        number,
+        *millionths([float(dry), float(good), float(len(text))]),
+        *struct.unpack(f"<{len(letters) // 4}i", letters),
+    ]
 
 
 def _zeros(bench: Bench, routine: UserRoutine) -> list[int]:
@@ -361,54 +180,6 @@ def _zeros(bench: Bench, routine: UserRoutine) -> list[int]:
     return [w for p in routine.parameters for w in millionths(values[p.type])]
 
 
-def weld_words(seam: float, *, dry: int = 0, good: int = 0, text: str = "ab") -> list[int]:
-    """Return words of weld's arguments: a num as float32, two bools, a text."""
-    number = struct.unpack("<i", struct.pack("<f", seam))[0]
-    letters = text.encode() + bytes(-len(text) % 4)
-    return [
-        number,
-        *millionths([float(dry), float(good), float(len(text))]),
-        *struct.unpack(f"<{len(letters) // 4}i", letters),
-    ]
-
-
-def _calls(
-    client: Programmer, number: int, arguments: Sequence[int] = (), *, seconds: float = 0.0
-) -> messages.RawContent:
-    """Send a program of one call and return its reply."""
-    client.number += 1
-    values = [*millionths(client.bench.position), int(_CALL), *millionths([number, seconds])]
-    return client.say([*values, *arguments], 1, ALL)
-
-
-def _taken(reply: messages.RawContent) -> int:
-    if not isinstance(reply, messages.RawPointsAccepted):
-        raise CheckFailed(f"a call is right, the reply is {reply}")
-    return reply.trajectory
-
-
-def _asks(client: Programmer, parameter: int) -> messages.RawResultReply:
-    reply = client.link.ask(messages.RawResult(parameter))
-    if not isinstance(reply, messages.RawResultReply):
-        raise CheckFailed(f"RESULT is answered by {reply}")
-    return reply
-
-
-def _ended(bench: Bench, client: Programmer, parameter: int) -> messages.RawResultReply:
-    """Return RESULT when the newest call has ended."""
-    newest = bench.progress(bench.watcher()).trajectory
-    for _ in range(100):
-        reply = _asks(client, parameter)
-        if reply.trajectory == newest:
-            return reply
-        bench.run(0.02)
-    raise CheckFailed("RESULT does not tell the newest call")
-
-
-def _with_module(bench: Bench, *more: ModuleFile) -> System:
-    return _with_modules(bench, ModuleFile("cell", "cell.mod", _MODULE), *more)
-
-
 def _with_modules(bench: Bench, *more: ModuleFile) -> System:
     """Return the system with these additional modules in the motion task."""
     tasks = tuple(
@@ -416,3 +187,262 @@ def _with_modules(bench: Bench, *more: ModuleFile) -> System:
         for task in bench.system.tasks
     )
     return replace(bench.system, tasks=tasks)
+
+
+_CELL = ModuleFile("cell", "cell.mod", _MODULE)
+_EMPTY = tuple(ModuleFile(n, f"{n}.mod", f"MODULE {n}\nENDMODULE\n".encode()) for n in _HOLDERS)
+
+
+# -- absent routines ---------------------------------------------------------------------------
+
+
+@case("routine-absent", "a routine of a module that is not there refuses its program")
+@generated
+def _absent(bench: Bench) -> Iterator[Step]:
+    """Reject absent routines at once with index; without routines, no CALL."""
+    if not bench.group.routines:
+        yield Program([call(LONG)], No(RawReason.NO_INSTRUCTION), "a driver without routines")
+        return
+    for number, routine in enumerate(bench.group.routines):
+        poses = any(p.type == "robtarget" for p in routine.parameters)
+        if ":" in routine.call and not routine.returns and (computes(bench) or not poses):
+            yield Program([call(number, _zeros(bench, routine))], No(NO_ROUTINE), routine.call)
+    if _has_these(bench):
+        yield Elsewhere(_with_modules(bench, _CELL), _wrong_calls)
+    elif knows_these(bench):
+        # The configuration does not list the module.
+        unlisted = Program([call(WELD, weld_words(1.0))], No(NO_ROUTINE))
+        yield Elsewhere(_with_modules(bench, _CELL), lambda _: (unlisted,))
+
+
+def _wrong_calls(_: Bench) -> Iterator[Step]:
+    """Yield calls that are rejected where the module is."""
+    for number in (ABSENT, 4, -1):
+        yield Program([call(number)], No(NO_ROUTINE), f"routine {number}")
+    for seconds in (-1.0, 2001.0):
+        yield Program([call(LONG, seconds=seconds)], No(BAD_VALUE), f"{seconds} s")
+    yield Program([call(WELD, weld_words(1.0, dry=2))], No(BAD_VALUE), "a bool that is 2")
+    nan = [2143289344, *weld_words(1.0)[1:]]
+    yield Program([call(WELD, nan)], No(RawReason.NOT_FINITE))
+    for length in (-1.0, 2.5, 81.0):
+        values = [*weld_words(1.0)[:3], *millionths([length]), *[0] * 21]
+        yield Program([call(WELD, values)], No(BAD_VALUE), f"a text of {length} characters")
+    yield Rest(0.5)
+
+
+@case("routine-missing", "a procedure that its module does not have ends the program in its turn")
+@generated
+def _missing(bench: Bench) -> Iterator[Step]:
+    """Load no module: earlier instructions run, no other routine is called."""
+    if not _has_these(bench):
+        raise NotApplicable("the routines that are tried are not in the configuration")
+    wait = instruction(RawInstruction.WAIT, 0.1)
+
+    def one_missing(_: Bench) -> Iterator[Step]:
+        yield from (Program([wait, call(ABSENT), wait]), Rest(1))
+        yield Ended(NO_ROUTINE, 1, RawTrajectoryState.FAILED)
+        yield from (Program([call(WELD, weld_words(1.0))]), Result(4, values=(2.0,)))
+
+    def all_missing(other: Bench) -> Iterator[Step]:
+        for number, routine in enumerate(other.group.routines):
+            if number != TEACH or computes(other):
+                yield Program([call(number, _zeros(other, routine))], what=routine.call)
+                yield from (Rest(0.5), Ended(NO_ROUTINE, 0))
+
+    yield Elsewhere(_with_modules(bench, _CELL, _EMPTY[1]), one_missing)
+    yield Elsewhere(_with_modules(bench, *_EMPTY), all_missing)
+
+
+# -- results -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """RESULT of the newest call: its error, values and the text of a parameter."""
+
+    parameter: int
+    text: str | None = None
+    values: tuple[float, ...] = ()
+    error: bool = False
+
+    def play(self, run: Run) -> None:
+        for _ in range(100):
+            reply = run.link.ask(RawResult(self.parameter))
+            if isinstance(reply, RawResultReply) and reply.trajectory == run.trajectory:
+                break
+            run.bench.run(0.02)
+        if (
+            not isinstance(reply, RawResultReply)
+            or reply.trajectory != run.trajectory
+            or bool(reply.error) is not self.error
+            or self.text not in (None, reply.text)
+            or reply.values[: len(self.values)] != self.values
+        ):
+            raise CheckFailed(f"trajectory {run.trajectory}, the reply is {reply}")
+
+
+@case("routine-results", "a routine's parameters and its error come back")
+@_needs_these
+def _results(other: Bench) -> Iterator[Step]:
+    """Return numbers, texts and errors; the program continues or ends."""
+    for seam, dry, good in ((1.5, 0, 0), (2.0**100, 1, 1), (-0.0, 0, 1), (1.5, 1, 0)):
+        yield Program([call(WELD, weld_words(seam, dry=dry, good=good))])
+        yield Result(4, "abab", (2 * seam, dry, float(dry == good)))
+        # Parameters that are no string have no text.
+        yield from (Result(parameter, "") for parameter in (1, 9, -1))
+    for text in ("", "x" * 40, "12345"):
+        yield from (Program([call(WELD, weld_words(1.0, text=text))]), Result(4, 2 * text, (2.0,)))
+    yield from (Program([call(WELD, weld_words(-1.0))]), Result(0, "weld_failed", error=True))
+    yield from (Pass(0.5), Ended(RawReason.ROUTINE, state=RawTrajectoryState.FAILED))
+    yield Routine(calls=8)
+
+
+@dataclass(frozen=True, slots=True)
+class Routine:
+    """The routines have ended so often, and the last one was undone or not."""
+
+    calls: int
+    undone: bool | None = None
+
+    def play(self, run: Run) -> None:
+        data = run.bench.controller.task(run.bench.group.task)
+        seen = data["cell:calls"], data["cell:undone"]
+        if seen[0] != self.calls or self.undone not in (None, seen[1]):
+            raise CheckFailed(f"calls and undone are {seen}")
+
+
+@case("routine-alone", "nothing else begins while a routine runs", needs="control")
+@_needs_these
+def _alone(other: Bench) -> Iterator[Step]:
+    """Do not interrupt a routine by clients; STOP and time-outs end it.
+
+    UNDO runs.
+    """
+    yield from (Program([call(LONG)]), Pass(0.5))
+    yield Program([call(LONG)], No(RawReason.MOVING, -1), "a program into a routine")
+    yield Ask(RawSpeed(50.0), RawNotDone(RawReason.IN_ROUTINE))
+    points = other.wave(4)
+    yield from (_TurnedAway(other.download(points)), Ended(None, state=RawTrajectoryState.MOVING))
+    own = other.controller.task(other.group.task)
+    other.until(lambda: own["cell:calls"] == 1, 10, "the routine comes to its end")
+    yield from (Pass(0.5), Routine(1, False), Ended(None, state=RawTrajectoryState.DONE), Rest(1))
+    for end, seconds in ((Pass(0), 1.0), (Stop(control=True), 0.0)):
+        reason = RawReason.OVERTIME if seconds else RawReason.STOPPED
+        yield from (Program([call(LONG, seconds=seconds)]), Pass(2), end, Pass(1), Ended(reason))
+        yield Routine(1, True)
+    # The rejected path is accepted now. At its second corner the state and the control server
+    # look for clients at the same time: with random task order it may be a stop.
+    yield MovesOn(points=points)
+    yield Go(orders(other, 2, random.Random(28)))
+
+
+@dataclass(frozen=True, slots=True)
+class _TurnedAway:
+    """Send a download, and the same from a newer client, which is disconnected."""
+
+    download: bytes
+
+    def play(self, run: Run) -> None:
+        newer = RawLink(run.bench, run.bench.group.ports.motion)
+        for link in (run.link, newer):
+            link.send(self.download)
+        newer.wait_disconnected(3, "a newer client's motion into a routine")
+
+
+# -- poses -------------------------------------------------------------------------------------
+
+
+@case("program-displaced", "a displacement of the customer's own program moves no program of ours")
+@generated
+def _displaced(bench: Bench) -> Iterator[Step]:
+    """Displace before a program and in a routine: it ends before the next pose.
+
+    PDispOn and EOffsOn would lead it to an unchecked position.
+    """
+    if not computes(bench):
+        raise NotApplicable("the driver computes no poses")
+    first, *_, last = orders(bench, 3, random.Random(33))
+    joints, modal = joint_move(last), bench.motion_group.modal
+    move = replace(to_pose(bench, last, RawInstruction.MOVE_J), zone=None)
+    yield Go([first])
+    for displacement in _DISPLACEMENTS:
+        modal.displacement = displacement
+        yield from (_NotExecuted(move), Rest(1))
+    yield from (Go([joints], "joints, which no displacement takes elsewhere"), Go([first]))
+    modal.displacement = IDENTITY
+    yield Go([move], "a program without a displacement")
+    if _has_these(bench):
+        yield Elsewhere(_with_modules(bench, _CELL), _displaced_by_routine)
+
+
+@dataclass(frozen=True, slots=True)
+class _NotExecuted:
+    """Send a move to a displaced pose: it is rejected at once, or fails later."""
+
+    move: RawMove
+
+    def play(self, run: Run) -> None:
+        reply = run.client.send([self.move])
+        if isinstance(reply, RawPointsRefused):
+            No(POSE_MISMATCH).check(reply, run, 0)
+
+
+def _displaced_by_routine(other: Bench) -> Iterator[Step]:
+    """Yield programs during whose call the poses are displaced."""
+    modal = other.motion_group.modal
+    data = data_of(other.rapid_task("ROS_motion"), other.motion_group)
+    line = to_pose(other, orders(other, 4, random.Random(33))[-1], RawInstruction.MOVE_L)
+    for displacement in (*_DISPLACEMENTS, None):
+        # As the routine may do.
+        yield from (Program([call(LONG), line], what=f"{displacement}"), Pass(4))
+        if displacement is None:
+            data.external_offset = (0.0, 5.0, 0.0, 0.0, 0.0, 0.0)
+        else:
+            modal.displacement = displacement
+        yield from (Rest(7), Ended(POSE_MISMATCH, 1))
+        modal.displacement, data.external_offset = IDENTITY, NO_OFFSETS
+    yield from (Program([call(LONG), joint_move(line, line.zone)]), Pass(4))
+    modal.displacement = _DISPLACEMENTS[0]
+    yield Reached(line.joints)
+
+
+@case("routine-targets", "targets that a routine leaves come back")
+@_needs_these
+def _targets(other: Bench) -> Iterator[Step]:
+    """Report targets with their numbers, in m and rad; none if absent."""
+    if not computes(other):
+        raise NotApplicable("the driver computes no poses")
+    first, second = (move.joints for move in orders(other, 3, random.Random(29))[1:])
+    (x, y, z), turn = reached(other, first)
+    for away, reply in ((0.1, No(POSE_MISMATCH)), (0.0, TAKEN)):
+        values = millionths([x + away, y, z, *turn, *first, *first, *second])
+        yield Program([call(TEACH, values)], reply)
+    yield Result(0)
+    yield _Target(0, 1, ((x + 0.25, y, z), turn, (-1, 2, -3, 4), None))
+    for number, joints in ((1, second), (2, first)):
+        yield _Target(1, number, ((), (), None, joints))
+    for kind, number in ((0, 0), (0, 2), (1, 0), (1, 3), (2, 1), (-1, 1), (1, -1)):
+        yield _Target(kind, number)
+
+
+@dataclass(frozen=True, slots=True)
+class _Target:
+    """TARGET: a jointtarget (1) or robtarget (0) of the newest call; by default there is none."""
+
+    kind: int
+    number: int
+    expected: tuple[Sequence[float] | None, ...] = ()
+    """Position, orientation, configuration, joints; None: not compared."""
+
+    def play(self, run: Run) -> None:
+        reply = run.link.ask(RawTarget(self.kind, self.number))
+        if isinstance(reply, RawFailure) and not self.expected:
+            return
+        if not isinstance(reply, RawTargetReply) or not self.expected:
+            raise CheckFailed(f"the reply is {reply}")
+        for seen, part in zip(reply[1:], self.expected, strict=True):
+            # The wire rounds to millionths; joints are padded with zeros.
+            if part is not None and any(
+                abs(a - b) >= 1e-5 for a, b in zip_longest(seen, part, fillvalue=0.0)
+            ):
+                raise CheckFailed(f"the reply is {reply}")
