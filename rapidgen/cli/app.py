@@ -61,6 +61,7 @@ COMMANDS = {
     "doctor": ("deployment", "Check a controller: connection, ports, RobotWare, tasks."),
     "ros2": ("generation", "Write a ROS 2 package with launch files, URDF and MoveIt."),
     "ros1": ("generation", "Write a catkin package for the ROS-Industrial nodes."),
+    "dap": ("dap", "Debug RAPID in an editor: a debug adapter on stdio."),
     "demo": ("demo", "Build a driver, simulate it, move the robot and report."),
 }
 

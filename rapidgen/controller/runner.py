@@ -12,7 +12,7 @@ from typing import NamedTuple
 from rapidgen._compat import Self, Unpack
 from rapidgen.controller.boot_targets import Bootable
 from rapidgen.controller.controller import ControllerOptions, VirtualController
-from rapidgen.controller.debugger.breakpoints import Breakpoint
+from rapidgen.controller.debugger.debugger import Debugger
 from rapidgen.controller.programs import Programs
 from rapidgen.controller.warm_start import PersistedState, boot
 from rapidgen.diagnostics import Diagnostic
@@ -60,8 +60,7 @@ class ControllerRunner:
         self.id = str(uuid.uuid5(uuid.NAMESPACE_DNS, system.name)).upper()
         """Identifier of this controller, equal in every run."""
         self.restarts = 0
-        self.breakpoints: list[Breakpoint] = []
-        """Breakpoints of debuggers, which survive a restart."""
+        self._debugger: Debugger | None = None
         self.on_restart: list[Callable[[], None]] = []
         """Called on the controller's thread before a restart, to end all connections."""
         self.on_boot: list[Callable[[], None]] = []
@@ -97,6 +96,16 @@ class ControllerRunner:
         """The controller's time in s; it continues over restarts."""
         return (self._before + self.controller.scheduler.now) / _NS
 
+    @property
+    def debugger(self) -> Debugger:
+        """The debugger of the current controller, which all its clients share.
+
+        Breakpoints and selected errors survive a restart; its numbers do not.
+        """
+        if self._debugger is None:
+            self._debugger = Debugger(self.controller)
+        return self._debugger
+
     def post(self, function: Callable[[], None]) -> bool:
         """Run `function` on the controller's thread, from any thread.
 
@@ -124,12 +133,18 @@ class ControllerRunner:
         )
         self.ask_restart()
 
-    def run(self, finished: Callable[[], bool]) -> None:
-        """Let time pass, over restarts, until `finished()` is true."""
+    def run(self, finished: Callable[[], bool], wait: Callable[[], None] | None = None) -> None:
+        """Let time pass, over restarts, until `finished()` is true.
+
+        `wait` is called where the virtual clock cannot go on: it returns when something was posted
+        or changed.
+        """
         while not finished():
-            self.controller.scheduler.advance(stop=lambda: finished() or self._restart_asked)
+            end = self.controller.scheduler.advance(stop=lambda: finished() or self._restart_asked)
             if self._restart_asked:
                 self._restart()
+            elif end in ("idle", "paused") and wait is not None:
+                wait()
 
     def _restart(self) -> None:
         with self._lock:
@@ -151,6 +166,8 @@ class ControllerRunner:
             self._restored = None
         self.restarts += 1
         self.controller, self.programs = boot(old, persisted, cfg, self._options)
+        if self._debugger is not None:
+            self._debugger = self._debugger.successor(self.controller)
         self._set_going()
         with self._lock:
             self._up = True

@@ -1,5 +1,6 @@
 """Processes: greenlets that share the CPU of a scheduler."""
 
+import sys
 from collections.abc import Callable
 from types import FrameType
 
@@ -46,7 +47,9 @@ class Process:
 
     @property
     def frame(self) -> FrameType | None:
-        """Innermost Python frame of a suspended process, for call stacks."""
+        """Innermost Python frame of a suspended process, or the caller's if it runs."""
+        if self.body is greenlet.getcurrent():
+            return sys._getframe(1)
         result: FrameType | None = self.body.gr_frame if self.body is not None else None
         return result
 

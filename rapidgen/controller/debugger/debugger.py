@@ -28,7 +28,8 @@ from rapidgen.machine.scheduler import S, Timer, WaitSet
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.resume import WatchedExpression
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
-from rapidgen.runtime.errors import FatalError, Location, RapidError
+from rapidgen.runtime.errors import FatalError, Location, PointerMoved, RapidError
+from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.task.task import Task
 
 Reason: TypeAlias = Literal["breakpoint", "step", "cursor", "error", "pause", "time"]
@@ -49,6 +50,10 @@ class PauseReason:
     place: Location | None = None
     text: str = ""
     breakpoint: int = 0
+    code: str = ""
+    """Of an error: its name, such as ERR_DIVZERO, or the event number that stops the task."""
+    stack: tuple[Location, ...] = ()
+    """Of an error that stops the task: the call stack, outermost first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +74,7 @@ class _Step:
     level: Level
     hidden: bool
     """It began in a module that is executed as a whole."""
+    reason: Reason = "step"
 
 
 class Debugger:
@@ -88,6 +94,10 @@ class Debugger:
         self.placed: dict[int, PlacedBreakpoint] = {}
         """Breakpoints by number."""
         self.errors: ErrorStop = "never"
+        self.only_errors: frozenset[str] = frozenset()
+        """Errors that pause before a handler, by upper-case name or by number; empty: all."""
+        self.only_failures: frozenset[str] = frozenset()
+        """Errors that pause when they stop a task, also by event number; empty: all."""
         self.halt: PauseReason | None = None
         """Why it is paused; None: it is not."""
         self.output: list[LogPointOutput] = []
@@ -102,8 +112,17 @@ class Debugger:
         self._timer: Timer | None = None
         controller.statements.errors.append(self._error)
         controller.statements.failures.append(self._failure)
+        for task in self._tasks.values():
+            task.program.changed.add(self._modules_changed)
         for expression in breakpoints:
             self.add(expression)
+
+    def successor(self, controller: VirtualController) -> "Debugger":
+        """Return a debugger of a restarted controller with the same breakpoints and errors."""
+        result = Debugger(controller, [placed.asked for placed in self.placed.values()])
+        result.errors = self.errors
+        result.only_errors, result.only_failures = self.only_errors, self.only_failures
+        return result
 
     # -- breakpoints -----------------------------------------------------------------------------
 
@@ -150,6 +169,13 @@ class Debugger:
             places.place(placed, modules)
             for point in placed.points:
                 self._armed.setdefault(point, []).append(placed)
+
+    def _modules_changed(self) -> None:
+        """Find the statements again after a module was loaded or unloaded."""
+        if self.placed:
+            self._place()
+            self._listen()
+        self.changed.notify()
 
     def _listen(self) -> None:
         """Enable or disable statement reports, as needed."""
@@ -229,6 +255,31 @@ class Debugger:
         self._cursor = cursor
         self._go_on(None)
 
+    def move_to(self, task: str, line: int) -> None:
+        """Move the program pointer to a line of the innermost routine, and pause before it.
+
+        Data and interrupts stay; the robot's path is discarded, as by PP to cursor. The other tasks
+        run for a moment. NotPaused: the program cannot continue there.
+        """
+        self._require_halt()
+        frame = self.frame(task)
+        owner = self._tasks[task]
+        try:
+            owner.pointer.move_to(line)
+        except CannotStep as error:
+            raise NotPaused(str(error)) from error
+        if owner.state == "running":
+            # The task leaves its routines when time passes again.
+            owner.order(PointerMoved())
+        else:
+            owner.enter("stopped")
+            if not self._controller.start_program():
+                raise NotPaused("the controller rejects a start: the event log contains the reason")
+        group = self._controller.motion.moved_by(task)
+        if group is not None:
+            group.clear_path()
+        self._go_on(_Step(task, "in", 0, frame.level, _hidden(frame.module), "cursor"))
+
     def _go_on(self, step: _Step | None) -> None:
         self._require_halt()
         self._end_timer()
@@ -248,6 +299,8 @@ class Debugger:
         statements = self._controller.statements
         statements.errors.remove(self._error)
         statements.failures.remove(self._failure)
+        for task in self._tasks.values():
+            task.program.changed.remove(self._modules_changed)
         self.placed.clear()
         self._cursor = self._step = None
         self._end_timer()
@@ -274,7 +327,7 @@ class Debugger:
         step = self._step
         if step is not None and step.task == name and self._ends(step, module):
             frame = innermost(self._tasks[name], sys._getframe(1))
-            self._hold(PauseReason("step", name, frame.place))
+            self._hold(PauseReason(step.reason, name, frame.place))
 
     def _reached(
         self, name: str, placed: PlacedBreakpoint, frame: StackFrame
@@ -326,17 +379,19 @@ class Debugger:
         return step.kind == "in" or depth < step.depth + (step.kind == "over")
 
     def _error(self, name: str, error: RapidError) -> None:
-        if self.errors == "all":
+        if self.errors == "all" and _selected(self.only_errors, error.name, str(error.number)):
             frame = innermost(self._tasks[name], sys._getframe(1))
-            self._hold(
-                PauseReason("error", name, frame.place, f"{error.name} {error.text}".strip())
-            )
+            text = f"{error.name} {error.text}".strip()
+            self._hold(PauseReason("error", name, frame.place, text, code=error.name))
 
     def _failure(self, name: str, fatal: FatalError) -> None:
-        if self.errors != "never":
-            place = fatal.stack[-1] if fatal.stack else None
+        cause = (fatal.cause.name, str(fatal.cause.number)) if fatal.cause is not None else ()
+        if self.errors != "never" and _selected(self.only_failures, str(fatal.event), *cause):
+            stack = fatal.stack
+            place = stack[-1] if stack else None
             text = ": ".join([f"{fatal.event} {fatal.title}", *(a for a in fatal.arguments if a)])
-            self._hold(PauseReason("error", name, place, text))
+            code = cause[0] if cause else str(fatal.event)
+            self._hold(PauseReason("error", name, place, text, code=code, stack=stack))
 
     def _hold(self, halt: PauseReason) -> None:
         """Pause in the reporting task, which continues here."""
@@ -386,6 +441,16 @@ class Debugger:
         """Return parameters, data and loop variables of a routine."""
         return values.variables(self._tasks[task].program, self.frame(task, level))
 
+    def parts(
+        self, task: str, text: str, level: int = -1, start: int = 0, count: int = 0
+    ) -> tuple[DisplayedValue, ...]:
+        """Return components or elements of a value from index `start` on, 0 for the first.
+
+        `count` 0: all. NotPaused explains a fault.
+        """
+        frame = self.frame(task, level)
+        return values.parts(self._tasks[task].program, frame, text, start, count)
+
     def module_data(self, task: str, level: int = -1) -> tuple[DisplayedValue, ...]:
         """Return data of the module of a routine."""
         return values.module_data(self._tasks[task].program, self.frame(task, level))
@@ -400,6 +465,10 @@ class Debugger:
     def motion_pointer(self, task: str) -> Location | None:
         """Return the move instruction that a task's robot executes, or None."""
         return motion_pointer(self._controller, task)
+
+
+def _selected(only: frozenset[str], *keys: str) -> bool:
+    return not only or any(key.upper() in only for key in keys)
 
 
 def _hidden(module: LoadedModule) -> bool:

@@ -3,7 +3,7 @@
 import ctypes
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import FrameType
 
 from rapidgen.controller.debugger.stack import StackFrame
@@ -130,6 +130,43 @@ def variables(program: Program, frame: StackFrame) -> tuple[DisplayedValue, ...]
 def module_data(program: Program, frame: StackFrame) -> tuple[DisplayedValue, ...]:
     """Return data of the frame's module, as visible in the frame."""
     return tuple(_each(program, frame, [d.name for d in _declared(frame.module)]))
+
+
+def parts(
+    program: Program, frame: StackFrame, text: str, start: int = 0, count: int = 0
+) -> tuple[DisplayedValue, ...]:
+    """Return components or elements of a value, as expressions of the frame.
+
+    `start` is the index of the first one, from 0; `count` 0 means all. A row of an array with
+    several dimensions has the name `a{2`, which this function takes again; RAPID has no expression
+    for it. NotPaused: no such value.
+    """
+    text, given = _row(text)
+    watched = compiled(program, frame, text)
+    value, dims = read(watched, frame), watched.dims[len(given) :]
+    for index in given:
+        value = value[index] if isinstance(value, dict) and index in value else None
+    some = slice(start, start + count if count else None)
+    if isinstance(value, Record):
+        names = [f"{text}.{name}" for name, _ in watched.type.components[some]]
+        return tuple(_each(program, frame, names))
+    keys = list(value)[some] if isinstance(value, dict) else []
+    elements = [text + "{" + ",".join(map(str, (*given, key))) for key in keys]
+    if len(dims) < 2:
+        return tuple(_each(program, frame, [element + "}" for element in elements]))
+    rows = [shown(e, watched.type, dims[1:], value[k]) for e, k in zip(elements, keys, strict=True)]
+    return tuple(replace(row, settable=False) for row in rows)
+
+
+def _row(text: str) -> tuple[str, tuple[int, ...]]:
+    """Return the array and the indices of a row, `a{2`; none for an expression."""
+    if text.count("{") == text.count("}"):
+        return text, ()
+    base, _, indices = text.rpartition("{")
+    given = indices.split(",")
+    if not all(index.isdecimal() for index in given):
+        raise NotPaused(f"{text} is no row of an array")
+    return base, tuple(map(int, given))
 
 
 def _declared(module: LoadedModule) -> Iterator[n.DataDeclaration]:

@@ -15,6 +15,7 @@ from types import FrameType
 from typing import Protocol, TypeAlias
 
 from rapidgen.diagnostics import Diagnostic, Severity, error
+from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.binding.names import Symbol
 from rapidgen.rapid.numbers import dnum
@@ -166,6 +167,8 @@ class Program:
         """Code of equal programs; None: nothing is kept for this one."""
         self._initial: dict[str, Value] = {}
         """Unchanged initial values, by storage."""
+        self.changed = WaitSet()
+        """Notified when modules are loaded or unloaded."""
         self.space: dict[str, Value] = {
             **support.NAMESPACE,
             "R": executor,
@@ -200,11 +203,13 @@ class Program:
         loaded = [self.linker.add(tree, file) for tree, file in modules]
         self.linker.link(loaded)
         self._reset_code()
+        self.changed.notify()
 
     def unload(self, name: str) -> None:
         """Remove a module; its callers are linked again."""
         self.linker.remove(name)
         self._reset_code()
+        self.changed.notify()
 
     def _reset_code(self) -> None:
         self._linked.clear()

@@ -544,6 +544,9 @@ class Task(Process):
 
     def trace(self, point: int) -> None:
         """Report the next statement."""
+        if self._renews:
+            # Otherwise the other code would report this statement once more.
+            self._renew()
         routine, node = self.program.trace_points[point]
         module, statements = routine.module, self.controller.statements
         report = self.stepper.forward is not None
@@ -612,5 +615,5 @@ def _never() -> bool:
 
 _BETWEEN = (Task.poll.__code__, Task.polls.__code__, Task.charge_again.__code__)
 """Functions that compiled code calls outside its statements."""
-_BEFORE = _BETWEEN[:2]
+_BEFORE = (*_BETWEEN[:2], Task.trace.__code__)
 """Functions that it calls before a statement."""

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable, Mapping
 
 from rapidgen.controller.debugger import (
     Breakpoint,
-    Debugger,
     DisplayedValue,
     NotPaused,
     PauseReason,
@@ -31,8 +30,7 @@ class ProgramProvider:
     def __init__(self, runner: ControllerRunner) -> None:
         self._controller = runner.controller
         self._tasks = runner.controller.rapid_tasks
-        self._debugger = Debugger(runner.controller, runner.breakpoints)
-        self._asked = runner.breakpoints
+        self._debugger = runner.debugger
         self._texts: dict[str, int] = {}
         self._task = next(iter(self._tasks), "")
         self._level = -1
@@ -203,7 +201,6 @@ class ProgramProvider:
         try:
             if request.number:
                 self._debugger.change(request.number, requested)
-                self._keep()
                 return str(request.number)
             placed = self._debugger.add(requested)
         except KeyError as error:
@@ -213,17 +210,12 @@ class ProgramProvider:
         if not placed.line:
             self._debugger.remove(placed.number)
             raise RequestRejected(placed.doubt)
-        self._keep()
         return str(placed.number)
 
     def _unbreak(self, request: Request) -> str:
         assert isinstance(request, p.RemoveBreakpoint)
         self._debugger.remove(request.number)
-        self._keep()
         return ""
-
-    def _keep(self) -> None:
-        self._asked[:] = [placed.asked for placed in self._debugger.placed.values()]
 
     def _drive(self, request: Request) -> str:
         assert isinstance(request, p.DebugCommand)

@@ -1,0 +1,1 @@
+"""Debug adapter: RAPID on the virtual controller, for editors that speak DAP."""
