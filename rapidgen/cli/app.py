@@ -33,6 +33,7 @@ COMMANDS = {
     "schema": ("configuration", "Print the JSON schema of the configuration file."),
     "build": ("generation", "Generate the driver for one controller."),
     "fmt": ("fmt", "Format RAPID source files."),
+    "export": ("export", "Write a RAPID module that runs without rapidgen."),
     "run": ("run", "Run RAPID on the virtual clock."),
     "sim": ("sim", "Run a virtual controller in real time."),
     "test": ("verification", "Test the generated driver on the virtual controller."),

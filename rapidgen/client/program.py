@@ -9,7 +9,8 @@ work object. `robot.check_program` and `robot.run` say whether a robot can do it
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from math import radians
-from typing import SupportsFloat, TypeAlias, TypedDict
+from os import PathLike
+from typing import TYPE_CHECKING, SupportsFloat, TypeAlias, TypedDict
 
 from rapidgen._compat import Self, Unpack
 from rapidgen.axes.frames import Pose
@@ -17,6 +18,11 @@ from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
+
+if TYPE_CHECKING:
+    from rapidgen.client.rapid_export import ExportedModule
+    from rapidgen.config.model import RobotConfig
+    from rapidgen.export.writer import WriterOptions
 
 _MM = 0.001
 # Types of numbers and their checks.
@@ -411,6 +417,37 @@ class Program:
             routine=routine,
             arguments=arguments,
             seconds=_number(timeout, *_TIME),
+        )
+
+    def to_rapid(
+        self,
+        robot: "RobotConfig | str | PathLike[str]",
+        *,
+        group: str = "",
+        module: str = "exported",
+        routine: str = "main",
+        start: Sequence[float] | None = None,
+        options: "WriterOptions | None" = None,
+    ) -> "ExportedModule":
+        """Return the program as a RAPID module that runs without rapidgen.
+
+        `robot` is a configuration; `start` are joints where the robot stands before the program.
+        Without them the program starts at its first position if it begins with `move_joints`, else
+        at the robot's usual start. The module is formatted and checked, not executed. Raises
+        InvalidProgram with all faults, and DiagnosticError for names that RAPID does not allow.
+        """
+        from rapidgen.client.rapid_export import export_program, robot_of
+        from rapidgen.export.writer import WriterOptions
+
+        config, chosen = robot_of(robot, group)
+        return export_program(
+            self,
+            config,
+            chosen,
+            module=module,
+            routine=routine,
+            start=start,
+            options=options or WriterOptions(),
         )
 
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:

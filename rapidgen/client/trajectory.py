@@ -17,6 +17,10 @@ from rapidgen.client.html_tables import table
 if TYPE_CHECKING:
     from rapidgen.client.core.group import Group
     from rapidgen.client.core.state import State
+    from rapidgen.client.program import ZoneLike
+    from rapidgen.client.rapid_export import ExportedModule
+    from rapidgen.config.model import RobotConfig
+    from rapidgen.export.writer import WriterOptions
 
 Array = npt.NDArray[np.float64]
 _SHOWN = 4
@@ -189,6 +193,36 @@ class Trajectory:
             "times": self.times.tolist(),
             "positions": self.positions.tolist(),
         }
+
+    def to_rapid(
+        self,
+        robot: "RobotConfig | str | PathLike[str]",
+        *,
+        group: str = "",
+        module: str = "exported",
+        routine: str = "main",
+        zone: "ZoneLike" = "z10",
+        options: "WriterOptions | None" = None,
+    ) -> "ExportedModule":
+        """Return the trajectory as a RAPID module of MoveAbsJ with the times of its points.
+
+        `robot` is a configuration, `zone` the zone of all points but the first and last. The module
+        is formatted and checked, not executed. Raises InvalidTrajectory with all faults, and
+        DiagnosticError for names that RAPID does not allow.
+        """
+        from rapidgen.client.rapid_export import export_trajectory, robot_of
+        from rapidgen.export.writer import WriterOptions
+
+        config, chosen = robot_of(robot, group)
+        return export_trajectory(
+            self,
+            config,
+            chosen,
+            module=module,
+            routine=routine,
+            zone=zone,
+            options=options or WriterOptions(),
+        )
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write `time,<joint names>`; numbers read back to the same values."""

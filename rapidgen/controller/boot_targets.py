@@ -107,6 +107,18 @@ def load_target(targets: Sequence[Source], options: BootOptions | None = None) -
     return _foreign(_loose(targets, options), None, options)
 
 
+def boot_modules(
+    system: System, groups: Sequence[GroupConfig], options: BootOptions | None = None
+) -> Bootable:
+    """Return a target of modules in memory, with known robots.
+
+    Of the options, cell and start apply. Raises DiagnosticError.
+    """
+    options = options or BootOptions()
+    result = Bootable(system.name, system, tuple(groups), False)
+    return _surrounded(result, _described(options), options)
+
+
 def is_configuration(target: Path) -> bool:
     """Return True for a configuration file or a shipped name."""
     if target.suffix.lower() in (".yaml", ".yml"):

@@ -44,7 +44,7 @@ from rapidgen.client.program import (
     Zone,
 )
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.diagnostics import Diagnostic, Severity, error, suggest
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
 from rapidgen.wire.simple_message import instructions
 from rapidgen.wire.simple_message.spec import Instruction
 
@@ -89,19 +89,32 @@ class CheckedProgram:
     instructions: list[list[int]]
     seconds: list[float]
     """Minimum duration of each instruction, s."""
-    goal: Posture
+    postures: list[Posture]
+    """Position at the start, and at the end of each instruction."""
     notes: tuple[Diagnostic, ...]
+
+    @property
+    def goal(self) -> Posture:
+        """Position at the end of the program."""
+        return self.postures[-1]
 
 
 def check_program(
-    program: Program, group: Group, *, start: Sequence[float], most: int
+    program: Program,
+    group: Group,
+    *,
+    start: Sequence[float],
+    most: int,
+    spans: Sequence[Span] = (),
 ) -> CheckedProgram:
     """Check a whole program.
 
     `start` are the axis values of the current position, `most` is the largest number of
-    instructions. Raises InvalidProgram with all faults.
+    instructions, `spans` are their places in the file that they were read from. Raises
+    InvalidProgram with all faults.
     """
-    walk = ProgramTraversal(group, tuple(start[: len(group.names)]))
+    walk = ProgramTraversal(group, tuple(start[: len(group.names)]), spans)
+    postures = [walk.here]
     if not program.steps:
         raise InvalidProgram.because("RG619", "the program has no instructions", "add one")
     if len(program) > most:
@@ -122,6 +135,7 @@ def check_program(
         begin = walk.here
         walk.arguments = []
         operands, duration = _MAKERS[step.kind](walk, step)
+        postures.append(walk.here)
         marks = standing.marks(walk, step)
         seconds.append(duration)
         if last is not None and not last.zone.stops:
@@ -134,7 +148,7 @@ def check_program(
         last = step
     if _failed(walk):
         raise InvalidProgram(walk.found)
-    return CheckedProgram(program, values, seconds, walk.here, tuple(walk.found))
+    return CheckedProgram(program, values, seconds, postures, tuple(walk.found))
 
 
 def _failed(walk: ProgramTraversal) -> bool:
@@ -191,7 +205,8 @@ def _stopped(walk: ProgramTraversal, last: ProgramStep, step: ProgramStep, chang
     why = "another tool or work object is next" if changed else "the next one does not move"
     if last.kind in _MOVES and (changed or step.kind not in _MOVES):
         place = f"instruction {walk.index - 1}: the robot stops there, in no zone: {why}"
-        walk.found.append(error("RG674", None, place, severity=Severity.INFO))
+        at = walk.spans[walk.index - 1] if walk.spans else None
+        walk.found.append(error("RG674", at, place, severity=Severity.INFO))
 
 
 def _speed(walk: ProgramTraversal, speed: Speed) -> None:

@@ -1,5 +1,6 @@
 """State of a traversal of a program: position, frames and findings."""
 
+from collections.abc import Sequence
 from math import isfinite, sqrt
 
 from rapidgen.axes import frames
@@ -8,7 +9,7 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.axes.limits import LimitFault, outside
 from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
-from rapidgen.diagnostics import Diagnostic, Severity, error
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 _UNIT = 1e-3
 """Tolerance of a quaternion's length."""
@@ -17,8 +18,9 @@ _UNIT = 1e-3
 class ProgramTraversal:
     """A traversal of a program: the position so far, and the findings."""
 
-    def __init__(self, group: Group, start: Posture) -> None:
+    def __init__(self, group: Group, start: Posture, spans: Sequence[Span] = ()) -> None:
         self.group = group
+        self.spans = spans
         self.here = start
         self.index = 0
         self.singular = self.any_posture = False
@@ -37,7 +39,8 @@ class ProgramTraversal:
     ) -> None:
         """Add a finding about the current instruction."""
         place = f"instruction {self.index}: "
-        self.found.append(error(code, None, place + message, help, severity=severity))
+        at = self.spans[self.index] if self.spans else None
+        self.found.append(error(code, at, place + message, help, severity=severity))
 
     @property
     def frames(self) -> Frames | None:

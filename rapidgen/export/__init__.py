@@ -1,0 +1,1 @@
+"""Modules for controllers without rapidgen: description, writer, sources, reader."""
