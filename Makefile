@@ -170,6 +170,9 @@ program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones
 	for robot in irb120 irb2400 irb460 irb910sc; do \
 		$(BIN)/rapidgen test $$robot --case program-like-rapid --quick --seeds 0 --programs 20 || exit 1; done
 
+export-trials: $(STAMP) ## 4 min: 500 random programs as RAPID modules beside the same ones over the driver
+	$(BIN)/python -m tools.export_trials
+
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tools.motion_campaign
 

@@ -19,6 +19,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Literal, TypeAlias, cast
 
 from rapidgen import __version__
+from rapidgen.axes.configuration import configuration_data, family_of
 from rapidgen.axes.default_postures import usual_start
 from rapidgen.axes.frames import Pose, compose, normalise
 from rapidgen.axes.kinematics import Kinematics, Posture
@@ -266,7 +267,7 @@ class _Converter:
         self._own: dict[UserTool | UserWorkObject, str] = {}
         self._header: list[str] = []
         self._kinds = {signal.name: signal.kind for signal in config.signals}
-        self._only_joints = not has_confirmed_configurations(complete, self._kinematics)
+        self._only_joints = self._kinematics is None or not family_of(self._kinematics).has_evidence
 
     def routine(
         self,
@@ -387,19 +388,12 @@ class _Converter:
     def _target(self, pose: Pose, posture: Posture) -> rapid.RobTarget:
         kinematics = self._kinematics
         assert kinematics is not None, "poses were checked with the geometry"
-        external = self.complete.map.to_rapid(posture)[1]
-        place = kinematics.seventh
-        if place >= 0:
-            # Targets of an arm with seven axes contain the arm angle in place of its axis.
-            angle = kinematics.arm.arm_angle(posture)
-            external = self.complete.map.to_rapid((*posture[:place], angle, *posture[place + 1 :]))[
-                1
-            ]
         (x, y, z), q = pose[0], normalise(pose[1])
         if q[0] < 0:
             q = (-q[0], -q[1], -q[2], -q[3])
-        configuration = kinematics.configuration(posture)
-        return rapid.RobTarget((x * _MM, y * _MM, z * _MM), q, configuration, external)
+        data = configuration_data(kinematics, posture)
+        place = (x * _MM, y * _MM, z * _MM)
+        return rapid.RobTarget(place, q, data.configuration, data.external)
 
     def _frames(self, step: ProgramStep) -> Frames:
         geometry = self.complete.geometry
@@ -501,26 +495,17 @@ class _Converter:
         self.notes.append(error(code, None, message, help, severity=Severity.WARNING))
 
     def _say_only_joints(self) -> None:
-        model = self.group.model or self.group.name
+        assert self._kinematics is not None, "poses were checked with the geometry"
+        family = family_of(self._kinematics)
         self._say(
             "RG752",
-            f"configurations of {model} are not confirmed by public targets",
+            f"no public targets confirm the configuration data of this arm ({family.name})",
             "joint moves are MoveAbsJ; compare the confdata of linear moves with the controller's",
         )
         self._header += [
-            "Joint moves are MoveAbsJ: no public source confirms this robot's configurations.",
-            "Compare the confdata of linear moves with those of the controller.",
+            f"Public targets do not confirm the configuration data of this arm ({family.name}).",
+            "Joint moves are MoveAbsJ. Compare the confdata of linear moves with the controller's.",
         ]
-
-
-def has_confirmed_configurations(group: Group, kinematics: Kinematics | None) -> bool:
-    """True if public targets confirm the confdata of an arm.
-
-    They are targets of arms with a spherical wrist and no rod (`Kinematics.configuration`).
-    """
-    if kinematics is None or group.map.two_sided:
-        return False
-    return kinematics.is_closed_form and not group.map.coupling and kinematics.seventh < 0
 
 
 def _rounded(value: float) -> float:

@@ -114,7 +114,8 @@ def boot_modules(
 
     Of the options, cell and start apply. Raises DiagnosticError.
     """
-    options = options or BootOptions()
+    # With a known robot, inference does not excuse unreachable targets.
+    options = replace(options or BootOptions(), robot=groups[0].model or groups[0].name)
     result = Bootable(system.name, system, tuple(groups), False)
     return _surrounded(result, _described(options), options)
 

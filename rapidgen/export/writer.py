@@ -25,7 +25,6 @@ from rapidgen._data import data_folder
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
 from rapidgen.export import text
 from rapidgen.export.description import (
-    Argument,
     Call,
     Comment,
     Instruction,
@@ -296,7 +295,12 @@ class _Declarations:
         lines: list[str] = []
         words: list[str] = []
         for argument in call.arguments:
-            value = _argument(argument)
+            # A literal has no type of its own; a constant tells the reader what it is.
+            value = (
+                self._constant(argument.value)
+                if isinstance(argument.value, tuple)
+                else _argument(argument.value)
+            )
             if argument.inout:
                 name = self._variable(argument.type, "arg")
                 lines.append(f"{name} := {value};")
@@ -315,6 +319,9 @@ class _Declarations:
     def _target(self, target: Target) -> str:
         if self.options.targets == "inline":
             return text.target(target)
+        return self._constant(target)
+
+    def _constant(self, target: Target) -> str:
         name = self._targets.get(target)
         if name is None:
             stem = "jp" if isinstance(target, JointTarget) else "p"
@@ -364,12 +371,7 @@ class _Declarations:
         return name
 
 
-def _argument(argument: Argument) -> str:
-    value = argument.value
+def _argument(value: float | bool | str) -> str:
     if isinstance(value, bool):
         return text.truth(value)
-    if isinstance(value, str):
-        return text.string(value)
-    if isinstance(value, tuple):
-        return text.target(value)
-    return text.number(value)
+    return text.string(value) if isinstance(value, str) else text.number(value)

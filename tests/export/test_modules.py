@@ -1,5 +1,6 @@
 """Programs and trajectories as modules: text, checks, and the run on a virtual controller."""
 
+from dataclasses import replace
 from itertools import islice
 
 import pytest
@@ -8,7 +9,7 @@ from rapidgen.client import InvalidProgram, Program, Speed, Trajectory, UserTool
 from rapidgen.client.core.group import Group
 from rapidgen.config import load_config
 from rapidgen.controller.module_trial import run_module
-from rapidgen.diagnostics import DiagnosticError
+from rapidgen.diagnostics import DiagnosticError, Span
 from rapidgen.export.writer import WriterOptions
 from rapidgen.rapid import format_source
 from tools.export_trials import TOLERANCE, trials
@@ -163,10 +164,6 @@ def test_error_of_the_run_has_the_line_of_the_source(config, pose):
     exported = Program().move_joints(BENT).move_linear(moved(pose, z=0.02)).to_rapid(config)
     wrong = exported.text.replace("[0,0,-1,0]", "[2,2,2,0]")
     assert wrong != exported.text
-    from dataclasses import replace
-
-    from rapidgen.diagnostics import Span
-
     broken = replace(
         exported,
         module=replace(exported.module, text=wrong),
