@@ -30,6 +30,8 @@ from rapidgen.wire.egm.values import EgmMessageError, RobotMessage
 if TYPE_CHECKING:
     from types import ModuleType
 
+_NUMBERS_SINCE = (7, 7)
+"""RobotWare with numbers for RAPID [manual 3HAC073318, revisions]."""
 Outcome: TypeAlias = Literal["", "converged", "stopped", "silent", "unreachable", "bounds"]
 """How a run ended; empty: it has not."""
 
@@ -117,6 +119,8 @@ class Result:
     """Where the partner wants a guided robot to be (Joint)."""
     age: float | None = None
     """s since the last message of the partner."""
+    numbers: tuple[float, ...] = ()
+    """Numbers for RAPID in this cycle's message."""
 
 
 @dataclass(slots=True)
@@ -146,6 +150,8 @@ class Exchange:
     _left: int = 0
     """Cycles until the next message: times of a real clock are not exact."""
     _now: float = 0.0
+    _numbers: tuple[float, ...] = ()
+    """Of the message that was read in this cycle."""
 
     @property
     def running(self) -> bool:
@@ -164,13 +170,15 @@ class Exchange:
                 # A run is a new session for its partner (abb_libegm: sequence number 0).
                 self.sequence, self._heard, self._left = 0, self._now, 0
             case StopRun(hold, ramp_out):
+                self._ending = "stopped"
                 if self.guide is None:
+                    # Before its first cycle, or after a stop: the next cycle ends it.
                     self._end()
                 else:
-                    self._ending = "stopped"
                     self.guide.leave(hold=hold, ramp_out=ramp_out)
             case Finish():
                 self._end()
+                self._ending = ""
 
     def _end(self) -> None:
         self.run = self.guide = None
@@ -183,7 +191,9 @@ class Exchange:
         """Execute a cycle; `now` is the time of the controller in s."""
         self._now = now
         if not self.running:
-            return Result()
+            ending, self._ending = self._ending, ""
+            return Result(outcome=ending)
+        self._numbers = ()
         fresh, rejected = self._receive(link)
         position: Posture | None = None
         outcome: Outcome = ""
@@ -199,7 +209,10 @@ class Exchange:
             except ConnectionRefusedError:
                 self._end()
                 outcome, reason = "unreachable", self.partner
-        return Result(position, outcome, reason, rejected, reference, now - self._heard)
+        if outcome:
+            self._ending = ""
+        age = now - self._heard
+        return Result(position, outcome, reason, rejected, reference, age, self._numbers)
 
     def _receive(self, link: Link) -> tuple[bool, str]:
         """Read one datagram; return if it has a reference, and why it was rejected."""
@@ -212,6 +225,8 @@ class Exchange:
             self.rejected[str(fault)] += 1
             return False, str(fault) if self.rejected[str(fault)] == 1 else ""
         self._heard = self._now
+        if message.data is not None and self.release >= _NUMBERS_SINCE:
+            self._numbers = message.data.numbers
         # Partners answer also while nothing is to be guided; that is no fault.
         return self.guide is not None and self.guide.read(message), ""
 

@@ -131,6 +131,8 @@ class EgmSession:
     changed: WaitSet = field(default_factory=WaitSet)
     on_end: Callable[[], None] | None = None
     """Called once when a stream or a run ends for which the program does not wait."""
+    on_numbers: Callable[[tuple[float, ...]], None] | None = None
+    """Receives numbers of the partner (\\DataFromSensor)."""
     loop: Loop | None = None
     timer: Timer | None = None
 
@@ -332,6 +334,8 @@ class EgmSessions:
             if result.rejected:
                 text = f"{session.partner}: {result.rejected}"
                 self._log.record(_REJECTED, text, task=session.task)
+            if result.numbers and session.on_numbers is not None:
+                session.on_numbers(result.numbers)
         if results:
             session.latest = results[-1]
             self._move(session, group, inputs, results)

@@ -14,7 +14,7 @@ MODULE ROS_egm
     ! the supervisor has ended. The robot then stays where it is. EGMReset follows on every path, because
     ! identities that were not reset are lost until the controller restarts.
 
-    CONST string ROS_BUILD_EGM := "0e609a70dda9";
+    CONST string ROS_BUILD_EGM := "1f937ec8e4cc";
 
     ! UdpUc device (SIO) and external motion interface data (MOC) of this build.
     LOCAL CONST string DEVICE := "ROS_EGM";
@@ -106,7 +106,7 @@ MODULE ROS_egm
         EGMGetId session;
         EGMSetupUC ROB_1, session, DEVICE, DEVICE \Joint \CommTimeout:=COMM_TIMEOUT;
         EGMActJoint session \Tool:=tool0
-\J1:=AT_TARGET \J2:=AT_TARGET \J3:=AT_TARGET \J4:=AT_TARGET \J5:=AT_TARGET \J6:=AT_TARGET \LpFilter:=FILTER
+            \J1:=AT_TARGET \J2:=AT_TARGET \J3:=AT_TARGET \J4:=AT_TARGET \J5:=AT_TARGET \J6:=AT_TARGET \LpFilter:=FILTER
             \SampleRate:=SAMPLE_TIME \MaxPosDeviation:=MAX_DEVIATION \MaxSpeedDeviation:=MAX_SPEED;
         connect_interrupts;
         ROS_is_guiding := TRUE;

@@ -6,6 +6,7 @@ for a socket. EGMSetupAI, EGMSetupAO, EGMSetupGI, EGMSetupLTAPP, EGMActMove, EGM
 stop the program, because they require a signal or a path to follow.
 """
 
+from functools import partial
 from math import radians
 from typing import Final, cast, get_args
 
@@ -23,7 +24,7 @@ from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_interface import GUIDED
 from rapidgen.runtime.registry import Arguments, builtin, by_name
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Value, register_type
+from rapidgen.runtime.values import Ref, Value, register_type
 
 _MISMATCH: Final = 41_826
 _NO_DATA: Final = 41_822
@@ -167,8 +168,16 @@ def egm_act(task: Task, name: str, arguments: Arguments) -> None:
     _check_load(task, name, arguments)
     session.activation = _activation(moving_group(task), session, expected, arguments)
     session.active = expected
+    numbers = arguments["DataFromSensor"]
+    session.on_numbers = None if numbers is None else partial(_receive, numbers)
     if arguments["StreamStart"]:
         _stream(task, session)
+
+
+def _receive(target: Ref, numbers: tuple[float, ...]) -> None:
+    """Put the partner's numbers into an array; those beyond its end are lost."""
+    received = dict(zip(target.get(), numbers, strict=False))
+    target.set({**target.get(), **received})
 
 
 def _activation(
