@@ -90,15 +90,25 @@ release-lint: $(STAMP)
 changelog: $(STAMP)
 	$(BIN)/towncrier build --yes --version $(VERSION)
 
+# The npm packages of editors/vscode, and the extension for VS Code: build/vscode/rapidgen.vsix.
+EDITORS := build/vscode/node_modules/.installed
+$(EDITORS): $(STAMP) editors/vscode/package-lock.json
+	time .ci/editors
+	@touch $@
+
+vsix: $(EDITORS)
+	time .ci/editors vsix
+.PHONY: vsix
+
 # After all else, so that pytest's own summary closes the output. Many tests wait for a socket or a browser most of
 # their time: three workers for two cores.
 unit: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
-unit: $(STAMP) $(PAGE)
+unit: $(STAMP) $(PAGE) $(EDITORS)
 	$(BIN)/python -m pytest -n auto -m "not long"
 
 # What a release runs: every test, and the driver for four simulated hours.
 test-long: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
-test-long: $(STAMP) $(PAGE)
+test-long: $(STAMP) $(PAGE) vsix
 	$(BIN)/python tools/driver_campaign.py days --hours 4 --watched 0.25
 	$(BIN)/python -m pytest -n auto
 
@@ -229,6 +239,9 @@ driver-boundary: $(STAMP) ## 2 h: boundary values in every field of every messag
 
 stop-trials: $(STAMP) ## 5 min: 2,000 random stops with up to three operator actions, and the way back from them
 	$(BIN)/python tools/stop_trials.py --jobs 2
+
+debug-bench: $(STAMP) ## 1 min: steps per second through the debug adapter
+	$(BIN)/python benchmarks/debug_adapter.py
 
 egm-bench: $(STAMP) ## 2 min: period of EGM frames, and the client's time to answer
 	$(BIN)/python benchmarks/egm.py --seconds 60
