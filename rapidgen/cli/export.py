@@ -11,7 +11,7 @@ from rapidgen.cli.terminal import is_quiet, use_colour
 from rapidgen.diagnostics import DiagnosticError, refusal, render
 
 if TYPE_CHECKING:
-    from rapidgen.client.rapid_export import ExportedModule
+    from rapidgen.export.writer import ExportedModule
 
 _LARGEST = 1_000_000
 """Bytes of a prologue, an epilogue or a file of routines."""

@@ -8,6 +8,7 @@ work object. `robot.check_program` and `robot.run` say whether a robot can do it
 
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
+from importlib import import_module
 from math import radians
 from os import PathLike
 from typing import TYPE_CHECKING, SupportsFloat, TypeAlias, TypedDict
@@ -20,9 +21,8 @@ from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
 if TYPE_CHECKING:
-    from rapidgen.client.rapid_export import ExportedModule
     from rapidgen.config.model import RobotConfig
-    from rapidgen.export.writer import WriterOptions
+    from rapidgen.export.writer import ExportedModule, WriterOptions
 
 _MM = 0.001
 # Types of numbers and their checks.
@@ -436,11 +436,12 @@ class Program:
         at the robot's usual start. The module is formatted and checked, not executed. Raises
         InvalidProgram with all faults, and DiagnosticError for names that RAPID does not allow.
         """
-        from rapidgen.client.rapid_export import export_program, robot_of
         from rapidgen.export.writer import WriterOptions
 
-        config, chosen = robot_of(robot, group)
-        return export_program(
+        # By name: it imports this module, and moving a robot does not need it.
+        export = import_module("rapidgen.client.rapid_export")
+        config, chosen = export.robot_of(robot, group)
+        result: ExportedModule = export.export_program(
             self,
             config,
             chosen,
@@ -449,6 +450,7 @@ class Program:
             start=start,
             options=options or WriterOptions(),
         )
+        return result
 
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
         if speed is not None:

@@ -13,7 +13,7 @@ instruction becomes one of RAPID:
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import degrees
 from os import PathLike
 from typing import TYPE_CHECKING, Literal, TypeAlias, cast
@@ -23,7 +23,6 @@ from rapidgen.axes.configuration import configuration_data, family_of
 from rapidgen.axes.default_postures import usual_start
 from rapidgen.axes.frames import Pose, compose, normalise
 from rapidgen.axes.kinematics import Kinematics, Posture
-from rapidgen.axes.mapping import JointMap
 from rapidgen.client.core.checks import DriverLimits, check_trajectory
 from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
@@ -48,7 +47,7 @@ from rapidgen.config.model import GroupConfig, Placement, RobotConfig, RoutinePa
 from rapidgen.config.model import Load as ConfigLoad
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
 from rapidgen.export import description as rapid
-from rapidgen.export.writer import WriterOptions, WrittenModule, check_module, write_module
+from rapidgen.export.writer import ExportedModule, WriterOptions, check_module, write_module
 from rapidgen.wire.simple_message.spec import Instruction, MarkPlace
 
 if TYPE_CHECKING:
@@ -67,42 +66,8 @@ _REFERENCES: dict[MarkPlace, rapid.Reference] = {
     MarkPlace.END: "end",
     MarkPlace.TIME: "time",
 }
-_AXES = (*(f"rax_{i}" for i in range(1, 7)), *(f"eax_{letter}" for letter in "abcdef"))
 _MOST = 10_000_000
 """Instructions of one program."""
-
-
-@dataclass(frozen=True, slots=True)
-class ExportedModule:
-    """A RAPID module, checked for RobotWare 5, 6 and 7, not yet executed.
-
-    `start` are the joints (URDF, rad and m) from which its first move was checked; `lines` the
-    line of each step of the program.
-    """
-
-    module: WrittenModule
-    config: RobotConfig
-    group: GroupConfig
-    start: tuple[float, ...]
-    lines: tuple[int, ...]
-    notes: tuple[Diagnostic, ...]
-    spans: tuple[Span, ...] = ()
-    """Places of the steps in their source, if they were read from one."""
-
-    @property
-    def text(self) -> str:
-        """Text of the module."""
-        return self.module.text
-
-    @property
-    def start_values(self) -> tuple[float, ...]:
-        """Start position in deg and mm: robot axes, then external axes."""
-        joints = JointMap.of(self.group)
-        slots = [
-            value for part in joints.to_rapid(joints.to_controller(self.start)) for value in part
-        ]
-        used = sorted(_AXES.index(joint.axis) for joint in joints.joints)
-        return tuple(slots[i] for i in used)
 
 
 def robot_of(

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from importlib import import_module
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
@@ -18,9 +19,8 @@ if TYPE_CHECKING:
     from rapidgen.client.core.group import Group
     from rapidgen.client.core.state import State
     from rapidgen.client.program import ZoneLike
-    from rapidgen.client.rapid_export import ExportedModule
     from rapidgen.config.model import RobotConfig
-    from rapidgen.export.writer import WriterOptions
+    from rapidgen.export.writer import ExportedModule, WriterOptions
 
 Array = npt.NDArray[np.float64]
 _SHOWN = 4
@@ -210,11 +210,12 @@ class Trajectory:
         is formatted and checked, not executed. Raises InvalidTrajectory with all faults, and
         DiagnosticError for names that RAPID does not allow.
         """
-        from rapidgen.client.rapid_export import export_trajectory, robot_of
         from rapidgen.export.writer import WriterOptions
 
-        config, chosen = robot_of(robot, group)
-        return export_trajectory(
+        # By name: it imports this module, and moving a robot does not need it.
+        export = import_module("rapidgen.client.rapid_export")
+        config, chosen = export.robot_of(robot, group)
+        result: ExportedModule = export.export_trajectory(
             self,
             config,
             chosen,
@@ -223,6 +224,7 @@ class Trajectory:
             zone=zone,
             options=options or WriterOptions(),
         )
+        return result
 
     def to_csv(self, path: str | PathLike[str]) -> None:
         """Write `time,<joint names>`; numbers read back to the same values."""

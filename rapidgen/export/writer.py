@@ -22,7 +22,9 @@ import jinja2
 import jinja2.sandbox
 
 from rapidgen._data import data_folder
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
+from rapidgen.axes.mapping import JointMap
+from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, refusal
 from rapidgen.export import text
 from rapidgen.export.description import (
     Call,
@@ -49,6 +51,7 @@ RELEASES = ((5, 15), (6, 15), (7, 10))
 """RobotWare releases for which a module is checked."""
 _MOST_FORMATTED = 5_000
 """Instructions up to which the text of the shipped template is formatted again."""
+_AXES = (*(f"rax_{i}" for i in range(1, 7)), *(f"eax_{letter}" for letter in "abcdef"))
 _TEMPLATE = "module.mod.j2"
 _SHOWN = 10
 
@@ -83,6 +86,39 @@ class WrittenModule:
     def path(self) -> str:
         """Name of the text in findings: it is no file yet."""
         return f"<{self.name}.mod>"
+
+
+@dataclass(frozen=True, slots=True)
+class ExportedModule:
+    """A RAPID module, checked for RobotWare 5, 6 and 7, not yet executed.
+
+    `start` are the joints (URDF, rad and m) from which its first move was checked; `lines` the
+    line of each step of the program.
+    """
+
+    module: WrittenModule
+    config: RobotConfig
+    group: GroupConfig
+    start: tuple[float, ...]
+    lines: tuple[int, ...]
+    notes: tuple[Diagnostic, ...]
+    spans: tuple[Span, ...] = ()
+    """Places of the steps in their source, if they were read from one."""
+
+    @property
+    def text(self) -> str:
+        """Text of the module."""
+        return self.module.text
+
+    @property
+    def start_values(self) -> tuple[float, ...]:
+        """Start position in deg and mm: robot axes, then external axes."""
+        joints = JointMap.of(self.group)
+        slots = [
+            value for part in joints.to_rapid(joints.to_controller(self.start)) for value in part
+        ]
+        used = sorted(_AXES.index(joint.axis) for joint in joints.joints)
+        return tuple(slots[i] for i in used)
 
 
 def write_module(routine: Routine, options: WriterOptions | None = None) -> WrittenModule:
