@@ -9,7 +9,7 @@ export TIMEFORMAT = %U s of CPU, %R s
 # Where it is set, each of the hundreds of processes of a test run compiles all modules that it imports.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: demo lock test test-long lint types import-contract unit stall-test pause-test wheel page driver-soak site release-lint changelog check diagrams interop campaigns clean
+.PHONY: ros-tests demo lock test test-long lint types import-contract unit stall-test pause-test wheel page driver-soak site release-lint changelog check diagrams interop campaigns clean
 
 # Needs no more than rapidgen itself, which comes with a line every few seconds; `make test` adds the rest.
 RUNS := $(VENV)/.runs
@@ -21,7 +21,7 @@ $(RUNS): pyproject.toml
 	@touch $@
 
 # What takes one core is done side by side, each with its output in one piece; then the tests, which take them all.
-CHECKS := lint types import-contract wheel driver-soak site release-lint
+CHECKS := lint types import-contract wheel driver-soak site release-lint ros-tests
 test:
 	@$(MAKE) --no-print-directory --jobs $$(getconf _NPROCESSORS_ONLN) --output-sync=target $(CHECKS)
 	@$(MAKE) --no-print-directory unit
@@ -49,6 +49,13 @@ lint: $(STAMP)
 
 types: $(STAMP)
 	time $(BIN)/mypy
+
+# The node on the real rclpy, which PyPI has for Python 3.11 only; elsewhere `unit` tests it on a stand-in.
+ROS_TESTS := $(addprefix tests/ros/,test_node.py test_own_services.py test_process.py test_standin.py test_standin_fields.py)
+ros-tests:
+	@PYTHON="$(PYTHON)" .ci/ros
+	@test ! -e build/ros/.made || { time PYTHONPATH=$(CURDIR) build/ros/bin/python -m pytest -q -p no:cacheprovider \
+		-W "ignore:module 'sre_:DeprecationWarning" $(ROS_TESTS); }
 
 import-contract: $(STAMP)
 	time $(BIN)/lint-imports

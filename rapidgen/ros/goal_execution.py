@@ -99,7 +99,9 @@ class GoalFeedback:
 class ActiveGoal:
     """A goal from its acceptance to its end, with its cancellation."""
 
-    def __init__(self) -> None:
+    def __init__(self, stops: int | None = None) -> None:
+        """`stops` is how many stops the link had been asked for at the acceptance."""
+        self.stops = stops
         self.ending = asyncio.Event()
         self.over = asyncio.Event()
         self.is_replaced = False

@@ -9,6 +9,7 @@ import asyncio
 import signal
 import threading
 import time
+import uuid
 from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
 from typing import TypeVar
@@ -41,13 +42,23 @@ from rapidgen.ros.goal_execution import ActiveGoal, GoalFeedback, reason
 from rapidgen.ros.goals import FinalStatus, Goal, Outcome, Point, Tolerance
 from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, check_address, read
 from rapidgen.ros.robot_link import RobotLink, set_speeds
-from rapidgen.ros.status_messages import JointStates, RobotHealth, RobotStatus
+from rapidgen.ros.status_messages import (
+    DiagnosticsFilter,
+    JointStates,
+    Level,
+    RobotHealth,
+    RobotStatus,
+)
 from rapidgen.ros.user_services import ARE_THERE, MISSING, Message, Serve, services
 
 try:  # A package that not every distribution has.
     from industrial_msgs.msg import RobotStatus as RobotStatusMessage
 except ImportError:
     RobotStatusMessage = None
+else:
+    # ROS 1's message has one `error_code`; packages of that form exist for ROS 2 too.
+    if "error_codes" not in RobotStatusMessage.get_fields_and_field_types():
+        RobotStatusMessage = None
 
 T = TypeVar("T")
 _QOS = QoSProfile(depth=10)
@@ -71,6 +82,8 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self._thread.start()
         self._doors: list[GroupInterface] = []
         self._running: list[Future[None]] = []
+        self.fault = ""
+        """Why a link ended that was not asked to: this process can do nothing useful any more."""
         self.add_on_set_parameters_callback(self._parameters_set)
         if self.get_parameter("autostart").value:
             self._start()
@@ -132,9 +145,15 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         super().destroy_node()
 
     def _link_ended(self, running: "Future[None]") -> None:
-        """Report why a link ended, unless it was cancelled."""
-        if not running.cancelled() and (fault := running.exception()) is not None:
-            self.get_logger().error(f"the link ended by a fault of this node: {fault!r}")
+        """Report why a link ended, unless it was cancelled; `run` then ends the process."""
+        if running.cancelled() or (fault := running.exception()) is None:
+            return
+        text = f"the link ended by a fault of this node: {fault!r}"
+        self.get_logger().error(text)
+        for door, link in zip(self._doors, self._running, strict=True):
+            if link is running:
+                door.report(RobotHealth(Level.ERROR, text))
+        self.fault = text
 
     def _let_go(self) -> None:
         for running in self._running:
@@ -220,9 +239,17 @@ class GroupInterface:
         self._name = controller
         self._lock = threading.Lock()
         self._goals: dict[bytes, ActiveGoal] = {}
+        self._stops: dict[int, int] = {}
+        """By the identity of a goal's request: stops before its acceptance."""
         self._callbacks = ReentrantCallbackGroup()
         self._joint_states = self._publisher(JointState, "joint_states")
         self._diagnostics = self._publisher(DiagnosticArray, "/diagnostics")
+        self._filter = DiagnosticsFilter(
+            f"{node.get_fully_qualified_name()} {controller} {uuid.uuid4().hex}"
+        )
+        self._heard = node.create_subscription(
+            DiagnosticArray, "/diagnostics", self._received, _QOS, callback_group=self._callbacks
+        )
         self._status = (
             self._publisher(RobotStatusMessage, f"{space}robot_status")
             if RobotStatusMessage is not None
@@ -252,7 +279,7 @@ class GroupInterface:
             execute_callback=self._execute,
             callback_group=self._callbacks,
             # A rejection has no reason: goals are accepted, and aborted with one.
-            goal_callback=lambda _: GoalResponse.ACCEPT,
+            goal_callback=self._accept,
             cancel_callback=self._cancel,
             # rcl's default since Iron; rclpy would keep each goal for a quarter of an hour.
             result_timeout=_KEPT,
@@ -269,6 +296,7 @@ class GroupInterface:
         self._action.destroy()
         for service in self._services:
             self._node.destroy_service(service)
+        self._node.destroy_subscription(self._heard)
         for publisher in (self._joint_states, self._diagnostics, self._status, self._clock):
             if publisher is not None:
                 self._node.destroy_publisher(publisher)
@@ -293,19 +321,7 @@ class GroupInterface:
 
     def status(self, status: RobotStatus, health: RobotHealth) -> None:
         """See `LinkListener`."""
-        stamp = _time(round(self.link.now() * 1e9))
-        diagnostics = DiagnosticArray()
-        diagnostics.header.stamp = stamp
-        diagnostics.status = [
-            DiagnosticStatus(
-                level=bytes([health.level]),
-                name=f"{self._node.get_name()}: {self._name}",
-                message=health.message,
-                hardware_id=health.values.get("address", ""),
-                values=[KeyValue(key=key, value=value) for key, value in health.values.items()],
-            )
-        ]
-        self._diagnostics.publish(diagnostics)
+        stamp = self.report(health)
         if self._status is None:
             return
         message = RobotStatusMessage()
@@ -313,8 +329,39 @@ class GroupInterface:
         message.mode.val = status.mode
         for name in ("e_stopped", "drives_powered", "motion_possible", "in_motion", "in_error"):
             getattr(message, name).val = getattr(status, name)
-        message.error_code = status.error_code
+        message.error_codes = [status.error_code] if status.error_code else []
         self._status.publish(message)
+
+    def report(self, health: RobotHealth) -> Time:
+        """Publish diagnostics if they are new, or a second old; return the stamp."""
+        stamp = _time(round(self.link.now() * 1e9))
+        new = self._filter.to_publish(health, time.monotonic())
+        if new is None:
+            return stamp
+        diagnostics = DiagnosticArray()
+        diagnostics.header.stamp = stamp
+        diagnostics.status = [
+            DiagnosticStatus(
+                level=bytes([new.level]),
+                name=f"{self._node.get_name()}: {self._name}",
+                message=new.message,
+                hardware_id=new.values.get("address", ""),
+                values=[KeyValue(key=key, value=value) for key, value in new.values.items()],
+            )
+        ]
+        self._diagnostics.publish(diagnostics)
+        return stamp
+
+    def _received(self, diagnostics: Message) -> None:
+        """Notice another node on this robot."""
+        for status in diagnostics.status:
+            values = {one.key: one.value for one in status.values}
+            other = self._filter.received(status.hardware_id, values, time.monotonic())
+            if other:
+                self._node.get_logger().warning(
+                    f"{self._name}: another node is connected to this robot: {other.split()[0]}; "
+                    "end one of them, because each stops the other's motions"
+                )
 
     def note(self, text: str) -> None:
         """See `LinkListener`."""
@@ -338,6 +385,12 @@ class GroupInterface:
 
         return filled
 
+    def _accept(self, request: Message) -> GoalResponse:
+        """Accept a goal; a stop from now on ends it, although it may be executed later."""
+        with self._lock:
+            self._stops[id(request)] = self.link.stops
+        return GoalResponse.ACCEPT
+
     def _cancel(self, handle: Message) -> CancelResponse:
         self._node.soon(self._under_way(handle).cancel)
         return CancelResponse.ACCEPT
@@ -348,7 +401,8 @@ class GroupInterface:
         A cancellation may precede its execution.
         """
         with self._lock:
-            return self._goals.setdefault(bytes(handle.goal_id.uuid), ActiveGoal())
+            stops = self._stops.pop(id(handle.request), None)
+            return self._goals.setdefault(bytes(handle.goal_id.uuid), ActiveGoal(stops))
 
     def _execute(self, handle: Message) -> Message:
         """Execute a goal until the robot is at rest, in an executor's thread."""
@@ -471,7 +525,8 @@ def _duration(seconds: float) -> Duration:
 def run(arguments: list[str]) -> int:
     """Run the node until SIGINT, SIGTERM or SIGHUP.
 
-    `arguments` are as in ROS 2 (`--ros-args -p config:=...`).
+    `arguments` are as in ROS 2 (`--ros-args -p config:=...`). The exit code is 1 after a fault, so
+    that `ros2 launch` can respawn the node.
     """
     # rclpy's own handlers would prevent messages after a signal.
     rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
@@ -485,8 +540,9 @@ def run(arguments: list[str]) -> int:
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)
     try:
-        while True:
+        while not node.fault:
             executor.spin_once(timeout_sec=_LOOK)
+        node.end(executor)
     except (KeyboardInterrupt, ExternalShutdownException):
         # `ros2 launch` sends a second one; the robot is stopped in any case.
         for number in INTERRUPTIONS:
@@ -496,4 +552,4 @@ def run(arguments: list[str]) -> int:
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
-    return 0
+    return 1 if node.fault else 0

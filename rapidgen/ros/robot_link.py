@@ -70,6 +70,8 @@ class RobotLink:
         self._follower: GoalExecutor | None = None
         self._why = "not connected yet"
         self._paused_at: tuple[float, ...] | None = None
+        self.stops = 0
+        """Number of requests to stop. A goal that was accepted before the last one never starts."""
 
     @property
     def is_up(self) -> bool:
@@ -135,6 +137,8 @@ class RobotLink:
         if follower is None:
             text = f"no link to the robot: {self._why}"
             return Outcome(FinalStatus.ABORTED, Code.INVALID_GOAL, text)
+        if under.stops not in (None, self.stops):
+            under.cancel_pending()
         self._paused_at = None
         return await follower.follow(goal, tell, under)
 
@@ -143,6 +147,7 @@ class RobotLink:
 
         Raises RobotError.
         """
+        self.stops += 1
         robot = self._there()
         if self._follower is not None:
             self._follower.cancel_pending()

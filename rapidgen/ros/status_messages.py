@@ -4,7 +4,8 @@ industrial_msgs/RobotStatus and diagnostic_msgs/DiagnosticStatus as plain values
 messages of them.
 """
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 
 from rapidgen.client.core.motion import fix_of
@@ -64,6 +65,54 @@ class RobotHealth:
 
 _UNKNOWN = Status()
 _MODES = {Mode.MANUAL: "manual", Mode.AUTO: "automatic", Mode.UNKNOWN: "unknown"}
+
+
+PERIOD = 1.0
+"""s between two diagnostics that say the same."""
+_GONE = 3 * PERIOD
+"""s without diagnostics after which another node has ended."""
+
+
+class DiagnosticsFilter:
+    """Which diagnostics a node publishes, and what those of other nodes say about its robot.
+
+    Two nodes on one robot stop each other's motions. A node cannot see that from its own
+    connection, but each publishes the robot's address and its own identity.
+    """
+
+    def __init__(self, identity: str) -> None:
+        """`identity` is the node's name and something that no other process has."""
+        self._identity = identity
+        self._address = ""
+        self._others: dict[str, float] = {}
+        self._last: tuple[float, Level, str] | None = None
+
+    def received(self, address: str, values: Mapping[str, str], now: float) -> str:
+        """Return the identity of another node on the same robot when it is first seen, or ""."""
+        identity = values.get("node", "")
+        if address != self._address or identity in ("", self._identity):
+            return ""
+        is_new = identity not in self._others
+        self._others[identity] = now
+        return identity if is_new else ""
+
+    def to_publish(self, health: RobotHealth, now: float) -> RobotHealth | None:
+        """Return what is to be published at `now` (s, monotonic); None for nothing new."""
+        self._address = health.values.get("address", self._address)
+        self._others = {one: at for one, at in self._others.items() if now - at < _GONE}
+        values = {**health.values, "node": self._identity}
+        level, message = health.level, health.message
+        if self._others:
+            names = ", ".join(sorted(one.split()[0] for one in self._others))
+            values["other nodes"] = names
+            if level is Level.OK:
+                level, message = Level.WARN, f"another node is connected to this robot: {names}"
+        if self._last is not None:
+            at, *same = self._last
+            if now - at < PERIOD and same == [level, message]:
+                return None
+        self._last = now, level, message
+        return replace(health, level=level, message=message, values=values)
 
 
 def robot_status(status: Status) -> RobotStatus:

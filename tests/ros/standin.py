@@ -24,6 +24,10 @@ class Message:
         for name, value in given.items():
             setattr(self, name, value)
 
+    @classmethod
+    def get_fields_and_field_types(cls):
+        return dict(cls.FIELDS)
+
     def __setattr__(self, name, value):
         kind = self.FIELDS.get(name)
         if kind is None:
@@ -41,6 +45,13 @@ class Message:
 
 def message(_, /, **fields):
     return type(_, (Message,), {"FIELDS": fields})
+
+
+class Quaternion(message("Quaternion", x=float, y=float, z=float, w=float)):
+    """Without fields it is no rotation, as geometry_msgs/Quaternion.msg says."""
+
+    def __init__(self, **given):
+        super().__init__(**{"w": 1.0, **given})
 
 
 Time = message("Time", sec=int, nanosec=int)
@@ -83,7 +94,7 @@ RobotStatus = message(
     motion_possible=TriState,
     in_motion=TriState,
     in_error=TriState,
-    error_code=int,
+    error_codes=[int],
 )
 
 
@@ -115,7 +126,6 @@ class Trigger:
 
 
 Point = message("Point", x=float, y=float, z=float)
-Quaternion = message("Quaternion", x=float, y=float, z=float, w=float)
 Pose = message("Pose", position=Point, orientation=Quaternion)
 Value = message("Value", type=int, number=float, boolean=bool, text=str, pose=Pose, joints=[float])
 Value.NUM, Value.BOOL, Value.STRING, Value.ROBTARGET, Value.JOINTTARGET = range(5)
@@ -397,6 +407,35 @@ class LifecycleNode:
         return self.topics.setdefault(
             topic, Publisher(msg_type, qos_profile, qos_overriding_options)
         )
+
+    @property
+    def published(self):
+        return {name if name.startswith("/") else f"/{name}" for name in self.topics}
+
+    def qos(self, name):
+        profile = self.topics[name].qos
+        return profile.reliability, profile.durability, profile.depth
+
+    def is_qos_overridable(self, name):
+        return self.topics[name].overriding is not None
+
+    def break_joint_states(self, fault):
+        def publish(sent):
+            raise fault
+
+        self.topics["joint_states"].publish = publish
+
+    def create_subscription(
+        self, msg_type, topic, callback, qos_profile, *, callback_group=None, raw=False
+    ):
+        assert isinstance(qos_profile, QoSProfile)
+        return callback
+
+    def destroy_subscription(self, subscription):
+        pass
+
+    def get_fully_qualified_name(self):
+        return f"/{self._name}"
 
     def destroy_publisher(self, publisher):
         self.topics = {t: p for t, p in self.topics.items() if p is not publisher}

@@ -70,3 +70,18 @@ def test_resume_only_where_it_still_stands():
 
     with cell("irb120") as c:
         assert c.run(tried(c)).status is FinalStatus.SUCCEEDED
+
+
+def test_stop_ends_a_goal_that_was_accepted_before_it():
+    """The goal is executed by another thread of the node, which may come to it later."""
+    with cell("irb120") as c:
+        (link,), (robot,) = c.links, c.robots
+        accepted = ActiveGoal(link.stops)
+        c.run(link.stop())
+        here = robot.state.joints
+        requested = goal(here, [value + 0.1 for value in here], names=robot.group.names)
+        outcome = c.run(link.follow(requested, lambda _: None, accepted))
+        assert outcome.status is FinalStatus.ABORTED
+        assert "before it started" in outcome.text
+        later = c.run(link.follow(requested, lambda _: None, ActiveGoal(link.stops)))
+        assert later.status is FinalStatus.SUCCEEDED

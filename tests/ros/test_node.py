@@ -1,4 +1,4 @@
-"""The node against a stand-in of rclpy, with a controller in real time."""
+"""The node on rclpy, real or a stand-in, with a controller in real time."""
 
 import signal
 import sys
@@ -6,7 +6,13 @@ import time
 from functools import partial
 
 import pytest
-from standin import Duration, FollowJointTrajectory, JointTolerance, JointTrajectoryPoint, Time
+from messages import (
+    Duration,
+    FollowJointTrajectory,
+    JointTolerance,
+    JointTrajectoryPoint,
+    Time,
+)
 
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
@@ -74,6 +80,12 @@ def ended(handle):
     return handle.status, handle.result.error_code, handle.result.error_string
 
 
+def wait_for_line(logger, text):
+    """Wait until a line with `text` is logged."""
+    with logger.logged:
+        assert logger.logged.wait_for(lambda: any(text in line for line in logger.lines), 60)
+
+
 def action(node):
     return node.actions["rob1_controller/follow_joint_trajectory"]
 
@@ -94,11 +106,10 @@ def test_a_goal_from_end_to_end(up):
 
 def test_publishers_are_reliable_volatile_and_ten_deep(up):
     node = up()
-    assert set(node.topics) == {"joint_states", "/diagnostics", "robot_status"}
-    for topic in node.topics.values():
-        report = topic.qos.reliability, topic.qos.durability, topic.qos.depth
-        assert report == ("RELIABLE", "VOLATILE", 10)
-        assert topic.overriding is not None
+    assert node.published == {"/joint_states", "/diagnostics", "/robot_status"}
+    for topic in ("joint_states", "/diagnostics", "robot_status"):
+        assert node.qos(topic) == ("RELIABLE", "VOLATILE", 10)
+        assert node.is_qos_overridable(topic)
 
 
 def test_refused_is_aborted_with_its_reason(up):
@@ -204,19 +215,25 @@ def test_ends_with_a_goal_under_way_and_the_robot_stands(up, sim):
     group = next(iter(sim.motion.groups.values()))
     assert group.is_standing
     node.trigger_cleanup()
-    assert not node.topics
+    assert not node.published
 
 
-def test_end_of_link_is_logged(up):
+def test_end_of_link_is_logged_and_diagnosed(up):
+    """A node that cannot publish is no use: `run` ends it, so that launch can respawn it (R1)."""
     node = up()
+    diagnostics = node.topics["/diagnostics"]
+    node.break_joint_states(RuntimeError("the middleware is gone"))
+    report = diagnostics.wait(lambda report: report.status[0].level == b"\x02")
+    assert "middleware is gone" in report.status[0].message
+    assert "middleware is gone" in node.fault
+    wait_for_line(node.get_logger(), "middleware is gone")
 
-    def broken(sent):
-        raise RuntimeError("the middleware is gone")
 
-    node.topics["joint_states"].publish = broken
-    logger = node.get_logger()
-    with logger.logged:
-        assert logger.logged.wait_for(lambda: "middleware is gone" in str(logger.lines), 60)
+def test_refusal_is_an_error_code_of_robot_status(up):
+    """ROS 2's message has a list (industrial_msgs of industrial_core, branch ros2_msgs_only)."""
+    node = up()
+    status = node.topics["robot_status"]
+    assert list(status.wait(lambda report: report.motion_possible.val == 1).error_codes) == []
 
 
 @pytest.mark.parametrize(
@@ -233,7 +250,7 @@ def test_end_of_link_is_logged(up):
 def test_invalid_configuration_is_logged(driver_type, parameters, report):
     node = driver_type(parameter_overrides=parameters)
     assert node.state == "unconfigured"
-    assert any(report in line for line in node.get_logger().lines)
+    wait_for_line(node.get_logger(), report)
     node.destroy_node()
 
 
@@ -245,7 +262,9 @@ def test_invalid_configuration_is_logged(driver_type, parameters, report):
         (signal.SIGHUP, signal.SIG_DFL),
     ],
 )
-def test_signal_aborts_the_goal_and_ends_the_node(driver_type, sim, monkeypatch, number, before):
+def test_signal_aborts_the_goal_and_ends_the_node(
+    sourced, driver_type, sim, monkeypatch, number, before
+):
     """As started by `&` of a script, with SIGINT ignored: the robot stands when the node ends."""
     module = sys.modules["rapidgen.ros.node"]
     handles = []

@@ -4,7 +4,7 @@ import sys
 from dataclasses import replace
 
 import pytest
-from standin import Point, Pose, Quaternion, Value
+from messages import Point, Pose, Quaternion, Value
 
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
@@ -89,7 +89,7 @@ def test_signals_are_written_and_read(node, cell):
 
 def test_a_routine_gets_values_of_every_type_and_tells_its_results(node, cell):
     controller, _ = cell
-    target = Pose(position=Point(x=0.4, y=0.1, z=0.5), orientation=Quaternion(y=1.0))
+    target = Pose(position=Point(x=0.4, y=0.1, z=0.5), orientation=Quaternion(y=1.0, w=0.0))
     arguments = [
         Value(type=Value.NUM, number=3.5),
         Value(type=Value.STRING, text="seam 7"),

@@ -6,7 +6,16 @@ from ready import goal, station
 from rapidgen.client import Trajectory
 from rapidgen.client.core.state import Driver, State, Status
 from rapidgen.ros.goals import FinalStatus
-from rapidgen.ros.status_messages import Level, health, no_link, robot_status, unknown_status
+from rapidgen.ros.status_messages import (
+    PERIOD,
+    DiagnosticsFilter,
+    Level,
+    RobotHealth,
+    health,
+    no_link,
+    robot_status,
+    unknown_status,
+)
 from rapidgen.wire.simple_message.spec import Mode, Reason, TrajectoryState, TriState
 
 
@@ -124,3 +133,31 @@ def test_without_a_link_nothing_is_known():
     status = unknown_status()
     assert {status.e_stopped, status.drives_powered, status.in_motion, status.mode} == {-1}
     assert no_link("no answer", "10.0.0.1").level is Level.STALE
+
+
+READY = RobotHealth(Level.OK, "ready", {"address": "10.0.0.1:11000"})
+
+
+def test_diagnostics_are_published_when_new_and_each_second():
+    published = DiagnosticsFilter("/rapidgen 1")
+    assert published.to_publish(READY, 0.0) is not None
+    assert published.to_publish(READY, 0.5 * PERIOD) is None
+    moving = RobotHealth(Level.OK, "moving", READY.values)
+    assert published.to_publish(moving, 0.6 * PERIOD) is not None
+    assert published.to_publish(moving, 1.7 * PERIOD) is not None
+
+
+def test_another_node_on_the_robot_is_named_until_it_ends():
+    published = DiagnosticsFilter("/rapidgen 1")
+    published.to_publish(READY, 0.0)
+    address = READY.values["address"]
+    assert published.received(address, {"node": "/rapidgen 1"}, 0.1) == ""
+    assert published.received("10.0.0.2:11000", {"node": "/other 2"}, 0.1) == ""
+    assert published.received(address, {}, 0.1) == ""
+    assert published.received(address, {"node": "/other 2"}, 0.1) == "/other 2"
+    assert published.received(address, {"node": "/other 2"}, 0.2) == ""
+    warned = published.to_publish(READY, 0.2)
+    assert (warned.level, "/other" in warned.message) == (Level.WARN, True)
+    stopped = RobotHealth(Level.ERROR, "an emergency stop is active", READY.values)
+    assert published.to_publish(stopped, 0.3).message == stopped.message
+    assert published.to_publish(READY, 0.2 + 3 * PERIOD).level is Level.OK
