@@ -158,7 +158,7 @@ def sim(
     _check_host(host)
     _check_release(result, rws)
     denied = _denied(rws_deny or ())
-    partners = _partners(egm or ())
+    partners = {**result.surroundings.partners, **_partners(egm or ())}
     if ports is None and result.driver:
         _check_ports(result, host, port_offset)
     look = _look(result) if view or record is not None else None

@@ -14,7 +14,7 @@ from rapidgen.config.assemble import display_path, keys_of
 from rapidgen.config.draft import DraftFindings
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.config.model_cache import shipped_groups
-from rapidgen.config.plausibility import Arm, arm_of, load_doubts
+from rapidgen.config.plausibility import Arm, arm_of, is_host, load_doubts
 from rapidgen.config.registry import is_path, shipped_names
 from rapidgen.config.rules import Rule
 from rapidgen.config.schema import (
@@ -177,6 +177,13 @@ class CellKeys(StrictModel):
         default_factory=dict
     )
     force: Annotated[ForceKeys | None, Rule("Force sensors of the robots.")] = None
+    egm: Annotated[
+        dict[Identifier, str],
+        Rule(
+            "Partners of externally guided motion: the program's UdpUc device, and where `sim` "
+            "sends its datagrams, `HOST:PORT`; others are on 127.0.0.1."
+        ),
+    ] = field(default_factory=dict)
     things: Annotated[dict[Identifier, ThingKeys], Rule("What the page draws around robots.")] = (
         field(default_factory=dict)
     )
@@ -207,6 +214,8 @@ class CellDescription:
     devices: Mapping[str, Sequence[ReactionKeys]] = field(default_factory=dict)
     cameras: Mapping[str, CameraKeys] = field(default_factory=dict)
     force: ForceKeys | None = None
+    egm: Mapping[str, tuple[str, int]] = field(default_factory=dict)
+    """IPv4 address and port by device, lower case."""
     folder: Path = Path()
     """Folder of its files."""
     things: tuple[Thing, ...] = ()
@@ -258,6 +267,7 @@ def load_cell(path: Path) -> CellDescription:
         keys.devices,
         keys.cameras,
         keys.force,
+        _partners(keys.egm, report),
         path.parent,
         tuple(
             Thing(
@@ -278,6 +288,26 @@ def load_cell(path: Path) -> CellDescription:
     if report.failed:
         raise DiagnosticError(limit_findings(report.found))
     return replace(cell, diagnostics=tuple(limit_findings(report.found)))
+
+
+def _partners(given: Mapping[str, str], report: DraftFindings) -> dict[str, tuple[str, int]]:
+    """Return address and port by device. Reports RG006.
+
+    Names of hosts are not looked up: a file must mean the same on each computer.
+    """
+    result = {}
+    for device, text in given.items():
+        host, _, port = text.rpartition(":")
+        if is_host(host) and port.isdecimal() and 0 < int(port) < 65_536:
+            result[device.lower()] = (host, int(port))
+        else:
+            report.error(
+                "RG006",
+                f"'{text}' is not HOST:PORT with an IPv4 address",
+                ("egm", device),
+                help="such as 127.0.0.1:6510",
+            )
+    return result
 
 
 def _arm(keys: CellKeys) -> Arm:

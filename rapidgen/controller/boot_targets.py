@@ -261,6 +261,7 @@ def _surrounded(result: Bootable, cell: "CellDescription | None", options: BootO
             force_of(cell),
             frozenset(guessed.divisors if guessed is not None else ()),
             guessed.blank if guessed is not None else (),
+            partners=cell.egm,
             is_guess=guessed is not None,
             placed=frozenset(g.name for g in result.groups[:1] if options.start),
             is_any_robot=guessed is not None

@@ -71,6 +71,8 @@ class CellSetup:
     """True if the robots are inferred: unreachable targets do not stop the program."""
     placed: frozenset[str] = frozenset()
     """Groups whose start position the user chose."""
+    partners: Mapping[str, tuple[str, int]] = field(default_factory=dict)
+    """Partners of externally guided motion by device, lower case."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,7 +34,7 @@ from rapidgen.machine.sensors import ForceSensors, cameras
 from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.text_tables import TextTables
 from rapidgen.motion.egm.law import Profile
-from rapidgen.motion.egm.sessions import Conditions, EgmSessions, profile_of
+from rapidgen.motion.egm.sessions import Behaviour, Conditions, EgmSessions, profile_of
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
@@ -51,6 +51,7 @@ from rapidgen.runtime.task.task import Task
 from rapidgen.system.cfg_composition import database_of
 from rapidgen.system.cfg_database import CfgDatabase
 from rapidgen.system.model import ModuleFile, System
+from rapidgen.system.releases import ANY_MINOR, UNKNOWN_ROBOTWARE
 
 _LOG = logging.getLogger("rapidgen.controller")
 
@@ -58,6 +59,16 @@ _T = TypeVar("_T")
 _NS = 1_000_000_000
 Cycle = Literal["once", "forever"]
 Accounting = Literal["block", "statement", "none"]
+
+
+_EGM_DEAD_TIMES = {"none": 0.0, "short": 0.008, "typical": 0.016, "long": 0.048}
+_EGM_START = 1_700_000_000.0
+"""s since 1970 at which a controller starts; any date, the same in each run."""
+
+
+def _egm_release(system: System) -> tuple[int, int]:
+    known = system.is_robotware_known and system.robotware != UNKNOWN_ROBOTWARE
+    return system.robotware if known else (system.robotware[0], ANY_MINOR)
 
 
 class Deadlock(Exception):
@@ -186,10 +197,16 @@ class VirtualController:
         self.egm = EgmSessions(
             self.scheduler,
             self.log,
-            system.robotware,
+            # A release that is not known has all fields of its generation.
+            _egm_release(system),
             system.udp_devices,
             self._guided_state,
             self._egm_profiles,
+            Behaviour(
+                _EGM_DEAD_TIMES[self.dialect.egm_dead_time],
+                self.dialect.egm_convergence == "cycles",
+                _EGM_START if self.dialect.egm_clock == "epoch" else 0.0,
+            ),
         )
         """Externally guided motion: `egm.connect(device, partner)` gives a device a partner."""
         self.force = ForceSensors(surroundings.force)

@@ -56,6 +56,8 @@ class GuidedStep:
     origin: Posture
     target: Posture
     length: int
+    reference: Posture | None = None
+    """Where the guiding partner wants the robot to be; None: unknown."""
 
     @property
     def end(self) -> int:

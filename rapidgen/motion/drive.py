@@ -83,6 +83,10 @@ class Drive:
         """Axis values now, as planned."""
         return self.motion.posture(self._scheduler.now)
 
+    def reference(self) -> Posture:
+        """Axis values now, as planned or as a guiding partner sends them."""
+        return self.motion.reference(self._scheduler.now)
+
     def place(self) -> float:
         """Where the robot is on its path."""
         now, motion = self._scheduler.now, self.motion

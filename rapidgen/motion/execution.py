@@ -164,10 +164,10 @@ class PathExecution:
         self._rearm()
         self.settle()
 
-    def guide(self, posture: Posture, time: float) -> None:
+    def guide(self, posture: Posture, time: float, reference: Posture | None) -> None:
         """Leave the path for a step of externally guided motion; the path begins at its end."""
         now = self._scheduler.now
-        step = GuidedStep(now, self.drive.commanded(), posture, round(time * S))
+        step = GuidedStep(now, self.drive.commanded(), posture, round(time * S), reference)
         self.path = Path(posture)
         self._refreshed = None
         self.drive.put(SpeedProfile(0.0), now, self.path, posture, step)

@@ -129,6 +129,10 @@ class MotionGroup:
         """Axis values now, as planned: ahead of `positions` by the servo lag."""
         return self._drive.commanded()
 
+    def reference(self) -> Posture:
+        """Axis values to which the robot is ordered: `commanded`, or those of a guiding partner."""
+        return self._drive.reference()
+
     @property
     def path_target(self) -> Posture:
         """Where the path ends: the start of the next move."""
@@ -196,15 +200,16 @@ class MotionGroup:
         self._execution.come_back(tuple(posture), self.motion.law.place)
         self._execution.settle()
 
-    def guide(self, posture: Posture, time: float) -> None:
+    def guide(self, posture: Posture, time: float, reference: Posture | None = None) -> None:
         """Go to a posture at constant axis speeds within a time in s (externally guided motion).
 
+        `reference` is where the partner wants the robot to be; recordings and views show it.
         It is called anew when that time is over; the robot otherwise stays there. ValueError: a
         path is under way.
         """
         if self.legs:
             raise ValueError("a path is under way")
-        self._execution.guide(tuple(posture), time)
+        self._execution.guide(tuple(posture), time, reference)
 
     def brake_guided(self) -> None:
         """Bring a guided robot to rest, each axis by itself."""

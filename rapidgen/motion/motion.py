@@ -6,7 +6,7 @@ from math import ceil
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import smoothing
-from rapidgen.motion.braking import AxisMotion
+from rapidgen.motion.braking import AxisMotion, GuidedStep
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.moves import Move
 from rapidgen.motion.path import piece_at, posture_at
@@ -74,6 +74,14 @@ class Motion:
         if self.ramp <= 0.0 or not self.pieces:
             return posture_at(self.pieces, self.law.state(time)[0], self.rest)
         return smoothing.posture(self.law, self.pieces, self.rest, time, self.ramp)
+
+    def reference(self, now: int) -> Posture:
+        """Axis values that are ordered at a time; under guidance those of the partner."""
+        step = self.coast
+        # Another step follows within a cycle, or guidance has ended.
+        if isinstance(step, GuidedStep) and now - step.since <= 2 * step.length:
+            return self.posture(now) if step.reference is None else step.reference
+        return self.posture(now)
 
     def in_corner(self, now: int) -> bool:
         """True if the place on the path is in the corner of a fly-by point."""

@@ -147,9 +147,10 @@ class Recorder:
         lag = round(self._group.settings.servo_lag * S)
         result = []
         for time in times:
-            commanded = self._at(time).posture(time)
+            motion = self._at(time)
             late = max(self._start, time - lag)
-            result.append((commanded, self._at(late).posture(late) if lag else commanded))
+            actual = self._at(late).posture(late) if lag else motion.posture(time)
+            result.append((motion.reference(time), actual))
         return result
 
     def forget(self, before: int) -> None:
@@ -197,8 +198,8 @@ class Recorder:
         times = self._times(max(1, round(period * S)), standing)
         lag = round(self._group.settings.servo_lag * S)
         motions = [self._at(time) for time in times]
-        commanded = [m.posture(t) for m, t in zip(motions, times, strict=True)]
-        actual = commanded
+        commanded = [m.reference(t) for m, t in zip(motions, times, strict=True)]
+        actual = [m.posture(t) for m, t in zip(motions, times, strict=True)]
         if lag:
             delayed = [max(self._start, t - lag) for t in times]
             actual = [self._at(t).posture(t) for t in delayed]

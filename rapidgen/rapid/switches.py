@@ -184,6 +184,18 @@ class Switches:
     default 1 s (an engineer of ABB recalls it; the manual is silent); only an explicit
     \\CommTimeout; or never (a GoFa with RobotWare 7.21 waited for 2 min with 5 s)."""
 
+    egm_dead_time: Literal["typical", "none", "short", "long"] = "typical"
+    """Time between an order of EGM and the motion: 16 ms (ABB: 10 to 20 ms), 0, 8, or 48 ms
+    (users with level Raw, ros-industrial/abb_libegm, issue 111)."""
+
+    egm_convergence: Literal["messages", "cycles"] = "messages"
+    r"""What counts for \CondTime of EGMRun: cycles with a new message (a GoFa with RobotWare 7.21
+    and a silent partner never ended), or all of them, as the manual reads."""
+
+    egm_clock: Literal["start", "epoch"] = "start"
+    """`time` in messages of EGM: since the controller's start, as RobotStudio sends it, or since
+    1970, as egm.proto says."""
+
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
@@ -225,6 +237,9 @@ NOT_THE_DRIVERS = frozenset(
         "list_number",
         "queue_timeout",
         "egm_timeout",
+        "egm_dead_time",
+        "egm_convergence",
+        "egm_clock",
         "sockets_limited",
         "stationary_zones",
         "hands_calibrated",

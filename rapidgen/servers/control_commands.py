@@ -10,6 +10,7 @@ from rapidgen.controller.views import TaskView
 from rapidgen.machine.event_log import Event
 from rapidgen.machine.io import Signal
 from rapidgen.machine.operator import Question
+from rapidgen.motion.egm.sessions import EgmSession
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.text import NotALiteral, parse_value, value_text
@@ -107,6 +108,7 @@ class _Remote:
                 }
                 for name, group in c.motion.groups.items()
             },
+            "egm": [_guidance(session) for session in c.egm.sessions],
             "listeners": {str(port): at[1] for port, at in c.network.listeners.items()},
         }
 
@@ -254,6 +256,21 @@ class _Remote:
 def _has_value(type_: Type) -> None:
     if not type_.is_value:
         raise CommandError(f"{type_.name} is no value type")
+
+
+def _guidance(session: EgmSession) -> Json:
+    """Return a session of externally guided motion: rad, m and s; `age` is that of the answer."""
+    latest = session.latest
+    return {
+        "task": session.task,
+        "device": None if session.device is None else session.device.name,
+        "guidance": session.guidance,
+        "guided": session.guided,
+        "streaming": session.streaming,
+        "reference": None if latest.reference is None else list(latest.reference),
+        "position": None if latest.position is None else list(latest.position),
+        "age": latest.age,
+    }
 
 
 def _event(event: Event) -> dict[str, Json]:

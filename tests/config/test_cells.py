@@ -6,6 +6,7 @@ import pytest
 
 from rapidgen.cli.configuration import new
 from rapidgen.config import load_config
+from rapidgen.config.cell import load_cell
 from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, make_system
@@ -150,3 +151,20 @@ def test_robot_of_another_maker_is_reported(tmp_path, text, word):
     assert [d.code for d in caught.value.diagnostics] == ["RG059"]
     assert word in caught.value.diagnostics[0].message
     assert not (tmp_path / "cell.yaml").exists()
+
+
+def test_partners_of_externally_guided_motion(tmp_path):
+    path = tmp_path / "cell.yaml"
+    path.write_text("egm: {PC: '192.168.125.20:6511', UCdevice: '127.0.0.1:6510'}\n")
+    assert load_cell(path).egm == {
+        "pc": ("192.168.125.20", 6511),
+        "ucdevice": ("127.0.0.1", 6510),
+    }
+
+
+@pytest.mark.parametrize("text", ["6510", "robot:6510", "127.0.0.1:0", "127.0.0.1", "::1:6510"])
+def test_partner_that_is_no_address(tmp_path, text):
+    path = tmp_path / "cell.yaml"
+    path.write_text(f"egm: {{PC: '{text}'}}\n")
+    with pytest.raises(DiagnosticError, match="is not HOST:PORT"):
+        load_cell(path)

@@ -25,13 +25,11 @@ from rapidgen.motion.egm.guide import (
     axis_positions,
 )
 from rapidgen.motion.egm.law import CYCLE, Profile
-from rapidgen.wire.egm.values import EgmMessageError, RobotMessage
+from rapidgen.wire.egm.values import EgmMessageError, RapidData, RobotMessage
 
 if TYPE_CHECKING:
     from types import ModuleType
 
-_NUMBERS_SINCE = (7, 7)
-"""RobotWare with numbers for RAPID [manual 3HAC073318, revisions]."""
 Outcome: TypeAlias = Literal["", "converged", "stopped", "silent", "unreachable", "bounds"]
 """How a run ended; empty: it has not."""
 
@@ -102,6 +100,8 @@ class Inputs:
     braking: bool = False
     """The brakes bring it to rest."""
     standing: bool = True
+    data: RapidData | None = None
+    """What RAPID sends to the partner."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,11 +116,11 @@ class Result:
     rejected: str = ""
     """Why a datagram was rejected, the first time for this reason."""
     reference: Posture | None = None
-    """Where the partner wants a guided robot to be (Joint)."""
+    """Where the partner wants a guided robot to be (Joint), or is ordered to be (Pose)."""
     age: float | None = None
     """s since the last message of the partner."""
-    numbers: tuple[float, ...] = ()
-    """Numbers for RAPID in this cycle's message."""
+    data: RapidData | None = None
+    """What the partner sends to RAPID, in a message of this cycle."""
 
 
 @dataclass(slots=True)
@@ -135,6 +135,8 @@ class Exchange:
     """Name for diagnostics."""
     comm_timeout: float | None = None
     """s without a datagram after which a run ends; None: never."""
+    epoch: float = 0.0
+    """s to add to the controller's time in `time` of messages."""
     activation: Activation = field(default_factory=lambda: Activation("Joint"))
     streaming: bool = False
     run: Run | None = None
@@ -150,8 +152,7 @@ class Exchange:
     _left: int = 0
     """Cycles until the next message: times of a real clock are not exact."""
     _now: float = 0.0
-    _numbers: tuple[float, ...] = ()
-    """Of the message that was read in this cycle."""
+    _data: RapidData | None = None
 
     @property
     def running(self) -> bool:
@@ -193,7 +194,6 @@ class Exchange:
         if not self.running:
             ending, self._ending = self._ending, ""
             return Result(outcome=ending)
-        self._numbers = ()
         fresh, rejected = self._receive(link)
         position: Posture | None = None
         outcome: Outcome = ""
@@ -201,7 +201,8 @@ class Exchange:
         if self.run is not None:
             position, outcome, reason = self._guided(inputs, fresh=fresh)
         guide = self.guide
-        reference = None if guide is None else guide.reference
+        reference = None if guide is None else guide.reference or guide.ordered
+        data, self._data = self._data, None
         self._left -= 1
         if self.running and self._left <= 0:
             try:
@@ -212,7 +213,7 @@ class Exchange:
         if outcome:
             self._ending = ""
         age = now - self._heard
-        return Result(position, outcome, reason, rejected, reference, age, self._numbers)
+        return Result(position, outcome, reason, rejected, reference, age, data)
 
     def _receive(self, link: Link) -> tuple[bool, str]:
         """Read one datagram; return if it has a reference, and why it was rejected."""
@@ -225,8 +226,7 @@ class Exchange:
             self.rejected[str(fault)] += 1
             return False, str(fault) if self.rejected[str(fault)] == 1 else ""
         self._heard = self._now
-        if message.data is not None and self.release >= _NUMBERS_SINCE:
-            self._numbers = message.data.numbers
+        self._data = message.data
         # Partners answer also while nothing is to be guided; that is no fault.
         return self.guide is not None and self.guide.read(message), ""
 
@@ -296,13 +296,14 @@ class Exchange:
         message = RobotMessage(
             sequence=self.sequence,
             milliseconds=round(now * 1000),
-            measured=axis_positions(self.robot, activation, measured, now),
-            planned=axis_positions(self.robot, activation, ordered, now),
+            measured=axis_positions(self.robot, activation, measured, now + self.epoch),
+            planned=axis_positions(self.robot, activation, ordered, now + self.epoch),
             motors_on=inputs.motors_on,
             state="running" if guide is not None else "stopped",
             program_runs=inputs.program_runs,
             converged=guide is not None and guide.in_tolerance,
-            utilization=0.0,
+            utilization=0.0 if guide is None else guide.utilization,
+            data=inputs.data,
             move_index=0,
             collision=False,
         )

@@ -39,6 +39,8 @@ class GuidedRobot:
     upper: Posture
     dead_time: float = 0.016
     """s between an order and the motion."""
+    any_cycle: bool = False
+    """True if cycles without a message count for the condition time, too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +111,8 @@ class Guide:
         self._converged_for = 0.0
         self.received = False
         """True from the first message with a reference on."""
+        self.utilization = 0.0
+        """Per cent of the highest speed that the last cycle would have needed."""
         if activation.mode == "Joint":
             names = dict(zip(JOINT_NAMES, _AXES, strict=True))
             chosen = {names[axis] for axis in run.axes}
@@ -222,6 +226,7 @@ class Guide:
         OutOfBounds: nothing was executed.
         """
         before = self.ordered
+        self.utilization = 0.0
         if self._way is not None:
             # In its last cycle before a bound an axis may be too fast to brake.
             self.ordered = self._within(self._way.advance(CYCLE))
@@ -237,6 +242,7 @@ class Guide:
         positions, speeds = law.propose(self._reference, self._speeds)
         joint_mode = self.activation.mode == "Joint"
         postures = positions if joint_mode else self._posture(positions)
+        self.utilization = 100 * self._fastest(postures) / self.activation.max_speed
         for _ in range(_ATTEMPTS):
             fastest = self._fastest(postures)
             if fastest <= self.activation.max_speed * (1 + 1e-9):
@@ -346,11 +352,12 @@ class Guide:
     def count(self, *, fresh: bool) -> bool:
         """Count a cycle towards the condition time; return True if it is over.
 
-        Only cycles with a new message count: a GoFa (7.21) with a silent partner never ended.
+        Without `any_cycle` only cycles with a new message count: a GoFa (7.21) with a silent
+        partner never ended.
         """
         if not self.in_tolerance:
             self._converged_for = 0.0
-        elif fresh:
+        elif fresh or self.robot.any_cycle:
             self._converged_for += CYCLE
         return self._converged_for >= self.run.condition_time - CYCLE / 2
 

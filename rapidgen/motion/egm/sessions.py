@@ -30,6 +30,7 @@ from rapidgen.motion.egm.law import CYCLE, Profile
 from rapidgen.motion.group import MotionGroup
 from rapidgen.system.cfg import Instance
 from rapidgen.system.model import UdpDevice
+from rapidgen.wire.egm.values import RapidData
 
 MAX_IDENTITIES: Final = 4
 """At a time [manual 3HAC073318 5.2]."""
@@ -97,6 +98,18 @@ class LockStep:
 
 
 @dataclass(frozen=True, slots=True)
+class Behaviour:
+    """What sources disagree about; the defaults are those of the manual."""
+
+    dead_time: float = 0.016
+    """s between an order and the motion."""
+    any_cycle: bool = False
+    """True if cycles without a message count for the condition time, too."""
+    epoch: float = 0.0
+    """s to add to the controller's time in `time` of messages."""
+
+
+@dataclass(frozen=True, slots=True)
 class Conditions:
     """State of the controller that messages contain."""
 
@@ -131,10 +144,12 @@ class EgmSession:
     changed: WaitSet = field(default_factory=WaitSet)
     on_end: Callable[[], None] | None = None
     """Called once when a stream or a run ends for which the program does not wait."""
-    on_numbers: Callable[[tuple[float, ...]], None] | None = None
-    """Receives numbers of the partner (\\DataFromSensor)."""
     loop: Loop | None = None
     timer: Timer | None = None
+    outgoing: Callable[[], RapidData] | None = None
+    """Returns what RAPID sends in each message; None: nothing."""
+    incoming: Callable[[RapidData], None] | None = None
+    """Takes what the partner sends to RAPID; None: it is dropped."""
 
     @property
     def running(self) -> bool:
@@ -157,6 +172,7 @@ class EgmSessions:
         devices: UDP devices; None: unknown configuration.
         conditions: Returns the state of the controller for a task.
         profiles: Returns the instances of EXT_MOTION_DATA by name.
+        behaviour: Where sources disagree.
     """
 
     def __init__(
@@ -167,7 +183,9 @@ class EgmSessions:
         devices: tuple[UdpDevice, ...] | None,
         conditions: Callable[[str], Conditions],
         profiles: Callable[[], Mapping[str, Profile]] = dict,
+        behaviour: Behaviour | None = None,
     ) -> None:
+        self._behaviour = behaviour or Behaviour()
         self._scheduler = scheduler
         self._log = log
         self._release = release
@@ -200,6 +218,15 @@ class EgmSessions:
         if self._devices is None or name.lower() == "default":
             return known.get(name.lower(), Profile())
         return known.get(name.lower())
+
+    @property
+    def release(self) -> tuple[int, int]:
+        """Return the release of RobotWare whose messages are exchanged."""
+        return self._release
+
+    def guides(self, group: MotionGroup) -> bool:
+        """True if a run guides the robot of a group."""
+        return any(session.guided and session.group is group for session in self._sessions)
 
     def connect(self, device: str, partner: Partner) -> None:
         """Let a function be the partner of a device, in lock-step with the clock."""
@@ -306,7 +333,12 @@ class EgmSessions:
         if device is None or group is None:
             return None
         exchange = Exchange(
-            _robot(group), self._release, session.profile, session.partner, session.comm_timeout
+            _robot(group, self._behaviour),
+            self._release,
+            session.profile,
+            session.partner,
+            session.comm_timeout,
+            self._behaviour.epoch,
         )
         partner = self._partners.get(device.name.lower())
         if partner is not None:
@@ -334,10 +366,9 @@ class EgmSessions:
             if result.rejected:
                 text = f"{session.partner}: {result.rejected}"
                 self._log.record(_REJECTED, text, task=session.task)
-            if result.numbers and session.on_numbers is not None:
-                session.on_numbers(result.numbers)
         if results:
             session.latest = results[-1]
+            self._receive(session, results)
             self._move(session, group, inputs, results)
         for result in results:
             if result.outcome:
@@ -355,7 +386,15 @@ class EgmSessions:
             stopped=bool(reasons),
             braking=_BRAKES in reasons,
             standing=group.is_standing,
+            data=None if session.outgoing is None else session.outgoing(),
         )
+
+    @staticmethod
+    def _receive(session: EgmSession, results: Sequence[Result]) -> None:
+        """Pass data of the partner on to RAPID; the newest of several cycles count."""
+        data = next((result.data for result in reversed(results) if result.data is not None), None)
+        if data is not None and session.incoming is not None:
+            session.incoming(data)
 
     def _move(
         self, session: EgmSession, group: MotionGroup, inputs: Inputs, results: Sequence[Result]
@@ -365,7 +404,7 @@ class EgmSessions:
         if inputs.braking or not session.guided:
             return
         if position is not None:
-            group.guide(position, len(results) * CYCLE)
+            group.guide(position, len(results) * CYCLE, results[-1].reference)
         elif inputs.stopped:
             group.brake_guided()
 
@@ -382,7 +421,7 @@ def profile_of(row: Instance) -> Profile:
     )
 
 
-def _robot(group: MotionGroup) -> GuidedRobot:
+def _robot(group: MotionGroup, behaviour: Behaviour) -> GuidedRobot:
     """Return what guidance needs to know of a group."""
     joints = group.config.joints
     return GuidedRobot(
@@ -390,4 +429,6 @@ def _robot(group: MotionGroup) -> GuidedRobot:
         group.kinematics,
         tuple(joint.lower for joint in joints),
         tuple(joint.upper for joint in joints),
+        behaviour.dead_time,
+        behaviour.any_cycle,
     )

@@ -65,7 +65,7 @@ class MotionProvider:
         tcp = carried.tcp(group.kinematics, actual)
         return RobotPlace(
             joints=drawing.values(group.map.to_urdf(actual)),
-            commanded=drawing.values(group.map.to_urdf(group.commanded())),
+            commanded=drawing.values(group.map.to_urdf(group.reference())),
             axes=actual,
             tcp=None if tcp is None else pose_of(tcp),
             tool=pose_of(carried.tool),

@@ -9,13 +9,17 @@ import math
 import pytest
 
 from rapidgen.config import load_config
+from rapidgen.controller.boot_targets import BootOptions, load_target
 from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.event_log import EventLog
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.motion.egm.sessions import MAX_IDENTITIES, EgmSessions
+from rapidgen.motion.recorder import Recorder
+from rapidgen.rapid.switches import Switches
+from rapidgen.servers.control_commands import commands
 from rapidgen.system.model import UdpDevice
 from rapidgen.wire.egm.codec import decode_robot, encode_sensor
-from rapidgen.wire.egm.values import CartesianPose, SensorMessage
+from rapidgen.wire.egm.values import CartesianPose, RapidData, SensorMessage
 
 HEAD = r"""MODULE m
 CONST egm_minmax near := [-0.1, 0.1];
@@ -298,3 +302,133 @@ def test_egm_identities_are_taken_and_freed():
     sessions.free(in_use[1])
     sessions.free(in_use[1])
     assert sessions.take("D") is not None
+
+
+DATA = r"""EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=1;
+EGMActJoint id \Tool:=tool0 \DOtoSensor:=doReady \DataToSensor:=sent \DIfromSensor:=diSeen
+ \DataFromSensor:=received \J1:=near \MaxSpeedDeviation:=100 \MaxPosDeviation:=20;
+sent{2} := 2.5;
+SetDO doReady, 1;
+EGMRunJoint id, EGM_STOP_HOLD \J1 \CondTime:=600;
+"""
+
+
+@pytest.fixture
+def exchanging(tmp_path):
+    """A program that exchanges data, with the release and the answer of the partner."""
+    made = []
+
+    def make(release, answer):
+        persistent = "PERS dnum sent{3} := [1, 2, 3];\nPERS dnum received{3} := [7, 8, 9];\n"
+        text = HEAD.replace("PROC main", persistent + "PROC main") + DATA + TAIL
+        (tmp_path / "m.mod").write_text(text)
+        (tmp_path / "cell.yaml").write_text(
+            "signals: {doReady: {kind: DO}, diSeen: {kind: DI}}\n"
+            "robots: {T_ROB1: {model: irb120}}\n"
+        )
+        target = load_target(
+            (),
+            BootOptions(
+                {"T_ROB1": [tmp_path / "m.mod"]},
+                cell=str(tmp_path / "cell.yaml"),
+                robotware=release,
+            ),
+        )
+        controller = VirtualController.boot(target, cycle="once")
+        made.append(controller)
+        partner = Partner(answer)
+        controller.egm.connect("UCdevice", partner)
+        return controller, partner
+
+    yield make
+    for controller in made:
+        controller.close()
+
+
+def test_rapid_data_of_both_sides(exchanging):
+    """RobotWare 7.7 and later: signals and arrays travel in each message."""
+    answer = SensorMessage(joints=(0, 0, 0, 0, 30, 0), data=RapidData(True, (0.5,)))
+    controller, partner = exchanging((7, 16), lambda _message: answer)
+    controller.run_for(2)
+    assert partner.messages[-1].data == RapidData(True, (1.0, 2.5, 3.0))
+    assert controller.signals["diSeen"] == 1
+    assert controller.task("T_ROB1")["received"] == {1: 0.5, 2: 8, 3: 9}
+
+
+def test_rapid_data_need_a_release(exchanging):
+    controller, _ = exchanging((7, 6), lambda _message: None)
+    controller.run_for(2)
+    assert "needs RobotWare 7.07" in controller.task("T_ROB1").fault.arguments[0]
+
+
+@pytest.mark.parametrize(
+    ("dead_time", "cycles"), [("none", 0), ("short", 2), ("typical", 4), ("long", 12)]
+)
+def test_dead_time_of_a_switch(guided, dead_time, cycles):
+    dialect = Switches(egm_dead_time=dead_time)
+    controller, partner, _ = guided(JOINT, to(10, 0, 0, 0, 30, 0), dialect=dialect)
+    controller.run_for(3)
+    running = [m for m in partner.messages if m.state == "running"]
+    planned = [m.planned.joints[0] for m in running]
+    measured = [m.measured.joints[0] for m in running]
+    assert measured[cycles + 1 :] == pytest.approx(planned[1 : len(planned) - cycles], abs=1e-9)
+
+
+@pytest.mark.parametrize(("counted", "ends"), [("messages", False), ("cycles", True)])
+def test_cycles_that_count_for_convergence(guided, counted, ends):
+    """A partner that falls silent in the tolerance; without \\CommTimeout nothing else ends it."""
+    body = JOINT.replace("\\CommTimeout:=1", "\\CommTimeout:=600")
+    target = to(0, 0, 0, 0, 30, 0)
+    dialect = Switches(egm_convergence=counted)
+    controller, _partner, _ = guided(
+        body, lambda m: target(m) if m.sequence < 20 else None, dialect=dialect
+    )
+    controller.run_for(4)
+    assert any(session.guided for session in controller.egm.sessions) is not ends
+
+
+def test_clock_of_messages(guided):
+    answer = to(0, 0, 0, 0, 30, 0)
+    controller, partner, _ = guided(JOINT, answer, dialect=Switches(egm_clock="epoch"))
+    controller.run_for(2)
+    assert partner.messages[-1].measured.time > 1.6e9
+    assert partner.messages[-1].milliseconds < 10_000
+
+
+def test_utilization_above_the_limit(guided):
+    """A step of 10 degrees at gain 5 asks for 50 deg/s; the low pass lets some of it pass."""
+    controller, partner, _ = guided(JOINT, to(10, 0, 0, 0, 30, 0), speed=10)
+    controller.run_for(1)
+    rates = [m.utilization for m in partner.messages if m.state == "running"]
+    assert max(rates) > 100
+    controller.run_for(10)
+    assert partner.messages[-1].utilization < 5
+
+
+def test_move_while_guided_stops_the_program(guided):
+    """Event 50453 [ros-industrial/abb_libegm, issue 110]."""
+    body = JOINT.replace("EGM_STOP_HOLD", "EGM_STOP_HOLD \\NoWaitCond").replace("@condition", "600")
+    body += "WaitTime 0.5;\nMoveAbsJ home, v1000, fine, tool0;\n"
+    controller, _, group = guided(body, to(5, 0, 0, 0, 30, 0))
+    controller.run_for(5)
+    assert 50_453 in [event.code for event in controller.log]
+    assert group.is_standing
+
+
+def test_reference_is_recorded(guided):
+    """Recordings and views show where the partner wants the robot to be, and where it is."""
+    controller, partner, group = guided(JOINT, to(10, 0, 0, 0, 30, 0))
+    until_guided(controller, partner)
+    recorder = Recorder(controller.scheduler, group)
+    controller.run_for(0.2)
+    assert degrees(group.reference())[0] == pytest.approx(10)
+    recording = recorder.recording()
+    assert math.degrees(recording.commanded[-1][0]) == pytest.approx(10)
+    assert 0.5 < math.degrees(recording.actual[-1][0]) < 9
+    status = commands(controller)["status"]({})["egm"]
+    assert status[0]["guided"]
+    assert math.degrees(status[0]["reference"][0]) == pytest.approx(10)
+    assert status[0]["age"] <= 0.004 + 1e-9
+    controller.run_for(10)
+    # After the run there is no partner whose reference would count.
+    assert group.reference() == group.positions()

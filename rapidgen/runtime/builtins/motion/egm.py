@@ -6,7 +6,6 @@ for a socket. EGMSetupAI, EGMSetupAO, EGMSetupGI, EGMSetupLTAPP, EGMActMove, EGM
 stop the program, because they require a signal or a path to follow.
 """
 
-from functools import partial
 from math import radians
 from typing import Final, cast, get_args
 
@@ -24,12 +23,15 @@ from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_interface import GUIDED
 from rapidgen.runtime.registry import Arguments, builtin, by_name
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, Value, register_type
+from rapidgen.runtime.values import Value, register_type
+from rapidgen.wire.egm.values import MAX_NUMBERS, RapidData
 
 _MISMATCH: Final = 41_826
 _NO_DATA: Final = 41_822
 _NOT_SENT: Final = 41_830
 _BOUNDS: Final = 194_913
+_NO_MOVE: Final = 194_915
+_DATA_SINCE: Final = (7, 7)
 _DISCONNECTED, _CONNECTED, _RUNNING = range(3)
 """Only their order is documented; a public program noted 0 and 1 [code: C-projectabout-...]."""
 _HOLD: Final = 0
@@ -166,18 +168,48 @@ def egm_act(task: Task, name: str, arguments: Arguments) -> None:
     if session.guidance != expected:
         raise _mismatch(f"{name} after EGMSetupUC \\{session.guidance}")
     _check_load(task, name, arguments)
+    _exchange_data(task, session, arguments)
     session.activation = _activation(moving_group(task), session, expected, arguments)
     session.active = expected
-    numbers = arguments["DataFromSensor"]
-    session.on_numbers = None if numbers is None else partial(_receive, numbers)
     if arguments["StreamStart"]:
         _stream(task, session)
 
 
-def _receive(target: Ref, numbers: tuple[float, ...]) -> None:
-    """Put the partner's numbers into an array; those beyond its end are lost."""
-    received = dict(zip(target.get(), numbers, strict=False))
-    target.set({**target.get(), **received})
+def _exchange_data(task: Task, session: EgmSession, arguments: Arguments) -> None:
+    """Connect signals and arrays of EGMAct with the messages of a session.
+
+    They are read and written in each cycle. FatalError: an earlier release, or a longer array.
+    """
+    names = ("DOToSensor", "DataToSensor", "DIFromSensor", "DataFromSensor")
+    output, numbers, digital, received = (arguments[name] for name in names)
+    given = [name for name in names if arguments[name] is not None]
+    session.outgoing = session.incoming = None
+    if not given:
+        return
+    egm = task.controller.egm
+    if egm.release < _DATA_SINCE:
+        raise _refused(f"\\{given[0]} needs RobotWare 7.07 or later")
+    for name, array in (("DataToSensor", numbers), ("DataFromSensor", received)):
+        if array is not None and len(array.get()) > MAX_NUMBERS:
+            raise _refused(f"\\{name} has {len(array.get())} elements: {MAX_NUMBERS} are possible")
+
+    def outgoing() -> RapidData:
+        level = None if output is None else bool(output.value)
+        values = () if numbers is None else tuple(numbers.get().values())
+        return RapidData(level, values)
+
+    def incoming(data: RapidData) -> None:
+        if digital is not None and data.digital is not None:
+            task.controller.io.set(digital, int(data.digital))
+        if received is not None and data.numbers:
+            # A shorter message leaves the rest of the array as it is.
+            numbers_of = received.get()
+            received.set({**numbers_of, **dict(zip(numbers_of, data.numbers, strict=False))})
+
+    if output is not None or numbers is not None:
+        session.outgoing = outgoing
+    if digital is not None or received is not None:
+        session.incoming = incoming
 
 
 def _activation(
@@ -285,8 +317,12 @@ def egm_run(task: Task, name: str, arguments: Arguments) -> None:
         raise _refused(f"{name.replace('Run', 'Act')} comes first")
     if session.active != expected:
         raise _mismatch(f"{name} after EGMAct{session.active}")
-    if not moving_group(task).is_standing:
+    group = moving_group(task)
+    if not group.is_standing:
         raise _refused(f"{name} begins in a fine point")
+    if group.name not in task.controller.motion.moved:
+        # What a controller does then is not published [manual 3HAC073318, 1.1].
+        task.controller.log.record(_NO_MOVE, name, task=task.name)
     names = JOINT_NAMES if expected == "Joint" else POSE_NAMES
     axes = tuple(axis for axis in names if arguments.get(axis))
     if not axes:

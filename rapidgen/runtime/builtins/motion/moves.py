@@ -60,6 +60,9 @@ from rapidgen.runtime.values import Value
 # Move instructions to robtargets: one place where RAPID's arguments become a Move.
 
 
+_GUIDED = 50_453
+
+
 def common(task: Task, group: MotionGroup, arguments: Arguments) -> dict[str, Value]:
     """Return the parameters common to all moves to a robtarget.
 
@@ -244,6 +247,9 @@ def _start(task: Task, group: MotionGroup, move: Move, identity: float | None) -
         if isinstance(at, Location):
             arguments = (task.name, at.instruction, "StorePath", at.reference)
             task.controller.log.record(MISSING_STORE_PATH, *arguments, task=task.name, span=at.span)
+    if task.controller.egm.guides(group):
+        # Between EGMRun \\NoWaitCond and EGMWaitCond [ros-industrial/abb_libegm, issue 110].
+        raise FatalError(_GUIDED, "Move not allowed", f"{group.name} is guided by EGM")
     group.move(task, together(task, group, move, identity))
     task.controller.motion.moved.add(group.name)
 
