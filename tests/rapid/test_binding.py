@@ -17,6 +17,7 @@ from rapidgen.rapid.binding import (
     root,
     type_of,
 )
+from rapidgen.rapid.binding.lookup import scope_at, type_before
 from rapidgen.rapid.syntax.nodes import FunctionCall, ProcedureCall
 from rapidgen.rapid.syntax.walk import walk
 
@@ -422,3 +423,57 @@ def test_parameters_of_a_routine(places):
     work = places[0].at(*place(8, "work"))
     assert [p.name for p in work.parameters] == ["count", "often"]
     assert [p.name for p in builtin("waittime").parameters] == ["InPos", "Time"]
+
+
+# -- components and unfinished text ----------------------------------------------------------
+
+
+def symbol_at(scope, marked):
+    """The symbol at the text between two `@`, which are taken out by the caller."""
+    source = scope.tree.source
+    return BoundModule(scope).at(*source.position(source.text.index(marked)))
+
+
+def test_components_of_records_are_symbols():
+    text = """MODULE m
+RECORD part num size; robtarget place; ENDRECORD
+VAR part list{3};
+PROC main()
+list{2}.place.trans.x := list{1}.size;
+ENDPROC
+ENDMODULE"""
+    (scope,) = bind(text)
+    size = symbol_at(scope, "size;")
+    assert (size.kind, size.type, size.record.name) == ("COMPONENT", "num", "part")
+    assert symbol_at(scope, "size;\nENDPROC") is size
+    assert [s.line for s in BoundModule(scope).uses(size)] == [5]
+    assert symbol_at(scope, "trans").record.name == "robtarget"
+    assert symbol_at(scope, "x :=").record.name == "pos"
+
+
+@pytest.mark.parametrize("statement", ["p.trans.x := ;", "IF p.trans.x THEN", "MoveL p.trans.x"])
+def test_names_of_a_broken_statement_have_symbols(statement):
+    (scope,) = bind(module("VAR robtarget p;", statement))
+    assert symbol_at(scope, "p.").kind == "VAR"
+    assert symbol_at(scope, "x").record.name == "pos"
+
+
+def test_the_scope_of_an_unfinished_loop_has_its_variable():
+    (scope,) = bind(module("", "FOR i FROM 1 TO 3 DO\nq := i"))
+    tokens = scope.tree.source.tokens
+    assert scope_at(scope, len(tokens) - 2).find("i").kind == "LOOP"
+    assert scope_at(scope, 1) is scope
+
+
+def test_types_before_a_component():
+    (scope,) = bind(module("VAR robtarget p{2};\nVAR pose q;", "x := 1;"))
+    inside = scope.routine(scope.tree.routines[0])
+    for text, expected in [
+        ("p{1}", "robtarget"),
+        ("q.trans", "pos"),
+        ("a := CRobT(\\Tool:=t)", "robtarget"),
+        ("1", None),
+        (")", None),
+    ]:
+        tokens = parse(f"MODULE m {text}").source.tokens
+        assert type_before(tokens, len(tokens) - 1, inside) == expected

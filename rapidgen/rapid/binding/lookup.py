@@ -1,16 +1,32 @@
 """Symbols at a place of a text, and all uses of a symbol.
 
-`BoundModule(scope).at(line, column)` is the symbol named there. It also covers parameters named by
-an argument and procedures named by a literal in a late call.
+`BoundModule(scope).at(line, column)` is the symbol named there. It also covers components of
+records, parameters named by an argument and procedures named by a literal in a late call.
+
+A statement with a syntax error is not in the tree. Its names are looked up by their tokens, so that
+an editor has an answer while the statement is written (`scope_at`, `type_before`).
 """
 
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from rapidgen.diagnostics import Span
 from rapidgen.rapid.binding.constants import constant
-from rapidgen.rapid.binding.names import ModuleScope, RoutineSymbol, Scope, Symbol
+from rapidgen.rapid.binding.expressions import declared_type
+from rapidgen.rapid.binding.names import (
+    DataSymbol,
+    ModuleScope,
+    RoutineScope,
+    RoutineSymbol,
+    Scope,
+    Symbol,
+    TypeSymbol,
+    called,
+    element,
+)
+from rapidgen.rapid.syntax.damage import damage_of
+from rapidgen.rapid.syntax.lexer import NAME, Kinds
 from rapidgen.rapid.syntax.nodes import (
     AliasDeclaration,
     Argument,
@@ -20,8 +36,10 @@ from rapidgen.rapid.syntax.nodes import (
     FunctionCall,
     Goto,
     LateCall,
+    Member,
     Name,
     Node,
+    NumberLiteral,
     Parameter,
     ProcedureCall,
     RecordDeclaration,
@@ -44,6 +62,7 @@ class BoundModule:
     def names(self) -> dict[int, Symbol]:
         """Every token that names a known symbol, including declarations."""
         if not self._named:
+            self._named.update(_in_damage(self.scope))
             self._named.update(_mentions(self.scope))
         return self._named
 
@@ -52,14 +71,18 @@ class BoundModule:
 
         The position after the last letter belongs to the name.
         """
+        token = self.token_at(line, column)
+        return None if token is None else self.names[token]
+
+    def token_at(self, line: int, column: int) -> int | None:
+        """Return the token at a place that names a known symbol."""
         source = self.scope.tree.source
         offset = source.offset(line, column)
         for at in (offset, offset - 1):
             token = bisect_right(source.starts, at) - 1
-            if token >= 0 and at < source.starts[token] + len(source.tokens[token]):
-                symbol = self.names.get(token)
-                if symbol is not None:
-                    return symbol
+            inside = token >= 0 and at < source.starts[token] + len(source.tokens[token])
+            if inside and token in self.names:
+                return token
         return None
 
     def uses(self, symbol: Symbol) -> list[Span]:
@@ -74,9 +97,8 @@ class BoundModule:
 
 
 def _mentions(module: ModuleScope) -> Iterator[_Mention]:
-    for symbol in module.task.find(module.tree.name.lower()), *module.own.values():
-        if symbol is not None and symbol.module is module:
-            yield symbol.token, symbol
+    for symbol in module.symbol, *module.own.values():
+        yield symbol.token, symbol
     for declaration in module.tree.declarations:
         yield from _below(declaration, module)
 
@@ -129,8 +151,16 @@ def _named(node: Node, scope: Scope) -> Iterator[_Mention]:
         case AliasDeclaration(type=name):
             yield from _found(node.last - 2, scope.find(name))
         case RecordDeclaration():
+            symbol = scope.module.own.get(node.name.lower())
             for component in node.components:
                 yield from _found(component.first, scope.find(component.type))
+                if isinstance(symbol, TypeSymbol) and symbol.node is node:
+                    member = scope.module.task.members(symbol).get(component.name.lower())
+                    yield from _found(component.first + 1, member)
+        case Member():
+            complete = declared_type(node.base, scope)
+            if complete is not None:
+                yield from _found(node.last, scope.module.member(complete, node.component))
         case Connect(trap=name):
             yield from _found(node.last - 1, scope.find(name))
         case Goto(name=name) if not isinstance(scope, ModuleScope):
@@ -153,3 +183,91 @@ def _arguments(
 def _found(token: int, symbol: Symbol | None) -> Iterator[_Mention]:
     if symbol is not None:
         yield token, symbol
+
+
+# -- unfinished text ---------------------------------------------------------------------------
+
+
+def scope_at(module: ModuleScope, token: int) -> Scope:
+    """Return the scope of a token: its routine with the loops around it, else the module.
+
+    Loops are read from the tokens, because a loop without its end is not in the tree.
+    """
+    for routine in module.tree.routines:
+        if routine.first <= token <= routine.last:
+            break
+    else:
+        return module
+    result: RoutineScope = module.routine(routine)
+    tokens = module.tree.source.tokens
+    opened: list[int] = []
+    for at in range(routine.first, min(token, len(tokens))):
+        word = tokens[at].upper()
+        if word == "FOR":
+            opened.append(at)
+        elif word == "ENDFOR" and opened:
+            opened.pop()
+    for at in opened:
+        if at + 1 < token and tokens[at + 1].isidentifier():
+            zero = NumberLiteral(at, at, 0, "0")
+            result = result.loop(For(at, at, tokens[at + 1], zero, zero, None, []))
+    return result
+
+
+def type_before(tokens: Sequence[str], at: int, scope: Scope) -> str | None:
+    """Return the type of the data reference or call that ends with token `at`."""
+    path: list[str] = []
+    is_call = is_element = False
+    while at >= 0:
+        is_element = False
+        if tokens[at] in ("}", ")"):
+            is_call, is_element = tokens[at] == ")", tokens[at] == "}"
+            at = _opening(tokens, at) - 1
+        if at < 0 or not tokens[at][0].isalpha():
+            return None
+        path.append(tokens[at])
+        if is_call or at == 0 or tokens[at - 1] != ".":
+            break
+        at -= 2
+    if not path:
+        return None
+    symbol = called(scope.find(path.pop())) if is_call else scope.find(path.pop())
+    if not isinstance(symbol, DataSymbol | RoutineSymbol):
+        return None
+    result = scope.module.type_of(symbol)
+    if result is not None and (is_element or path):
+        result = element(result)
+    for name in reversed(path):
+        components = scope.module.components(result) if result else None
+        result = components.get(name.lower()) if components else None
+    return result
+
+
+def _opening(tokens: Sequence[str], at: int) -> int:
+    """Return the index of the bracket that the one at `at` closes, or -1."""
+    opener = {"}": "{", ")": "("}[tokens[at]]
+    depth = 0
+    for i in range(at, -1, -1):
+        depth += (tokens[i] == tokens[at]) - (tokens[i] == opener)
+        if depth == 0:
+            return i
+        if tokens[i] == ";":
+            break
+    return -1
+
+
+def _in_damage(module: ModuleScope) -> Iterator[_Mention]:
+    """Iterate over the names in parts with a syntax error, by their tokens alone."""
+    tokens, kinds = module.tree.source.tokens, Kinds()
+    for first, last in damage_of(module.tree).ranges:
+        scope = scope_at(module, first)
+        for at in range(first, min(last + 1, len(tokens))):
+            if kinds[tokens[at]] is not NAME:
+                continue
+            before = tokens[at - 1] if at else ""
+            if before == ".":
+                record = type_before(tokens, at - 2, scope)
+                if record is not None:
+                    yield from _found(at, scope.module.member(record, tokens[at]))
+            elif before != "\\":
+                yield from _found(at, scope.find(tokens[at]))

@@ -13,6 +13,7 @@ from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.builtins.signatures import Signature, TypeClass, Value
 from rapidgen.rapid.syntax.nodes import (
     AliasDeclaration,
+    Component,
     DataDeclaration,
     Declaration,
     Expression,
@@ -100,7 +101,7 @@ def arithmetic(operator: str, left: str, right: str) -> str | None:
 
 DataRole = Literal["VAR", "PERS", "CONST", "PARAMETER", "LOOP", "INSTALLED"]
 TypeRole = Literal["RECORD", "ALIAS", "TYPE"]
-Role = Literal[DataRole, TypeRole, "PROC", "FUNC", "TRAP", "MODULE", "LABEL"]
+Role = Literal[DataRole, TypeRole, "PROC", "FUNC", "TRAP", "MODULE", "LABEL", "COMPONENT"]
 
 ROUTINES: Final[frozenset[Role]] = frozenset(("PROC", "FUNC", "TRAP"))
 TYPES: Final[frozenset[Role]] = frozenset(("RECORD", "ALIAS", "TYPE"))
@@ -231,6 +232,21 @@ class TypeSymbol(Symbol):
 
 
 @dataclass(slots=True, eq=False)
+class ComponentSymbol(Symbol):
+    """A component of a record; without a node that of a predefined one."""
+
+    node: Component | None = None
+    type: str = "num"
+    """As declared."""
+    record: TypeSymbol | None = None
+
+    @property
+    def token(self) -> int:
+        """See `Symbol.token`."""
+        return -1 if self.node is None else self.node.first + 1
+
+
+@dataclass(slots=True, eq=False)
 class ModuleSymbol(Symbol):
     """The name of a module: global in its task, used by late calls only."""
 
@@ -316,6 +332,7 @@ class TaskScope:
     """Cache of `constants.value_of`; None during evaluation and for data without a value."""
     records: dict[TypeSymbol, Mapping[str, str | None]] = field(default_factory=dict)
     """Cache of `ModuleScope.components`."""
+    _members: dict[TypeSymbol, Mapping[str, ComponentSymbol]] = field(default_factory=dict)
     _parameters: dict[RoutineSymbol, tuple[DataSymbol, ...]] = field(default_factory=dict)
     _scopes: list["ModuleScope"] = field(default_factory=list)
     """All modules, of equal names as well."""
@@ -373,6 +390,8 @@ class TaskScope:
         for symbol in gone.own.values():
             if isinstance(symbol, RoutineSymbol):
                 self._parameters.pop(symbol, None)
+            elif isinstance(symbol, TypeSymbol):
+                self._members.pop(symbol, None)
         for module in self._scopes:
             self._publish(module)
         self._forget()
@@ -403,6 +422,13 @@ class TaskScope:
         if first.kind != second.kind or _shape(first) != _shape(second):
             self.types[first] = None
 
+    def members(self, record: TypeSymbol) -> Mapping[str, ComponentSymbol]:
+        """Return the components of a record by lower-case name, always the same symbols."""
+        result = self._members.get(record)
+        if result is None:
+            result = self._members[record] = component_symbols(record)
+        return result
+
     def parameters(self, routine: RoutineSymbol) -> tuple[DataSymbol, ...]:
         """Return the parameters of a routine as symbols, in order.
 
@@ -414,6 +440,18 @@ class TaskScope:
                 parameter_symbol(p, routine.module, routine.node) for p in routine.parameters or ()
             )
         return match
+
+
+def component_symbols(record: TypeSymbol) -> Mapping[str, ComponentSymbol]:
+    """Return the components of a record by lower-case name; empty for other types."""
+    nodes = record.node.components if isinstance(record.node, RecordDeclaration) else None
+    return {
+        name.lower(): ComponentSymbol(
+            name, "COMPONENT", record.module, node=nodes[k] if nodes else None, type=of,
+            record=record,
+        )
+        for k, (of, name) in enumerate(record.components or ())
+    }  # fmt: skip
 
 
 def _shape(symbol: Symbol) -> tuple[str | None, int]:
@@ -556,6 +594,13 @@ class ModuleScope:
             match = {name.lower(): scope.base(of) for of, name in symbol.components}
             self.task.records[symbol] = match
         return match
+
+    def member(self, type_name: str, name: str) -> ComponentSymbol | None:
+        """Return the component of a record type, as seen from this module."""
+        symbol = self.find(type_name)
+        if not isinstance(symbol, TypeSymbol):
+            return None
+        return self.task.members(symbol).get(name.lower())
 
     def knows_in_part(self, type_name: str) -> bool:
         """Return True if some components of a record are not public."""
