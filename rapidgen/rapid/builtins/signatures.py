@@ -76,6 +76,7 @@ _MARKS: Final = frozenset(
         *("lazy", "index"),
     )
 )
+_DECLARED: Final = re.compile(r"(?:PROC|FUNC \w+|RECORD|ALIAS \w+|(?:CONST|PERS|VAR) \w+) (\w+)")
 _READ_ONLY: Final = re.compile(r"^!readonly (.*)$", re.MULTILINE)
 _WRITABLE: Final = re.compile(r"^!writable (.*)$", re.MULTILINE)
 _PARTLY: Final = re.compile(r"^!partly (.*)$", re.MULTILINE)
@@ -348,3 +349,39 @@ def _value(node: Expression) -> Value:
     if isinstance(node, Aggregate):
         return tuple(_value(member) for member in node.members)
     raise AssertionError(f"builtins hold literals only, not {type(node).__name__}")
+
+
+# -- places and descriptions ---------------------------------------------------------------------
+
+
+@cache
+def _places() -> Mapping[str, tuple[Path, int, int, int]]:
+    """Return file, line, column and length of each declared name, by the lower-case name."""
+    result: dict[str, tuple[Path, int, int, int]] = {}
+    for path in sorted(_FOLDER.glob("*.rapid")):
+        for number, line in enumerate(path.read_text("utf-8").splitlines(), 1):
+            match = _DECLARED.match(line)
+            if match is not None:
+                at = (path, number, match.start(1) + 1, len(match[1]))
+                result.setdefault(match[1].lower(), at)
+    return result
+
+
+def place(name: str) -> tuple[Path, int, int, int] | None:
+    """Return file, line, column (from 1) and length of the name in its header; None: no header."""
+    return _places().get(name.lower())
+
+
+@cache
+def _descriptions() -> Mapping[str, str]:
+    """Return the description of built-in names, by the lower-case name."""
+    result = {}
+    for line in (_FOLDER / "descriptions.txt").read_text("utf-8").splitlines():
+        name, _, text = line.partition(": ")
+        result[name.lower()] = text
+    return result
+
+
+def description(name: str) -> str:
+    """Return one sentence about a built-in routine, type or datum; empty if there is none."""
+    return _descriptions().get(name.lower(), "")

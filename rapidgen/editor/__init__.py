@@ -1,0 +1,1 @@
+"""Answers to an editor's questions about RAPID, cfg and YAML, without a protocol."""

@@ -1,0 +1,1 @@
+"""Language server: RAPID, cfg and YAML in every editor that speaks LSP."""
