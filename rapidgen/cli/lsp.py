@@ -32,12 +32,12 @@ def lsp(
     from rapidgen.lsp.server import Server
 
     if log is not None:
-        logging.basicConfig(
-            filename=log,
-            filemode="w",
-            level=logging.DEBUG,
-            format="%(asctime)s %(levelname)s %(message)s",
-        )
+        handler = logging.FileHandler(log, "w", "utf-8")
+        handler.setFormatter(logging.Formatter("%(asctime)s %(levelname)s %(message)s"))
+        own = logging.getLogger("rapidgen.lsp")
+        own.addHandler(handler)
+        own.setLevel(logging.DEBUG)
+        own.propagate = False
     if tcp is None:
         with standard_stream() as stream:
             return Server(stream).run()

@@ -38,9 +38,9 @@ from rapidgen.wire.framing import ContentError, FramingError
 log = logging.getLogger("rapidgen.lsp")
 _DELAY: Final = 0.08
 """Seconds after an edit before findings are computed: the time between two keys is longer only
-when somebody stops typing."""
+when the user stops typing."""
 _MANY: Final = 60
-"""Modules of a program from which on the client is told about the progress of loading."""
+"""Modules of a program from which on the client gets the progress of loading."""
 _PARSE, _INVALID, _UNKNOWN, _PARAMS, _INTERNAL = -32700, -32600, -32601, -32602, -32603
 _NOT_INITIALIZED, _CANCELLED, _MODIFIED, _FAILED = -32002, -32800, -32801, -32803
 _END: Final = object()
