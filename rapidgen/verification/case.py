@@ -8,7 +8,7 @@ from rapidgen.verification.model import NotApplicable
 from rapidgen.verification.testbench import Bench
 
 Proving: TypeAlias = Callable[[Bench], None]
-Part: TypeAlias = Literal["control", "stream", "feedback", "events"]
+Part: TypeAlias = Literal["control", "stream", "feedback", "events", "egm"]
 """Parts that a driver may lack, by its profile or without a control port."""
 
 
@@ -68,6 +68,9 @@ def _where_there_is(part: Part, prove: Proving) -> Proving:
         if part == "control":
             if not bench.group.ports.control:
                 raise NotApplicable("there is no control port")
+        elif part == "egm":
+            if bench.group.egm is None:
+                raise NotApplicable("the configuration has no `egm:`")
         elif bench.config.profile != "full":
             raise NotApplicable(f"the profile is {bench.config.profile}")
         prove(bench)

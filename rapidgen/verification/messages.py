@@ -180,6 +180,9 @@ class RawReason(IntEnum):
     ROUTINE = 51
     OVERTIME = 52
     TASK_ENDED = 53
+    GUIDED = 54
+    NO_EGM = 55
+    NO_HEARTBEAT = 56
 
 
 def text_of(reason: RawReason) -> str:

@@ -14,7 +14,7 @@ MODULE ROS_egm
     ! the supervisor has ended. The robot then stays where it is. EGMReset follows on every path, because
     ! identities that were not reset are lost until the controller restarts.
 
-    CONST string ROS_BUILD_EGM := "1f937ec8e4cc";
+    CONST string ROS_BUILD_EGM := "e4486493881b";
 
     ! UdpUc device (SIO) and external motion interface data (MOC) of this build.
     LOCAL CONST string DEVICE := "ROS_EGM";
@@ -33,8 +33,9 @@ MODULE ROS_egm
     LOCAL CONST num RAMP_IN := 0.5;
     LOCAL CONST num RAMP_OUT := 0.2;
     ! A session ends by itself when all axes have been this near to their targets (deg) for IDLE_TIMEOUT
-    ! (s). The range limits nothing.
-    LOCAL CONST egm_minmax AT_TARGET := [-0.5,0.5];
+    ! (s). The range limits nothing. It is narrow, so that a slow motion is not taken for a rest: a moving
+    ! axis is behind its target by its speed divided by the gain.
+    LOCAL CONST egm_minmax AT_TARGET := [-0.1,0.1];
     LOCAL CONST num IDLE_TIMEOUT := 600;
     ! Time without a datagram after which the controller itself ends a session, s. Some controllers do
     ! not, so the heartbeat below does not depend on it.
