@@ -1,6 +1,7 @@
 """The commands `build`, `ros2` and `ros1`: what a configuration generates."""
 
 import math
+from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -125,7 +126,7 @@ def ros2(
         ),
     ],
     output: Annotated[
-        Path, typer.Option("--output", "-o", help="Folder of the package.", metavar="FOLDER")
+        Path, typer.Option("--output", "-o", help="Folder of the packages.", metavar="FOLDER")
     ],
     base_pose: Annotated[
         list[str] | None,
@@ -136,13 +137,21 @@ def ros2(
     ] = None,
     overrides: options.Overrides = None,
 ) -> None:
-    """Write a ROS 2 package with launch files, URDF and MoveIt.
+    """Write ROS 2 packages with launch files, URDF and MoveIt.
 
-    The node is `python -m rapidgen.ros`. MoveIt plans for several robots together, each with its
-    own controller; give --base-pose once for each of them.
+    FOLDER gets three, called as it: NAME_description, NAME_bringup, NAME_moveit_config. The node
+    is `python -m rapidgen.ros`. MoveIt plans for several robots together, each with its own
+    controller; give --base-pose once for each of them.
     """
     from rapidgen.config import load_config, shipped_names
-    from rapidgen.ros.package import CellMember, ros2_cell, ros2_package, write
+    from rapidgen.config.model import RobotConfig
+    from rapidgen.ros.package import (
+        JOINT_STATES_RATE,
+        CellMember,
+        ros2_cell,
+        ros2_packages,
+        write,
+    )
 
     places = [_base_pose(text) for text in base_pose or ()]
     if len(places) != (len(config) if len(config) > 1 else 0):
@@ -150,16 +159,26 @@ def ros2(
         raise typer.BadParameter(message, param_hint="--base-pose")
     over = tuple(overrides or ())
     models = [load_config(one, overrides=over) for one in config]
+    (default,) = [one.default for one in fields(RobotConfig) if one.name == "state_period"]
+    is_default = all(model.state_period == default for model in models)
+    if is_default and not any(one.startswith("state.rate") for one in over):
+        over = (*over, f"state.rate={JOINT_STATES_RATE}")
+        models = [load_config(one, overrides=over) for one in config]
     sources = [one if one in shipped_names() else str(Path(one).resolve()) for one in config]
     if len(models) == 1:
-        files = ros2_package(models[0], sources[0], over)
+        files = ros2_packages(models[0], sources[0], output.resolve().name, over)
     else:
         members = [
             CellMember(*one, overrides=over) for one in zip(models, sources, places, strict=True)
         ]
-        files = ros2_cell(members, output.resolve().name.removesuffix("_rapidgen"))
+        files = ros2_cell(members, output.resolve().name)
     write(files, output)
     typer.echo(f"{len(files)} files in {output}")
+    if is_default:
+        typer.echo(
+            f"joint_states: {JOINT_STATES_RATE} Hz if the driver is built with "
+            f"`--set state.rate={JOINT_STATES_RATE}`, as the simulator's is; else 10 Hz"
+        )
 
 
 def _base_pose(text: str) -> tuple[float, ...]:
@@ -192,6 +211,6 @@ def ros1(
 
     model = load_config(config, overrides=overrides or ())
     source = config if config in shipped_names() else str(Path(config).resolve())
-    files = ros1_package(model, source)
+    files = ros1_package(model, source, output.resolve().name)
     write(files, output)
     typer.echo(f"{len(files)} files in {output}")

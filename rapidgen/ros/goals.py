@@ -223,11 +223,14 @@ def _check_names(given: Sequence[str], names: Sequence[str]) -> None:
 def _columns(goal: Goal, what: str, order: Sequence[int]) -> Array | None:
     """Return a field of all points in the robot's order.
 
-    None if no point has it.
+    None if no point has it. A point without velocities, beside others that have them, is as in
+    joint_trajectory_controller, which judges each point alone; its row is zero.
     """
     rows: list[Sequence[float]] = [getattr(point, what) for point in goal.points]
-    if what != "positions" and not any(len(row) for row in rows):
-        return None
+    if what != "positions":
+        if not any(len(row) for row in rows):
+            return None
+        rows = [row if len(row) else [0.0] * len(order) for row in rows]
     for number, row in enumerate(rows):
         if len(row) != len(order):
             raise GoalRefused(

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rapidgen._data import data_folder
 from rapidgen.client import InvalidTrajectory, Trajectory
 from rapidgen.client.core.checks import DriverLimits, check_trajectory
 from rapidgen.client.core.group import Group
@@ -231,6 +232,17 @@ def test_all_findings_at_once(irb120):
         "RG616",
         "RG618",
     ]
+
+
+@pytest.mark.parametrize("seconds", [3601.0, 2e9])
+def test_segment_of_more_than_an_hour_is_rejected(irb120, seconds):
+    """As the driver would, but with the reason: ROS_MAX_DURATION of ROS_motionServer."""
+    with pytest.raises(InvalidTrajectory, match="at most 3600 s") as error:
+        check_trajectory(Trajectory([0, seconds], np.zeros((2, 6))), irb120)
+    assert codes(error) == ["RG612"]
+    check_trajectory(Trajectory([0, 3600.0], np.zeros((2, 6))), irb120)
+    template = (data_folder("templates") / "ROS_motionServer.mod.j2").read_text("utf-8")
+    assert "CONST num ROS_MAX_DURATION := 3600;" in template
 
 
 def test_finding_has_the_line_of_its_file(irb120, tmp_path):

@@ -17,7 +17,7 @@ from rapidgen.config import load_config
 from rapidgen.config.from_description import DescriptionChoices
 from rapidgen.config.scaffold import from_urdf, write_new
 from rapidgen.config.yaml_text import yaml_flow, yaml_text
-from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_package
+from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_packages
 
 HOSTILE = [
     "null", "Null", "~", "on", "off", "yes", "n", "Y", "True", "1", "-1", "1e3", "0x1", "0o7",
@@ -63,12 +63,12 @@ def code(text):
 
 
 def packages(config, folder):
-    """Every kind of package; `folder` is what a cell is called after."""
+    """Every kind of package; `folder` is what they are called after."""
     members = [CellMember(config, "one.yaml"), CellMember(replace(config, name="b"), "b.yaml")]
     return {
         "cell": ros2_cell(members, folder),
-        "ros2": ros2_package(config, "it's.yaml", ['joints={"\N{ROBOT FACE}": {}}']),
-        "ros1": ros1_package(config, "one.yaml"),
+        "ros2": ros2_packages(config, "it's.yaml", folder, ['joints={"\N{ROBOT FACE}": {}}']),
+        "ros1": ros1_package(config, "one.yaml", folder),
     }
 
 
@@ -78,6 +78,7 @@ PLAIN = packages(load_config("irb120"), "plain")
 def check(kind, files):
     """Every file is what its ending says, and has no name in the place of code."""
     plain = {path.rpartition("/")[2]: text for path, text in PLAIN[kind].items()}
+    assert len(files) == len(PLAIN[kind])
     for path, text in files.items():
         if path.endswith(".py"):
             assert code(text) == code(plain[path.rpartition("/")[2]])
@@ -86,7 +87,7 @@ def check(kind, files):
         elif path.endswith((".yaml", ".rviz")):
             old, new = yamls(text)
             assert old == new
-        elif path == "CMakeLists.txt":
+        elif path.endswith("CMakeLists.txt"):
             assert re.search(r"^project\([a-z][a-z0-9_]* NONE\)$", text, re.MULTILINE)
 
 

@@ -19,12 +19,17 @@ from rapidgen.axes.mapping import JointMap
 from rapidgen.cli.app import main
 from rapidgen.config import load_config, shipped_names
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_package, write
+from rapidgen.ros.package import CellMember, ros1_package, ros2_cell, ros2_packages, write
 from rapidgen.ros.package.urdf import draw
 
 
 def package(name):
-    return ros2_package(load_config(name), name)
+    return flat(ros2_packages(load_config(name), name, name))
+
+
+def flat(files):
+    """The files by the path within their package; of the last one where several have it."""
+    return {path.partition("/")[2]: text for path, text in files.items()}
 
 
 @pytest.mark.parametrize("name", shipped_names())
@@ -75,9 +80,8 @@ def test_moveit_waits_for_the_controller_and_complains_before_the_driver():
 
 def test_srdf_names_links_and_joints_that_the_urdf_has():
     files = package("irb14000")
-    name = "irb14000_rapidgen"
-    urdf = ET.fromstring(files[f"config/{name}.urdf"])
-    srdf = ET.fromstring(files[f"config/{name}.srdf"])
+    urdf = ET.fromstring(files["urdf/irb14000.urdf"])
+    srdf = ET.fromstring(files["config/irb14000.srdf"])
     links = {link.attrib["name"] for link in urdf.iter("link")}
     pairs = list(srdf.iter("disable_collisions"))
     assert {pair.attrib[key] for pair in pairs for key in ("link1", "link2")} <= links
@@ -92,7 +96,7 @@ def test_a_plan_of_a_motion_group_has_kinematics_and_fits_its_controller(name):
     robot_trajectory.cpp: joints that move and mimic none)."""
     files = package(name)
     urdf, srdf = (
-        ET.fromstring(files[f"config/{name}_rapidgen.{kind}"]) for kind in ("urdf", "srdf")
+        ET.fromstring(files[path]) for path in (f"urdf/{name}.urdf", f"config/{name}.srdf")
     )
     solved = YAML(typ="safe").load(files["config/kinematics.yaml"])
     groups = {group.attrib["name"]: group for group in srdf.findall("group")}
@@ -134,9 +138,9 @@ def _joints(groups, name, urdf):
 def test_nothing_of_an_arm_collides_with_itself_at_home(name):
     """With move_group a start state in collision has no plan, whatever is asked for."""
     files = package(name)
-    text = files[f"config/{name}_rapidgen.urdf"]
+    text = files[f"urdf/{name}.urdf"]
     urdf = ET.fromstring(text)
-    srdf = ET.fromstring(files[f"config/{name}_rapidgen.srdf"])
+    srdf = ET.fromstring(files[f"config/{name}.srdf"])
     robot = yourdfpy.URDF.load(BytesIO(text.encode()), load_meshes=False)
     home = srdf.findall("group_state/joint")
     robot.update_cfg({j.attrib["name"]: float(j.attrib["value"]) for j in home})
@@ -183,8 +187,8 @@ def cell(tmp_path):
 
 
 def test_two_robots_of_a_cell_are_where_they_were_put(cell):
-    files = ros2_cell(cell, "cell")
-    text = files["config/cell_rapidgen.urdf"]
+    files = flat(ros2_cell(cell, "cell"))
+    text = files["urdf/cell.urdf"]
     robot = yourdfpy.URDF.load(BytesIO(text.encode()), load_meshes=False)
     rows = {}
     for member, prefix in zip(cell, ("left_", "right_"), strict=True):
@@ -200,13 +204,13 @@ def test_two_robots_of_a_cell_are_where_they_were_put(cell):
 
 
 def test_two_robots_share_a_moveit(cell):
-    files = ros2_cell(cell, "cell")
+    files = flat(ros2_cell(cell, "cell"))
     report = YAML(typ="safe").load(files["config/moveit_controllers.yaml"])
     controllers = report["moveit_simple_controller_manager"]
     assert controllers["controller_names"] == ["left/rob1_controller", "right/rob1_controller"]
     assert controllers["right/rob1_controller"]["joints"][2] == "right_joint_3"
-    urdf = ET.fromstring(files["config/cell_rapidgen.urdf"])
-    srdf = ET.fromstring(files["config/cell_rapidgen.srdf"])
+    urdf = ET.fromstring(files["urdf/cell.urdf"])
+    srdf = ET.fromstring(files["config/cell.srdf"])
     joints = [joint.attrib["name"] for joint in urdf.iter("joint")]
     assert len(set(joints)) == len(joints)
     assert {m.attrib["joint"] for m in urdf.iter("mimic")} <= set(joints)
@@ -245,7 +249,7 @@ def test_places_that_do_not_fit_are_refused(given, report, tmp_path, capsys):
 
 def test_ros1_says_names_coupling_and_ports():
     config = load_config("irb2400")
-    files = ros1_package(config, "irb2400")
+    files = ros1_package(config, "irb2400", "cell")
     launch = ET.fromstring(files["launch/robot.launch"])
     values = {e.attrib.get("name"): e.attrib.get("value") for e in launch.iter("param")}
     assert values["J23_coupled"] == "true"
@@ -254,8 +258,44 @@ def test_ros1_says_names_coupling_and_ports():
     ast.parse(files["scripts/watcher.py"])
 
 
+def test_packages_are_called_as_the_folder_and_name_what_they_need():
+    """As ament names packages (REP 144); launch files import what package.xml lists (R3)."""
+    files = ros2_packages(load_config("irb120"), "irb120", "My Cell")
+    needs = {
+        name: {one.text for one in ET.fromstring(files[f"{name}/package.xml"]).iter("exec_depend")}
+        for name in ("my_cell_description", "my_cell_bringup", "my_cell_moveit_config")
+    }
+    assert {path.partition("/")[0] for path in files} == set(needs)
+    for name, report in needs.items():
+        assert files[f"{name}/CMakeLists.txt"].count(f"project({name} NONE)") == 1
+        for path, text in files.items():
+            if path.startswith(name) and path.endswith(".py"):
+                imported = {
+                    one.module.partition(".")[0]
+                    for one in ast.walk(ast.parse(text))
+                    if isinstance(one, ast.ImportFrom)
+                }
+                assert imported - {"pathlib", "xml"} <= report
+    assert not any("moveit" in one or "rviz" in one for one in needs["my_cell_bringup"])
+
+
+def test_moveit_finds_urdf_and_srdf_and_has_pilz():
+    """Without `.setup_assistant` moveit_configs_utils warns that it infers both (R5)."""
+    files = ros2_packages(load_config("irb120"), "irb120", "cell")
+    read = YAML(typ="safe").load
+    text = files["cell_moveit_config/.setup_assistant"]
+    setup = read(text)["moveit_setup_assistant_config"]
+    urdf, srdf = setup["urdf"], setup["srdf"]
+    assert f"{urdf['package']}/{urdf['relative_path']}" in files
+    assert f"cell_moveit_config/{srdf['relative_path']}" in files
+    limits = read(files["cell_moveit_config/config/pilz_cartesian_limits.yaml"])["cartesian_limits"]
+    assert limits["max_trans_vel"] > 0 > limits["max_trans_dec"]
+    launch = files["cell_moveit_config/launch/moveit.launch.py"]
+    assert "pilz_industrial_motion_planner" in launch
+
+
 def test_write_replaces_own_package_but_no_other(tmp_path):
-    files = package("irb120")
+    files = ros1_package(load_config("irb120"), "irb120", "a")
     write(files, tmp_path / "a")
     write(files, tmp_path / "a")
     assert not os.access(tmp_path / "a" / "package.xml", os.X_OK)
@@ -266,7 +306,7 @@ def test_write_replaces_own_package_but_no_other(tmp_path):
 
 def test_the_watcher_can_be_executed(tmp_path):
     """`roslaunch` finds no node in a file that cannot."""
-    write(ros1_package(load_config("irb120"), "irb120"), tmp_path)
+    write(ros1_package(load_config("irb120"), "irb120", "cell"), tmp_path)
     assert os.access(tmp_path / "scripts/watcher.py", os.X_OK)
 
 
@@ -274,7 +314,7 @@ def test_the_watcher_can_be_executed(tmp_path):
 def test_the_command(verb, tmp_path, capsys):
     assert main([verb, "irb120", "-o", str(tmp_path / "p")]) == 0
     assert "files in" in capsys.readouterr().out
-    assert (tmp_path / "p" / "package.xml").is_file()
+    assert (tmp_path / "p" / {"ros1": "", "ros2": "p_bringup"}[verb] / "package.xml").is_file()
     assert main([verb, "irb12o", "-o", str(tmp_path / "q")]) == 2
     assert not (tmp_path / "q").exists()
 
@@ -289,17 +329,15 @@ def called(names, tmp_path):
 
 def test_joints_may_be_called_as_links_and_fixed_joints_are(tmp_path):
     config = called(["base", "base_link_joint", "tool0", "tool0_joint", "world", "x"], tmp_path)
-    files = ros2_package(config, "called.yaml")
-    drawn = ET.fromstring(files["config/called_rapidgen.urdf"])
+    files = flat(ros2_packages(config, "called.yaml", "called"))
+    drawn = ET.fromstring(files["urdf/called.urdf"])
     for tag in ("link", "joint"):
         names = [element.attrib["name"] for element in drawn.iter(tag)]
         assert len(names) == len(set(names)), tag
-    robot = yourdfpy.URDF.load(
-        BytesIO(files["config/called_rapidgen.urdf"].encode()), load_meshes=False
-    )
+    robot = yourdfpy.URDF.load(BytesIO(files["urdf/called.urdf"].encode()), load_meshes=False)
     joints = {joint.name for joint in config.groups[0].joints}
     assert joints <= set(robot.actuated_joint_names)
-    chain = ET.fromstring(files["config/called_rapidgen.srdf"]).find("group/chain")
+    chain = ET.fromstring(files["config/called.srdf"]).find("group/chain")
     assert chain is not None
     assert chain.attrib == {"base_link": "base_link", "tip_link": "tool0"}
 
@@ -309,11 +347,11 @@ def test_names_of_joints_stay_texts_in_yaml(tmp_path):
     names = ["1", "no", "y", "1e3", "0x1", "a: b"]
     config, yaml = called(names, tmp_path), YAML(typ="safe")
     yaml.version = (1, 1)
-    files = ros2_package(config, "called.yaml")
+    files = flat(ros2_packages(config, "called.yaml", "called"))
     assert list(yaml.load(files["config/joint_limits.yaml"])["joint_limits"]) == names
     report = yaml.load(files["config/moveit_controllers.yaml"])
     assert report["moveit_simple_controller_manager"]["rob1_controller"]["joints"] == names
-    launch = ET.fromstring(ros1_package(config, "called.yaml")["launch/robot.launch"])
+    launch = ET.fromstring(ros1_package(config, "called.yaml", "called")["launch/robot.launch"])
     assert yaml.load(launch.findtext("group/rosparam")) == names
 
 
@@ -332,10 +370,10 @@ def commands(launch):
 )
 def test_node_and_simulator_know_what_was_overridden(robots, tmp_path):
     """With the ports, ranges and joints of another robot they would drive it otherwise."""
-    sets = ["ports.motion=12000", "network.allowed_clients=[10.0.0.1, 10.0.0.2]"]
+    sets = ["state.rate=20", "ports.motion=12000", "network.allowed_clients=[10.0.0.1, 10.0.0.2]"]
     words = [word for one in sets for word in ("--set", one)]
     assert main(["ros2", *robots, "-o", str(tmp_path / "p"), *words]) == 0
-    report = commands((tmp_path / "p/launch/driver.launch.py").read_text())
+    report = commands((tmp_path / "p/p_bringup/launch/driver.launch.py").read_text())
     simulators = [one for one in report if one[:2] == ["rapidgen", "sim"]]
     nodes = [one for one in report if "rapidgen.ros" in one]
     assert len(simulators) == len(nodes) == sum("irb" in one for one in robots)
@@ -346,6 +384,16 @@ def test_node_and_simulator_know_what_was_overridden(robots, tmp_path):
         assert YAML(typ="safe").load(given.removeprefix("overrides:=")) == sets
 
 
+@pytest.mark.parametrize(
+    ("given", "rate"), [([], "state.rate=50"), (["--set", "state.rate=25"], "state.rate=25")]
+)
+def test_joint_states_have_50_hz_unless_the_user_says_otherwise(given, rate, tmp_path, capsys):
+    assert main(["ros2", "irb120", "-o", str(tmp_path / "p"), *given]) == 0
+    launch = (tmp_path / "p/p_bringup/launch/driver.launch.py").read_text()
+    assert launch.count(rate) == 2
+    assert ("50 Hz" in capsys.readouterr().out) is (not given)
+
+
 def test_a_hostile_name_stays_text(tmp_path):
     yaml = tmp_path / "robot.yaml"
     yaml.write_text('name: "it\'s <b>"\nmodel: irb120\n')
@@ -353,7 +401,7 @@ def test_a_hostile_name_stays_text(tmp_path):
         config = load_config(str(yaml))
     except DiagnosticError:
         return
-    for path, text in ros2_package(config, str(yaml)).items():
+    for path, text in ros2_packages(config, str(yaml), "it's <b>").items():
         if path.endswith(".py"):
             ast.parse(text)
         elif path.endswith((".xml", ".urdf", ".srdf")):

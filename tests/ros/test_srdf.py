@@ -5,15 +5,16 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.ros.package import ros2_package
+from rapidgen.ros.package import ros2_packages
 
 
 def drawn(robot):
     """Configuration, URDF and SRDF of a package."""
     config = load_config(robot)
-    files = ros2_package(config, robot)
+    files = ros2_packages(config, robot, robot)
     return config, *(
-        ET.fromstring(files[f"config/{robot}_rapidgen.{kind}"]) for kind in ("urdf", "srdf")
+        ET.fromstring(next(text for path, text in files.items() if path.endswith(kind)))
+        for kind in (".urdf", ".srdf")
     )
 
 

@@ -48,7 +48,7 @@ class Ros:
 @pytest.fixture
 def ros(monkeypatch):
     made = Ros(monkeypatch)
-    script = ros1_package(load_config("irb120"), "irb120")["scripts/watcher.py"]
+    script = ros1_package(load_config("irb120"), "irb120", "irb120")["scripts/watcher.py"]
     exec(compile(script, "watcher.py", "exec"), {"__name__": "__main__"})
     return made
 

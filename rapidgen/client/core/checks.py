@@ -34,7 +34,7 @@ from rapidgen.client.errors import InvalidTrajectory, NotSupported
 from rapidgen.client.program import Program
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
-from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE
+from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE, LONGEST_SEGMENT
 
 TransferMode = Literal["download", "stream"]
 """`download`: sent before the motion; `stream`: sent during the motion."""
@@ -299,6 +299,11 @@ def _times(requested: _CheckInput) -> Iterator[Diagnostic]:
         figures = f"{times[first]:g} s after {earlier:g} s"
         help = "each point needs a later time than the one before"
         yield requested.finding("RG612", "the time does not increase at", late, figures, help)
+    long = np.flatnonzero(requested.durations > LONGEST_SEGMENT)
+    if len(long):
+        figures = f"{requested.durations[long[0]]:g} s, at most {LONGEST_SEGMENT:g} s"
+        help = "times are in s; to wait longer, send two trajectories"
+        yield requested.finding("RG612", "too much time before", long, figures, help)
 
 
 def _limits(requested: _CheckInput) -> Iterator[Diagnostic]:

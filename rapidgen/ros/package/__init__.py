@@ -1,8 +1,15 @@
 """Files for ROS 2 and ROS 1 from a robot's configuration alone.
 
-`urdf` describes the chain, `srdf` has data for planning, `files` composes a package.
+`urdf` describes the chain, `srdf` has data for planning, `files` composes the packages.
 """
 
-from rapidgen.ros.package.files import CellMember, ros1_package, ros2_cell, ros2_package, write
+from rapidgen.ros.package.files import (
+    JOINT_STATES_RATE,
+    CellMember,
+    ros1_package,
+    ros2_cell,
+    ros2_packages,
+    write,
+)
 
-__all__ = ["CellMember", "ros1_package", "ros2_cell", "ros2_package", "write"]
+__all__ = ["JOINT_STATES_RATE", "CellMember", "ros1_package", "ros2_cell", "ros2_packages", "write"]

@@ -1,6 +1,7 @@
-"""Files of a generated ROS package, in memory; `write` writes them.
+"""Files of generated ROS packages, in memory; `write` writes them.
 
-Templates are in `templates/ros2` and `templates/ros1`; all of them see the same names.
+Templates are in `templates/ros2`, with a folder for each of its packages, and `templates/ros1`; all
+of them see the same names.
 """
 
 import re
@@ -17,6 +18,11 @@ from rapidgen.config.yaml_text import yaml_flow, yaml_text
 from rapidgen.diagnostics import DiagnosticError, error
 from rapidgen.ros.package import srdf, urdf
 
+JOINT_STATES_RATE = 50
+"""Hz of joint_states of a package whose configuration has the default of 10.
+
+MoveIt and TF are made for 50 Hz; the driver's own clients get their states at 10 Hz as well.
+"""
 _START_SHARE = 0.8
 """Ratio of allowed_start_tolerance to the driver's.
 
@@ -40,21 +46,23 @@ class CellMember:
     """
 
 
-def ros2_package(config: RobotConfig, source: str, overrides: Sequence[str] = ()) -> dict[str, str]:
-    """Return the files of a ROS 2 package by path.
+def ros2_packages(
+    config: RobotConfig, source: str, base: str, overrides: Sequence[str] = ()
+) -> dict[str, str]:
+    """Return the files of three ROS 2 packages by path: BASE_description, _bringup, _moveit_config.
 
-    It starts the node, rviz and MoveIt for this robot.
+    They start the node, rviz and MoveIt for this robot. `base`, which may be the name of any
+    folder, is reduced to what ament allows.
     """
     member = CellMember(config, source, overrides=tuple(overrides))
-    return _ros2([member], config.name, [""])
+    return _ros2([member], config.name, base, [""])
 
 
-def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
+def ros2_cell(members: Sequence[CellMember], base: str) -> dict[str, str]:
     """Return the same for several robots in one MoveIt.
 
     Each has a controller and a node. Names of joints, links and planning groups begin with the
-    robot's; `name`, which may be that of any folder, is reduced to letters, digits and few signs.
-    Raises DiagnosticError if two robots have the same name.
+    robot's. Raises DiagnosticError if two robots have the same name.
     """
     names = [_plain(member.config.name) for member in members]
     twice = sorted({one for one in names if names.count(one) > 1})
@@ -67,11 +75,13 @@ def ros2_cell(members: Sequence[CellMember], name: str) -> dict[str, str]:
                 "give each configuration a different `name`",
             )
         )
-    return _ros2(members, re.sub(r"[^\w .-]", "_", name), names)
+    return _ros2(members, re.sub(r"[^\w .-]", "_", base), base, names)
 
 
-def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> dict[str, str]:
-    name = package_name(called)
+def _ros2(
+    members: Sequence[CellMember], called: str, base: str, names: Sequence[str]
+) -> dict[str, str]:
+    base = _plain(base)
     placed = [
         urdf.PlacedRobot(member.config, f"{one}_" if one else "", member.at)
         for member, one in zip(members, names, strict=True)
@@ -95,27 +105,28 @@ def _ros2(members: Sequence[CellMember], called: str, names: Sequence[str]) -> d
     tolerance = min(member.config.trajectory.start_tolerance for member in members)
     files = _rendered(
         "ros2",
-        name,
         {
             "called": called,
-            "name": name,
+            "base": base,
             "robots": robots,
             "groups": [group for robot in robots for group in robot["groups"]],
             "start_tolerance": f"{tolerance * _START_SHARE:.4f}",
             "is_cell": any(names),
         },
     )
-    files[f"config/{name}.urdf"] = drawn.text
-    files[f"config/{name}.srdf"] = srdf.draw(placed, drawn, called)
+    files = {f"{base}_{path}": text for path, text in files.items()}
+    files[f"{base}_description/urdf/{base}.urdf"] = drawn.text
+    files[f"{base}_moveit_config/config/{base}.srdf"] = srdf.draw(placed, drawn, called)
     return files
 
 
-def ros1_package(config: RobotConfig, source: str) -> dict[str, str]:
+def ros1_package(config: RobotConfig, source: str, name: str) -> dict[str, str]:
     """Return the files for unmodified ROS-Industrial nodes by path.
 
-    Launch file, parameters, a watcher.
+    Launch file, parameters, a watcher. `name`, which may be that of any folder, is reduced to what
+    catkin allows.
     """
-    name = package_name(config.name)
+    name = _plain(name)
     drawn = urdf.draw(config, config.name)
     context = {
         "config": config,
@@ -123,17 +134,9 @@ def ros1_package(config: RobotConfig, source: str) -> dict[str, str]:
         "groups": [_group(group) for group in config.groups],
         "several": len(config.groups) > 1,
     }
-    files = _rendered("ros1", name, context)
+    files = _rendered("ros1", context)
     files[f"config/{name}.urdf"] = drawn.text
     return files
-
-
-def package_name(called: str) -> str:
-    """Return a name for ament and catkin.
-
-    Lower-case letters, digits, single underscores.
-    """
-    return f"{_plain(called)}_rapidgen"
 
 
 def _plain(called: str) -> str:
@@ -168,7 +171,7 @@ def write(files: dict[str, str], folder: Path) -> None:
             (folder / path).chmod(0o755)
 
 
-def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, str]:
+def _rendered(kind: str, context: Mapping[str, object]) -> dict[str, str]:
     folder = data_folder("templates") / kind
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
@@ -182,8 +185,7 @@ def _rendered(kind: str, name: str, context: Mapping[str, object]) -> dict[str, 
     environment.filters["text"] = yaml_text
     files = {}
     for template in sorted(environment.list_templates(extensions=["j2"])):
-        path = template.removesuffix(".j2").replace("NAME", name)
-        files[path] = environment.get_template(template).render(context)
+        files[template.removesuffix(".j2")] = environment.get_template(template).render(context)
     return files
 
 

@@ -33,6 +33,8 @@ FIXED_SCALE = 1_000_000
 """Steps of a fixed-point number in one rad, m or s."""
 FIXED_LIMIT = (2**31 - 1) / FIXED_SCALE
 """Largest magnitude of a fixed-point number, rad, m or s."""
+LONGEST_SEGMENT = 3600.0
+"""s that a driver accepts from one point to the next: ROS_MAX_DURATION of ROS_motionServer."""
 CHECKSUM_OFFSET = 2**31
 """Added to each word of a checksum: MOD of a negative number is not specified."""
 CHECKSUM_MODULUS = 2**31 - 19
