@@ -28,7 +28,7 @@ def soon(bench: Bench) -> float:
 
     With random task order one task may wait for the others.
     """
-    waits = 0.15 if bench.setting.random_schedule else 0.1
+    waits = 0.15 if bench.setting.random_schedule else 0.12
     return waits + 0.06 * bench.setting.slowness
 
 
@@ -61,15 +61,18 @@ def _in_order(
     """Check that reported states follow the steps in order and in time."""
     # A robot may take time to settle at each stop point.
     late = _CLOSE + bench.setting.motion.settle * len(steps)
-    seen, at = set(), 0
+    seen, mixed, at = set(), set(), 0
     each = [(step.state, step.planned, step.reached) for step in steps]
     for when, *log_entries in reply:
-        # If a task's turn ends at a PERS, a reply may mix two steps.
+        # A reply mixes two steps if the task's turn ends while it reads. Where a turn ends at each
+        # PERS, several replies do.
         now, then = each[at], each[min(at + 1, len(each) - 1)]
         between = log_entries[0] in (now[0], then[0]) and all(
             a <= value <= b for value, a, b in zip(log_entries[1:], now[1:], then[1:], strict=True)
         )
-        if bench.setting.switch_at_pers and between and tuple(log_entries) not in each[at:]:
+        may_mix = bench.setting.switch_at_pers or at not in mixed
+        if may_mix and between and tuple(log_entries) not in each[at:]:
+            mixed.add(at)
             continue
         while at < len(steps) and tuple(log_entries) != each[at]:
             at += 1
