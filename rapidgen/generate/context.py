@@ -152,13 +152,13 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "exposed": exposed,
         # Programs set these, or wait for them.
         "used_signals": [s for s in exposed if s["is_set"] or str(s["kind"])[0] != "A"],
-        "marks": any(signal["is_set"] for signal in exposed),
+        "sets_signals": any(signal["is_set"] for signal in exposed),
         "routines": _routines(group),
         "data": _data(group),
         "data_reply": messages.DATA.reply(ReplyCode.SUCCESS).length,
         "most_arguments": MOST_ARGUMENTS,
-        "most_targets": _most(group, "robtarget"),
-        "most_places": _most(group, "jointtarget"),
+        "max_robtargets": _most(group, "robtarget"),
+        "max_jointtargets": _most(group, "jointtarget"),
         # Some routine returns a target.
         "target_results": any(
             p.inout and p.type.endswith("target") for r in group.routines for p in r.parameters
@@ -166,7 +166,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "target_parts": _TARGET_PARTS,
         "target_reply": messages.TARGET.reply(ReplyCode.SUCCESS).length,
         "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
-        "most_marks": MOST_SIGNALS,
+        "max_trigg_events": MOST_SIGNALS,
         "egm": _egm(config, group),
         "busy": _busy(group),
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
@@ -293,8 +293,8 @@ _FORMS = {
     "num": ("numbers{{{}}}", "read_num"),
     "bool": ("flag_{}", "read_bool"),
     "string": ("texts{{{}}}", "read_text"),
-    "robtarget": ("targets{{{}}}", "read_target"),
-    "jointtarget": ("places{{{}}}", "read_place"),
+    "robtarget": ("robtargets{{{}}}", "read_robtarget"),
+    "jointtarget": ("jointtargets{{{}}}", "read_jointtarget"),
 }
 
 

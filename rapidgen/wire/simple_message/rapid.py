@@ -47,7 +47,7 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
     result += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
     result += [RapidConstant(f"ROS_DO_{i.name}", i, "instruction") for i in spec.Instruction]
     result += [
-        RapidConstant(f"ROS_MARK_{m.name}", m, "where a signal is set") for m in spec.MarkPlace
+        RapidConstant(f"ROS_TRIGG_{m.name}", m, "where a signal is set") for m in spec.MarkPlace
     ]
     result += [RapidConstant(f"ROS_SET_{m.name}", m, "before operands") for m in spec.Modal]
     result += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! one task may stop and restart the robot. If the supervisor does not answer, this task stops the
     ! robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "d4389793e198";
+    CONST string ROS_BUILD_CONTROL := "a68c3bfb8285";
 
     LOCAL CONST num PORT := 11001;
     ! Time between two checks for new clients and for the end of a trajectory, s.
@@ -46,7 +46,7 @@ MODULE ROS_control
     PROC main()
         ROS_start_task ROS_task_build_control,
             ROS_BUILD_SERVER = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
-        ROS_start_alive_count 2;
+        ROS_start_alive_count ROS_ROLE_CONTROL;
         ROS_read_limits;
         ROS_speed_trajectory := -1;
         ROS_listen server, PORT;

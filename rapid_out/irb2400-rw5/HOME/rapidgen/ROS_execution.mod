@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! This module belongs to the motion task. All checks were made before an instruction was put into
     ! the ring buffer. ROS_motion takes it out, and leaves it by a long jump if the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "d4389793e198";
+    CONST string ROS_BUILD_EXECUTION := "a68c3bfb8285";
 
     ! Present instruction, and the reason why it failed (0: it did not).
     VAR ROS_instr ROS_current_instr;
@@ -86,7 +86,7 @@ MODULE ROS_execution
     ! Change the present move into its remainder: a stop at its target, without its signals.
     PROC ROS_end_at_target()
         IF ROS_current_instr.kind = ROS_DO_MOVE_C ROS_current_instr.kind := ROS_DO_MOVE_L;
-        ROS_current_instr.marks := 0;
+        ROS_current_instr.trigg_events := 0;
     ENDPROC
 
     PROC ROS_execute(bool stops, num percent)

@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! must give that pose. So the limits of the joints can be checked, the configuration (robconf) is
     ! the controller's own, and a client with a wrong robot model is rejected before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "d4389793e198";
+    CONST string ROS_BUILD_PROGRAMS := "a68c3bfb8285";
 
     ! Upper limits: speeds in mm/s and deg/s, sizes of a zone in mm and deg.
     LOCAL CONST num MAX_TCP_SPEED := 1000;
@@ -170,7 +170,7 @@ MODULE ROS_programs
         IF (header DIV ROS_SET_ZONE) MOD 2 = 1 read_zone data;
         IF (header DIV ROS_SET_FRAMES) MOD 2 = 1 read_frame_numbers data;
         instr.kind := header MOD ROS_SET_SPEED;
-        instr.marks := 0;
+        instr.trigg_events := 0;
         IF (header DIV ROS_SET_SIGNALS) MOD 2 = 1 ROS_set_fault ROS_REASON_NO_SIGNAL;
         TEST instr.kind
         CASE ROS_DO_MOVE_ABSJ:
@@ -202,9 +202,8 @@ MODULE ROS_programs
             ROS_set_fault ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDTEST
-        ! A signal on the way needs a path of the
-        ! TCP.
-        IF instr.marks > 0 AND (instr.kind < ROS_DO_MOVE_J OR instr.kind > ROS_DO_MOVE_C)
+        ! A signal on the path needs a TCP path.
+        IF instr.trigg_events > 0 AND (instr.kind < ROS_DO_MOVE_J OR instr.kind > ROS_DO_MOVE_C)
             ROS_set_fault ROS_REASON_NO_INSTRUCTION;
         IF instr.kind > ROS_DO_MOVE_C RETURN;
         IF NOT has_speed ROS_set_fault ROS_REASON_BAD_SPEED;

@@ -10,7 +10,7 @@ MODULE ROS_stream
     ! checksum was verified. At a fault the stream is cut: the accepted points are executed, later ones
     ! are not.
 
-    CONST string ROS_BUILD_STREAM := "d4389793e198";
+    CONST string ROS_BUILD_STREAM := "a68c3bfb8285";
 
     ! Duration of the points that must wait in the ring buffer before the robot starts or continues, s.
     LOCAL CONST num PRELOAD := 0.5;

@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "d4389793e198";
+    CONST string ROS_BUILD_SUPERVISOR := "a68c3bfb8285";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;

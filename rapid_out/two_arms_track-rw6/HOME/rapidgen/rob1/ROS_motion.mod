@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone. A point without a successor is a stop point, so the planner never lacks the next move in a
     ! corner.
 
-    CONST string ROS_BUILD_MOTION := "283cd0805983";
+    CONST string ROS_BUILD_MOTION := "5273285319d5";
 
     ! The moves have a programmed time (\T), so this speed is only formal.
     LOCAL CONST speeddata FORMAL_SPEED := [5000,500,5000,1000];
@@ -31,6 +31,8 @@ MODULE ROS_motion
     LOCAL CONST num REFRESH_PERIOD := 0.1;
     LOCAL CONST num REST_DURATION := 0.1;
     LOCAL CONST num MIN_SLOWED_MOVE := 0.25;
+    ! Number of these repetitions while the robot moves at full speed: then one of them was in effect.
+    LOCAL CONST num MAX_REFRESHES := 5;
     ! Acceleration that each axis certainly reaches, deg/s^2 or mm/s^2 (30 % of its estimated value).
     LOCAL CONST num ACCELERATION_1 := 750;
     LOCAL CONST num ACCELERATION_2 := 750;
@@ -409,9 +411,9 @@ MODULE ROS_motion
             ACCELERATION_8, unevenness, axis_speed_sum;
     ENDPROC
 
-    ! Increase `corner_time` until it is long enough for this
-    ! axis, and add its speed to `sum`. In an uneven corner, which is equally wide on
-    ! both sides but takes longer on one, its speed changes more.
+    ! Increase `corner_time` until it is long enough for this axis. Add its speed to `sum`.
+    ! In an uneven corner, which is equally wide on both sides but takes longer on one, its speed changes
+    ! more.
     LOCAL PROC add_axis(num speed_out, num speed_in, num acceleration, num unevenness, INOUT num sum)
         VAR num faster;
         VAR num change;
@@ -477,7 +479,7 @@ MODULE ROS_motion
             IF refresh_percent >= 100 AND refresh_repeats = 0 program_percent := program_refresh();
             SpeedRefresh target_percent * program_percent / 100;
             refresh_percent := target_percent;
-            refresh_repeats := 5;
+            refresh_repeats := MAX_REFRESHES;
             resend;
         ENDIF
         speed_percent := percent;
@@ -507,7 +509,7 @@ MODULE ROS_motion
     ENDPROC
 
     LOCAL TRAP on_timer
-        IF refresh_percent < 100 OR (NOT in_move) OR IsStopMoveAct() refresh_repeats := 5;
+        IF refresh_percent < 100 OR (NOT in_move) OR IsStopMoveAct() refresh_repeats := MAX_REFRESHES;
         refresh_repeats := refresh_repeats - 1;
         IF refresh_repeats > 0 resend;
         SpeedRefresh refresh_percent * program_percent / 100;

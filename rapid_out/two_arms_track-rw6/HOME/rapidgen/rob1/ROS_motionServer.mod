@@ -20,7 +20,7 @@ MODULE ROS_motionServer
         num commands;
     ENDRECORD
 
-    CONST string ROS_BUILD_MOTION_SERVER := "283cd0805983";
+    CONST string ROS_BUILD_MOTION_SERVER := "5273285319d5";
 
     ! ---- Connections ----
 
@@ -130,7 +130,7 @@ MODULE ROS_motionServer
         ROS_start_task ROS_task_build_motion_server_1,
             ROS_BUILD_SERVER = ROS_BUILD_ID AND ROS_BUILD_PROGRAMS = ROS_BUILD_ID AND
             ROS_BUILD_STREAM = ROS_BUILD_ID AND ROS_BUILD_MOTION_SERVER = ROS_BUILD_ID;
-        ROS_start_alive_count 1;
+        ROS_start_alive_count ROS_ROLE_MOTION_SERVER;
         ROS_read_limits \log;
         ! Initialise the counters to the values of those that answer them.
         ROS_head_1 := ROS_tail_1;
@@ -316,7 +316,7 @@ MODULE ROS_motionServer
         VAR num available;
 
         available := ROS_peek(client);
-        IF available > 0 RETURN ROS_receive(client, ROS_chunk, TAKEOVER_DELAY);
+        IF available > 0 RETURN ROS_receive(client, ROS_chunk, ROS_PEEKED_TIMEOUT);
         IF available = 0 WaitTime POLL_PERIOD;
         RETURN available;
     ENDFUNC

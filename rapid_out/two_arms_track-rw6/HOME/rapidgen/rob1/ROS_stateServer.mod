@@ -9,9 +9,10 @@ MODULE ROS_stateServer
     ! of one moment, and no other task waits for this one. A client that does not read would block the
     ! sends to the other clients, so a send that takes too long is ended and its client is disconnected.
 
-    CONST string ROS_BUILD_STATE_SERVER := "283cd0805983";
+    CONST string ROS_BUILD_STATE_SERVER := "5273285319d5";
 
     LOCAL CONST num PORT := 11002;
+    ! Time between two messages, s, and messages per second (`state_period` of the configuration).
     LOCAL CONST num SEND_PERIOD := 0.1;
     LOCAL CONST num SEND_RATE := 10;
     ! Limit of a clock, s: a num (a 32-bit float) up to this value still resolves 0.1 ms.
@@ -96,7 +97,7 @@ MODULE ROS_stateServer
     PROC main()
         ROS_start_task ROS_task_build_state_1,
             ROS_BUILD_SERVER = ROS_BUILD_ID AND ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
-        ROS_start_alive_count 3;
+        ROS_start_alive_count ROS_ROLE_STATE;
         ROS_read_limits;
         ROS_init_state state;
         ROS_pack_topic progress, ROS_LEN_PROGRESS, ROS_MSG_PROGRESS;
@@ -353,7 +354,7 @@ MODULE ROS_stateServer
         IF available < 0 RETURN FALSE;
         ! An incomplete message stays in the socket until the rest has arrived.
         IF available < ROS_LEN_HELLO + 4 RETURN TRUE;
-        received := ROS_receive(client{slot}, request, 1);
+        received := ROS_receive(client{slot}, request, ROS_PEEKED_TIMEOUT);
         IF NOT ROS_handle_hello(request, received, message, features{slot}) RETURN FALSE;
         update_subscriptions;
         RETURN send_message(slot, message);

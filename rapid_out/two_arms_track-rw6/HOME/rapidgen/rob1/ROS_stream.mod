@@ -10,7 +10,7 @@ MODULE ROS_stream
     ! checksum was verified. At a fault the stream is cut: the accepted points are executed, later ones
     ! are not.
 
-    CONST string ROS_BUILD_STREAM := "283cd0805983";
+    CONST string ROS_BUILD_STREAM := "5273285319d5";
 
     ! Duration of the points that must wait in the ring buffer before the robot starts or continues, s.
     LOCAL CONST num PRELOAD := 0.5;

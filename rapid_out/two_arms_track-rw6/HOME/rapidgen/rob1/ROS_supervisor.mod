@@ -12,7 +12,7 @@ MODULE ROS_supervisor
     ! change of mode.
     ! A pause is StopMove alone, so that the path is kept. StartMove on request resumes the motion.
 
-    CONST string ROS_BUILD_SUPERVISOR := "283cd0805983";
+    CONST string ROS_BUILD_SUPERVISOR := "5273285319d5";
 
     LOCAL VAR intnum int_stop;
     LOCAL VAR intnum int_check;

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! one task may stop and restart the robot. If the supervisor does not answer, this task stops the
     ! robot itself.
 
-    CONST string ROS_BUILD_CONTROL := "283cd0805983";
+    CONST string ROS_BUILD_CONTROL := "5273285319d5";
 
     LOCAL CONST num PORT := 11011;
     ! Time between two checks for new clients and for the end of a trajectory, s.
@@ -56,7 +56,7 @@ MODULE ROS_control
     PROC main()
         ROS_start_task ROS_task_build_control_2,
             ROS_BUILD_SERVER = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
-        ROS_start_alive_count 2;
+        ROS_start_alive_count ROS_ROLE_CONTROL;
         ROS_read_limits;
         ROS_speed_trajectory_2 := -1;
         link_signals;

@@ -8,7 +8,7 @@ MODULE ROS_execution
     ! This module belongs to the motion task. All checks were made before an instruction was put into
     ! the ring buffer. ROS_motion takes it out, and leaves it by a long jump if the robot was stopped.
 
-    CONST string ROS_BUILD_EXECUTION := "283cd0805983";
+    CONST string ROS_BUILD_EXECUTION := "5273285319d5";
 
     ! Present instruction, and the reason why it failed (0: it did not).
     VAR ROS_instr ROS_current_instr;
@@ -29,7 +29,7 @@ MODULE ROS_execution
     TASK PERS wobjdata ROS_own_wobj := [FALSE,TRUE,"",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
     ! Signals of the present instruction, and triggers for four moves, because earlier moves may not be
     ! finished.
-    LOCAL VAR ROS_mark mark{8};
+    LOCAL VAR ROS_trigg_event trigg_event{8};
     LOCAL VAR triggdata trigger{4, 8};
     LOCAL VAR num trigger_set := 0;
 
@@ -83,8 +83,8 @@ MODULE ROS_execution
     ! Fetch the instruction at a place of the ring buffer.
     PROC ROS_fetch_instr(num place)
         ROS_current_instr := ROS_instr_ring_2{place};
-        FOR n FROM 1 TO 8 DO
-            IF n <= ROS_current_instr.marks mark{n} := ROS_marks_2{place, n};
+        FOR n FROM 1 TO ROS_MAX_TRIGG_EVENTS DO
+            IF n <= ROS_current_instr.trigg_events trigg_event{n} := ROS_trigg_events_2{place, n};
         ENDFOR
     ENDPROC
 
@@ -104,7 +104,7 @@ MODULE ROS_execution
     ! Change the present move into its remainder: a stop at its target, without its signals.
     PROC ROS_end_at_target()
         IF ROS_current_instr.kind = ROS_DO_MOVE_C ROS_current_instr.kind := ROS_DO_MOVE_L;
-        ROS_current_instr.marks := 0;
+        ROS_current_instr.trigg_events := 0;
     ENDPROC
 
     PROC ROS_execute(bool stops, num percent)
@@ -144,7 +144,7 @@ MODULE ROS_execution
         speed.v_ori := speed.v_ori * percent / 100;
         speed.v_leax := speed.v_leax * percent / 100;
         speed.v_reax := speed.v_reax * percent / 100;
-        IF ROS_current_instr.marks > 0 set_triggers;
+        IF ROS_current_instr.trigg_events > 0 set_triggers;
         IF ROS_instr_fault <> ROS_REASON_NONE RETURN;
         TEST ROS_current_instr.tool
         CASE 0:
@@ -168,7 +168,7 @@ MODULE ROS_execution
     ENDPROC
 
     LOCAL PROC move(PERS tooldata tool, PERS wobjdata wobj)
-        IF ROS_current_instr.marks > 0 THEN
+        IF ROS_current_instr.trigg_events > 0 THEN
             move_with_signals tool, wobj;
             RETURN;
         ENDIF
@@ -186,7 +186,7 @@ MODULE ROS_execution
         RAISE;
     ENDPROC
 
-    ! Move with signals on the way. Always use all eight triggers; surplus ones repeat the last one.
+    ! Move with signals on the path. Always use all eight triggers; surplus ones repeat the last one.
     LOCAL PROC move_with_signals(PERS tooldata tool, PERS wobjdata wobj)
         TEST ROS_current_instr.kind
         CASE ROS_DO_MOVE_J:
@@ -213,23 +213,23 @@ MODULE ROS_execution
         VAR num source;
 
         trigger_set := trigger_set MOD 4 + 1;
-        FOR n FROM 1 TO 8 DO
+        FOR n FROM 1 TO ROS_MAX_TRIGG_EVENTS DO
             source := n;
-            IF n > ROS_current_instr.marks source := ROS_current_instr.marks;
-            set_trigger n, mark{source};
+            IF n > ROS_current_instr.trigg_events source := ROS_current_instr.trigg_events;
+            set_trigger n, trigg_event{source};
         ENDFOR
     ERROR
         RAISE;
     ENDPROC
 
-    LOCAL PROC set_trigger(num n, ROS_mark entry)
+    LOCAL PROC set_trigger(num n, ROS_trigg_event entry)
         TEST entry.signal
         CASE 0:
             IF NOT has_1 THEN
                 ROS_instr_fault := ROS_REASON_NO_SIGNAL;
-            ELSEIF entry.kind = ROS_MARK_START THEN
+            ELSEIF entry.kind = ROS_TRIGG_START THEN
                 TriggIO trigger{trigger_set, n}, entry.place \Start \DOp:=signal_1, entry.value;
-            ELSEIF entry.kind = ROS_MARK_END THEN
+            ELSEIF entry.kind = ROS_TRIGG_END THEN
                 TriggIO trigger{trigger_set, n}, entry.place \DOp:=signal_1, entry.value;
             ELSE
                 TriggIO trigger{trigger_set, n}, entry.place \Time \DOp:=signal_1, entry.value;

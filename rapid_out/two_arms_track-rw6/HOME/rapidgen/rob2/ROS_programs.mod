@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! must give that pose. So the limits of the joints can be checked, the configuration (robconf) is
     ! the controller's own, and a client with a wrong robot model is rejected before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "283cd0805983";
+    CONST string ROS_BUILD_PROGRAMS := "5273285319d5";
 
     ! Upper limits: speeds in mm/s and deg/s, sizes of a zone in mm and deg.
     LOCAL CONST num MAX_TCP_SPEED := 5000;
@@ -22,6 +22,8 @@ MODULE ROS_programs
     LOCAL CONST dnum MM_PER_STEP := 0.001;
     ! Longest wait and longest routine call, s.
     LOCAL CONST num MAX_WAIT := 2000;
+    ! Largest distance (mm) or time (s) of a signal from the end of the path at which it is set.
+    LOCAL CONST num MAX_TRIGG_PLACE := 10000;
     ! The joints reach a pose if its position differs by no more than this (mm), and the cosine of half
     ! the angle between the orientations is not below this (0.2 degrees for each mm).
     LOCAL CONST num POSE_TOL_MM := 1;
@@ -41,7 +43,7 @@ MODULE ROS_programs
 
     ! Present instruction, and which of its settings were given so far.
     LOCAL VAR ROS_instr instr;
-    LOCAL VAR ROS_mark mark{8};
+    LOCAL VAR ROS_trigg_event trigg_event{8};
     LOCAL VAR bool has_speed := FALSE;
     LOCAL VAR bool has_zone := FALSE;
     LOCAL VAR bool has_own_tool := FALSE;
@@ -116,8 +118,8 @@ MODULE ROS_programs
         instr.trajectory := ROS_trajectory_2;
         instr.index := ROS_point_count;
         ROS_instr_ring_2{position MOD ROS_RING_SIZE + 1} := instr;
-        FOR n FROM 1 TO 8 DO
-            IF n <= instr.marks ROS_marks_2{position MOD ROS_RING_SIZE + 1, n} := mark{n};
+        FOR n FROM 1 TO ROS_MAX_TRIGG_EVENTS DO
+            IF n <= instr.trigg_events ROS_trigg_events_2{position MOD ROS_RING_SIZE + 1, n} := trigg_event{n};
         ENDFOR
     ENDPROC
 
@@ -171,13 +173,13 @@ MODULE ROS_programs
         IF (header DIV ROS_SET_ZONE) MOD 2 = 1 read_zone data;
         IF (header DIV ROS_SET_FRAMES) MOD 2 = 1 read_frame_numbers data;
         instr.kind := header MOD ROS_SET_SPEED;
-        instr.marks := 0;
-        IF (header DIV ROS_SET_SIGNALS) MOD 2 = 1 read_marks data;
+        instr.trigg_events := 0;
+        IF (header DIV ROS_SET_SIGNALS) MOD 2 = 1 read_trigg_events data;
         TEST instr.kind
         CASE ROS_DO_MOVE_ABSJ:
             read_joints data;
-            ! Signals can be set only on the way to a pose: it is computed from these joints.
-            IF instr.marks > 0 resolve_joints;
+            ! Signals can be set only on the path to a pose: it is computed from these joints.
+            IF instr.trigg_events > 0 resolve_joints;
         CASE ROS_DO_SETTINGS:
             instr.value := read_value(data);
             IF NOT (0 <= instr.value AND instr.value <= 3 AND instr.value = Trunc(instr.value))
@@ -215,9 +217,8 @@ MODULE ROS_programs
             ROS_set_fault ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDTEST
-        ! A signal on the way needs a path of the
-        ! TCP.
-        IF instr.marks > 0 AND (instr.kind < ROS_DO_MOVE_J OR instr.kind > ROS_DO_MOVE_C)
+        ! A signal on the path needs a TCP path.
+        IF instr.trigg_events > 0 AND (instr.kind < ROS_DO_MOVE_J OR instr.kind > ROS_DO_MOVE_C)
             ROS_set_fault ROS_REASON_NO_INSTRUCTION;
         IF instr.kind > ROS_DO_MOVE_C RETURN;
         IF NOT has_speed ROS_set_fault ROS_REASON_BAD_SPEED;
@@ -324,28 +325,28 @@ MODULE ROS_programs
         RAISE;
     ENDPROC
 
-    ! Read the signals that are set on the way.
-    LOCAL PROC read_marks(VAR rawbytes data)
+    ! Read the signals that are set on the path.
+    LOCAL PROC read_trigg_events(VAR rawbytes data)
         VAR num count;
 
         count := read_value(data);
-        IF NOT (1 <= count AND count <= 8) THEN
+        IF NOT (1 <= count AND count <= ROS_MAX_TRIGG_EVENTS) THEN
             ROS_set_fault ROS_REASON_BAD_VALUE;
             RETURN;
         ENDIF
         FOR n FROM 1 TO count DO
-            mark{n}.signal := read_value(data);
-            mark{n}.value := read_value(data);
-            mark{n}.kind := read_value(data);
+            trigg_event{n}.signal := read_value(data);
+            trigg_event{n}.value := read_value(data);
+            trigg_event{n}.kind := read_value(data);
             ! Convert m to mm; a time remains in s.
-            mark{n}.place := read_value(data);
-            IF mark{n}.kind <> ROS_MARK_TIME mark{n}.place := 1000 * mark{n}.place;
-            ROS_set_fault check_signal_value(mark{n}.signal, mark{n}.value);
-            IF NOT (0 <= mark{n}.place AND mark{n}.place <= 10000) ROS_set_fault ROS_REASON_BAD_VALUE;
-            IF mark{n}.kind <> ROS_MARK_START AND mark{n}.kind <> ROS_MARK_END AND mark{n}.kind <> ROS_MARK_TIME
+            trigg_event{n}.place := read_value(data);
+            IF trigg_event{n}.kind <> ROS_TRIGG_TIME trigg_event{n}.place := 1000 * trigg_event{n}.place;
+            ROS_set_fault check_signal_value(trigg_event{n}.signal, trigg_event{n}.value);
+            IF NOT (0 <= trigg_event{n}.place AND trigg_event{n}.place <= MAX_TRIGG_PLACE) ROS_set_fault ROS_REASON_BAD_VALUE;
+            IF trigg_event{n}.kind <> ROS_TRIGG_START AND trigg_event{n}.kind <> ROS_TRIGG_END AND trigg_event{n}.kind <> ROS_TRIGG_TIME
                 ROS_set_fault ROS_REASON_BAD_VALUE;
         ENDFOR
-        instr.marks := count;
+        instr.trigg_events := count;
     ERROR
         RAISE;
     ENDPROC
