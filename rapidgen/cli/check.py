@@ -72,6 +72,18 @@ def check(
     robot: Annotated[
         str, typer.Option(help="Robot of the RAPID files, for its maximum payload.", metavar="NAME")
     ] = "",
+    in_cell: Annotated[
+        Path | None,
+        typer.Option(
+            "--cell",
+            help="Cell file: check trajectories (.csv, .json) or a program for collisions.",
+            metavar="FILE",
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(help="Plot of the clearance over time: .html, .png, .svg.", metavar="FILE"),
+    ] = None,
     strict: Annotated[
         bool | None,
         typer.Option(
@@ -89,12 +101,21 @@ def check(
     """Check configurations and RAPID files.
 
     A single file may use names of other modules; a backup may not. With --backup, configurations
-    and generated folders are checked for that controller. Defaults are in the project file,
-    rapidgen.toml. Reads only, unless --fix is given.
+    and generated folders are checked for that controller. With --cell, the path of a trajectory
+    or a program is checked for collisions. Defaults are in the project file, rapidgen.toml. Reads
+    only, unless --fix is given.
     """
     format = Format.JSON if as_json else format
+    if plot is not None and in_cell is None:
+        raise refusal("RG901", None, "--plot needs --cell", "add --cell FILE")
+    trajectories: list[Path] = []
+    if in_cell is not None:
+        from rapidgen.cli.collisions import TRAJECTORIES
+
+        trajectories = [Path(p) for p in paths or () if Path(p).suffix.lower() in TRAJECTORIES]
+        paths = [name for name in paths or () if Path(name) not in trajectories]
     cell = _cell(backup)
-    names = paths or _paths_of_project()
+    names = paths or ([] if trajectories else _paths_of_project())
     findings = _findings_of(names, cell, robotware, robot, strict, backup)
     if fix:
         from rapidgen.cli.safe_fixes import apply_safe_fixes
@@ -104,6 +125,10 @@ def check(
             if not apply_safe_fixes(findings):
                 break
             findings = _findings_of(names, cell, robotware, robot, strict, backup)
+    if in_cell is not None and not any(d.severity is Severity.ERROR for d in findings):
+        from rapidgen.cli.collisions import check_in_cell
+
+        findings += check_in_cell([*trajectories, *map(Path, names)], in_cell, plot)
     import sys
 
     typer.echo(render(findings, format, colour=use_colour(sys.stdout)), nl=False)

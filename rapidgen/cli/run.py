@@ -14,6 +14,8 @@ from rapidgen.cli.terminal import is_quiet, letters
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal, render
 
 if TYPE_CHECKING:
+    from rapidgen.controller.boot_targets import Bootable
+    from rapidgen.controller.collisions import CollisionWatch
     from rapidgen.controller.controller import VirtualController
     from rapidgen.rapid.switches import Switches
     from rapidgen.runtime.errors import FatalError
@@ -100,6 +102,15 @@ def run(
             help="Earlier cycle report to compare with.",
         ),
     ] = None,
+    collisions: Annotated[
+        Literal["error", "warn", "off"] | None,
+        typer.Option(
+            "--collisions",
+            help="Check the planned path in the cell; default: error if the cell file has "
+            "`collision:`.",
+            show_default=False,
+        ),
+    ] = None,
     backup: options.TargetBackup = None,
     check: options.LoadCheck = True,
 ) -> None:
@@ -159,8 +170,11 @@ def run(
         warnings = [d for d in controller.diagnostics if d.severity is not Severity.ERROR]
         sys.stderr.write(render(warnings))
         observed = Observed(controller, requested)
+        watch = _watch(controller, result, collisions)
         controller.start_program()
         wrong = _run(controller, max_time, max_statements, cell)
+        if watch is not None:
+            wrong += _collisions(watch, collisions or "error")
         sys.stderr.write(render(_event_warnings(controller)))
         sys.stderr.write(inference_report(controller.guessed))
         observed.write()
@@ -248,6 +262,42 @@ def _run(
             )
         )
     return findings
+
+
+def _watch(
+    controller: "VirtualController",
+    booted: "Bootable",
+    chosen: Literal["error", "warn", "off"] | None,
+) -> "CollisionWatch | None":
+    """Return what records the robots for a collision check; None without a check (RG901)."""
+    cell = booted.cell
+    if chosen == "off" or (chosen is None and (cell is None or cell.collision is None)):
+        return None
+    if cell is None:
+        raise refusal(
+            "RG901",
+            None,
+            "--collisions needs a cell file",
+            "add --cell FILE: `rapidgen schema --cell`",
+        )
+    from rapidgen.controller.collisions import CollisionWatch
+
+    watch = CollisionWatch(controller, cell, booted.described)
+    sys.stderr.write(render(watch.world.diagnostics))
+    return watch
+
+
+def _collisions(
+    watch: "CollisionWatch", chosen: Literal["error", "warn", "off"]
+) -> list[Diagnostic]:
+    """Print warnings and what was not checked; return the errors."""
+    from rapidgen.cli.collisions import collision_summary
+
+    severity = Severity.ERROR if chosen == "error" else Severity.WARNING
+    report = watch.report(severity)
+    sys.stderr.write(render(d for d in report.diagnostics if d.severity is not Severity.ERROR))
+    sys.stderr.write(collision_summary(report))
+    return [d for d in report.diagnostics if d.severity is Severity.ERROR]
 
 
 def _event_warnings(controller: "VirtualController") -> list[Diagnostic]:

@@ -15,7 +15,7 @@ from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client import display
 from rapidgen.client.address import Address
-from rapidgen.client.connect_target import resolve
+from rapidgen.client.connect_target import configuration_of, resolve
 from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import CommandedMotion
@@ -176,6 +176,7 @@ class RobotApi(Generic[R]):
         plain: bool = False,
         reconnect: float = 0.0,
         feedback: bool = False,
+        cell: "str | PathLike[str] | None" = None,
     ) -> None:
         self.address, known = resolve(target, address, group)
         if not isinstance(timeouts, Timeouts | None):
@@ -199,6 +200,11 @@ class RobotApi(Generic[R]):
         )
         self._runner = self._runner_type(self.address, make_core)
         self._core = self._runner.core
+        if cell is not None:
+            # Imported on use: nothing of collision checks is loaded without a cell.
+            from rapidgen.client.collisions import cell_check
+
+            self._core.collisions = cell_check(cell, configuration_of(target), group)
 
     def __repr__(self) -> str:
         with self._runner.guard:

@@ -53,6 +53,14 @@ def resolve(
     return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
 
 
+def configuration_of(target: "str | PathLike[str] | RobotConfig") -> RobotConfig | None:
+    """Return the configuration of a target that `resolve` accepts; None for an address."""
+    if isinstance(target, RobotConfig):
+        return target
+    text = str(target)
+    return load_config(text) if text.endswith(_SUFFIXES) or text in shipped_names() else None
+
+
 def _no_text(value: object, what: str, help: str) -> InvalidTarget:
     message = f"the {what} is a text, not {type(value).__name__}"
     return InvalidTarget.because("RG607", message, help, exit_code=2)

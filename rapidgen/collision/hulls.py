@@ -42,6 +42,7 @@ class HullDistances:
         coal = _coal()
         request, result = coal.DistanceRequest(), coal.DistanceResult()
         request.gjk_max_iterations = 1000
+        request.gjk_tolerance = 1e-9
         far = np.empty(len(a))
         points = np.empty((2, len(a), 3))
         place_a, place_b = coal.Transform3s(), coal.Transform3s()

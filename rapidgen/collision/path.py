@@ -32,6 +32,32 @@ class Path:
         return cls(times, values, np.zeros((len(times) - 1, values.shape[1])))
 
     @classmethod
+    def cornered(cls, times: Array, values: Array, shares: Array) -> "Path":
+        """Return a path whose points (n, columns) are corners.
+
+        `shares` (n - 1,) is the part of each segment that a corner may take at each of its ends, 0
+        to 0.5. A curve from A to B inside the triangle with the corner P is at most |A + B - 2 P| /
+        2 away from the legs, in each joint.
+        """
+        if len(times) < 3:
+            return cls.linear(times, values)
+        step = np.diff(values, axis=0)
+        share = np.clip(shares, 1e-6, 0.5)[:, None]
+        bend = np.zeros_like(values)
+        bend[1:-1] = np.abs(step[1:] * share[1:] - step[:-1] * share[:-1]) / 2
+        # Three segments for each leg: corner, straight, corner.
+        knots = [values[:-1], values[:-1] + share * step, values[1:] - share * step]
+        places = np.stack(knots, axis=1).reshape(-1, values.shape[1])
+        span = np.diff(times)
+        moments = [times[:-1], times[:-1] + share[:, 0] * span, times[1:] - share[:, 0] * span]
+        slack = np.stack([bend[:-1], np.zeros_like(step), bend[1:]], axis=1)
+        return cls(
+            np.append(np.stack(moments, axis=1).ravel(), times[-1]),
+            np.concatenate([places, values[-1:]]),
+            slack.reshape(-1, values.shape[1]),
+        )
+
+    @classmethod
     def sampled(cls, times: Array, values: Array) -> "Path":
         """Return a path through samples of a curve, taken densely.
 

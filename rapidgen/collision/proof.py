@@ -174,7 +174,8 @@ def _search(
         step = _Step(path, scene, batch)
         queries += len(step.kept)
         is_last = step.is_last(tolerance) | (postures > MOST_POSTURES)
-        step.record(hits, first, step.is_near if touching else step.is_near | is_last)
+        ends = step.is_near if touching else step.is_near | is_last
+        step.record(hits, first, ends, tolerance)
         children = step.children(~is_last, first)
         if len(children.interval):
             waiting += reversed(_split(children))
@@ -324,13 +325,17 @@ class _Step:
         result: NDArray[np.bool_] = (self._loss < tolerance) | (width <= self._path.finest)
         return result
 
-    def record(self, hits: dict[int, _Hit], first: Array, ends: NDArray[np.bool_]) -> None:
+    def record(
+        self, hits: dict[int, _Hit], first: Array, ends: NDArray[np.bool_], tolerance: float
+    ) -> None:
         """Keep the earliest violation of each pair of bodies, of the open rows in `ends`."""
         scene, batch = self._scene, self._batch
         for row in np.flatnonzero(ends & self._open).tolist():
             number = int(scene.pair_of[self._pairs[row]])
             interval = self._rows[row]
-            position = float(self._middle[interval])
+            # A short interval is within the tolerance of its middle as a whole.
+            place = batch.start if self._loss[row] < tolerance else self._middle
+            position = float(place[interval])
             known = hits.get(number)
             far = float(self._far[row])
             if known is not None and (known.position, known.distance) <= (position, far):

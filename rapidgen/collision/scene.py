@@ -4,7 +4,7 @@ A body moves with a node of the tree. Pairs of bodies have a clearance; `Scene` 
 pairs of shapes, as arrays, and computes distances of many pairs in many postures at once.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -15,7 +15,7 @@ from rapidgen.collision import plain
 from rapidgen.collision.hulls import HullDistances
 from rapidgen.collision.plain import Distances
 from rapidgen.collision.shapes import KINDS, Array, Indices, Shape, ShapeTable
-from rapidgen.collision.tree import WORLD, Tree
+from rapidgen.collision.tree import Tree
 
 _SPHERE, _CAPSULE, _BOX, _CYLINDER, _HULL, _HALF_SPACE = range(len(KINDS))
 
@@ -198,40 +198,3 @@ class Scene:
         """Return the names of the bodies of a pair."""
         one = self.pairs[pair]
         return self.bodies[one.first].name, self.bodies[one.second].name
-
-
-def all_pairs(
-    bodies: Sequence[Body],
-    tree: Tree,
-    clearance: float,
-    self_clearance: float,
-    special: Mapping[frozenset[str], float | None],
-) -> tuple[Pair, ...]:
-    """Return the pairs of bodies that can change their distance, without neighbours.
-
-    Neighbours are bodies of one robot whose nodes are the same or parent and child. `special` has
-    clearances for pairs of names; None: allowed to touch. Bodies without shapes have no pairs.
-    """
-    result = []
-    for i, one in enumerate(bodies):
-        for j in range(i + 1, len(bodies)):
-            other = bodies[j]
-            if not one.shapes or not other.shapes:
-                continue
-            names = frozenset((one.name, other.name))
-            if (one.node == other.node) or (names in special and special[names] is None):
-                continue
-            is_own = bool(one.owner) and one.owner == other.owner
-            if is_own and _is_neighbour(tree, one.node, other.node):
-                continue
-            standard = self_clearance if is_own else clearance
-            chosen = special.get(names)
-            result.append(Pair(i, j, standard if chosen is None else chosen))
-    return tuple(result)
-
-
-def _is_neighbour(tree: Tree, a: int, b: int) -> bool:
-    def parent(node: int) -> int:
-        return WORLD if node == WORLD else tree.nodes[node].parent
-
-    return parent(a) == b or parent(b) == a

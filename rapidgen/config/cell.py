@@ -8,10 +8,12 @@ deg, mm, kg. `controller.surroundings` applies the file to a controller.
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
+from rapidgen.config import vectors
 from rapidgen.config.assemble import display_path, keys_of
 from rapidgen.config.draft import DraftFindings
+from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.model import Load, Placement, Tool, WorkObject
 from rapidgen.config.model_cache import shipped_groups
 from rapidgen.config.plausibility import Arm, arm_of, is_host, load_doubts
@@ -59,7 +61,18 @@ class CellRobotKeys(StrictModel):
     ] = field(default_factory=list)
     base: Annotated[
         FrameKeys | None,
-        Rule("Position of its base on the page; RAPID coordinates stay in the robot's own world."),
+        Rule("Position of its base; RAPID coordinates stay in the robot's own world."),
+    ] = None
+    shapes: Annotated[
+        str,
+        Rule(
+            "Shapes of its links for collision checks: `urdf` (of its configuration), `none`, or a "
+            "URDF file with the same kinematics, in this file's folder or below."
+        ),
+    ] = "urdf"
+    mounted: Annotated[
+        list[Identifier] | None,
+        Rule("Tools at its flange for collision checks; default: all with shapes, of one robot."),
     ] = None
 
 
@@ -139,14 +152,104 @@ class ForceKeys(StrictModel):
 
 
 @dataclass(frozen=True)
-class ThingKeys(StrictModel):
-    """An object that the page draws; there is no collision check."""
+class RoundKeys(StrictModel):
+    """Size of a cylinder or a capsule."""
 
-    mesh: Annotated[str, Rule("STL, DAE or OBJ in this file's folder or below.")]
-    frame: Annotated[FrameKeys, Rule("Position.")] = field(default_factory=FrameKeys)
+    radius: Annotated[float, Rule("mm", gt=0)]
+    length: Annotated[float, Rule("mm along z; of a capsule between its ends' centres.", gt=0)]
+
+
+@dataclass(frozen=True)
+class ShapeKeys(StrictModel):
+    """A shape: exactly one of box, cylinder, capsule, sphere, half_space and mesh."""
+
+    box: Annotated[Vector | None, Rule("Lengths x, y, z in mm, about its middle.")] = None
+    cylinder: Annotated[RoundKeys | None, Rule("About its middle, along z.")] = None
+    capsule: Annotated[RoundKeys | None, Rule("About its middle, along z.")] = None
+    sphere: Annotated[float | None, Rule("Radius in mm.", gt=0)] = None
+    half_space: Annotated[
+        Vector | None, Rule("Normal of a plane through its frame; solid behind it.")
+    ] = None
+    mesh: Annotated[str, Rule("STL, DAE or OBJ in this file's folder or below.")] = ""
+    unit: Annotated[
+        Literal["mm", "cm", "m", "in"] | None,
+        Rule("Unit of the mesh; required for collision checks, which use its convex hull."),
+    ] = None
     scale: Annotated[
-        float, Rule("Metres of one unit of the mesh; 0.001 for mm.", gt=0, le=1000)
-    ] = 1.0
+        float | None,
+        Rule("Metres of one unit of the mesh, instead of `unit`; 0.001 for mm.", gt=0, le=1000),
+    ] = None
+    frame: Annotated[FrameKeys, Rule("Position.")] = field(default_factory=FrameKeys)
+
+
+@dataclass(frozen=True)
+class ThingKeys(ShapeKeys):
+    """An object of the cell. The page draws meshes; collision checks use all of them."""
+
+    points: Annotated[
+        list[Vector] | None,
+        Rule(
+            "Instead of `frame`: three points in mm, touched with a robot: origin, a point on x, "
+            "a point beside x towards y.",
+            min_length=3,
+            max_length=3,
+        ),
+    ] = None
+
+
+@dataclass(frozen=True)
+class CellToolKeys(ToolDataKeys):
+    """A tool of the cell."""
+
+    shapes: Annotated[
+        list[ShapeKeys], Rule("Shapes for collision checks, in the frame of the flange.")
+    ] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class AllowedKeys(StrictModel):
+    """A pair that may touch."""
+
+    allowed: Annotated[str, Rule("Reason.", min_length=1)]
+
+
+@dataclass(frozen=True)
+class CollisionKeys(StrictModel):
+    """Clearances of collision checks, which are no safety function."""
+
+    clearance: Annotated[
+        float, Rule("mm between a robot, with its tools, and everything else.", ge=0)
+    ] = 10.0
+    self_clearance: Annotated[float, Rule("mm between parts of one robot.", ge=0)] = 5.0
+    pairs: Annotated[
+        dict[str, float | AllowedKeys],
+        Rule("`NAME - NAME`: clearance in mm, or `{allowed: REASON}`."),
+    ] = field(default_factory=dict)
+    srdf: Annotated[
+        str, Rule("SRDF in this file's folder or below; its disabled pairs are allowed.")
+    ] = ""
+
+
+@dataclass(frozen=True)
+class ZoneBoxKeys(StrictModel):
+    """A box from corner to corner, along the axes of the world."""
+
+    low: Annotated[Vector, Rule("Corner with the lowest x, y, z in mm.")]
+    high: Annotated[Vector, Rule("Corner with the highest x, y, z in mm.")]
+
+
+@dataclass(frozen=True)
+class ZoneKeys(StrictModel):
+    """A zone that robots keep inside of, or out of."""
+
+    keep: Annotated[Literal["inside", "out"], Rule("What a robot has to do.")]
+    box: Annotated[ZoneBoxKeys, Rule("Its box.")]
+    of: Annotated[
+        list[str],
+        Rule(
+            "`tcp` (the flange without a tool), `all`, or names of links and tools.", min_length=1
+        ),
+    ] = field(default_factory=lambda: ["all"])
 
 
 @dataclass(frozen=True)
@@ -161,7 +264,7 @@ class CellKeys(StrictModel):
         default_factory=dict
     )
     tools: Annotated[
-        dict[Identifier, ToolDataKeys], Rule("tooldata that no module declares, by name.")
+        dict[Identifier, CellToolKeys], Rule("tooldata that no module declares, by name.")
     ] = field(default_factory=dict)
     work_objects: Annotated[
         dict[Identifier, WorkObjectDataKeys], Rule("wobjdata that no module declares, by name.")
@@ -177,6 +280,7 @@ class CellKeys(StrictModel):
         default_factory=dict
     )
     force: Annotated[ForceKeys | None, Rule("Force sensors of the robots.")] = None
+<<<<<<< HEAD
     egm: Annotated[
         dict[Identifier, str],
         Rule(
@@ -185,18 +289,55 @@ class CellKeys(StrictModel):
         ),
     ] = field(default_factory=dict)
     things: Annotated[dict[Identifier, ThingKeys], Rule("What the page draws around robots.")] = (
+=======
+    things: Annotated[dict[Identifier, ThingKeys], Rule("Objects around robots, by name.")] = field(
+        default_factory=dict
+    )
+    collision: Annotated[
+        CollisionKeys | None, Rule("Clearances; with this key, `run` checks for collisions.")
+    ] = None
+    zones: Annotated[dict[Identifier, ZoneKeys], Rule("Zones of collision checks, by name.")] = (
+>>>>>>> 3410d3e9 (collision: check paths in a cell, from the client, the shell and pytest)
         field(default_factory=dict)
     )
 
 
 @dataclass(frozen=True, slots=True)
+class CellShape:
+    """A shape of the cell in SI units.
+
+    `size`: whole x, y, z of a box; radius and length; radius; normal of a half-space; empty for a
+    `mesh`, the file name as written, of which one unit is `scale` m (0: not given).
+    """
+
+    kind: Literal["box", "cylinder", "capsule", "sphere", "half_space", "mesh"]
+    size: tuple[float, ...]
+    frame: Placement
+    mesh: str = ""
+    scale: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Thing:
-    """A mesh in the cell: scale in m, file name as written."""
+    """An object in the cell."""
 
     name: str
-    mesh: str
-    frame: Placement
-    scale: float
+    shape: CellShape
+
+    @property
+    def mesh(self) -> str:
+        """Return the mesh's file name as written; empty without one."""
+        return self.shape.mesh
+
+    @property
+    def frame(self) -> Placement:
+        """Return its position."""
+        return self.shape.frame
+
+    @property
+    def scale(self) -> float:
+        """Return the metres of one unit of the mesh; 1 if it is not given."""
+        return self.shape.scale or 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,7 +361,11 @@ class CellDescription:
     """Folder of its files."""
     things: tuple[Thing, ...] = ()
     bases: Mapping[str, Placement] = field(default_factory=dict)
-    """Positions of the robots in the drawing, by task."""
+    """Positions of the robots, by task."""
+    tool_shapes: Mapping[str, tuple[CellShape, ...]] = field(default_factory=dict)
+    """Shapes of tools at the flange, by name."""
+    collision: CollisionKeys | None = None
+    zones: Mapping[str, ZoneKeys] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
     """Warnings found while loading."""
 
@@ -269,20 +414,22 @@ def load_cell(path: Path) -> CellDescription:
         keys.force,
         _partners(keys.egm, report),
         path.parent,
-        tuple(
-            Thing(
-                name,
-                thing.mesh,
-                placement_of(thing.frame, ("things", name, "frame"), report, arm),
-                thing.scale,
-            )
-            for name, thing in keys.things.items()
-        ),
+        tuple(_thing(name, thing, report, arm) for name, thing in keys.things.items()),
         {
             task: placement_of(robot.base, ("robots", task, "base"), report, arm)
             for task, robot in keys.robots.items()
             if robot.base is not None
         },
+        {
+            name: tuple(
+                _shape(shape, ("tools", name, "shapes", i), report, arm, shape.frame)
+                for i, shape in enumerate(tool.shapes)
+            )
+            for name, tool in keys.tools.items()
+            if tool.shapes
+        },
+        keys.collision,
+        keys.zones,
     )
     _check_force(keys, report, arm)
     if report.failed:
@@ -290,6 +437,7 @@ def load_cell(path: Path) -> CellDescription:
     return replace(cell, diagnostics=tuple(limit_findings(report.found)))
 
 
+<<<<<<< HEAD
 def _partners(given: Mapping[str, str], report: DraftFindings) -> dict[str, tuple[str, int]]:
     """Return address and port by device. Reports RG006.
 
@@ -308,6 +456,82 @@ def _partners(given: Mapping[str, str], report: DraftFindings) -> dict[str, tupl
                 help="such as 127.0.0.1:6510",
             )
     return result
+=======
+_KINDS = ("box", "cylinder", "capsule", "sphere", "half_space", "mesh")
+_UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
+
+
+def _thing(name: str, keys: ThingKeys, report: DraftFindings, arm: Arm) -> Thing:
+    """Return an object at its frame or its three points (RG832)."""
+    path: KeyPath = ("things", name)
+    frame = keys.frame
+    if keys.points is not None:
+        if frame != FrameKeys():
+            report.error("RG832", f"{name} has both a frame and points", path, help="keep one")
+        pose = frame_of_points(*keys.points)
+        if pose is None:
+            report.error(
+                "RG832",
+                f"the points of {name} are on a line, or equal",
+                (*path, "points"),
+                help="touch the origin, a point on x, and a point beside x towards y",
+            )
+        else:
+            frame = pose
+    return Thing(name, _shape(keys, path, report, arm, frame))
+
+
+def frame_of_points(
+    origin: Sequence[float], on_x: Sequence[float], near_y: Sequence[float]
+) -> FrameKeys | None:
+    """Return the frame of three touched points, as DefFrame does; None if they are on a line."""
+    o, a, b = ((p[0], p[1], p[2]) for p in (origin, on_x, near_y))
+    x = vectors.subtract(a, o)
+    z = vectors.cross(x, vectors.subtract(b, o))
+    if vectors.norm(z) <= 1e-6 * max(vectors.norm(x) ** 2, 1e-9):
+        return None
+    x, z = vectors.unit(x), vectors.unit(z)
+    return FrameKeys(list(o), list(vectors.quaternion(x, vectors.cross(z, x), z)))
+
+
+def _shape(
+    keys: ShapeKeys, path: KeyPath, report: DraftFindings, arm: Arm, frame: FrameKeys
+) -> CellShape:
+    """Return a shape in SI units (RG832)."""
+    given = [kind for kind in _KINDS if getattr(keys, kind) not in (None, "")]
+    placed = placement_of(frame, (*path, "frame"), report, arm)
+    if len(given) != 1:
+        named = " and ".join(given) or "no shape"
+        report.error(
+            "RG832", f"{path[1]} has {named}", path, help=f"give one of {', '.join(_KINDS)}"
+        )
+        return CellShape("sphere", (0.0,), placed)
+    if keys.box is not None:
+        size = tuple(value / 1000 for value in keys.box)
+        if min(size) <= 0:
+            report.error("RG832", f"{path[1]}: a box has lengths above 0", (*path, "box"))
+        return CellShape("box", size, placed)
+    if keys.half_space is not None:
+        if not any(keys.half_space):
+            report.error(
+                "RG832", f"{path[1]}: a normal of length 0", (*path, "half_space"), help="[0, 0, 1]"
+            )
+        return CellShape("half_space", tuple(keys.half_space), placed)
+    if keys.sphere is not None:
+        return CellShape("sphere", (keys.sphere / 1000,), placed)
+    if keys.cylinder is not None:
+        return CellShape("cylinder", _round(keys.cylinder), placed)
+    if keys.capsule is not None:
+        return CellShape("capsule", _round(keys.capsule), placed)
+    if keys.unit is not None and keys.scale is not None:
+        report.error("RG832", f"{path[1]} has both unit and scale", path, help="keep unit")
+    scale = _UNITS[keys.unit] if keys.unit is not None else (keys.scale or 0.0)
+    return CellShape("mesh", (), placed, keys.mesh, scale)
+
+
+def _round(keys: RoundKeys) -> tuple[float, float]:
+    return keys.radius / 1000, keys.length / 1000
+>>>>>>> 3410d3e9 (collision: check paths in a cell, from the client, the shell and pytest)
 
 
 def _arm(keys: CellKeys) -> Arm:

@@ -38,6 +38,13 @@ CELL_SECTIONS = (
     cell.SeenKeys,
     cell.ForceKeys,
     cell.ThingKeys,
+    cell.ShapeKeys,
+    cell.RoundKeys,
+    cell.CellToolKeys,
+    cell.CollisionKeys,
+    cell.AllowedKeys,
+    cell.ZoneKeys,
+    cell.ZoneBoxKeys,
 )
 
 
@@ -109,6 +116,13 @@ def _key_of(part: type) -> str:
         cell.SeenKeys: "`cameras.NAME.images` (a list of lists of these)",
         cell.ForceKeys: "`force`",
         cell.ThingKeys: "`things.NAME`",
+        cell.ShapeKeys: "`tools.NAME.shapes` (a list of these)",
+        cell.RoundKeys: "`cylinder` and `capsule`",
+        cell.CellToolKeys: "`tools.NAME`",
+        cell.CollisionKeys: "`collision`",
+        cell.AllowedKeys: "`collision.pairs.NAME - NAME`",
+        cell.ZoneKeys: "`zones.NAME`",
+        cell.ZoneBoxKeys: "`zones.NAME.box`",
         schema.GroupKeys: "`groups.NAME`",
         schema.JointKeys: "`joints.NAME`",
         schema.ChainStepKeys: "`chain` (a list of these)",

@@ -49,3 +49,18 @@ def unit(a: Vector) -> Vector:
     ZeroDivisionError for the zero vector.
     """
     return scale(a, 1 / norm(a))
+
+
+def quaternion(x: Vector, y: Vector, z: Vector) -> tuple[float, float, float, float]:
+    """Return the unit quaternion, scalar first, of a frame with these unit axes."""
+    # Four times the products of its components; the largest square divides without loss.
+    table = (
+        (1 + x[0] + y[1] + z[2], y[2] - z[1], z[0] - x[2], x[1] - y[0]),
+        (y[2] - z[1], 1 + x[0] - y[1] - z[2], y[0] + x[1], z[0] + x[2]),
+        (z[0] - x[2], y[0] + x[1], 1 - x[0] + y[1] - z[2], z[1] + y[2]),
+        (x[1] - y[0], z[0] + x[2], z[1] + y[2], 1 - x[0] - y[1] + z[2]),
+    )
+    best = max(range(4), key=lambda i: table[i][i])
+    a, b, c, d = table[best]
+    size = math.sqrt(a * a + b * b + c * c + d * d)
+    return a / size, b / size, c / size, d / size

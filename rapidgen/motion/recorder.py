@@ -18,7 +18,7 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import Move
+from rapidgen.motion.moves import Move, Place
 from rapidgen.motion.path_events import times_of_events
 
 if TYPE_CHECKING:
@@ -187,6 +187,15 @@ class Recorder:
             times.update(range(low, high, step))
             times.add(high)
         return sorted(times)
+
+    def sample_times(self, period: float) -> Sequence[int]:
+        """Return times (ns) every `period` s of movement, and the ends of standstills."""
+        return self._times(max(1, round(period * S)), standing=False)
+
+    def place(self, time: int) -> Place | None:
+        """Return the place of the move that the robot executes at a time (ns)."""
+        move = self._at(time).move(time)
+        return move.place() if move is not None and move.place is not None else None
 
     def recording(self, period: float = PERIOD, *, standing: bool = True) -> Recording:
         """Samples every `period` s from the start until now or the end.

@@ -17,15 +17,20 @@
 `--virtual-seed N` runs just that seed: a failing one replays exactly.
 """
 
+import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import pytest
 
 from rapidgen._compat import Unpack
+from rapidgen.diagnostics import Diagnostic, render
 
 if TYPE_CHECKING:
+    from rapidgen.collision.check import Clearances
+    from rapidgen.controller.boot_targets import Bootable
+    from rapidgen.controller.collisions import CollisionWatch
     from rapidgen.controller.controller import ControllerOptions, VirtualController
     from rapidgen.controller.faults import FaultPlan
     from rapidgen.system.model import System
@@ -78,45 +83,93 @@ def virtual_seed(request: pytest.FixtureRequest) -> int:
     return 0 if chosen is None else int(chosen)
 
 
-@pytest.fixture
-def virtual_controller(
-    virtual_seed: int,
-) -> "Iterator[Callable[..., VirtualController]]":
-    """Create virtual controllers: `virtual_controller(target, **options)`.
+class ControllerFactory:
+    """Creates virtual controllers, and checks their robots for collisions."""
 
-    `target` is an argument of `rapidgen sim` (a shipped name, a configuration, a generated folder,
-    a backup, a module, a folder of modules), a list of module files, a mapping from task to such a
-    list, or a `System`. `robot`, `entry`, `cell` and `start` are those of `rapidgen run`, all other
-    options those of `VirtualController`. All are closed after the test.
-    """
-    from rapidgen.controller.boot_targets import BootOptions, load_target
-    from rapidgen.controller.controller import VirtualController
-    from rapidgen.system.model import System
+    def __init__(self, seed: int) -> None:
+        self._seed = seed
+        self._made: list[VirtualController] = []
+        self._watched: list[tuple[VirtualController, CollisionWatch, bool]] = []
 
-    made: list[VirtualController] = []
-
-    def make(
+    def __call__(
+        self,
         target: "str | Path | System | Mapping[str, Sequence[str | Path]] | Sequence[str | Path]",
         *,
         robot: str = "",
         entry: str = "",
         cell: Path | str = "",
         start: Sequence[float] = (),
+        collisions: Literal["error", "warn", "off"] = "off",
         **options: "Unpack[ControllerOptions]",
-    ) -> VirtualController:
-        options.setdefault("seed", virtual_seed)
+    ) -> "VirtualController":
+        """Create a controller: see `virtual_controller`."""
+        from rapidgen.controller.boot_targets import BootOptions, load_target
+        from rapidgen.controller.controller import VirtualController
+        from rapidgen.system.model import System
+
+        options.setdefault("seed", self._seed)
         if isinstance(target, System):
-            made.append(VirtualController(target, **options))
-            return made[-1]
+            self._made.append(VirtualController(target, **options))
+            return self._made[-1]
         tasks = target if isinstance(target, Mapping) else {}
         files = [target] if isinstance(target, str | Path) else [] if tasks else list(target)
         boot_options = BootOptions(tasks, robot=robot, entry=entry, cell=cell, start=start)
-        made.append(VirtualController.boot(load_target(files, boot_options), **options))
-        return made[-1]
+        booted = load_target(files, boot_options)
+        controller = VirtualController.boot(booted, **options)
+        self._made.append(controller)
+        if collisions != "off":
+            self._watch(controller, booted, is_error=collisions == "error")
+        return controller
 
-    yield make
-    for controller in made:
-        controller.close()
+    def _watch(
+        self, controller: "VirtualController", booted: "Bootable", *, is_error: bool
+    ) -> None:
+        from rapidgen.controller.collisions import CollisionWatch
+
+        if booted.cell is None:
+            raise ValueError("collisions need a cell: virtual_controller(..., cell=FILE)")
+        watch = CollisionWatch(controller, booted.cell, booted.described)
+        self._watched.append((controller, watch, is_error))
+
+    def clearance(self, controller: "VirtualController") -> "Clearances":
+        """Return the clearances of a controller's robots so far: m, s.
+
+        Raises ValueError for a controller without `collisions`.
+        """
+        for own, watch, _ in self._watched:
+            if own is controller:
+                return watch.clearance()
+        raise ValueError('the controller was created without collisions="error"')
+
+    def close(self) -> None:
+        """Close all controllers, and fail the test for collisions."""
+        found: list[Diagnostic] = []
+        for _, watch, is_error in self._watched:
+            diagnostics = watch.report().diagnostics
+            if is_error:
+                found += diagnostics
+            elif diagnostics:
+                warnings.warn(render(diagnostics), stacklevel=2)
+        for controller in self._made:
+            controller.close()
+        if found:
+            pytest.fail(render(found), pytrace=False)
+
+
+@pytest.fixture
+def virtual_controller(virtual_seed: int) -> "Iterator[ControllerFactory]":
+    """Create virtual controllers: `virtual_controller(target, **options)`.
+
+    `target` is an argument of `rapidgen sim` (a shipped name, a configuration, a generated folder,
+    a backup, a module, a folder of modules), a list of module files, a mapping from task to such a
+    list, or a `System`. `robot`, `entry`, `cell` and `start` are those of `rapidgen run`, all other
+    options those of `VirtualController`. All are closed after the test. With `collisions="error"`
+    the test fails at its end if a path does not keep the clearances of the cell;
+    `virtual_controller.clearance(controller)` has them.
+    """
+    factory = ControllerFactory(virtual_seed)
+    yield factory
+    factory.close()
 
 
 @pytest.fixture

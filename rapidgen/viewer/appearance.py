@@ -147,6 +147,8 @@ def appearance(
 
 def _things(cell: CellDescription, meshes: Meshes) -> Iterator[SeenThing]:
     for thing in cell.things:
+        if not thing.mesh:
+            continue
         mesh = meshes.name_in(thing.mesh, cell.folder)
         pose = pose_of((thing.frame.position, thing.frame.orientation))
         if mesh:

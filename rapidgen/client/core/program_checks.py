@@ -92,6 +92,8 @@ class CheckedProgram:
     postures: list[Posture]
     """Position at the start, and at the end of each instruction."""
     notes: tuple[Diagnostic, ...]
+    path: tuple[tuple[int, Posture], ...] = ()
+    """Samples of the path, each with its instruction: ends of joint moves, nodes of others."""
 
     @property
     def goal(self) -> Posture:
@@ -148,7 +150,7 @@ def check_program(
         last = step
     if _failed(walk):
         raise InvalidProgram(walk.found)
-    return CheckedProgram(program, values, seconds, postures, tuple(walk.found))
+    return CheckedProgram(program, values, seconds, postures, tuple(walk.found), tuple(walk.path))
 
 
 def _failed(walk: ProgramTraversal) -> bool:
@@ -343,6 +345,7 @@ def _go(walk: ProgramTraversal, target: Posture, step: ProgramStep) -> float:
         start, end = robot.pose(walk.here), robot.pose(target)
         seconds = max(seconds, frames.distance(start[0], end[0]) / max(step.speed.tcp, 1e-9))
     walk.here = target
+    walk.path.append((walk.index, target))
     return seconds
 
 
@@ -385,6 +388,7 @@ def _along(
                 return seconds
         nodes.append(posture)
     walk.here = nodes[-1]
+    walk.path += ((walk.index, node) for node in nodes[1:])
     if (
         step.configuration is not None
         and not walk.any_posture

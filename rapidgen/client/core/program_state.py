@@ -33,6 +33,8 @@ class ProgramTraversal:
         self.found: list[Diagnostic] = []
         self.arguments: list[float | bool | str | tuple[float, ...]] = []
         """Arguments of the called routine, as they go onto the wire."""
+        self.path: list[tuple[int, Posture]] = [(0, start)]
+        """Samples of the path, each with its instruction."""
 
     def say(
         self, code: str, message: str, help: str = "", *, severity: Severity = Severity.ERROR

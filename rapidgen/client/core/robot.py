@@ -24,6 +24,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite
+from typing import TYPE_CHECKING
 
 from rapidgen import __version__
 from rapidgen.client.core.checks import (
@@ -44,6 +45,8 @@ from rapidgen.client.core.state_port import ErrorContext, StatePort
 from rapidgen.client.core.stream import InstructionQueue, PointQueue, PointStream, SendQueue
 from rapidgen.client.errors import (
     ConnectionLost,
+    InvalidProgram,
+    InvalidTrajectory,
     NotReady,
     NotSupported,
     ProtocolError,
@@ -70,6 +73,9 @@ from rapidgen.wire.simple_message.spec import (
     TrajectoryState,
     TriState,
 )
+
+if TYPE_CHECKING:
+    from rapidgen.client.collisions import CellCheck
 
 STOP_FRAME = encode(
     messages.TrajectoryPoint(Sequence.STOP, (0.0,) * MAX_JOINTS, 0.0, 0.0), Comm.REQUEST
@@ -161,6 +167,8 @@ class Core:
         self.fault: RobotError | None = None
         """Reason for the loss of the last connection."""
         self.motion: Download | PointStream | None = None
+        self.collisions: CellCheck | None = None
+        """Check of commanded motions in a cell; None: no check."""
         self.override = 1.0
         """Share of the programmed speed that this client has set."""
         self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
@@ -529,7 +537,7 @@ class Core:
         Raises NotReady before the robot has reported its position.
         """
         start = self.start if before is None else None
-        return check_trajectory(
+        checked = check_trajectory(
             trajectory,
             self.known_group,
             self.limits,
@@ -538,6 +546,19 @@ class Core:
             before=before,
             is_open=is_open,
         )
+        if self.collisions is None:
+            return checked
+        reached = before.wire.tolist() if before is not None else self.start
+        report = self.collisions.check_points(
+            checked.wire,
+            checked.durations,
+            reached,
+            first=before.points if before is not None else 0,
+            since=float(checked.trajectory.times[0]),
+        )
+        if not report.is_free:
+            raise InvalidTrajectory(report.diagnostics, exit_code=1)
+        return replace(checked, warnings=(*checked.warnings, *self.collisions.diagnostics))
 
     def check_program(
         self, program: Program, mode: TransferMode | None = None
@@ -558,7 +579,12 @@ class Core:
             )
         chosen = mode or ("download" if len(program) <= hello.ring else "stream")
         most = hello.ring if chosen == "download" else INDEX_WRAP - 1
-        return check_program(program, self.known_group, start=self.start, most=most), chosen
+        checked = check_program(program, self.known_group, start=self.start, most=most)
+        if self.collisions is not None:
+            report = self.collisions.check_program(checked)
+            if not report.is_free:
+                raise InvalidProgram(report.diagnostics)
+        return checked, chosen
 
     @property
     def start(self) -> tuple[float, ...]:

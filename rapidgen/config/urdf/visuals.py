@@ -53,9 +53,12 @@ class Visual:
 
 
 def visuals(
-    description: Description, packages: Packages, folder: Path
+    description: Description,
+    packages: Packages,
+    folder: Path,
+    tag: Literal["visual", "collision"] = "visual",
 ) -> dict[str, tuple[Visual, ...]]:
-    """Return the visuals of each link that has some.
+    """Return the visuals of each link that has some, or its collision geometry by `tag`.
 
     `read_robot` must accept the description; `folder` is the configuration's.
     """
@@ -71,7 +74,7 @@ def visuals(
     result: dict[str, tuple[Visual, ...]] = {}
     left = MOST
     for link in root.iterchildren("link"):
-        own = tuple(_visuals(link, named, files))[:left]
+        own = tuple(_visuals(link, named, files, tag))[:left]
         left -= len(own)
         if own:
             result[link.get("name", "")] = own
@@ -79,9 +82,12 @@ def visuals(
 
 
 def _visuals(
-    link: "Element", named: Mapping[str, tuple[float, ...]], files: Callable[[str], Path]
+    link: "Element",
+    named: Mapping[str, tuple[float, ...]],
+    files: Callable[[str], Path],
+    tag: str,
 ) -> Iterator[Visual]:
-    for visual in link.iterchildren("visual"):
+    for visual in link.iterchildren(tag):
         geometry, material = visual.find("geometry"), visual.find("material")
         shape = next(iter(geometry), None) if geometry is not None else None
         if shape is None:

@@ -1,0 +1,207 @@
+"""Check of a path in a world: findings for users, clearances over time.
+
+The three results of the proof stay apart: RG820 a contact, RG821 too near, RG822 not proved.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from rapidgen.collision.path import Path
+from rapidgen.collision.proof import Proof, Violation, prove
+from rapidgen.collision.scene import Scene
+from rapidgen.collision.shapes import Array
+from rapidgen.collision.world import World
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
+
+LIMIT = 0.1
+"""m: clearances above are not computed."""
+_SAMPLES = 1000
+"""Postures of a path at which depths and clearances are computed."""
+_CHUNK = 128
+_MOST = 20
+"""Findings of one check, the earliest ones."""
+_CODES = {"contact": "RG820", "too near": "RG821", "not proved": "RG822"}
+PlaceOf = Callable[[float], tuple[str, Span | None]]
+"""Text and place in a file of a position on the path."""
+
+
+@dataclass(frozen=True, eq=False)
+class Clearances:
+    """Distances of pairs over time: `distances` (n, p) in m at `times` (n,) s.
+
+    Infinite: more than `limit`. Samples only; proofs are in `CollisionReport.proof`.
+    """
+
+    scene: Scene
+    times: Array
+    distances: Array
+    limit: float = LIMIT
+
+    @property
+    def least(self) -> float:
+        """Return the least distance; infinite above the limit."""
+        return float(self.distances.min(initial=np.inf))
+
+    def curve(self) -> Array:
+        """Return the least distance (n,) at each time."""
+        result: Array = self.distances.min(axis=1, initial=np.inf)
+        return result
+
+    def by_pair(self) -> list[tuple[str, str, float, float]]:
+        """Return (body, body, least distance, its time) of pairs within the limit, nearest first.
+
+        Distances in m, times in s.
+        """
+        result = []
+        for number in range(self.distances.shape[1]):
+            row = int(self.distances[:, number].argmin())
+            far = float(self.distances[row, number])
+            if np.isfinite(far):
+                result.append((*self.scene.names(number), far, float(self.times[row])))
+        return sorted(result, key=lambda one: one[2])
+
+    def between(self, one: str, other: str) -> float:
+        """Return the least distance of two bodies; infinite above the limit.
+
+        Raises KeyError if the pair is not checked.
+        """
+        for number in range(self.distances.shape[1]):
+            if set(self.scene.names(number)) == {one, other}:
+                return float(self.distances[:, number].min())
+        raise KeyError(f"no pair {one} - {other}")
+
+
+@dataclass(frozen=True, eq=False)
+class CollisionReport:
+    """Result of a check: findings, and what was not checked."""
+
+    world: World
+    path: Path
+    proof: Proof
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def is_free(self) -> bool:
+        """True if all checked pairs keep their clearances, which is proved."""
+        return self.proof.is_free
+
+    def clearances(self, samples: int = _SAMPLES) -> Clearances:
+        """Return distances at evenly spaced times."""
+        times = np.linspace(self.path.times[0], self.path.times[-1], samples)
+        return clearances(self.world.scene, self.path, times)
+
+    def as_json(self) -> list[Mapping[str, object]]:
+        """Return the violations as data: m, s; names, point, normal, verdict."""
+        scene = self.world.scene
+        return [
+            {
+                "verdict": v.verdict,
+                "time": v.time,
+                "bodies": list(scene.names(v.pair)),
+                "distance": v.distance,
+                "point": list(v.point),
+                "normal": list(v.normal),
+                "clearance": scene.pairs[v.pair].clearance,
+            }
+            for v in self.proof.violations
+        ]
+
+
+def check_path(
+    world: World,
+    path: Path,
+    place_of: PlaceOf | None = None,
+    severity: Severity = Severity.ERROR,
+) -> CollisionReport:
+    """Prove a path and describe each violation.
+
+    Raises ModuleNotFoundError for hulls and cylinders without coal.
+    """
+    proof = prove(path, world.scene)
+    found = [
+        _finding(world, path, violation, place_of, severity)
+        for violation in proof.violations[:_MOST]
+    ]
+    left = len(proof.violations) - _MOST
+    if left > 0:
+        found[-1] = error(
+            found[-1].code,
+            found[-1].span,
+            found[-1].message,
+            found[-1].help,
+            notes=(*found[-1].notes, f"and {left} further pairs"),
+            severity=severity,
+        )
+    return CollisionReport(world, path, proof, tuple(found))
+
+
+def _finding(
+    world: World, path: Path, v: Violation, place_of: PlaceOf | None, severity: Severity
+) -> Diagnostic:
+    one, other = world.scene.names(v.pair)
+    place, span = place_of(v.position) if place_of is not None else ("", None)
+    at = f"at {v.time:.3f} s" + (f", {place}" if place else "")
+    x, y, z = (1000 * value for value in v.point)
+    where = f"at ({x:.0f}, {y:.0f}, {z:.0f}) mm"
+    clearance = 1000 * world.scene.pairs[v.pair].clearance
+    notes = _shapes(world.scene, v)
+    if v.verdict == "contact":
+        depth, when = _deepest(world.scene, path, v)
+        message = f"{one} touches {other} {at} {where}, up to {1000 * depth:.1f} mm deep"
+        notes = (f"deepest at {when:.3f} s", *notes)
+        help = "move the path or the object"
+    elif v.verdict == "too near":
+        message = (
+            f"{one} is {1000 * v.distance:.1f} mm from {other} {at} {where}; "
+            f"the clearance is {clearance:.1f} mm"
+        )
+        help = f"move the path, or set collision: {{pairs: {{{one} - {other}: MM}}}}"
+    else:
+        message = (
+            f"the clearance of {clearance:.1f} mm between {one} and {other} is not proved {at} "
+            f"{where}: {1000 * v.distance:.2f} mm"
+        )
+        help = "treat it as too near: move the path, or lower the clearance of this pair"
+    return error(_CODES[v.verdict], span, message, help, notes=notes, severity=severity)
+
+
+def _shapes(scene: Scene, v: Violation) -> tuple[str, ...]:
+    """Name the shapes if a body has several, and their mesh files."""
+    texts = []
+    for index in v.shapes:
+        shape = scene.table.shapes[index]
+        body = scene.bodies[scene.body_of[index]]
+        number = f" {index - scene.shapes_of[scene.body_of[index]].start + 1}"
+        several = number if len(body.shapes) > 1 else ""
+        source = f" of {shape.source}" if shape.source else ""
+        if several or source:
+            texts.append(f"{body.name}: {shape.kind}{several}{source}")
+    return tuple(texts)
+
+
+def _deepest(scene: Scene, path: Path, v: Violation) -> tuple[float, float]:
+    """Return the largest depth of a pair at samples of the path after the contact, and its time."""
+    u = np.linspace(v.position, path.last, _SAMPLES)
+    far = scene.body_distances(path.at(u), [v.pair])[:, 0]
+    row = int(far.argmin())
+    return max(0.0, -float(far[row])), path.time(float(u[row]))
+
+
+def clearances(scene: Scene, path: Path, times: Array, limit: float = LIMIT) -> Clearances:
+    """Return the distances of all pairs at times (n,), up to `limit` m."""
+    result = np.full((len(times), len(scene.pairs)), np.inf)
+    u = np.interp(times, path.times, np.arange(path.last + 1))
+    count = len(scene.first)
+    for low in range(0, len(u) if count else 0, _CHUNK):
+        rows = u[low : low + _CHUNK]
+        places = scene.places(*scene.tree.poses(path.at(rows))[:2])
+        postures = np.repeat(np.arange(len(rows)), count)
+        pairs = np.tile(np.arange(count), len(rows))
+        near = np.flatnonzero(scene.sphere_gaps(pairs, postures, *places) < limit)
+        postures, pairs = postures[near], pairs[near]
+        far = scene.distances(pairs, postures, *places)[0]
+        np.minimum.at(result, (postures + low, scene.pair_of[pairs]), far)
+    result[result > limit] = np.inf
+    return Clearances(scene, times, result, limit)
