@@ -116,6 +116,7 @@ unit: $(STAMP) $(PAGE) $(EDITORS)
 # What a release runs: every test, and the driver for four simulated hours.
 test-long: export PYTEST_XDIST_AUTO_NUM_WORKERS ?= $(shell echo $$(( $$(getconf _NPROCESSORS_ONLN) * 3 / 2 )))
 test-long: $(STAMP) $(PAGE) vsix
+	.ci/code_server
 	$(BIN)/python tools/driver_campaign.py days --hours 4 --watched 0.25
 	$(BIN)/python -m pytest -n auto
 
