@@ -139,7 +139,7 @@ diagrams: $(STAMP)
 	$(BIN)/python -m tests.docs.robots_picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
-# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, mains, motion_program_exec, open_abb, rfl, ros2, ros_nodes, rws_suites, state_machine, text_pairs, text_servers; default: any).
+# PROGRAM the trial (abb_driver, abb_libegm, backups, deployed, descriptions, godel, irb140, keyence, mains, motion_program_exec, open_abb, rfl, ros2, ros_nodes, rws_suites, state_machine, text_pairs, text_servers; default: any).
 PROGRAM = trial
 interop: $(STAMP)
 	$(BIN)/python -m tools.interop.$(PROGRAM) $(FOREIGN)
