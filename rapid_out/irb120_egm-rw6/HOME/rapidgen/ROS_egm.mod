@@ -14,11 +14,7 @@ MODULE ROS_egm
     ! the supervisor has ended. The robot then stays where it is. EGMReset follows on every path, because
     ! identities that were not reset are lost until the controller restarts.
 
-<<<<<<< HEAD
-    CONST string ROS_BUILD_EGM := "e4486493881b";
-=======
-    CONST string ROS_BUILD_EGM := "521a964dca9f";
->>>>>>> 896cbd3d (driver: name triggers, targets and servers as an integrator does)
+    CONST string ROS_BUILD_EGM := "ca89301392f8";
 
     ! UdpUc device (SIO) and external motion interface data (MOC) of this build.
     LOCAL CONST string DEVICE := "ROS_EGM";
