@@ -280,7 +280,6 @@ class CellKeys(StrictModel):
         default_factory=dict
     )
     force: Annotated[ForceKeys | None, Rule("Force sensors of the robots.")] = None
-<<<<<<< HEAD
     egm: Annotated[
         dict[Identifier, str],
         Rule(
@@ -288,8 +287,6 @@ class CellKeys(StrictModel):
             "sends its datagrams, `HOST:PORT`; others are on 127.0.0.1."
         ),
     ] = field(default_factory=dict)
-    things: Annotated[dict[Identifier, ThingKeys], Rule("What the page draws around robots.")] = (
-=======
     things: Annotated[dict[Identifier, ThingKeys], Rule("Objects around robots, by name.")] = field(
         default_factory=dict
     )
@@ -297,7 +294,6 @@ class CellKeys(StrictModel):
         CollisionKeys | None, Rule("Clearances; with this key, `run` checks for collisions.")
     ] = None
     zones: Annotated[dict[Identifier, ZoneKeys], Rule("Zones of collision checks, by name.")] = (
->>>>>>> 3410d3e9 (collision: check paths in a cell, from the client, the shell and pytest)
         field(default_factory=dict)
     )
 
@@ -437,7 +433,6 @@ def load_cell(path: Path) -> CellDescription:
     return replace(cell, diagnostics=tuple(limit_findings(report.found)))
 
 
-<<<<<<< HEAD
 def _partners(given: Mapping[str, str], report: DraftFindings) -> dict[str, tuple[str, int]]:
     """Return address and port by device. Reports RG006.
 
@@ -456,7 +451,8 @@ def _partners(given: Mapping[str, str], report: DraftFindings) -> dict[str, tupl
                 help="such as 127.0.0.1:6510",
             )
     return result
-=======
+
+
 _KINDS = ("box", "cylinder", "capsule", "sphere", "half_space", "mesh")
 _UNITS = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254}
 
@@ -531,7 +527,6 @@ def _shape(
 
 def _round(keys: RoundKeys) -> tuple[float, float]:
     return keys.radius / 1000, keys.length / 1000
->>>>>>> 3410d3e9 (collision: check paths in a cell, from the client, the shell and pytest)
 
 
 def _arm(keys: CellKeys) -> Arm:
