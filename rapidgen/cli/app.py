@@ -60,7 +60,7 @@ COMMANDS = {
     "rollback": ("deployment", "Restore the driver files of an earlier deployment."),
     "uninstall": ("deployment", "Remove the driver and restore the original files."),
     "doctor": ("deployment", "Check a controller: connection, ports, RobotWare, tasks."),
-    "ros2": ("generation", "Write a ROS 2 package with launch files, URDF and MoveIt."),
+    "ros2": ("generation", "Write ROS 2 packages with launch files, URDF and MoveIt."),
     "ros1": ("generation", "Write a catkin package for the ROS-Industrial nodes."),
     "lsp": ("lsp", "Serve editors by the language server protocol."),
     "dap": ("dap", "Debug RAPID in an editor: a debug adapter on stdio."),

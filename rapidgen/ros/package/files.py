@@ -164,6 +164,7 @@ def write(files: dict[str, str], folder: Path) -> None:
             ),
             exit_code=2,
         )
+    folder.mkdir(parents=True, exist_ok=True)
     for path, text in files.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         write_whole(folder / path, text.encode())
