@@ -34,6 +34,7 @@ COMMANDS = {
     "build": ("generation", "Generate the driver for one controller."),
     "fmt": ("fmt", "Format RAPID source files."),
     "export": ("export", "Write a RAPID module that runs without rapidgen."),
+    "execute": ("export", "Execute a module on a controller (THE ROBOT MOVES)."),
     "run": ("run", "Run RAPID on the virtual clock."),
     "sim": ("sim", "Run a virtual controller in real time."),
     "test": ("verification", "Test the generated driver on the virtual controller."),

@@ -376,3 +376,75 @@ def _text(path: Path | None) -> str:
     except OSError as fault:
         reason = (fault.strerror or str(fault)).lower()
         raise refusal("RG901", None, f"cannot read {path}: {reason}", "name a file") from fault
+
+
+def execute(
+    module: Annotated[Path, typer.Argument(help="Module to execute.", metavar="NAME.mod")],
+    to: Annotated[
+        str,
+        typer.Option(help="Controller: HOST[:PORT], rws://HOST or rwss://HOST.", metavar="TARGET"),
+    ],
+    task: Annotated[
+        str, typer.Option(help="Motion task, if there are several.", metavar="NAME")
+    ] = "",
+    routine: Annotated[
+        str, typer.Option(help="Procedure; default: main, or the only one.", metavar="NAME")
+    ] = "",
+    replace_driver: Annotated[
+        bool, typer.Option("--replace-driver", help="Stop the driver, if it is active.")
+    ] = False,
+    speed: Annotated[
+        int, typer.Option(min=1, max=100, help="Speed ratio.", metavar="PERCENT")
+    ] = 10,
+    yes: options.YesOnLoopback = False,
+    move_real_robot: options.RealRobot = "",
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    fingerprint: options.Fingerprint = "",
+) -> int:
+    """Execute a module on a controller (THE ROBOT MOVES).
+
+    Loads the module, runs its routine once at a tenth of the speed and follows it. Ctrl-C stops
+    the robot. Afterwards modules, task selection, speed and program pointer are as before.
+
+    rapidgen execute part.mod --to 192.168.125.1 --move-real-robot 192.168.125.1
+    """
+    from rapidgen._reading import read_foreign
+    from rapidgen.cli.deployment import confirm_plan
+    from rapidgen.cli.rws_session import ask_pendant, controller
+    from rapidgen.client.address import Address
+    from rapidgen.client.permission import need_confirmation
+    from rapidgen.client.rws.address import parse_address
+    from rapidgen.deploy.online.module_execution import execute_module, make_execution_plan
+
+    data = read_foreign(module, 256 * _LARGEST)
+    text = data.decode("latin-1")
+    at = parse_address(to)
+    asks = need_confirmation(Address(at.host, 0, 0), yes=yes, real_robot=move_real_robot)
+    with controller(to, user, secrets, fingerprint) as services:
+        plan = make_execution_plan(
+            services,
+            text,
+            str(module),
+            task=task,
+            routine=routine,
+            replace_driver=replace_driver,
+        )
+        typer.echo(f"{services.where}: mode {plan.mode}, state {plan.state}", err=True)
+        typer.echo(f"{plan.task}: {plan.module}/{plan.routine} at {speed} % of the speed", err=True)
+        for label, names in (
+            ("stopped", plan.running),
+            ("unloaded meanwhile", plan.displaced),
+            ("left out meanwhile", plan.others),
+        ):
+            if names:
+                typer.echo(f"{label}: {', '.join(names)}", err=True)
+        confirm_plan(f"THE ROBOT MOVES: execute {plan.module} at {to}?", yes=not asks)
+        ask_pendant(services, "exec", plan.mode)
+        events = execute_module(
+            services, plan, data, percent=speed, say=lambda line: typer.echo(line, err=True)
+        )
+        if plan.running:
+            typer.echo("the driver's tasks stay stopped until the controller restarts", err=True)
+        typer.echo(f"{to}: {plan.module} executed, {len(events)} events")
+    return 0

@@ -88,7 +88,7 @@ class Toolpath:
     steps: tuple[PathStep, ...]
     names: tuple[str, ...] = ()
     ignored: tuple[str, ...] = ()
-    """Words that the user told rapidgen to ignore, as they occurred."""
+    """Words ignored by order of the user, as they occurred."""
 
 
 @dataclass(frozen=True, slots=True)
