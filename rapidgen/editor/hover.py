@@ -50,7 +50,7 @@ def hover(view: View, line: int, column: int) -> Hover | None:
     token = view.names.token_at(line, column)
     if token is None:
         return None
-    symbol = view.names.names[token]
+    symbol = view.names.near(token)[token]
     return Hover(describe(view, symbol, token), name_span(view, token))
 
 

@@ -43,7 +43,7 @@ def renamable(view: View, line: int, column: int) -> tuple[Symbol, Span] | None:
     token = view.names.token_at(line, column)
     if token is None:
         return None
-    symbol = view.names.names[token]
+    symbol = view.names.near(token)[token]
     if symbol.module is None:
         of = "the configuration" if symbol.kind == "INSTALLED" else "RobotWare"
         raise CannotRename(f"'{symbol.name}' is declared by {of}, not by this program")

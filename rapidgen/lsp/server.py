@@ -22,6 +22,7 @@ from rapidgen import __version__
 from rapidgen._json import Json, Members, members, text
 from rapidgen._message_streams import MessageStream
 from rapidgen.diagnostics import Diagnostic
+from rapidgen.editor.completion import prepare
 from rapidgen.editor.documents import is_file, path_of, real_path, uri_of
 from rapidgen.editor.workspace import Workspace
 from rapidgen.lsp import capabilities
@@ -112,6 +113,7 @@ class Server:
         """By path: what the client shows of findings that we sent."""
         self._work: Iterator[tuple[str, list[Diagnostic]]] | None = None
         self._due = 0.0
+        self._is_prepared = False
         self._answers: dict[int, Callable[[Json], None]] = {}
         self._asked = 0
         self._progress = ""
@@ -173,10 +175,13 @@ class Server:
         if self._work is None:
             self._work = workspace.work()
         found = next(self._work, None)
-        if found is None:
-            self._work = None
+        if found is not None:
+            self._publish(*found)
             return
-        self._publish(*found)
+        self._work = None
+        if not self._is_prepared:
+            self._is_prepared = True
+            prepare()
 
     # -- messages ------------------------------------------------------------------------
 

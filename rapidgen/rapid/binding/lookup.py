@@ -53,10 +53,16 @@ _Mention = tuple[int, Symbol]
 
 @dataclass(slots=True, eq=False)
 class BoundModule:
-    """A module with its names looked up on first use."""
+    """A module with its names looked up on first use.
+
+    One place needs the names of its declaration only (`near`): the other 2,000 lines of a module
+    cost 25 ms.
+    """
 
     scope: ModuleScope
     _named: dict[int, Symbol] = field(default_factory=dict)
+    _near: dict[int, dict[int, Symbol]] = field(default_factory=dict)
+    """Names of single declarations, by their first tokens."""
 
     @property
     def names(self) -> dict[int, Symbol]:
@@ -66,13 +72,32 @@ class BoundModule:
             self._named.update(_mentions(self.scope))
         return self._named
 
+    def near(self, token: int) -> dict[int, Symbol]:
+        """Return the names in the declaration that has a token."""
+        if self._named:
+            return self._named
+        declarations = self.scope.tree.declarations
+        at = bisect_right(declarations, token, key=_first) - 1
+        declaration = declarations[at] if at >= 0 else None
+        if declaration is None or token > declaration.last:
+            return self.names
+        result = self._near.get(declaration.first)
+        if result is None:
+            if declaration in damage_of(self.scope.tree).routines:
+                return self.names
+            own = self.scope.own.get(getattr(declaration, "name", "").lower())
+            result = {} if own is None else {own.token: own}
+            result.update(_below(declaration, self.scope))
+            self._near[declaration.first] = result
+        return result
+
     def at(self, line: int, column: int) -> Symbol | None:
         """Return the symbol at a line and column (from 1, code points).
 
         The position after the last letter belongs to the name.
         """
         token = self.token_at(line, column)
-        return None if token is None else self.names[token]
+        return None if token is None else self.near(token)[token]
 
     def token_at(self, line: int, column: int) -> int | None:
         """Return the token at a place that names a known symbol."""
@@ -81,7 +106,7 @@ class BoundModule:
         for at in (offset, offset - 1):
             token = bisect_right(source.starts, at) - 1
             inside = token >= 0 and at < source.starts[token] + len(source.tokens[token])
-            if inside and token in self.names:
+            if inside and token in self.near(token):
                 return token
         return None
 
@@ -94,6 +119,10 @@ class BoundModule:
         span = self.scope.tree.source.span
         tokens = sorted(t for t, s in self.names.items() if s is symbol and t != own)
         return [span(token, token) for token in tokens]
+
+
+def _first(node: Node) -> int:
+    return node.first
 
 
 def _mentions(module: ModuleScope) -> Iterator[_Mention]:
