@@ -248,7 +248,7 @@ driver-boundary: $(STAMP) ## 2 h: boundary values in every field of every messag
 stop-trials: $(STAMP) ## 5 min: 2,000 random stops with up to three operator actions, and the way back from them
 	$(BIN)/python tools/stop_trials.py --jobs 2
 
-editor-bench: $(STAMP) ## 30 s: answers of the language server after an edit, its start and memory
+editor-bench: $(STAMP) ## 1 min: answers of the language server after an edit, its start and memory
 	$(BIN)/python benchmarks/editor.py
 
 editor-trials: $(STAMP) ## 5 min: edits, renames and requests in public programs; PROGRAMS=folder

@@ -1,7 +1,10 @@
 """The built-ins as data hold together."""
 
+from pathlib import Path
+
 import pytest
 
+from rapidgen.rapid.binding import builtin
 from rapidgen.rapid.builtins import signatures
 
 
@@ -119,3 +122,27 @@ def test_fully_known_names_are_in_no_option_list():
     routines = {n.lower() for n in signatures.routine_names()}
     assert routines & (listed("procedures") | listed("functions")) == set()
     assert set(signatures.predefined()) & listed("values") == set()
+
+
+# -- places and descriptions -----------------------------------------------------------------
+
+
+def test_descriptions_are_sentences_about_built_in_names():
+    lines = (Path(signatures.__file__).parent / "descriptions.txt").read_text().splitlines()
+    names = [line.partition(": ")[0] for line in lines]
+    assert len(set(names)) == len(names) >= 300
+    for line, name in zip(lines, names, strict=True):
+        symbol = builtin(name.lower())
+        assert symbol is not None, name
+        assert symbol.name == name or symbol.name == name.lower()
+        assert line.endswith("."), name
+        assert signatures.description(name.upper()) == line.partition(": ")[2]
+    assert signatures.description("nowhere") == ""
+
+
+def test_every_built_in_routine_has_the_place_of_its_header():
+    for name in signatures.routine_names():
+        path, line, column, length = signatures.place(name)
+        text = path.read_text().splitlines()[line - 1]
+        assert text[column - 1 : column - 1 + length] == name
+    assert signatures.place("nowhere") is None
