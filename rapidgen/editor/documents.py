@@ -23,6 +23,8 @@ Position = tuple[int, int]
 Range = tuple[Position, Position]
 
 _LINE_END: Final = re.compile(r"\r\n?|\n")
+_SCHEME: Final = re.compile(r"[A-Za-z][A-Za-z0-9+.-]+:")
+"""The start of an address; a single letter is a drive of Windows."""
 _DRIVE: Final = re.compile(r"/[A-Za-z]:")
 ENCODINGS: Final = ("auto", "utf-8", "latin-1", "cp1252", "gbk")
 """Encodings of files that are not open; `auto` is UTF-8 if valid, else Latin-1."""
@@ -50,7 +52,7 @@ def path_of(uri: str) -> str:
 
 def uri_of(path: str) -> str:
     """Return the address of a path; an untitled document's name is its address."""
-    if "://" in path or path.startswith("untitled:"):
+    if not is_file(path):
         return path
     text = os.path.abspath(path).replace(os.sep, "/")
     return "file://" + quote(text if text.startswith("/") else "/" + text)
@@ -58,7 +60,7 @@ def uri_of(path: str) -> str:
 
 def is_file(path: str) -> bool:
     """Return True unless the name of a document is an address without a file."""
-    return "://" not in path and not path.startswith("untitled:")
+    return not _SCHEME.match(path)
 
 
 # -- positions -----------------------------------------------------------------------------------

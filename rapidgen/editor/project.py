@@ -118,6 +118,8 @@ def discover(path: str, folders: Sequence[str], settings: Settings) -> Program:
             break  # a file in HOME of a backup that no task loads
     try:
         return _group(Path(path), settings, notes)
+    except FileNotFoundError:
+        return _alone(path, settings)  # a document that is not saved yet
     except (DiagnosticError, OSError) as fault:
         return _alone(path, settings, _as_notes(fault, path))
 
