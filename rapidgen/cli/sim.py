@@ -249,6 +249,7 @@ def _serve(
 @contextmanager
 def _control(runner: "ControllerRunner") -> "Iterator[Members]":
     """Open the control socket, also after each restart; yield its port and token."""
+    from rapidgen.dap.attach import Endpoint
     from rapidgen.servers.control_commands import READABLE, commands, subscribe
     from rapidgen.servers.control_socket import ControlSocket
 
@@ -257,7 +258,7 @@ def _control(runner: "ControllerRunner") -> "Iterator[Members]":
         # Always loopback, independent of `--host`.
         return ControlSocket(
             controller.scheduler,
-            commands(controller),
+            {**commands(controller), "debug": Endpoint(runner).open},
             lambda listener, trusted: subscribe(controller, listener, trusted),
             readable=READABLE,
             port=port,

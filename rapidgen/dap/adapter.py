@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from rapidgen._json import Members
 from rapidgen._message_streams import MessageStream
+from rapidgen.dap.attach import Relay
 from rapidgen.dap.capabilities import CAPABILITIES
 from rapidgen.dap.client import Client, RequestRefused, flag, members
 from rapidgen.dap.launch import Launch, Loader, read_launch
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
 
 Page: TypeAlias = "Callable[[ControllerRunner, Bootable], AbstractContextManager[str]]"
 """Serves the page of a simulator; yields its address."""
-Attach: TypeAlias = Callable[[Members, Client, Members], None]
-"""Takes over the client with its request and the request's arguments, until it leaves."""
 
 
 class Adapter:
@@ -39,13 +38,15 @@ class Adapter:
         stream: MessageStream,
         load: Loader,
         page: "Page | None" = None,
-        attach: Attach | None = None,
     ) -> None:
         self._stream = stream
         self._client = Client(stream)
         self._load = load
         self._page = page
-        self._attach = attach
+        self._initialize: Members = {}
+        """Arguments of the first request."""
+        self._relay: Relay | None = None
+        """The simulator to which the client has attached."""
         self._inbox: SimpleQueue[Members | None] = SimpleQueue()
         self._launch: Launch | None = None
         """The program that is to be booted, or runs."""
@@ -66,6 +67,8 @@ class Adapter:
             self._take(self._inbox.get())
             while self._launch is not None and self._session is None and not self._is_leaving:
                 self._debug(self._launch)
+        if self._relay is not None:
+            self._relay.close()
 
     # -- messages --------------------------------------------------------------------------------
 
@@ -105,6 +108,9 @@ class Adapter:
         if message is None:
             self._is_leaving = True
             return
+        if self._relay is not None:
+            self._relay.forward(message)
+            return
         if message.get("type") != "request":
             return
         command, number = message.get("command"), message.get("seq")
@@ -129,6 +135,7 @@ class Adapter:
     def _perform(self, command: str, request: Members, arguments: Members) -> None:
         match command:
             case "initialize":
+                self._initialize = arguments
                 self._client.initialise(arguments)
                 self._client.respond(request, CAPABILITIES)
             case "launch":
@@ -137,9 +144,10 @@ class Adapter:
                 # Read first: a wrong request leaves nothing behind.
                 self._launch, self._request = read_launch(arguments), request
             case "attach":
-                if self._launch is not None or self._attach is None:
-                    raise RequestRefused("this adapter cannot attach now")
-                self._attach(request, self._client, arguments)
+                if self._launch is not None:
+                    raise RequestRefused("a program has been launched already")
+                self._relay = Relay(self._client, self._initialize, arguments)
+                self._relay.forward(request)
             case "configurationDone":
                 self._start(request)
             case "restart":
@@ -154,19 +162,9 @@ class Adapter:
                 self._in_session(command, request, arguments)
 
     def _in_session(self, command: str, request: Members, arguments: Members) -> None:
-        from rapidgen.controller.debugger import NotPaused
-
-        session = self._session
-        if session is None:
+        if self._session is None:
             raise RequestRefused(f"'{command}' needs a program that was launched")
-        handler = session.handlers.get(command)
-        if handler is None:
-            raise RequestRefused(f"the adapter does not know '{command}'")
-        try:
-            body = handler(arguments)
-        except NotPaused as reason:
-            raise RequestRefused(str(reason)) from reason
-        self._client.respond(request, body)
+        self._client.respond(request, self._session.execute(command, arguments))
 
     # -- program ---------------------------------------------------------------------------------
 

@@ -39,7 +39,7 @@ class Client:
         """Send the response of a request that was executed."""
         self._send(self._response(request, success=True) | ({} if body is None else {"body": body}))
 
-    def refuse(self, request: Members, reason: str, *, code: int = 940, show: bool = False) -> None:
+    def refuse(self, request: Members, reason: str, *, code: int = 1, show: bool = False) -> None:
         """Send the response of a request that was not executed; `show`: in a dialog."""
         # Braces would be variables of the format.
         format = reason.replace("{", "(").replace("}", ")")
@@ -57,6 +57,10 @@ class Client:
     def output(self, text: str, category: str = "console", **more: Json) -> None:
         """Send lines for the console; categories: console, important, stdout, stderr."""
         self.event("output", {"category": category, "output": text.rstrip("\n") + "\n", **more})
+
+    def forward(self, message: Members) -> None:
+        """Send a message of another adapter."""
+        self._send({key: value for key, value in message.items() if key != "seq"})
 
     def _response(self, request: Members, *, success: bool) -> Members:
         return {

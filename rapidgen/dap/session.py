@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
 from rapidgen._json import Json, Members
-from rapidgen.controller.debugger import PauseReason, StackFrame
+from rapidgen.controller.debugger import NotPaused, PauseReason, StackFrame
 from rapidgen.controller.debugger.breakpoints import statements
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.dap.breakpoints import Breakpoints, statement_lines
@@ -51,7 +51,7 @@ class Session:
         self._breakpoints = Breakpoints(client, self._sources, self._debugger)
         runner.on_restart.append(self._release)
         runner.on_boot.append(self._rebind)
-        self.handlers: Mapping[str, Handler] = {
+        self._handlers: Mapping[str, Handler] = {
             "setBreakpoints": self._set_breakpoints,
             "setFunctionBreakpoints": self._set_function_breakpoints,
             "breakpointLocations": lambda a: {"breakpoints": [*self._breakpoints.locations(a)]},
@@ -145,6 +145,22 @@ class Session:
                 return
         self._entry = False
         self._debugger.resume()
+
+    def execute(self, command: str, arguments: Members) -> Members | None:
+        """Execute a request and return the body of its response. RequestRefused."""
+        handler = self._handlers.get(command)
+        if handler is None:
+            raise RequestRefused(f"the adapter does not know '{command}'")
+        try:
+            return handler(arguments)
+        except NotPaused as reason:
+            raise RequestRefused(str(reason)) from reason
+
+    def report_pause(self) -> None:
+        """Tell a client that has attached of a pause that exists already."""
+        self._halt = self._debugger.halt
+        if self._halt is not None:
+            self._send_stopped(self._halt)
 
     # -- events ----------------------------------------------------------------------------------
 

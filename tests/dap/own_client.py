@@ -15,7 +15,7 @@ class Refused(Exception):
 class OwnClient:
     """Sends requests and keeps events; every wait ends after 10 s."""
 
-    def __init__(self, page=None, attach=None):
+    def __init__(self, page=None):
         self._own, other = socket.socketpair()
         self._own.settimeout(10)
         self._stream = MessageStream(self._receive, self._own.sendall)
@@ -24,7 +24,7 @@ class OwnClient:
 
         def serve():
             with other:
-                Adapter(MessageStream(other.recv, other.sendall), _load, page, attach).run()
+                Adapter(MessageStream(other.recv, other.sendall), _load, page).run()
 
         self._thread = threading.Thread(target=serve)
         self._thread.start()
