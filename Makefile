@@ -200,6 +200,9 @@ seeded-faults: $(STAMP) ## 1 min: 100 faults in RAPID programs, and how many `ch
 motion-logs: $(STAMP) ## 3 min: simulated motion against the logs of a robot in the folder LOGS
 	$(BIN)/python benchmarks/motion_logs.py $(LOGS)
 
+fit: $(STAMP) ## 5 min: speed and number of moves along the curves CURVES=files, beside points by hand
+	$(BIN)/python benchmarks/fit.py $(CURVES)
+
 configuration-pairs: $(STAMP) ## 1 min: confdata beside robtargets of the backups in the folders FOLDERS
 	$(BIN)/python tools/configuration_pairs.py $(FOLDERS)
 

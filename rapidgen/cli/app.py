@@ -41,6 +41,7 @@ COMMANDS = {
     "probe": ("verification", "Write a RAPID module that tests a controller's behaviour."),
     "move": ("motion", "Move a robot to joint values, to a pose or along a file."),
     "jog": ("motion", "Move joints or the tool by a small step."),
+    "fit": ("fit", "Fit a dense curve by few moves within a tolerance."),
     "calibrate": ("calibration", "Measure the axes' accelerations (THE ROBOT MOVES)."),
     "pose": ("observation", "Show the pose of the tool and the joint values."),
     "stop": ("motion", "Stop all motion groups of a robot, or one."),
