@@ -275,6 +275,8 @@ def test_asyncio():
             # The order may arrive after the first of these frames.
             while session.state.age is None:
                 following = asyncio.create_task(session.next_state(60))
+                # It begins to wait before the frame is sent.
+                await asyncio.sleep(0)
                 await asyncio.to_thread(controller.exchange)
                 state = await following
             assert state.sequence > 0

@@ -415,6 +415,52 @@ def test_move_while_guided_stops_the_program(guided):
     assert group.is_standing
 
 
+LEFT = r"""MODULE m
+CONST egm_minmax near := [-0.1, 0.1];
+CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+VAR egmident id;
+VAR errnum LEAVE := -1;
+VAR intnum alarm;
+PROC main()
+BookErrNo LEAVE;
+MoveAbsJ home, v1000, fine, tool0;
+EGMGetId id;
+CONNECT alarm WITH leaves;
+ITimer \Single, 0.5, alarm;
+EGMSetupUC ROB_1, id, "default", "UCdevice" \Joint \CommTimeout:=1;
+EGMActJoint id \Tool:=tool0 \J1:=near \MaxSpeedDeviation:=10 \MaxPosDeviation:=20;
+EGMRunJoint id, EGM_STOP_HOLD \J1 \CondTime:=600;
+ERROR (LEAVE)
+TPWrite "running" \Bool:=EGMGetState(id) = EGM_STATE_RUNNING;
+EGMStop id, EGM_STOP_HOLD \RampOutTime:=0.3;
+TPWrite "running" \Bool:=EGMGetState(id) = EGM_STATE_RUNNING;
+MoveAbsJ home, v1000, fine, tool0;
+TPWrite "home";
+EGMReset id;
+WaitTime 600;
+ENDPROC
+TRAP leaves
+RAISE LEAVE;
+ERROR (LEAVE)
+RAISE LEAVE;
+ENDTRAP
+ENDMODULE
+"""
+
+
+def test_run_that_a_trap_leaves_goes_on_until_egm_stop(tmp_path):
+    """ABB's StateMachine add-in: RAISE in a trap, then EGMStop if RUNNING [code]."""
+    (tmp_path / "m.mod").write_text(LEFT)
+    with VirtualController.from_files(
+        {"T_ROB1": [tmp_path / "m.mod"]}, robots=load_config("irb120").groups, cycle="once"
+    ) as controller:
+        controller.egm.connect("UCdevice", Partner(to(15, 0, 0, 0, 30, 0)))
+        controller.run_for(5)
+        rows = list(controller.operator.rows)
+        assert controller.task("T_ROB1").fault is None
+    assert rows == ["runningTRUE", "runningFALSE", "home"]
+
+
 def test_reference_is_recorded(guided):
     """Recordings and views show where the partner wants the robot to be, and where it is."""
     controller, partner, group = guided(JOINT, to(10, 0, 0, 0, 30, 0))

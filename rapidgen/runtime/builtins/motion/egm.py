@@ -359,7 +359,7 @@ def _run(session: EgmSession, axes: tuple[str, ...], arguments: Arguments) -> Ru
 
 def _await(task: Task, session: EgmSession, name: str) -> None:
     """Wait for the end of a run; raise what ended it in error."""
-    egm = task.controller.egm
+    egm, goes_on = task.controller.egm, False
     try:
         finished = task.wait_for(
             lambda: not session.guided,
@@ -370,8 +370,15 @@ def _await(task: Task, session: EgmSession, name: str) -> None:
         if not finished:
             egm.give_up(session)
         outcome = session.outcome
+    except RapidError:
+        # A trap has left the run by RAISE. Guidance goes on until EGMStop: the StateMachine add-in
+        # executes that after its handler, if the state is RUNNING [code TRobEGM 1.1].
+        goes_on = True
+        session.on_end = lambda: _ended(task, session)
+        raise
     finally:
-        egm.end(session)
+        if not goes_on:
+            egm.end(session)
     if outcome == "silent":
         raise RapidError("ERR_UDPUC_COMM", f"no datagram of {session.partner}")
     if (fault := _fault(session)) is not None:
@@ -413,7 +420,18 @@ def egm_wait_cond(task: Task, identity: EgmIdentity, _time: float | None) -> Non
 
 @builtin("EGMStop")
 def egm_stop(task: Task, identity: EgmIdentity, mode: float, ramp_out: float | None) -> None:
-    """End guidance, and with it the interrupted EGMRunJoint once the robot stands."""
+    """End guidance, and with it the interrupted EGMRunJoint once the robot stands.
+
+    Outside of a trap nothing else waits for that, so this does.
+    """
     session = _session(task, identity)
     time = session.profile.ramp_time if ramp_out is None else max(0.0, ramp_out)
-    task.controller.egm.stop(session, hold=int(mode) == _HOLD, ramp_out=time)
+    egm = task.controller.egm
+    egm.stop(session, hold=int(mode) == _HOLD, ramp_out=time)
+    if session.guided and session.loop is not None and not task.in_trap:
+        task.wait_for(
+            lambda: not session.guided,
+            on=(session.changed,),
+            why=lambda: "EGMStop waits until the robot stands",
+        )
+        egm.end(session)
