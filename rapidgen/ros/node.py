@@ -1,4 +1,4 @@
-"""The ROS 2 node: the only module that imports rclpy.
+"""The ROS 2 node: with `operator_interface` the only module that imports rclpy.
 
 It maps messages to calls of `RobotLink` and back. The links run on one asyncio loop in a thread;
 rclpy's callbacks wait for their results. QoS: all topics are reliable, volatile, depth 10, as
@@ -6,6 +6,7 @@ joint_state_broadcaster has it.
 """
 
 import asyncio
+import os
 import signal
 import threading
 import time
@@ -40,6 +41,7 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.ros.goal_execution import ActiveGoal, GoalFeedback, reason
 from rapidgen.ros.goals import FinalStatus, Goal, Outcome, Point, Tolerance
+from rapidgen.ros.operator_interface import OperatorInterface
 from rapidgen.ros.parameters import DECLARED, NAMES, WHOLE, Parameters, check_address, read
 from rapidgen.ros.robot_link import RobotLink, set_speeds
 from rapidgen.ros.status_messages import (
@@ -49,7 +51,12 @@ from rapidgen.ros.status_messages import (
     RobotHealth,
     RobotStatus,
 )
-from rapidgen.ros.user_services import ARE_THERE, MISSING, Message, Serve, services
+from rapidgen.ros.user_services import (
+    ARE_THERE,
+    MISSING,
+    Message,
+    services,
+)
 
 try:  # A package that not every distribution has.
     from industrial_msgs.msg import RobotStatus as RobotStatusMessage
@@ -81,7 +88,9 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self._thread = threading.Thread(target=self._loop.run_forever, name="rapidgen", daemon=True)
         self._thread.start()
         self._doors: list[GroupInterface] = []
+        self._operator: OperatorInterface | None = None
         self._running: list[Future[None]] = []
+        self._running_log: list[Future[None]] = []
         self.fault = ""
         """Why a link ended that was not asked to: this process can do nothing useful any more."""
         self.add_on_set_parameters_callback(self._parameters_set)
@@ -97,7 +106,8 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Read the configuration; create topics, services and actions."""
         try:
-            parameters = read({name: self.get_parameter(name).value for name, _, _ in DECLARED})
+            values = {name: self.get_parameter(name).value for name, _, _ in DECLARED}
+            parameters = read(values, os.environ)
             config = load_config(parameters.config, overrides=parameters.overrides)
             check_address(parameters.address, config)
         except DiagnosticError as error:
@@ -115,6 +125,8 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             self._doors.append(
                 GroupInterface(self, make, parameters, space, name, tells_clock=clock)
             )
+        if parameters.operator is not None:
+            self._operator = OperatorInterface(self, parameters.operator)
         return super().on_configure(state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -122,6 +134,8 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self._running = [self.ask(door.link.run()) for door in self._doors]
         for running in self._running:
             running.add_done_callback(self._link_ended)
+        if self._operator is not None:
+            self._running_log = [self.ask(self._operator.run())]
         return super().on_activate(state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
@@ -134,6 +148,9 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         for door in self._doors:
             door.destroy()
         self._doors = []
+        if self._operator is not None:
+            self._operator.destroy()
+            self._operator = None
         return super().on_cleanup(state)
 
     def destroy_node(self) -> None:
@@ -156,16 +173,17 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         self.fault = text
 
     def _let_go(self) -> None:
-        for running in self._running:
-            running.cancel()
-        self.ask(_ended(len(self._running))).result()
-        self._running = []
+        running = [*self._running, *self._running_log]
+        for one in running:
+            one.cancel()
+        self.ask(_ended(len(running))).result()
+        self._running, self._running_log = [], []
 
     def end(self, executor: MultiThreadedExecutor) -> None:
         """Stop motions of goals, and send the results to their clients."""
         self._let_go()
         until = time.monotonic() + _FAREWELL
-        while self._is_busy and time.monotonic() < until:
+        while self.is_busy and time.monotonic() < until:
             executor.spin_once(timeout_sec=0.05)
         for _ in range(5):  # Results are sent after the callback that created them.
             executor.spin_once(timeout_sec=0.05)
@@ -178,7 +196,7 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
             if parameter.name != "speed":
                 why = f"{parameter.name} is read when the node is configured: clean it up before"
                 return SetParametersResult(successful=False, reason=why)
-            if parameter.value == WHOLE and not self._is_busy:
+            if parameter.value == WHOLE and not self.is_busy:
                 continue  # The speed at the start of each motion.
             links = [door.link for door in self._doors]
             done, report = self.asked(set_speeds(links, float(parameter.value)))
@@ -187,12 +205,13 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         return SetParametersResult(successful=True)
 
     @property
-    def _is_busy(self) -> bool:
+    def is_busy(self) -> bool:
+        """True if a goal has no result yet."""
         return any(door.is_busy for door in self._doors)
 
     def goal_ended(self) -> None:
         """Reset the speed of an ended motion."""
-        if not self._is_busy and self.get_parameter("speed").value != WHOLE:
+        if not self.is_busy and self.get_parameter("speed").value != WHOLE:
             self.set_parameters([Parameter("speed", value=WHOLE)])
 
     def ask(self, coroutine: Coroutine[object, None, T]) -> "Future[T]":
@@ -208,6 +227,23 @@ class RobotNode(LifecycleNode):  # type: ignore[misc]
         except ValueError as error:
             return False, str(error)
         return True, "done"
+
+    def trigger(
+        self, act: Callable[[], Coroutine[object, None, object]]
+    ) -> Callable[[Message, Message], Message]:
+        """Return the callback of a Trigger."""
+        return self.fill(lambda *_: act())
+
+    def fill(
+        self, serve: Callable[[Message, Message], Coroutine[object, None, object]]
+    ) -> Callable[[Message, Message], Message]:
+        """Return the callback of a service whose response `serve` fills."""
+
+        def filled(request: Message, response: Message) -> Message:
+            response.success, response.message = self.asked(serve(request, response))
+            return response
+
+        return filled
 
     def soon(self, act: Callable[[], None]) -> None:
         """Run on the links' loop without waiting."""
@@ -258,7 +294,7 @@ class GroupInterface:
         self._clock = self._publisher(Clock, "/clock") if tells_clock else None
         self._services = [
             node.create_service(
-                Trigger, f"{space}{name}", self._serving(act), callback_group=self._callbacks
+                Trigger, f"{space}{name}", node.trigger(act), callback_group=self._callbacks
             )
             for name, act in (
                 ("stop", self.link.stop),
@@ -268,7 +304,7 @@ class GroupInterface:
         ]
         self._services += [
             node.create_service(
-                kind, f"{space}{name}", self._filling(serve), callback_group=self._callbacks
+                kind, f"{space}{name}", node.fill(serve), callback_group=self._callbacks
             )
             for kind, name, serve in services(self.link)
         ]
@@ -368,22 +404,6 @@ class GroupInterface:
         self._node.get_logger().info(f"{self._name}: {text}")
 
     # Requests of ROS
-
-    def _serving(
-        self, act: Callable[[], Coroutine[object, None, object]]
-    ) -> Callable[[Message, Message], Message]:
-        def serve(_: Message, response: Message) -> Message:
-            response.success, response.message = self._node.asked(act())
-            return response
-
-        return serve
-
-    def _filling(self, serve: Serve) -> Callable[[Message, Message], Message]:
-        def filled(request: Message, response: Message) -> Message:
-            response.success, response.message = self._node.asked(serve(request, response))
-            return response
-
-        return filled
 
     def _accept(self, request: Message) -> GoalResponse:
         """Accept a goal; a stop from now on ends it, although it may be executed later."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.util import find_spec
 from typing import Any, Literal, cast
 
 from rapidgen.client.address import parse_address
@@ -10,6 +11,7 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 from rapidgen.ros.goal_execution import Policy
 from rapidgen.ros.goals import Defaults
+from rapidgen.ros.operator_services import GUARDED, OperatorAccess
 
 WHOLE = 100.0
 """% of the programmed speed at the start of each motion."""
@@ -29,7 +31,14 @@ DECLARED: tuple[tuple[str, str | bool | float | list[str], str], ...] = (
     ("goal_tolerance", 0.01, "default of a goal's end, rad or m; 0: none"),
     ("goal_time_tolerance", 0.0, "default of goal_time_tolerance, s; 0: none"),
     ("stamp_tolerance", 0.2, "s by which header.stamp may be past"),
+    ("controller", "", "HOST[:PORT] of Robot Web Services; empty: no services of the operator"),
+    ("controller_user", "Default User", "user there; the password is in RAPIDGEN_PASSWORD"),
+    ("controller_fingerprint", "", "of the controller's certificate; empty: the known ones"),
+    # A list without an element has no type for rclpy.
+    ("operate", [""], f"services that may be called: {', '.join(sorted(GUARDED))}"),
 )
+PASSWORD = "RAPIDGEN_PASSWORD"
+"""Environment variable: parameters of a node can be read by every other node."""
 """Name, default, description."""
 NAMES = frozenset(name for name, _, _ in DECLARED)
 """Those of this node; rclpy has others."""
@@ -45,9 +54,11 @@ class Parameters:
     tf_prefix: str
     publish_clock: bool
     policy: Policy
+    operator: OperatorAccess | None
+    """None: no services of the operator."""
 
 
-def read(values: Mapping[str, Any]) -> Parameters:
+def read(values: Mapping[str, Any], environment: Mapping[str, str]) -> Parameters:
     """Parameters by name. Raises DiagnosticError with every fault."""
     result = []
     if not values["config"]:
@@ -59,6 +70,14 @@ def read(values: Mapping[str, Any]) -> Parameters:
     for name in ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "stamp_tolerance"):
         if not 0 <= values[name] < math.inf:
             result.append(_fault(f"{name} is {values[name]:g}", "it is 0 or more"))
+    allowed = frozenset(filter(None, values["operate"]))
+    if unknown := sorted(allowed - GUARDED):
+        report = f"operate names '{unknown[0]}'"
+        result.append(_fault(report, f"it may name {', '.join(sorted(GUARDED))}"))
+    if values["controller"] and find_spec("httpx2") is None:
+        result.append(_fault("controller needs httpx2", "pip install 'rapidgen[web]'"))
+    if allowed and not values["controller"]:
+        result.append(_fault("operate is set without controller", "-p controller:=HOST"))
     if values["speed"] != WHOLE:
         result.append(
             _fault(
@@ -85,6 +104,15 @@ def read(values: Mapping[str, Any]) -> Parameters:
             cast("Literal['refuse', 'approach']", values["replace"]),
             cast("Literal['refuse', 'resample']", values["dense"]),
         ),
+        OperatorAccess(
+            values["controller"],
+            values["controller_user"],
+            environment.get(PASSWORD, ""),
+            values["controller_fingerprint"],
+            allowed,
+        )
+        if values["controller"]
+        else None,
     )
 
 

@@ -7,13 +7,22 @@ from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeAlias
 
 from rapidgen.client.program import Argument, Left, Target
+from rapidgen.ros.operator_services import OperatorServices
 from rapidgen.ros.robot_link import RobotLink
 
 try:  # ros/rapidgen_interfaces, in the user's workspace or not.
     from rapidgen_interfaces.msg import Value
-    from rapidgen_interfaces.srv import CallRoutine, ReadSignal, WriteSignal
+    from rapidgen_interfaces.srv import (
+        CallRoutine,
+        ReadSignal,
+        ReadSymbol,
+        SetSpeedRatio,
+        WriteSignal,
+        WriteSymbol,
+    )
 except ImportError:
     Value = CallRoutine = ReadSignal = WriteSignal = None
+    ReadSymbol = SetSpeedRatio = WriteSymbol = None
 
 Message: TypeAlias = Any
 """Untyped object that ROS generates or passes."""
@@ -50,6 +59,27 @@ def services(link: RobotLink) -> tuple[tuple[Message, str, Serve], ...]:
         (ReadSignal, "read_signal", read_signal),
         (WriteSignal, "write_signal", write_signal),
         (CallRoutine, "call_routine", call_routine),
+    )
+
+
+def operator_services(operator: OperatorServices) -> tuple[tuple[Message, str, Serve], ...]:
+    """Return the same for those of the operator that have messages of their own."""
+    if not ARE_THERE:
+        return ()
+
+    async def set_speed_ratio(request: Message, response: Message) -> None:
+        response.percent = await operator.set_speed_ratio(request.percent)
+
+    async def read_symbol(request: Message, response: Message) -> None:
+        response.value = await operator.read_symbol(request.path)
+
+    async def write_symbol(request: Message, response: Message) -> None:
+        response.value = await operator.write_symbol(request.path, request.value)
+
+    return (
+        (SetSpeedRatio, "set_speed_ratio", set_speed_ratio),
+        (ReadSymbol, "read_rapid_symbol", read_symbol),
+        (WriteSymbol, "write_rapid_symbol", write_symbol),
     )
 
 

@@ -40,7 +40,11 @@ ALL = """
 import importlib, pkgutil, rapidgen
 failed = {}
 for module in pkgutil.walk_packages(rapidgen.__path__, "rapidgen.", onerror=lambda name: None):
-    if module.name in ("rapidgen.cli.__main__", "rapidgen.ros.node"):
+    if module.name in (
+        "rapidgen.cli.__main__",
+        "rapidgen.ros.node",
+        "rapidgen.ros.operator_interface",
+    ):
         continue
     try:
         importlib.import_module(module.name)

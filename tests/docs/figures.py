@@ -12,7 +12,7 @@ from functools import cache
 from rapidgen.runtime.values import Record
 from tests.docs.tree import ROOT, circles, imports, modules
 
-_NEEDS_ROS = {"rapidgen.ros.node"}
+_NEEDS_ROS = {"rapidgen.ros.node", "rapidgen.ros.operator_interface"}
 
 
 @dataclass(frozen=True)

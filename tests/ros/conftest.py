@@ -10,9 +10,13 @@ sys.path[:0] = [str(Path(__file__).parent), str(Path(__file__).parents[1] / "cli
 IS_REAL = find_spec("rclpy") is not None
 # `make ros-tests` runs these with the real rclpy; the stand-in is for Pythons that have none.
 if not IS_REAL and (Path(__file__).parents[2] / "build" / "ros").exists():
-    collect_ignore = ["test_node.py", "test_own_services.py"]
+    collect_ignore = ["test_node.py", "test_operator_node.py", "test_own_services.py"]
 
-WITH_ROS = ("rapidgen.ros.node", "rapidgen.ros.user_services")
+WITH_ROS = (
+    "rapidgen.ros.node",
+    "rapidgen.ros.operator_interface",
+    "rapidgen.ros.user_services",
+)
 """What looks at what is sourced when it is imported."""
 
 

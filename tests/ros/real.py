@@ -252,7 +252,7 @@ class Driver(Client):
     def destroy_node(self):
         if self.state == "active":
             self.node.trigger_deactivate()
-        while self.node._is_busy:
+        while self.node.is_busy:
             time.sleep(0.01)
         self.close()
         # Else a callback that still runs would use what is destroyed.

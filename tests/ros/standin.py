@@ -83,6 +83,7 @@ DiagnosticArray = message("DiagnosticArray", header=Header, status=[DiagnosticSt
 Clock = message("Clock", clock=Time)
 ParameterDescriptor = message("ParameterDescriptor", name=str, description=str)
 SetParametersResult = message("SetParametersResult", successful=bool, reason=str)
+Log = message("Log", stamp=Time, level=int, name=str, msg=str, file=str, function=str, line=int)
 TriState = message("TriState", val=int)
 RobotMode = message("RobotMode", val=int)
 RobotStatus = message(
@@ -144,6 +145,21 @@ class WriteSignal:
 class CallRoutine:
     Request = message("CallRoutine_Request", name=str, arguments=[Value])
     Response = message("CallRoutine_Response", success=bool, message=str, results=[Value])
+
+
+class ReadSymbol:
+    Request = message("ReadSymbol_Request", path=str)
+    Response = message("ReadSymbol_Response", success=bool, message=str, value=str)
+
+
+class WriteSymbol:
+    Request = message("WriteSymbol_Request", path=str, value=str)
+    Response = message("WriteSymbol_Response", success=bool, message=str, value=str)
+
+
+class SetSpeedRatio:
+    Request = message("SetSpeedRatio_Request", percent=float)
+    Response = message("SetSpeedRatio_Response", success=bool, message=str, percent=float)
 
 
 class ReentrantCallbackGroup:
@@ -497,8 +513,10 @@ def modules():
         "diagnostic_msgs.msg": "DiagnosticArray DiagnosticStatus KeyValue",
         "industrial_msgs.msg": "RobotStatus",
         "rapidgen_interfaces.msg": "Value",
-        "rapidgen_interfaces.srv": "CallRoutine ReadSignal WriteSignal",
-        "rcl_interfaces.msg": "ParameterDescriptor SetParametersResult",
+        "rapidgen_interfaces.srv": (
+            "CallRoutine ReadSignal ReadSymbol SetSpeedRatio WriteSignal WriteSymbol"
+        ),
+        "rcl_interfaces.msg": "Log ParameterDescriptor SetParametersResult",
         "rosgraph_msgs.msg": "Clock",
         "sensor_msgs.msg": "JointState",
         "std_srvs.srv": "Trigger",

@@ -15,7 +15,7 @@ PLACES = {
     "geometry_msgs.msg": "Point Pose Quaternion",
     "industrial_msgs.msg": "RobotMode RobotStatus TriState",
     "rapidgen_interfaces.msg": "Value",
-    "rcl_interfaces.msg": "SetParametersResult",
+    "rcl_interfaces.msg": "Log SetParametersResult",
     "rosgraph_msgs.msg": "Clock",
     "sensor_msgs.msg": "JointState",
     "std_msgs.msg": "Header",
@@ -26,7 +26,10 @@ PARTS = {
     "Trigger": ("std_srvs.srv", ("Request", "Response")),
     "CallRoutine": ("rapidgen_interfaces.srv", ("Request", "Response")),
     "ReadSignal": ("rapidgen_interfaces.srv", ("Request", "Response")),
+    "ReadSymbol": ("rapidgen_interfaces.srv", ("Request", "Response")),
+    "SetSpeedRatio": ("rapidgen_interfaces.srv", ("Request", "Response")),
     "WriteSignal": ("rapidgen_interfaces.srv", ("Request", "Response")),
+    "WriteSymbol": ("rapidgen_interfaces.srv", ("Request", "Response")),
 }
 NUMBERS = {"double": float, "float": float, "boolean": bool, "octet": bytes, "string": str}
 

@@ -1,0 +1,217 @@
+"""What an operator does at the pendant, over Robot Web Services: motors, program, speed, data.
+
+Services that can make a robot move are refused unless the node's parameter `operate` names them:
+otherwise anyone who can call a service would have the operator's authority. Stopping the
+program and switching the motors off need no permission. In manual mode the controller itself
+refuses all of them.
+"""
+
+import asyncio
+from collections.abc import AsyncIterator, Callable, Coroutine
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from rapidgen._extras import named
+from rapidgen.client.errors import (
+    ConnectionLost,
+    NotReady,
+    RequestRefused,
+    RobotError,
+    RobotTimeout,
+)
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import AsyncController
+    from rapidgen.client.rws.model import LogEvent
+
+LOG_PERIOD = 1.0
+"""s between two readings of the event log; a controller answers 20 requests in a second."""
+GUARDED = frozenset(
+    {"motors_on", "start_program", "pp_to_main", "set_speed_ratio", "write_rapid_symbol"}
+)
+"""Services that need permission, because the robot may move or move otherwise afterwards."""
+_NOT_ON = {
+    "emergencystop": "an emergency stop is active: release it",
+    "emergencystopreset": "the emergency stop was not reset: switch the motors on at the panel",
+    "guardstop": "a guard stop is active: close the guard",
+    "sysfail": "system failure: restart the controller",
+}
+"""By state of the panel: why motors cannot be switched on."""
+
+
+@dataclass(frozen=True, slots=True)
+class OperatorAccess:
+    """Where and as whom the node uses Robot Web Services, and what it may do there."""
+
+    address: str
+    user: str
+    password: str = field(repr=False)
+    fingerprint: str
+    allowed: frozenset[str]
+
+
+class OperatorServices:
+    """Requests of services, on the links' loop; the connection is made when it is needed."""
+
+    def __init__(self, access: OperatorAccess, is_moving: Callable[[], bool]) -> None:
+        """`is_moving` tells whether a goal is executed."""
+        self._access = access
+        self._is_moving = is_moving
+        self._controller: AsyncController | None = None
+        self._one_at_a_time = asyncio.Lock()
+
+    async def motors_on(self) -> None:
+        """Switch the motors on. Raises RobotError."""
+        async with self._permitted("motors_on") as controller:
+            panel = await controller.panel()
+            if reason := _NOT_ON.get(panel.state):
+                raise NotReady.because("RG621", f"the motors stay off: {reason}")
+            await controller.motors(True)
+
+    async def motors_off(self) -> None:
+        """Switch the motors off; a motion is stopped. Raises RobotError."""
+        async with self._connected() as controller:
+            await controller.motors(False)
+
+    async def start_program(self) -> None:
+        """Start the program from its pointer. Raises RobotError."""
+        async with self._permitted("start_program") as controller:
+            panel = await controller.panel()
+            if panel.state != "motoron":
+                raise NotReady.because(
+                    "RG621", f"the motors are not on ({panel.state})", "call motors_on first"
+                )
+            await controller.start()
+
+    async def stop_program(self) -> None:
+        """Stop the program. It is no safety function. Raises RobotError."""
+        async with self._connected() as controller:
+            await controller.stop()
+
+    async def pp_to_main(self) -> None:
+        """Set all program pointers to main. Raises RobotError."""
+        async with self._permitted("pp_to_main") as controller:
+            if (await controller.execution()).running:
+                raise NotReady.because(
+                    "RG621", "the program is executing", "call stop_program first"
+                )
+            await controller.pp_to_main()
+
+    async def set_speed_ratio(self, percent: float) -> float:
+        """Set the controller's speed override, 0 to 100 %; return it as read afterwards.
+
+        Unlike the node's parameter `speed` it stays. Raises RobotError, ValueError.
+        """
+        if not 0 <= percent <= 100 or percent != int(percent):
+            raise ValueError(f"a speed ratio is a whole number from 0 to 100 %, not {percent:g}")
+        async with self._permitted("set_speed_ratio") as controller:
+            await controller.set_speed(int(percent))
+            return float((await controller.panel()).speed)
+
+    async def read_symbol(self, path: str) -> str:
+        """Return a value as RAPID text; `path` is TASK/MODULE/NAME. Raises RobotError."""
+        async with self._connected() as controller:
+            return await controller.symbol_text(_checked(path))
+
+    async def write_symbol(self, path: str, value: str) -> str:
+        """Set a PERS or VAR from RAPID text and return it as read afterwards.
+
+        Refused while a goal is executed: data of the driver and of the program steer motions.
+        Raises RobotError, ValueError (no RAPID literal).
+        """
+        from rapidgen.client.rws import values
+
+        literal = values.read(value)
+        async with self._permitted("write_rapid_symbol") as controller:
+            if self._is_moving():
+                raise NotReady.because("RG621", "a goal is executed", "wait for its end")
+            await controller.set_symbol(_checked(path), literal)
+            return await controller.symbol_text(path)
+
+    async def follow_log(
+        self, publish: "Callable[[LogEvent], None]", note: Callable[[str], None]
+    ) -> None:
+        """Publish each new event of the controller's log until cancelled."""
+        newest, reported = -1, ""
+        while True:
+            try:
+                async with self._connected() as controller:
+                    events = await controller.log(after=max(newest, 0), count=50)
+                if newest >= 0:
+                    for event in events:
+                        publish(event)
+                newest = max([newest, 0, *(event.number for event in events)])
+                reported = ""
+            except RobotError as error:
+                if str(error) != reported:
+                    reported = str(error)
+                    note(f"no event log: {error}")
+            await asyncio.sleep(LOG_PERIOD)
+
+    async def close(self) -> None:
+        """Log out."""
+        async with self._one_at_a_time:
+            await self._disconnect()
+
+    @asynccontextmanager
+    async def _permitted(self, name: str) -> "AsyncIterator[AsyncController]":
+        if name not in self._access.allowed:
+            raise RequestRefused.because(
+                "RG625",
+                f"{name} is not permitted here",
+                f"-p operate:=['{name}'] permits it to every node that can call these services",
+            )
+        async with self._connected() as controller:
+            yield controller
+
+    @asynccontextmanager
+    async def _connected(self) -> "AsyncIterator[AsyncController]":
+        async with self._one_at_a_time:
+            if self._controller is None:
+                with named():
+                    from rapidgen.client.rws import AsyncController
+
+                access = self._access
+                made = AsyncController(
+                    access.address,
+                    user=access.user,
+                    password=access.password,
+                    fingerprint=access.fingerprint,
+                )
+                try:
+                    await made.connect()
+                except RobotError:
+                    await made.close()
+                    raise
+                self._controller = made
+            try:
+                yield self._controller
+            except (ConnectionLost, RobotTimeout):
+                await self._disconnect()
+                raise
+
+    async def _disconnect(self) -> None:
+        controller, self._controller = self._controller, None
+        if controller is not None:
+            await controller.close()
+
+
+Act = Callable[[], Coroutine[object, None, None]]
+
+
+def triggers(operator: OperatorServices) -> tuple[tuple[str, Act], ...]:
+    """Services of type std_srvs/Trigger: names and what they do."""
+    return (
+        ("motors_on", operator.motors_on),
+        ("motors_off", operator.motors_off),
+        ("start_program", operator.start_program),
+        ("stop_program", operator.stop_program),
+        ("pp_to_main", operator.pp_to_main),
+    )
+
+
+def _checked(path: str) -> str:
+    if len(path.split("/")) != 3 or not all(path.split("/")):
+        raise NotReady.because("RG621", f"'{path}' is not TASK/MODULE/NAME", "T_ROB1/main/count")
+    return path

@@ -1,0 +1,175 @@
+"""The operator's services against Robot Web Services of a virtual controller."""
+
+import asyncio
+import sys
+import threading
+from contextlib import asynccontextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "servers" / "rws"))
+
+from served import make_runner
+
+from rapidgen.client.errors import ConnectionFailed, NotReady, RequestRefused
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.ros.operator_services import GUARDED, OperatorAccess, OperatorServices
+from rapidgen.ros.parameters import DECLARED, PASSWORD, read
+from rapidgen.servers.rws.server import serve_rws
+from rapidgen.wire.rws.bodies import Generation
+
+SPEED = 60
+"""Simulated seconds in a second: the limit of requests is on the controller's clock."""
+
+
+@pytest.fixture(params=[Generation.ONE, Generation.TWO], ids=["rws1", "rws2"])
+def served(request, tmp_path, monkeypatch):
+    """A controller with its web services, and how the node reaches it."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    with make_runner(tmp_path, request.param, clock="real", speed=SPEED) as runner:
+        runner.start()
+        service = serve_rws(runner, request.param)
+        address = f"rws://{service.host}:{service.port}"
+        access = OperatorAccess(
+            address, "Default User", service.password, service.host_key, GUARDED
+        )
+        yield runner, access
+        service.close()
+
+
+@asynccontextmanager
+async def operator(access, moving=False):
+    made = OperatorServices(access, lambda: moving)
+    try:
+        yield made
+    finally:
+        await made.close()
+
+
+def test_program_is_started_and_stopped(served):
+    _, access = served
+
+    async def tried():
+        async with operator(access) as o:
+            await o.motors_on()
+            await o.pp_to_main()
+            await o.start_program()
+            with pytest.raises(NotReady, match="stop_program first"):
+                await o.pp_to_main()
+            first = float(await o.read_symbol("T_ROB1/MainModule/count"))
+            while float(await o.read_symbol("T_ROB1/MainModule/count")) == first:
+                await asyncio.sleep(0.01)
+            await o.stop_program()
+            assert await o.write_symbol("T_ROB1/MainModule/x", "5") == "5"
+            assert await o.set_speed_ratio(30.0) == 30.0
+
+    asyncio.run(tried())
+
+
+def test_nothing_starts_with_motors_off_or_after_an_emergency_stop(served):
+    runner, access = served
+
+    async def tried():
+        async with operator(access) as o:
+            await o.motors_off()
+            with pytest.raises(NotReady, match="motors are not on"):
+                await o.start_program()
+            pressed = threading.Event()
+            assert runner.post(lambda: (runner.controller.set_e_stop(True), pressed.set()))
+            assert pressed.wait(60)
+            with pytest.raises(NotReady, match="emergency stop is active"):
+                await o.motors_on()
+
+    asyncio.run(tried())
+
+
+def test_what_may_move_the_robot_needs_permission(served):
+    """Anyone who calls a service of the node would have the operator's authority."""
+    _, access = served
+    nothing = replace(access, allowed=frozenset())
+
+    async def tried():
+        async with operator(nothing) as o:
+            for call in (
+                o.motors_on(),
+                o.start_program(),
+                o.pp_to_main(),
+                o.set_speed_ratio(10.0),
+                o.write_symbol("T_ROB1/MainModule/x", "2"),
+            ):
+                with pytest.raises(RequestRefused, match="is not permitted here"):
+                    await call
+            assert await o.read_symbol("T_ROB1/MainModule/x") == "1"
+            await o.stop_program()
+        async with operator(access, moving=True) as o:
+            with pytest.raises(NotReady, match="a goal is executed"):
+                await o.write_symbol("T_ROB1/MainModule/x", "2")
+        async with operator(access) as o:
+            for value in (-1.0, 100.5, 50.5, float("nan")):
+                with pytest.raises(ValueError, match="from 0 to 100"):
+                    await o.set_speed_ratio(value)
+            with pytest.raises(ValueError, match="no literal"):
+                await o.write_symbol("T_ROB1/MainModule/x", "1;2")
+            with pytest.raises(NotReady, match="TASK/MODULE/NAME"):
+                await o.read_symbol("x")
+
+    asyncio.run(tried())
+
+
+def test_new_events_are_published_each_once(served):
+    _, access = served
+
+    async def tried():
+        published, notes = [], []
+        async with operator(access) as o:
+            following = asyncio.ensure_future(o.follow_log(published.append, notes.append))
+            while not any(event.code == 10010 for event in published):
+                await o.motors_off()
+                await o.motors_on()
+                await asyncio.sleep(0.05)
+            following.cancel()
+            await asyncio.gather(following, return_exceptions=True)
+        numbers = [event.number for event in published]
+        assert numbers == sorted(set(numbers))
+        assert notes == []
+
+    asyncio.run(tried())
+
+
+def test_unreachable_controller_is_noted_once():
+    access = OperatorAccess("rws://127.0.0.1:9", "Default User", "", "", GUARDED)
+
+    async def tried():
+        notes, noted = [], asyncio.Event()
+
+        def note(text):
+            notes.append(text)
+            noted.set()
+
+        async with operator(access) as o:
+            following = asyncio.ensure_future(o.follow_log(lambda event: None, note))
+            await noted.wait()
+            following.cancel()
+            await asyncio.gather(following, return_exceptions=True)
+            with pytest.raises(ConnectionFailed):
+                await o.motors_off()
+        assert len(notes) == 1
+        assert "no event log" in notes[0]
+
+    asyncio.run(tried())
+
+
+def test_parameters_name_what_is_permitted_and_hide_the_password():
+    values = {name: value for name, value, _ in DECLARED}
+    given = {**values, "config": "irb120", "controller": "10.0.0.1", "operate": ["motors_on"]}
+    parameters = read(given, {PASSWORD: "secret"})
+    assert parameters.operator.allowed == {"motors_on"}
+    assert parameters.operator.password == "secret"
+    assert "secret" not in repr(parameters)
+    assert read({**values, "config": "irb120"}, {}).operator is None
+    with pytest.raises(DiagnosticError, match="operate names 'motors_onn'"):
+        read({**given, "operate": ["motors_onn"]}, {})
+    with pytest.raises(DiagnosticError, match="operate is set without controller"):
+        read({**given, "controller": ""}, {})
