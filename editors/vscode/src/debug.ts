@@ -1,6 +1,6 @@
 // Debug sessions: how one starts without launch.json, dialogs of the program, and the page of the simulator.
 import * as vscode from "vscode";
-import { requireProgram } from "./discovery";
+import { placeOf, requireProgram } from "./discovery";
 
 interface Question {
   readonly number: number;
@@ -56,10 +56,13 @@ export function registerDebugger(context: vscode.ExtensionContext, log: vscode.L
       questions.closeAll(session);
       pages.forget(session);
     }),
-    vscode.commands.registerCommand("rapidgen.debug", async (file?: vscode.Uri) => {
-      const place = file ?? vscode.window.activeTextEditor?.document.uri;
-      if (place) await vscode.debug.startDebugging(vscode.workspace.getWorkspaceFolder(place), moduleConfiguration(place));
-    }),
+    // The lenses of the language server give path, task and routine; menus give an address.
+    vscode.commands.registerCommand("rapidgen.debug", (file?: vscode.Uri | string, _task?: string, entry?: string) =>
+      start(file, entry ? { entry } : {}),
+    ),
+    vscode.commands.registerCommand("rapidgen.showInPage", (file?: vscode.Uri | string, _task?: string, entry?: string) =>
+      start(file, { view: true, ...(entry ? { entry } : {}) }),
+    ),
     vscode.commands.registerCommand("rapidgen.openPage", () => pages.open()),
     vscode.commands.registerCommand("rapidgen.runToCursor", async () => {
       const editor = vscode.window.activeTextEditor;
@@ -73,6 +76,13 @@ export function registerDebugger(context: vscode.ExtensionContext, log: vscode.L
       });
     }),
   );
+}
+
+async function start(file: vscode.Uri | string | undefined, options: Record<string, unknown>): Promise<void> {
+  const place = placeOf(file);
+  if (!place) return;
+  const folder = vscode.workspace.getWorkspaceFolder(place);
+  await vscode.debug.startDebugging(folder, { ...moduleConfiguration(place), ...options });
 }
 
 function moduleConfiguration(place: vscode.Uri): vscode.DebugConfiguration {

@@ -76,6 +76,12 @@ function expand(text: string): string {
   return text.replace(/^~(?=[/\\])/, home).replace("${workspaceFolder}", folder);
 }
 
+/** Return the file that a command was called for, or else that of the editor. */
+export function placeOf(file: vscode.Uri | string | undefined): vscode.Uri | undefined {
+  if (typeof file === "string") return vscode.Uri.file(file);
+  return file ?? vscode.window.activeTextEditor?.document.uri;
+}
+
 function isFile(place: string): boolean {
   try {
     return fs.statSync(place).isFile();

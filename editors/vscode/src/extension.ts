@@ -69,7 +69,8 @@ class Server {
           { scheme: "file", language: "yaml" },
         ],
         outputChannel: this.log,
-        synchronize: { configurationSection: ["rapidgen", "rapid"] },
+        initializationOptions: { ...vscode.workspace.getConfiguration("rapidgen") },
+        synchronize: { configurationSection: "rapidgen" },
       },
     );
     await client.start();

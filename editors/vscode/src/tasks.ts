@@ -1,6 +1,6 @@
 // Commands of rapidgen as tasks in a terminal, with the problem matcher of `check --format concise`.
 import * as vscode from "vscode";
-import { requireProgram } from "./discovery";
+import { placeOf, requireProgram } from "./discovery";
 
 interface Definition extends vscode.TaskDefinition {
   readonly command: string;
@@ -18,13 +18,13 @@ export function registerTasks(context: vscode.ExtensionContext): void {
       resolveTask: (task) => made(task.definition as Definition, task.name),
     }),
     vscode.commands.registerCommand("rapidgen.check", async (file?: vscode.Uri) => {
-      const place = file ?? vscode.window.activeTextEditor?.document.uri;
+      const place = placeOf(file);
       if (place) await execute("check", [place.fsPath]);
     }),
-    vscode.commands.registerCommand("rapidgen.run", async (file?: vscode.Uri) => {
-      const place = file ?? vscode.window.activeTextEditor?.document.uri;
+    vscode.commands.registerCommand("rapidgen.run", async (file?: vscode.Uri | string, _task?: string, entry?: string) => {
+      const place = placeOf(file);
       await vscode.window.activeTextEditor?.document.save();
-      if (place) await execute("run", [place.fsPath]);
+      if (place) await execute("run", [place.fsPath, ...(entry ? ["--entry", entry] : [])]);
     }),
     vscode.commands.registerCommand("rapidgen.build", async (file?: vscode.Uri) => {
       const place = await configuration(file);
