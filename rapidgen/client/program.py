@@ -452,6 +452,27 @@ class Program:
         )
         return result
 
+    @classmethod
+    def from_rapid(
+        cls,
+        text: str,
+        robot: "RobotConfig | str | PathLike[str]",
+        *,
+        routine: str = "main",
+        group: str = "",
+        path: str = "module",
+    ) -> "Program":
+        """Read a straight-line routine of a RAPID module, such as an exported one.
+
+        `robot` is a configuration, whose tools, work objects, signals and routines the module uses;
+        others are read from its declarations. `path` names the text in findings. Raises
+        DiagnosticError RG763 for statements without counterpart.
+        """
+        result: Program = import_module("rapidgen.client.rapid_import").import_program(
+            text, robot, routine=routine, group=group, path=path
+        )
+        return result
+
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
         if speed is not None:
             self._speed = speed_of(speed)
