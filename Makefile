@@ -263,6 +263,9 @@ debug-bench: $(STAMP) ## 1 min: steps per second through the debug adapter
 egm-bench: $(STAMP) ## 2 min: period of EGM frames, and the client's time to answer
 	$(BIN)/python benchmarks/egm.py --seconds 60
 
+egm-lag: $(STAMP) ## 2 min: lag that the EGM client measures against 200 unknown plants
+	$(BIN)/python benchmarks/egm_lag.py
+
 egm-campaign: $(STAMP) ## 45 min: 20,000 runs of a guided robot with faults of its partner and actions of an operator
 	$(BIN)/python tools/egm_campaign.py --jobs 2 --results build/egm.jsonl
 
