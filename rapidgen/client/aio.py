@@ -2,6 +2,8 @@
 
 import warnings
 from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterable, Sequence
+from contextlib import asynccontextmanager
+from typing import TYPE_CHECKING
 
 import numpy.typing as npt
 
@@ -17,6 +19,9 @@ from rapidgen.client.core.state import Event, Feedback, State
 from rapidgen.client.flows.data import Datum
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike
 from rapidgen.client.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from rapidgen.client.egm import AsyncEgmSession
 
 
 class _AsyncEnding:
@@ -288,6 +293,37 @@ class AsyncRobot(RobotApi[AsyncFlowRunner]):
         """
         motion = await self._runner.run(flows.motion.execute(self._core, trajectory, mode))
         return AsyncExecution(self._runner, motion)
+
+    @asynccontextmanager
+    async def egm(
+        self, *, fraction: float = 0.25, step: float = 0.1, timeout: float = 0.1
+    ) -> "AsyncIterator[AsyncEgmSession]":
+        """Guide the robot at 250 Hz: `async with robot.egm() as session:`.
+
+        A session of the driver begins with the block and ends with it: the robot then stays where
+        it is. `fraction`, `step` and `timeout` are those of `rapidgen.client.egm.listen`; the
+        controller itself enforces `max_deviation` and `max_speed` of the configuration. Raises
+        NotSupported, NotReady, RequestRefused, ConnectionFailed, RobotTimeout, ConnectionLost.
+        """
+        from rapidgen.client.egm import listen_async
+
+        config, egm, host = self._egm_partner()
+        async with listen_async(
+            config,
+            port=egm.port,
+            host=host,
+            group=self._group_name,
+            fraction=fraction,
+            step=step,
+            timeout=timeout,
+        ) as session:
+            beat = session.write if config.robotware >= flows.guidance.DATA_SINCE else None
+            await self._runner.run(flows.guidance.start(self._core, beat))
+            try:
+                await session.wait_until_guided()
+                yield session
+            finally:
+                await self._runner.run(flows.guidance.end(self._core))
 
     def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> AsyncStream:
         """Return a `Stream`, a trajectory without a known end; sends no data.

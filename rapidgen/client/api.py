@@ -13,8 +13,8 @@ from typing import Generic, TypeVar
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
-from rapidgen.client import display
-from rapidgen.client.address import Address
+from rapidgen.client import display, flows
+from rapidgen.client.address import LOOPBACK, Address
 from rapidgen.client.connect_target import configuration_of, resolve
 from rapidgen.client.core.checks import TransferMode
 from rapidgen.client.core.group import Group
@@ -27,7 +27,7 @@ from rapidgen.client.program import Program, joints_of, pose_of
 from rapidgen.client.recording import JointRecording
 from rapidgen.client.runner import FlowRunner, MakeCore
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.config.model import RobotConfig
+from rapidgen.config.model import EgmSettings, RobotConfig
 from rapidgen.diagnostics import Diagnostic
 
 R = TypeVar("R", bound=FlowRunner)
@@ -179,6 +179,7 @@ class RobotApi(Generic[R]):
         cell: "str | PathLike[str] | None" = None,
     ) -> None:
         self.address, known = resolve(target, address, group)
+        self._target, self._group_name = target, group
         if not isinstance(timeouts, Timeouts | None):
             raise InvalidTarget.because(
                 "RG607",
@@ -257,6 +258,18 @@ class RobotApi(Generic[R]):
             f"the robot was stopped at the end of the block, after {done} of an active motion: "
             "wait for it with `execution.result()`, or end it with `cancel()`"
         )
+
+    def _egm_partner(self) -> tuple[RobotConfig, EgmSettings, str]:
+        """Return configuration, settings, and the address on which the partner listens.
+
+        Raises NotSupported without `egm:`.
+        """
+        with self._runner.guard:
+            egm = flows.guidance.settings(self._core)
+        config = configuration_of(self._target)
+        # A group with `egm:` comes from a configuration.
+        assert config is not None
+        return config, egm, LOOPBACK if self.address.is_loopback else egm.address
 
     # State
 

@@ -36,8 +36,6 @@ from rapidgen.wire.simple_message.numpy_codec import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
-_TICK = 0.1
-"""s between two checks of the clock while no data arrives."""
 _BREATH = 64
 """Frames after which a sender yields to other tasks of its loop."""
 
@@ -196,7 +194,7 @@ class AsyncFlowRunner(FlowRunner):
                 connection.transport.write(data)
         loop = self._connections.loop
         if core.is_busy and self._timer is None and loop is not None:
-            self._timer = loop.call_later(_TICK, _tick, weakref.ref(self))
+            self._timer = loop.call_later(core.tick, _tick, weakref.ref(self))
 
     def tick(self) -> None:
         """Check the clock and send what is due."""
@@ -264,7 +262,7 @@ class AsyncFlowRunner(FlowRunner):
             if left <= 0:
                 return False
             waiter: asyncio.Future[None] = loop.create_future()
-            timer = loop.call_later(min(left, _TICK), _wake, waiter)
+            timer = loop.call_later(min(left, self.core.tick), _wake, waiter)
             self._waiters.add(waiter)
             try:
                 await waiter

@@ -2,7 +2,9 @@
 
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy.typing as npt
 
@@ -18,6 +20,9 @@ from rapidgen.client.flows.data import Datum
 from rapidgen.client.program import SLOW, Argument, Left, Program, SpeedLike
 from rapidgen.client.sync_runner import SyncFlowRunner
 from rapidgen.client.trajectory import Trajectory
+
+if TYPE_CHECKING:
+    from rapidgen.client.egm import EgmSession
 
 
 @dataclass(frozen=True, eq=False)
@@ -326,6 +331,37 @@ class Robot(RobotApi[SyncFlowRunner]):
         """
         motion = self._runner.run(flows.motion.execute(self._core, trajectory, mode))
         return Execution(self._runner, motion)
+
+    @contextmanager
+    def egm(
+        self, *, fraction: float = 0.25, step: float = 0.1, timeout: float = 0.1
+    ) -> "Iterator[EgmSession]":
+        """Guide the robot at 250 Hz: `with robot.egm() as session:`.
+
+        A session of the driver begins with the block and ends with it: the robot then stays where
+        it is. `fraction`, `step` and `timeout` are those of `rapidgen.client.egm.listen`; the
+        controller itself enforces `max_deviation` and `max_speed` of the configuration. Raises
+        NotSupported, NotReady, RequestRefused, ConnectionFailed, RobotTimeout, ConnectionLost.
+        """
+        from rapidgen.client.egm import listen
+
+        config, egm, host = self._egm_partner()
+        with listen(
+            config,
+            port=egm.port,
+            host=host,
+            group=self._group_name,
+            fraction=fraction,
+            step=step,
+            timeout=timeout,
+        ) as session:
+            beat = session.write if config.robotware >= flows.guidance.DATA_SINCE else None
+            self._runner.run(flows.guidance.start(self._core, beat))
+            try:
+                session.wait_until_guided()
+                yield session
+            finally:
+                self._runner.run(flows.guidance.end(self._core))
 
     def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
         """Return a `Stream`, a trajectory without a known end; sends no data.

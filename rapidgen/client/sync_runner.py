@@ -50,8 +50,6 @@ _CHUNK = 64 * FRAME_BYTES
 _RECEIVE = 65536
 _BLOCKED = 0.05
 """s after which a blocked sender checks for a stop request."""
-_TICK = 0.1
-"""s between two checks of the clock while no data arrives."""
 
 
 class Connection:
@@ -251,9 +249,10 @@ class Reader:
         self._wake.close()
         self._waker.close()
 
-    def _is_busy(self) -> bool:
+    def _interval(self) -> float | None:
+        """Return the s until the next check of the clock; None: none is needed."""
         owner = self._owner()
-        return owner is not None and owner.is_busy
+        return owner.core.tick if owner is not None and owner.core.is_busy else None
 
     def _tick(self) -> None:
         owner = self._owner()
@@ -272,7 +271,7 @@ class Reader:
 
     def _loop(self) -> None:
         while not self._ended:
-            events = self._selector.select(_TICK if self._is_busy() else None)
+            events = self._selector.select(self._interval())
             if not events:
                 self._tick()
             for key, _ in events:
@@ -381,11 +380,6 @@ class SyncFlowRunner(FlowRunner):
         self.guard = threading.Condition()
         self._connections.forked()
         super().forked()
-
-    @property
-    def is_busy(self) -> bool:
-        """True if the clock must be checked regularly."""
-        return self.core.is_busy
 
     def run(self, flow: Flow[T]) -> T:
         """Run a flow: effects without the lock, its own steps with it.
@@ -513,7 +507,7 @@ class SyncFlowRunner(FlowRunner):
                 left = deadline - time.monotonic()
                 if left <= 0:
                     return False
-                self.guard.wait(min(left, _TICK))
+                self.guard.wait(min(left, self.core.tick))
                 self.core.poll()
                 self._pump()
             return True

@@ -202,7 +202,7 @@ class EgmSettings:
     """s from the beginning until the robot follows completely."""
     stop_ramp: float = 0.2
     """s from a stop until the robot stands."""
-    timeout: float = 0.25
+    timeout: float = 0.5
     """s without a heartbeat of the client until the robot is stopped."""
     idle_timeout: float = 600.0
     """s at the target after which a session ends."""

@@ -381,7 +381,7 @@ class EgmKeys(StrictModel):
     timeout: Annotated[
         float,
         Rule("Seconds without a sign of the client until the robot is stopped.", ge=0.05, le=1),
-    ] = 0.25
+    ] = 0.5
     idle_timeout: Annotated[
         float,
         Rule("Seconds at the target after which a session ends by itself.", ge=1, le=86400),

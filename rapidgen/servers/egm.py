@@ -162,7 +162,7 @@ def run_exchange(pipe: Connection, exchange: Exchange, link: UdpLink, offset: fl
         except (EOFError, ConnectionResetError):
             return
         now = monotonic()
-        if inputs is not None and exchange.running:
+        if inputs is not None and (exchange.running or exchange.has_ended):
             waiting.append(exchange.cycle(link, inputs, offset + now))
             # A controller that is behind must not make this process late.
             if select.select([], [pipe], [], 0)[1]:

@@ -56,7 +56,7 @@ def _part(place: int, data: bytes) -> bytes:
     return _varint(place << 3 | _BYTES) + _varint(len(data)) + data
 
 
-def sensor(sequence: int, joints: Sequence[float] | None, heartbeat: int | None) -> bytes:
+def sensor(sequence: int, joints: Sequence[float] | None, heartbeat: float | None) -> bytes:
     """Return an EgmSensor: joints in degrees, and the heartbeat as the first number for RAPID."""
     data = _part(1, _number(1, sequence) + _number(3, _CORRECTION))
     if joints is not None:
@@ -133,6 +133,8 @@ class GuidingPartner:
     silent: bool = False
     frozen: bool = False
     heartbeats: bool = True
+    """It counts its answers; False: it sends `heartbeat`."""
+    heartbeat: float | None = None
     frames: list[tuple[float, Frame]] = field(default_factory=list)
     """Messages of the controller with their times."""
     _start: Degrees = ()
@@ -151,7 +153,7 @@ class GuidingPartner:
             self._count += 1
         target = list(self._start)
         target[self.axis] += self.speed * (self.now() - self._begun)
-        return sensor(self._count, target, self._count if self.heartbeats else None)
+        return sensor(self._count, target, self._count if self.heartbeats else self.heartbeat)
 
     @property
     def sessions(self) -> int:

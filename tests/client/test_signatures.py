@@ -33,7 +33,7 @@ PAIRS = [
 ]
 SYNC_ONLY = {(Robot, "data")}
 """A mapping, whose access cannot be awaited."""
-OWN_BODY = {"extend", "states", "mastership", "subscribe"}
+OWN_BODY = {"egm", "extend", "states", "mastership", "subscribe"}
 """Asynchronous iterators and context managers."""
 
 

@@ -12,6 +12,7 @@ from rapidgen.axes.mapping import JointMap
 from rapidgen.client.core.frames import Frames, GroupFrames
 from rapidgen.client.errors import IncompatibleDriver, NotSupported
 from rapidgen.config.model import (
+    EgmSettings,
     ExposedSignal,
     GroupConfig,
     Joint,
@@ -46,6 +47,8 @@ class Group:
     """Procedures that a program may call, in the order of their numbers."""
     data: tuple[UserDatum, ...] = ()
     """PERS that clients may reach, in the order of their numbers."""
+    egm: EgmSettings | None = None
+    """Externally guided motion; None: none, or unknown."""
     geometry: GroupFrames | None = None
     """Frames of poses; None if unknown."""
 
@@ -59,6 +62,7 @@ class Group:
             signals=tuple(config.signals),
             routines=group.routines,
             data=group.data,
+            egm=group.egm,
             geometry=GroupFrames.of(group),
         )
 

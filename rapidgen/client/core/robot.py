@@ -22,7 +22,10 @@ rules:
 import logging
 from collections import deque
 from collections.abc import Callable
+from collections.abc import Sequence as SequenceOf
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import count
 from math import isfinite
 from typing import TYPE_CHECKING
 
@@ -93,6 +96,9 @@ _UNDER_WAY = (
     TrajectoryState.PAUSED,
     TrajectoryState.STARVED,
 )
+_TICK = 0.1
+_OFTEN = 5
+"""Checks of the clock within the time-out of a guided robot's heartbeats."""
 _HELD_UP = 0.5
 """s without a read after which this process, not the robot, was delayed."""
 
@@ -172,6 +178,9 @@ class Core:
         self.override = 1.0
         """Share of the programmed speed that this client has set."""
         self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
+        self._guidance: Callable[[], None] | None = None
+        """Called with each heartbeat of a session."""
+        self._heartbeat_before = 0.0
         self._stopped_unmonitored: Download | PointStream | None = None
         self.may_reach_control = False
         """True if another attempt to connect the control port is worthwhile."""
@@ -358,10 +367,16 @@ class Core:
         return motion is not None and (not motion.is_over or motion.needs_stop)
 
     @property
+    def tick(self) -> float:
+        """Return the s between two checks of the clock while no data arrives."""
+        return min(_TICK, self.heartbeat.timeout / _OFTEN) if self.is_guiding else _TICK
+
+    @property
     def is_busy(self) -> bool:
         """True if `due` must be called regularly, also without input."""
         motion = self.motion
-        return (motion is not None and not motion.is_over) or self.heartbeat.is_armed
+        active = motion is not None and not motion.is_over
+        return active or self.is_guiding or self.heartbeat.is_armed
 
     def due(self, port: Port) -> bytes | None:
         """Return the next frame for this connection, or None.
@@ -404,7 +419,7 @@ class Core:
             self.heartbeat.timeout = 0.0
             self.heartbeat.forget()
         now = self.clock()
-        moves = self.motion is not None and not self.motion.is_over
+        moves = (self.motion is not None and not self.motion.is_over) or self.is_guiding
         timeout = self.heartbeat.due(now, moves=moves)
         if timeout is None:
             return None
@@ -416,6 +431,8 @@ class Core:
             # concerned.
             rate *= _SLACK
         self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
+        if self._guidance is not None:
+            self._guidance()
         return encode(messages.HeartbeatRequest(timeout * max(1.0, rate)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
@@ -641,6 +658,10 @@ class Core:
             raise NotReady.because(
                 "RG622", "a trajectory is active", "wait for its result, or stop()"
             )
+        if self.is_guiding:
+            raise NotReady.because(
+                "RG622", "a session of externally guided motion is active", "end it before"
+            )
         reasons = self.blockers()
         if reasons:
             text = "; ".join(reasons)
@@ -690,6 +711,34 @@ class Core:
             reply=self.timeouts.reply,
         )
         return motion
+
+    # Externally guided motion
+
+    @property
+    def is_guiding(self) -> bool:
+        """True from the request of a session to its end."""
+        return self._guidance is not None
+
+    def begin_guidance(
+        self, timeout: float, beat: Callable[[SequenceOf[float]], None] | None
+    ) -> None:
+        """Send heartbeats with this time-out, s; `beat` sends a count of them to RAPID."""
+        beats = count(1)
+
+        def send() -> None:
+            if beat is not None:
+                # A partner that has ended sends nothing: the driver notices that.
+                with suppress(RobotError):
+                    beat([float(next(beats))])
+
+        self._heartbeat_before, self.heartbeat.timeout = self.heartbeat.timeout, timeout
+        self._guidance = send
+
+    def end_guidance(self) -> None:
+        """Send no heartbeats any more."""
+        if self._guidance is not None:
+            self.heartbeat.timeout = self._heartbeat_before
+            self._guidance = None
 
     def request_stop(self, port: Port) -> PendingReply:
         """Record that a STOP will be sent on this connection."""

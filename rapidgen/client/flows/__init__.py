@@ -4,6 +4,7 @@ from rapidgen.client.flows import (
     connect,
     control,
     data,
+    guidance,
     motion,
     program,
     state,
@@ -11,4 +12,4 @@ from rapidgen.client.flows import (
     stream,
 )
 
-__all__ = ["connect", "control", "data", "motion", "program", "state", "stop", "stream"]
+__all__ = ["connect", "control", "data", "guidance", "motion", "program", "state", "stop", "stream"]

@@ -159,6 +159,11 @@ class Exchange:
         """True while messages are exchanged."""
         return self.streaming or self.run is not None
 
+    @property
+    def has_ended(self) -> bool:
+        """True if the next cycle reports the end of a run that was stopped before its start."""
+        return not self.running and bool(self._ending)
+
     def execute(self, order: Order) -> None:
         """Execute an order between two cycles."""
         match order:

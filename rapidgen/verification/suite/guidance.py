@@ -34,6 +34,8 @@ _LONGEST = 6.0
 """s of a motion to one side: then it would be at the limit of its deviation."""
 _ROUND = 1e-4
 """rad: RAPID's num, and the last cycle before a limit is noticed."""
+_FRAMES = 200
+"""Messages per s of a trajectory at least; the controller sends 250."""
 _IDLE = 30.0
 """s: a longer idle time takes too long to wait for."""
 
@@ -204,6 +206,37 @@ def _excludes(bench: Bench) -> None:
     guided.run(5.0)
     if distance(bench.position, points[-1][0]) > _ROUND:
         raise CheckFailed("a rejected session has ended the trajectory")
+    guided.again()
+
+
+@case("egm-feedback", "positions are sent during trajectories, and only then")
+def _feedback(bench: Bench) -> None:
+    """With `feedback: true` the controller sends each 4 ms, and executes no answer."""
+    guided = GuidedBench(bench)
+    frames, points, link = guided.partner.frames, bench.wave(4), bench.motion()
+    begun = bench.now
+    bench.start_motion(link, points)
+    bench.arrives(points, begun, 30)
+    if not guided.egm.feedback:
+        if frames:
+            raise CheckFailed("positions are sent without `feedback: true`")
+        return
+    bench.run(0.5)
+    count, last = len(frames), frames[-1][0] if frames else 0.0
+    if count < (last - begun) * _FRAMES or any(received.running for _, received in frames):
+        raise CheckFailed(f"{count} messages in a trajectory of {last - begun:.1f} s")
+    bench.run(0.5)
+    if len(frames) > count:
+        raise CheckFailed("positions are sent after the end of the trajectory")
+    link.send(bench.download(bench.wave(6)))
+    bench.wait_until_moving()
+    stop(guided.control)
+    bench.wait_until_standing(3)
+    bench.run(0.5)
+    count = len(frames)
+    bench.run(0.5)
+    if len(frames) > count:
+        raise CheckFailed("positions are sent after a stop")
     guided.again()
 
 

@@ -14,7 +14,7 @@ MODULE ROS_egm
     ! the supervisor has ended. The robot then stays where it is. EGMReset follows on every path, because
     ! identities that were not reset are lost until the controller restarts.
 
-    CONST string ROS_BUILD_EGM := "ca89301392f8";
+    CONST string ROS_BUILD_EGM := "e0ee62753484";
 
     ! UdpUc device (SIO) and external motion interface data (MOC) of this build.
     LOCAL CONST string DEVICE := "ROS_EGM";
@@ -169,6 +169,10 @@ MODULE ROS_egm
         ROS_start_clock clock_stop;
         ROS_egm_stopped := ROS_active_trajectory;
         ROS_egm_end_done := ROS_egm_end_asked;
+    ERROR
+        ! Without an answer the supervisor stops the robot.
+        SkipWarn;
+        RETURN;
     ENDPROC
 
     LOCAL FUNC bool must_end()
