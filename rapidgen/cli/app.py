@@ -31,6 +31,7 @@ COMMANDS = {
     "check": ("check", "Check configurations and RAPID files."),
     "explain": ("configuration", "Explain a diagnostic code or an event number."),
     "schema": ("configuration", "Print the JSON schema of the configuration file."),
+    "fit-shapes": ("configuration", "Fit convex collision shapes to the meshes of a robot."),
     "build": ("generation", "Generate the driver for one controller."),
     "fmt": ("fmt", "Format RAPID source files."),
     "export": ("export", "Write a RAPID module that runs without rapidgen."),

@@ -244,6 +244,58 @@ def schema(
     typer.echo(json.dumps(made, indent=2, ensure_ascii=False))
 
 
+def fit_shapes(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            help="URDF or xacro file, or the folder of a ROS package.", metavar="URDF|PACKAGE"
+        ),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="New folder; default: NAME_shapes.", metavar="FOLDER"),
+    ] = None,
+    parts: Annotated[
+        int, typer.Option(help="Convex parts of a link at most.", min=1, max=32, metavar="N")
+    ] = 8,
+) -> None:
+    """Fit convex collision shapes to the meshes of a robot.
+
+    Writes a URDF with the parts as <collision>, which `shapes:` of a cell file accepts. Prints how
+    far the parts, and a single hull, are outside of each mesh (over), and how far the mesh is
+    outside of the parts (under), in mm.
+    """
+    import sys
+
+    from rapidgen._extras import named
+    from rapidgen.collision.fitted_urdf import (
+        FittedLink,
+        find_description,
+        fit_description,
+        summary,
+        write_fitted,
+    )
+    from rapidgen.config.urdf.visual_trees import tree_of_file
+
+    if not source.exists():
+        raise refusal("RG001", None, f"cannot read {source}: No such file or directory")
+    path = find_description(source)
+    folder = output if output is not None else Path(f"{path.stem}_shapes")
+    if folder.exists():
+        raise refusal("RG836", None, f"{folder} exists already", "choose another --output")
+
+    def report(link: FittedLink) -> None:
+        count = len(link.fit.parts) if link.fit is not None else 0
+        sys.stderr.write(f"{link.name}: {count} parts\n")
+
+    tree = tree_of_file(path)
+    with named():
+        links = fit_description(tree, parts, report)
+    written = write_fitted(tree.graph, links, folder)
+    typer.echo(summary({link.name: link.fit for link in links if link.fit is not None}), nl=False)
+    typer.echo(str(written))
+
+
 def explain(
     code: Annotated[
         str,

@@ -111,7 +111,7 @@ def hull_triangles(points: Array) -> tuple[Array, Indices]:
     made = _hull(points)
     vertices = np.array([made.point(i) for i in range(made.num_points)])
     triangles = np.array(
-        [[made.polygon(i)[k] for k in range(3)] for i in range(made.num_polygons)], dtype=np.intp
+        [[made.polygons(i)[k] for k in range(3)] for i in range(made.num_polygons)], dtype=np.intp
     )
     middle = vertices.mean(axis=0)
     corners = vertices[triangles]
@@ -119,3 +119,8 @@ def hull_triangles(points: Array) -> tuple[Array, Indices]:
     turned = np.einsum("ni,ni->n", normals, corners[:, 0] - middle) < 0
     triangles[turned] = triangles[turned][:, ::-1]
     return vertices, triangles
+
+
+def hull_volume(points: Array) -> float:
+    """Return the volume of the convex hull of points, which must not lie in one plane."""
+    return float(_hull(points).computeVolume())
