@@ -109,7 +109,7 @@ class Server:
         self.session = Session(Workspace(), Client())
         self.state = "new"
         """`new`, `running`, `shut down`."""
-        self._published: dict[str, tuple[Diagnostic, ...]] = {}
+        self._published: dict[str, tuple[int | None, tuple[Diagnostic, ...]]] = {}
         """By path: what the client shows of findings that we sent."""
         self._work: Iterator[tuple[str, list[Diagnostic]]] | None = None
         self._due = 0.0
@@ -335,18 +335,19 @@ class Server:
     def _publish(self, path: str, findings: list[Diagnostic]) -> None:
         """Send the findings of a file if they have changed, or make the client ask for them."""
         present = tuple(findings)
-        before = self._published.get(path, ())
+        known, before = self._published.get(path, (None, ()))
         document = self.session.workspace.documents.get(real_path(path))
-        if document is None and present == before:
+        version = document.version if document is not None else None
+        if version == known and present == before:
             return
-        self._published[path] = present
+        self._published[path] = (version, present)
         client = self.session.client
         if document is not None and client.pulls:
             # A client asks after each edit of its own; this is about edits of other documents.
             if present != before and client.can("workspace", "diagnostics", "refreshSupport"):
                 self._ask("workspace/diagnostic/refresh", None, lambda _: None)
             return
-        self._send_findings(path, findings, document.version if document is not None else None)
+        self._send_findings(path, findings, version)
 
     def _send_findings(
         self, path: str, findings: list[Diagnostic], version: int | None = None
@@ -362,7 +363,7 @@ class Server:
 
     def _clear(self, path: str) -> None:
         """Take back what was sent about a file that the client has opened and asks about now."""
-        if self._published.pop(path, ()):
+        if self._published.pop(path, (None, ()))[1]:
             self._send_findings(path, [])
 
     def _forget(self, closed: str) -> None:
