@@ -52,13 +52,18 @@ class Assembly:
     found: list[Diagnostic] = field(default_factory=list)
 
 
-def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
-    """Read a file or a shipped model with everything that it is based on."""
+def assemble(
+    path_or_name: str | Path, overrides: Overrides, content: bytes | None = None
+) -> Assembly:
+    """Read a file or a shipped model with everything that it is based on.
+
+    `content` counts in place of the file's, as that of an editor that has not saved it.
+    """
     text = str(path_or_name)
     shipped = not isinstance(path_or_name, Path) and not is_path(text)
     path = find_shipped(text) if shipped else Path(text)
     made = Assembly(path, MappingNode({}, Span(text, 1, 1)))
-    user = _read(path, made) if not shipped else _model(text, made)
+    user = _read(path, made, content) if not shipped else _model(text, made)
     over, over_inputs = override_tree(overrides)
     chosen = over if _text(over, "model") else user
     base_name = _text(chosen, "model")
@@ -107,9 +112,10 @@ def display_path(path: Path) -> str:
         return str(path)
 
 
-def _read(path: Path, made: Assembly) -> MappingNode:
+def _read(path: Path, made: Assembly, content: bytes | None = None) -> MappingNode:
     displayed = display_path(path)
-    return _parsed(path.name, read_bytes(path, displayed), displayed, made)
+    data = read_bytes(path, displayed) if content is None else content
+    return _parsed(path.name, data, displayed, made)
 
 
 def _model(name: str, made: Assembly, span: Span | None = None) -> MappingNode:

@@ -29,15 +29,16 @@ def load_config(
     *,
     overrides: Overrides = (),
     package_paths: Sequence[str | Path] = (),
+    content: bytes | None = None,
 ) -> RobotConfig:
-    """Read and check a configuration.
+    """Read and check a configuration; `content` counts in place of the file's.
 
     An argument with a suffix or a separator is a path, else the name of a shipped model.
     `overrides` are "key.path=value" texts or a mapping of key paths to values; `package_paths` are
     folders for `$(find PACKAGE)` of a xacro file. Raises DiagnosticError with all errors; warnings
     and notes are in the result's `diagnostics`.
     """
-    assembly = assemble(path_or_name, overrides)
+    assembly = assemble(path_or_name, overrides, content)
     assembly.root, open_lines = extract_placeholders(assembly.root)
     valid = validate(assembly.root)
     if open_lines:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from rapidgen.diagnostics import Span
+from rapidgen.editor.configuration import installed_place
 from rapidgen.editor.documents import Location
 from rapidgen.editor.workspace import LoadedTask, View, Workspace
 from rapidgen.rapid.binding import (
@@ -44,6 +45,14 @@ def name_span(view: View, token: int) -> Span:
     return span
 
 
+def _declaration(view: View, symbol: Symbol) -> Location | None:
+    """Return the declaration of a symbol; that of a signal is in the cfg files of a backup."""
+    if symbol.kind == "INSTALLED":
+        span = installed_place(view.program.program.root, symbol.name)
+        return Location(span) if span is not None else None
+    return location_of(symbol)
+
+
 def location_of(symbol: Symbol) -> Location | None:
     """Return the declaration of a symbol.
 
@@ -70,7 +79,7 @@ def definitions(workspace: Workspace, path: str, line: int, column: int) -> list
     for view in workspace.views(path):
         symbol = symbol_at(view, line, column)
         if symbol is not None:
-            found.append(location_of(symbol))
+            found.append(_declaration(view, symbol))
     return _unique(found)
 
 

@@ -20,6 +20,7 @@ from rapidgen.rapid.binding import (
     Symbol,
 )
 from rapidgen.rapid.syntax.lexer import MAX_NAME, NAME, Kinds
+from rapidgen.rapid.syntax.source import Source
 
 
 class CannotRename(ValueError):
@@ -126,6 +127,11 @@ def _check_routine(symbol: Symbol, module: ModuleScope, key: str, new: str) -> N
             raise CannotRename(f"the routine {routine.name} uses the name '{new}' already")
 
 
+def _is_sign(source: Source, at: int) -> bool:
+    """Return True if a token ends the name of a late call."""
+    return at < len(source.tokens) and source.tokens[at] == "%"
+
+
 def _strings(view: View, symbol: Symbol, all_names: list[Mention]) -> list[Span]:
     """Return strings with the symbol's name, and late calls whose name is computed."""
     literal = f'"{symbol.name.lower()}"'
@@ -137,7 +143,6 @@ def _strings(view: View, symbol: Symbol, all_names: list[Mention]) -> list[Span]
             if literal not in words and "%" not in words:
                 continue
             source = module.tree.source
-            bound = task.names_of(module).names
             for at, token in enumerate(source.tokens):
                 is_named = (source.path, at) in renamed
                 if token.lower() == literal and not is_named:
@@ -147,8 +152,7 @@ def _strings(view: View, symbol: Symbol, all_names: list[Mention]) -> list[Span]
                     and isinstance(symbol, RoutineSymbol)
                     and at + 1 < len(source.tokens)
                     and (at == 0 or source.tokens[at - 1] in (";", "THEN", "DO", ")", "ELSE"))
-                    and at + 1 not in bound
-                    and not source.tokens[at + 1].startswith('"')
+                    and not (source.tokens[at + 1].startswith('"') and _is_sign(source, at + 2))
                 ):
                     result.append(source.span(at, at + 1))
     return result

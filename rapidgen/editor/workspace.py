@@ -18,6 +18,8 @@ from pathlib import Path
 from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error
+from rapidgen.editor import configuration
+from rapidgen.editor.configuration import kind_of
 from rapidgen.editor.documents import Document, Lines, decode_file, real_path
 from rapidgen.editor.project import Program, Settings, discover, is_module
 from rapidgen.rapid import parse
@@ -170,6 +172,8 @@ class Workspace:
     programs: list[LoadedProgram] = field(default_factory=list)
     _trees: dict[str, tuple[object, Module]] = field(default_factory=dict)
     """The last tree of each path, with the text or bytes that it was made of."""
+    _others: dict[str, None] = field(default_factory=dict)
+    """Real paths of open YAML and cfg documents whose findings are to be computed."""
     _changed: dict[str, None] = field(default_factory=dict)
     """Real paths whose tree is older than the text."""
 
@@ -183,6 +187,8 @@ class Workspace:
             if self._program_of(real) is None:
                 self._start(document.path)
             self._touch(real)
+        elif kind_of(document.path, document.language):
+            self._others[real] = None
 
     def document(self, path: str) -> Document | None:
         """Return an open document."""
@@ -194,7 +200,11 @@ class Workspace:
 
     def edited(self, path: str) -> None:
         """Note that the text of an open document has changed."""
-        self._touch(real_path(path))
+        real = real_path(path)
+        document = self.documents.get(real)
+        if document is not None and self._program_of(real) is None:
+            self._others[real] = None
+        self._touch(real)
 
     def close(self, path: str) -> None:
         """Remove a document: its file counts again. Programs without documents are dropped."""
@@ -352,7 +362,8 @@ class Workspace:
         program = self.program_of(path)
         real = real_path(path)
         if program is None:
-            return []
+            document = self.documents.get(real)
+            return self._other_findings(document) if document is not None else []
         if real in program.stale or real not in program.findings:
             self._compute(program, real)
         return program.findings.get(real, [])
@@ -364,6 +375,11 @@ class Workspace:
         an iteration useless: begin a new one.
         """
         self._apply()
+        for real in list(self._others):
+            self._others.pop(real, None)
+            document = self.documents.get(real)
+            if document is not None:
+                yield document.path, self._other_findings(document)
         for program in self.programs:
             if program._loading is not None:
                 self._finish(program)
@@ -389,7 +405,16 @@ class Workspace:
 
     def is_idle(self) -> bool:
         """Return True if nothing is to be computed."""
-        return not self._changed and all(p._loading is None and not p.stale for p in self.programs)
+        return (
+            not self._changed
+            and not self._others
+            and all(p._loading is None and not p.stale for p in self.programs)
+        )
+
+    def _other_findings(self, document: Document) -> list[Diagnostic]:
+        """Return the findings of a YAML or cfg document."""
+        kind = kind_of(document.path, document.language)
+        return configuration.findings(document.path, document.text, kind)
 
     def path_in(self, program: LoadedProgram, real: str) -> str:
         """Return the name under which a program has a file."""

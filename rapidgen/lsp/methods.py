@@ -10,9 +10,9 @@ from functools import cache
 from typing import Final
 
 from rapidgen._json import Json, Members, items, members, text, whole
-from rapidgen.diagnostics import DiagnosticError, Edit, Fix, Severity
+from rapidgen.diagnostics import DiagnosticError, Edit, Fix, Severity, Span
 from rapidgen.editor import completion as completing
-from rapidgen.editor import formatting, hover, navigation, outline, rename, tokens
+from rapidgen.editor import configuration, formatting, hover, navigation, outline, rename, tokens
 from rapidgen.editor.documents import Document, Location, TextEdit, path_of, uri_of
 from rapidgen.editor.navigation import Call
 from rapidgen.editor.workspace import View, Workspace
@@ -21,6 +21,7 @@ from rapidgen.lsp.conversion import (
     Converter,
     document_path,
     position_of,
+    range_json,
     range_of,
     settings_of,
 )
@@ -232,7 +233,28 @@ def _workspace_edit(session: Session, convert: Converter, edits: list[TextEdit])
 # -- names ---------------------------------------------------------------------------------------
 
 
+def _yaml(session: Session, params: Members) -> tuple[Document, int, int] | None:
+    """Return an open configuration with the line and column of a request; None for RAPID."""
+    document = session.workspace.document(document_path(params))
+    if document is None or configuration.kind_of(document.path, document.language) != "yaml":
+        return None
+    if not configuration.is_configuration(document.text):
+        return None
+    place = session.convert.point(document.path, position_of(params["position"]))
+    return (document, *place)
+
+
 def _hover(session: Session, params: Members) -> Json:
+    yaml = _yaml(session, params)
+    if yaml is not None:
+        document, line, column = yaml
+        match = configuration.key_at(document.text, line, column)
+        if match is None:
+            return None
+        key, span = match
+        area = document.lines.range(span, session.client.units)
+        value = f"`{key.name}`\n\n{key.text}"
+        return {"contents": {"kind": "markdown", "value": value}, "range": range_json(area)}
     at = _place(session, params)
     found = hover.hover(at.view, at.line, at.column) if at is not None else None
     if at is None or found is None:
@@ -374,7 +396,7 @@ _SYMBOL_KINDS: Final = {
 def _document_symbol(session: Session, params: Members) -> Json:
     view = _view(session, params)
     if view is None:
-        return None
+        return _cfg_symbols(session, params)
     convert = session.convert
     is_tree = session.client.can(
         "textDocument", "documentSymbol", "hierarchicalDocumentSymbolSupport"
@@ -410,6 +432,23 @@ def _document_symbol(session: Session, params: Members) -> Json:
     for entry in outline.outline(view):
         add(entry, "", result)
     return result
+
+
+def _cfg_symbols(session: Session, params: Members) -> Json:
+    """Return the named instances of a cfg document."""
+    document = session.workspace.document(document_path(params))
+    if document is None or configuration.kind_of(document.path, document.language) != "cfg":
+        return None
+    convert = session.convert
+    return [
+        {
+            "name": name,
+            "kind": 19,
+            "containerName": section,
+            "location": convert.location(Location(Span(document.path, line, 1))),
+        }
+        for section, name, line in configuration.cfg_instances(document.text)
+    ]
 
 
 def _workspace_symbol(session: Session, params: Members) -> Json:
@@ -459,9 +498,15 @@ def _selection_range(session: Session, params: Members) -> Json:
 
 def _document_link(session: Session, params: Members) -> Json:
     view = _view(session, params)
-    if view is None:
-        return None
     convert = session.convert
+    if view is None:
+        document = session.workspace.document(document_path(params))
+        if document is None or configuration.kind_of(document.path, document.language) != "yaml":
+            return None
+        return [
+            {"range": convert.range(span), "target": uri_of(target)}
+            for span, target in configuration.links(document.path, document.text)
+        ]
     return [
         {"range": convert.range(link.span), "target": uri_of(link.target)}
         for link in outline.links(view)
@@ -633,6 +678,19 @@ def _cached_item(item: completing.Item, with_snippets: bool) -> Members:
 
 
 def _completion(session: Session, params: Members) -> Json:
+    yaml = _yaml(session, params)
+    if yaml is not None:
+        document, line, column = yaml
+        keys, _ = configuration.keys_at(document.text, line, column)
+        return [
+            {
+                "label": key.name,
+                "kind": 10,
+                "insertText": f"{key.name}:" + ("" if key.is_mapping else " "),
+                "documentation": {"kind": "markdown", "value": key.text},
+            }
+            for key in keys
+        ]
     at = _place(session, params)
     if at is None:
         return None

@@ -44,6 +44,7 @@ from rapidgen.rapid.syntax.nodes import (
     ProcedureCall,
     RecordDeclaration,
     RoutineDeclaration,
+    StringLiteral,
 )
 from rapidgen.rapid.syntax.walk import children
 
@@ -171,7 +172,9 @@ def _named(node: Node, scope: Scope) -> Iterator[_Mention]:
         case LateCall():
             named = constant(node.procedure, scope, "string")
             symbol = scope.find(named) if isinstance(named, str) else None
-            yield from _found(node.procedure.first, symbol)
+            # A name that is put together of parts has no token of its own.
+            if isinstance(node.procedure, StringLiteral):
+                yield from _found(node.procedure.first, symbol)
             yield from _arguments(node.arguments, symbol, scope)
         case DataDeclaration(type=name) | Parameter(type=name):
             yield from _found(node.name_token - 1, scope.find(name))
