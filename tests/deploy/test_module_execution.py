@@ -9,7 +9,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "servers" / "rws"))
 
 from served import make_runner
 
+from rapidgen.client.errors import RobotError
 from rapidgen.client.rws import Controller
+from rapidgen.client.rws.errors import NotConfirmed
 from rapidgen.deploy.online.module_execution import FOLDER, execute_module, make_execution_plan
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.servers.rws.server import serve_rws
@@ -125,3 +127,35 @@ def test_interruption_stops_the_robot(services):
         execute_module(services, plan, text("WaitTime 1000;").encode(), percent=10, say=interrupt)
     assert not services.execution().running
     assert state(services) == before
+
+
+class Unstoppable:
+    """Web services that do not confirm a stop."""
+
+    def __init__(self, services):
+        self._services = services
+
+    def __getattr__(self, name):
+        return getattr(self._services, name)
+
+    def stop(self, **_):
+        raise NotConfirmed.because("RG655", "the program still runs")
+
+
+def test_robot_that_cannot_be_stopped_does_not_become_faster(services):
+    services.pp_to_main()
+    source = text("WaitTime 1000;")
+    plan = make_execution_plan(services, source, "part.mod")
+    said = []
+
+    def interrupt(line):
+        said.append(line)
+        if line.startswith("part/main:"):
+            raise KeyboardInterrupt
+
+    with pytest.raises(RobotError):
+        execute_module(Unstoppable(services), plan, source.encode(), percent=10, say=interrupt)
+    assert services.execution().running
+    assert services.panel().speed == 10
+    assert "the program still runs: the speed stays as it is" in said
+    services.stop()

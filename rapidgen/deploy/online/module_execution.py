@@ -240,7 +240,7 @@ def execute_module(
             undo.callback(services.select_task, other, True)
         if plan.mode == "AUTO":
             services.set_speed(percent)
-            undo.callback(services.set_speed, plan.speed)
+            undo.callback(_restore_speed, services, plan, say)
         services.set_pointer(plan.task, plan.module, plan.routine)
         _motors_on(services, plan, say)
         undo.callback(_stop, services)
@@ -291,6 +291,14 @@ def _restore_pointer(
     if at.module and at.routine:
         services.set_pointer(plan.task, at.module, at.routine)
         say(f"program pointer of {plan.task} at the beginning of {at.module}/{at.routine}")
+
+
+def _restore_speed(services: "Controller", plan: ExecutionPlan, say: Callable[[str], None]) -> None:
+    # A robot that could not be stopped must not become faster.
+    if services.execution().running:
+        say("the program still runs: the speed stays as it is")
+    else:
+        services.set_speed(plan.speed)
 
 
 def _stop(services: "Controller") -> None:
