@@ -3,6 +3,7 @@
 import itertools
 import math
 import random
+from dataclasses import replace
 
 import pytest
 
@@ -253,6 +254,42 @@ def test_missed_frames_are_counted(envelope):
     controller = Controller(envelope)
     controller.frame()
     assert controller.frame(sequence=4)[1].missed == 3
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_answers_keep_the_envelope(envelope, seed):
+    """Whatever a caller orders, and however frames come: a session's checks are not needed."""
+    chance = random.Random(seed)
+    controller = Controller(envelope)
+    answer, before = controller.frame()[0], controller.now
+    for _ in range(1_500):
+        joints = tuple(chance.uniform(-9, 9) for _ in HOME)
+        rates = tuple(chance.uniform(-20, 20) for _ in HOME)
+        if chance.random() < 0.05:
+            target = Target(controller.now, joints)
+            order = chance.choice(
+                (
+                    target,
+                    replace(target, speeds=rates),
+                    Target(controller.now, speeds=rates),
+                    Path((0.0, 0.3), (joints, HOME)),
+                    Stop(),
+                )
+            )
+            controller.exchange.execute(order)
+        gap = chance.choice((0, 0, 0, 0, 1, 5))
+        controller.now += gap * CYCLE
+        # A stop of the program and a new run, now and then: they begin where the robot is.
+        begins = chance.random() < 0.01
+        if begins:
+            controller.joints = answer
+        number = 0 if begins else controller.sequence + gap
+        last, (answer, _) = answer, controller.frame(sequence=number)
+        time, before = controller.now - before, controller.now
+        for i, (q, p) in enumerate(zip(answer, last, strict=True)):
+            assert envelope.lower[i] - 1e-9 <= q <= envelope.upper[i] + 1e-9
+            # Frames carry milliseconds, so their distance is known to 1 ms.
+            assert abs(q - p) <= envelope.speed[i] * (time + 1e-3)
 
 
 def test_frames_that_are_none(envelope):
