@@ -7,18 +7,19 @@ answered before the controller's code is imported, which takes some tenths of a 
 
 import threading
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext, redirect_stderr
+from contextlib import AbstractContextManager, ExitStack, redirect_stderr
 from io import StringIO
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, TypeAlias
 
+from rapidgen import _extras
 from rapidgen._json import Members
 from rapidgen._message_streams import MessageStream
 from rapidgen.dap.attach import Relay
 from rapidgen.dap.capabilities import CAPABILITIES
 from rapidgen.dap.client import Client, RequestRefused, flag, members
 from rapidgen.dap.launch import Launch, Loader, read_launch
-from rapidgen.diagnostics import DiagnosticError, render
+from rapidgen.diagnostics import DiagnosticError, refusal, render
 from rapidgen.wire.framing import ContentError, FramingError
 
 if TYPE_CHECKING:
@@ -189,16 +190,18 @@ class Adapter:
 
         request, again = self._request, self._boots_again
         self._boots_again = False
-        try:
-            runner, target = self._boot(launch)
-        except DiagnosticError as fault:
-            self._launch = None
-            self._refuse_start(request, fault)
-            if again:
-                self._client.event("terminated")
-            return
-        page = self._page if launch.page and self._page is not None else None
-        with runner, page(runner, target) if page is not None else nullcontext("") as address:
+        with ExitStack() as stack:
+            try:
+                runner, target = self._boot(launch)
+                stack.enter_context(runner)
+                page = self._page if launch.page else None
+                address = stack.enter_context(page(runner, target)) if page is not None else ""
+            except (DiagnosticError, OSError, ModuleNotFoundError) as fault:
+                self._launch = None
+                self._refuse_start(request, as_diagnostics(fault))
+                if again:
+                    self._client.event("terminated")
+                return
             session = self._session = Session(runner, self._client, ends=self._is_once(launch))
             self._runner = runner
             for note in runner.controller.diagnostics:
@@ -244,3 +247,16 @@ class Adapter:
 
     def _is_once(self, launch: Launch) -> bool:
         return launch.cycle == "once" or (not launch.cycle and not self._is_driver)
+
+
+def as_diagnostics(fault: DiagnosticError | OSError | ModuleNotFoundError) -> DiagnosticError:
+    """Return a fault of a launch as diagnostics: also of the system, and of a missing extra."""
+    if isinstance(fault, DiagnosticError):
+        return fault
+    if isinstance(fault, OSError):
+        place = fault.filename or "the program"
+        return refusal("RG942", None, f"cannot read {place}: {fault.strerror or fault}")
+    lacking = _extras.missing(fault)
+    if lacking is None:
+        raise fault  # a defect of rapidgen
+    return DiagnosticError(lacking)

@@ -10,6 +10,9 @@ from itertools import count
 from rapidgen._json import Json, Members
 from rapidgen._message_streams import MessageStream
 
+_LARGEST = 1e300
+"""Largest number in a request."""
+
 
 class RequestRefused(Exception):
     """A request that is not possible; the client shows the text to the user."""
@@ -122,6 +125,8 @@ def number(arguments: Members, key: str, default: float) -> float:
     value = arguments.get(key, default)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise RequestRefused(f"'{key}' is no number")
+    if abs(value) > _LARGEST:  # a whole number may be too large for a float
+        raise RequestRefused(f"'{key}' is too large")
     return value
 
 

@@ -66,7 +66,7 @@ def read_launch(arguments: Members) -> Launch:
     tasks = {name: _paths(here, texts(given, name)) for given in [members(arguments, "tasks")]
              for name in given}  # fmt: skip
     targets = _paths(here, texts(arguments, "program"))
-    if not targets and not tasks:
+    if not any(targets) and not tasks:
         raise _impossible(
             "the launch has no program", 'set "program" to a module, a folder or a configuration'
         )
