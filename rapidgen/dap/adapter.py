@@ -17,7 +17,7 @@ from rapidgen._json import Members
 from rapidgen._message_streams import MessageStream
 from rapidgen.dap.attach import Relay
 from rapidgen.dap.capabilities import CAPABILITIES
-from rapidgen.dap.client import Client, RequestRefused, flag, members
+from rapidgen.dap.client import Client, RequestRefused, flag, members, text
 from rapidgen.dap.launch import Launch, Loader, read_launch
 from rapidgen.diagnostics import DiagnosticError, refusal, render
 from rapidgen.wire.framing import ContentError, FramingError
@@ -25,6 +25,7 @@ from rapidgen.wire.framing import ContentError, FramingError
 if TYPE_CHECKING:
     from rapidgen.controller.boot_targets import Bootable
     from rapidgen.controller.runner import ControllerRunner
+    from rapidgen.dap.recorded import RecordedSession
     from rapidgen.dap.session import Session
 
 Page: TypeAlias = "Callable[[ControllerRunner, Bootable], AbstractContextManager[str]]"
@@ -46,6 +47,7 @@ class Adapter:
         self._page = page
         self._initialize: Members = {}
         """Arguments of the first request."""
+        self._recorded: RecordedSession | None = None
         self._relay: Relay | None = None
         """The simulator to which the client has attached."""
         self._inbox: SimpleQueue[Members | None] = SimpleQueue()
@@ -70,6 +72,8 @@ class Adapter:
                 self._debug(self._launch)
         if self._relay is not None:
             self._relay.close()
+        if self._recorded is not None:
+            self._recorded.close()
 
     # -- messages --------------------------------------------------------------------------------
 
@@ -130,8 +134,8 @@ class Adapter:
         self._client.output(render(fault.diagnostics, colour=False), "stderr")
         code = int(first.code.removeprefix("RG"))
         more = len(fault.diagnostics) - 1
-        text = f"{first.code}: {first.message}" + (f" (and {more} more)" if more else "")
-        self._client.refuse(request, text, code=code, show=True)
+        reason = f"{first.code}: {first.message}" + (f" (and {more} more)" if more else "")
+        self._client.refuse(request, reason, code=code, show=True)
 
     def _perform(self, command: str, request: Members, arguments: Members) -> None:
         match command:
@@ -145,13 +149,16 @@ class Adapter:
                 # Read first: a wrong request leaves nothing behind.
                 self._launch, self._request = read_launch(arguments), request
             case "attach":
-                if self._launch is not None:
+                if self._launch is not None or self._recorded is not None:
                     raise RequestRefused("a program has been launched already")
+                if "recording" in arguments:
+                    self._open(request, text(arguments, "recording"))
+                    return
                 self._relay = Relay(self._client, self._initialize, arguments)
                 self._relay.forward(request)
-            case "configurationDone":
+            case "configurationDone" if self._recorded is None:
                 self._start(request)
-            case "restart":
+            case "restart" if self._recorded is None:
                 self._restart(request, members(arguments, "arguments"))
             case "disconnect" | "terminate":
                 flag(arguments, "restart", default=False)
@@ -162,7 +169,26 @@ class Adapter:
             case _:
                 self._in_session(command, request, arguments)
 
+    def _open(self, request: Members, path: str) -> None:
+        """Begin a session on a recording; DiagnosticError."""
+        from rapidgen.dap.recorded import CAPABILITIES as CHANGED
+        from rapidgen.dap.recorded import RecordedSession
+
+        try:
+            from rapidgen.viewer.recording.reader import RecordingFile
+
+            self._recorded = RecordedSession(RecordingFile(path), self._client)
+        except (ModuleNotFoundError, OSError, ValueError) as fault:
+            raise as_diagnostics(fault) from fault
+        self._client.respond(request, None)
+        self._client.event("capabilities", {"capabilities": CHANGED})
+        self._client.event("initialized")
+
     def _in_session(self, command: str, request: Members, arguments: Members) -> None:
+        if self._recorded is not None:
+            self._client.respond(request, self._recorded.execute(command, arguments))
+            self._recorded.report()
+            return
         if self._session is None:
             raise RequestRefused(f"'{command}' needs a program that was launched")
         self._client.respond(request, self._session.execute(command, arguments))
@@ -249,14 +275,16 @@ class Adapter:
         return launch.cycle == "once" or (not launch.cycle and not self._is_driver)
 
 
-def as_diagnostics(fault: DiagnosticError | OSError | ModuleNotFoundError) -> DiagnosticError:
+def as_diagnostics(fault: Exception) -> DiagnosticError:
     """Return a fault of a launch as diagnostics: also of the system, and of a missing extra."""
     if isinstance(fault, DiagnosticError):
         return fault
     if isinstance(fault, OSError):
         place = fault.filename or "the program"
         return refusal("RG942", None, f"cannot read {place}: {fault.strerror or fault}")
-    lacking = _extras.missing(fault)
+    if isinstance(fault, ValueError):  # a zero byte in a path
+        return refusal("RG942", None, f"not a path: {fault}")
+    lacking = _extras.missing(fault) if isinstance(fault, ModuleNotFoundError) else None
     if lacking is None:
         raise fault  # a defect of rapidgen
     return DiagnosticError(lacking)

@@ -222,6 +222,13 @@ class RecordingFile:
 
     # -- ranges ----------------------------------------------------------------------------------
 
+    def pointers(self, begin: float, end: float) -> Iterator[tuple[float, str, m.TaskPointers]]:
+        """Return times, tasks and their places between two times, s."""
+        for message in self._messages(round(begin * _NS), round(end * _NS)):
+            kind, _, name = self._topics.get(message.channel, "").partition("/")
+            if kind == "task":
+                yield message.time / _NS, name, self._decoded(m.TaskPointers, message)
+
     def frames(self, begin: float, end: float) -> Iterator[tuple[float, m.SocketFrame]]:
         """Return socket data between two times, s."""
         for message in self._messages(round(begin * _NS), round(end * _NS), "sockets"):
