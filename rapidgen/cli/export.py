@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from rapidgen.client.core.group import Group
     from rapidgen.export.sources import JointPath, SourceOptions, Toolpath
     from rapidgen.export.sources.toolpath import WordAction
-    from rapidgen.export.writer import ExportedModule
+    from rapidgen.export.writer import ExportedModule, WriterOptions
 
 _GCODE = (".nc", ".ngc", ".gcode", ".tap", ".cnc", ".g")
 _TABLES = (".csv", ".txt", ".json", ".npy", ".npz")
@@ -112,6 +112,13 @@ def export(
     backup: Annotated[
         Path | None, typer.Option(help="Backup of the controller: its names.", metavar="FOLDER")
     ] = None,
+    parts: Annotated[
+        bool, typer.Option("--parts", help="Split into parts that load while the robot moves.")
+    ] = False,
+    load_times: Annotated[
+        str,
+        typer.Option(help="Your controller's times: ms/kB to load, to link.", metavar="LOAD,LINK"),
+    ] = "",
     run: Annotated[
         bool, typer.Option("--run/--no-run", help="Run the module on the virtual controller first.")
     ] = True,
@@ -199,11 +206,38 @@ def export(
     sys.stderr.write(render(shown[:_SHOWN], colour=use_colour()))
     if len(shown) > _SHOWN:
         sys.stderr.write(f"{len(shown) - _SHOWN} more warnings\n")
+    texts = _parts(result, choices, load_times, split_up=parts)
     if run:
         _run(result)
-    write_whole(output, result.text.encode("latin-1"))
+    # The main module comes last: without it nothing loads the parts.
+    for name, content in reversed(texts.items()):
+        path = output if name == f"{module}.mod" else output.with_name(name)
+        write_whole(path, content.encode("latin-1"))
     if not is_quiet():
         sys.stderr.write(f"{output}: {len(result.lines)} instructions\n")
+
+
+def _parts(
+    result: "ExportedModule", options: "WriterOptions", load_times: str, *, split_up: bool
+) -> dict[str, str]:
+    """Return the texts of all modules, the main one first; report moves per second and parts."""
+    from rapidgen.export.parts import LIMITS, LoadTimes, split, unsplit
+
+    times = LoadTimes()
+    if load_times:
+        load, link = numbers("--load-times", load_times, 2)
+        if min(load, link) <= 0:
+            raise refusal("RG901", None, f"--load-times {load_times}: above 0", "ms/kB")
+        times = LoadTimes(load / 1000, link / 1000, is_estimated=False)
+    limits = LIMITS.get(result.config.robotware[0], LIMITS[5])
+    described = result.description
+    found = split(described, limits, times) if split_up else unsplit(described, times)
+    sys.stderr.write(render(found.findings(limits), colour=use_colour()))
+    if split_up and not is_quiet():
+        sys.stderr.write("".join(f"{line}\n" for line in found.report()))
+    if len(found.parts) == 1:
+        return {f"{described.module}.mod": result.text}
+    return found.files(options)
 
 
 def _read(source: Path, given: "SourceOptions") -> "Toolpath | JointPath":

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from rapidgen.curves.fitting import Fit, Fitter, Requirement
     from rapidgen.curves.placement import Placement, Placer
 
+_REACHED = 0.95
+"""Share of the programmed speed that the TCP has to reach on the curve."""
 _MOST_TOLERANCE, _MOST_SPEED, _MOST_MOVES = 50.0, 10_000.0, 1000
 
 
@@ -112,6 +114,15 @@ def fit(
     found = fitter.fit_fastest(wanted) if speed is None else fitter.fit(speed / 1000, wanted)
     if found is None or not found.keeps(wanted):
         raise _not_kept(found, wanted, fitter, speed, moves)
+    reached = 1000 * found.prediction.mean_speed
+    if speed is not None and reached < _REACHED * speed:
+        raise refusal(
+            "RG785",
+            None,
+            f"the axes allow {reached:.0f} mm/s on the curve, not {speed:g}",
+            f"use `--speed {math.floor(reached)}` or `--place`",
+            exit_code=1,
+        )
     name = output.stem if output is not None else "fit"
     module = module_of(found, kinematics, name, tool_name)
     if output is not None:

@@ -119,6 +119,7 @@ def export_program(
     lines = tuple(written.lines[i] for i in converter.places)
     return ExportedModule(
         written,
+        described,
         config,
         group,
         complete.map.to_urdf(begin),
@@ -179,7 +180,7 @@ def export_trajectory(
     urdf = complete.map.to_urdf(checked.wire[0].tolist())
     notes = (*checked.warnings, *found)
     spans = tuple(Span(trajectory.path, line, 1) for line in trajectory.lines)
-    return ExportedModule(written, config, group, urdf, written.lines, notes, spans)
+    return ExportedModule(written, described, config, group, urdf, written.lines, notes, spans)
 
 
 def _start(

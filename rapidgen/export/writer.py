@@ -97,6 +97,7 @@ class ExportedModule:
     """
 
     module: WrittenModule
+    description: Routine
     config: RobotConfig
     group: GroupConfig
     start: tuple[float, ...]

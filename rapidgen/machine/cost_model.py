@@ -19,6 +19,10 @@ class Costs:
     call: int = 5_000
     builtin_scale: float = 1.0
     """Factor of the string, raw-bytes, socket and move built-ins (50 us, 500 us, 1 ms)."""
+    module_load: int = 1_000
+    """A byte of a module that Load and StartLoad read."""
+    module_link: int = 0
+    """A byte of a module that Load and WaitLoad link."""
     quantum: int = 2_000_000
     """Round robin."""
     interrupt_delay: tuple[int, int] = (2_000_000, 30_000_000)

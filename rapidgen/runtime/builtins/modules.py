@@ -24,19 +24,16 @@ from rapidgen.runtime.values import PersistentCell, Ref, ValueRef, copy_value, r
 # Load to ModTime: modules at run time. See `loading.py` for sources.
 
 
-_LOAD_RATE = 1_000_000
-"""Bytes per second that StartLoad reads while the program continues."""
-
-
 class LoadSession:
     """A `loadsession`: the module ordered by StartLoad."""
 
-    __slots__ = ("dynamic", "ready_at", "words")
+    __slots__ = ("dynamic", "ready_at", "size", "words")
 
     def __init__(self) -> None:
         self.words: str | None = None
         self.dynamic = False
         self.ready_at = 0
+        self.size = 0
 
 
 register_type("loadsession", LoadSession)
@@ -69,10 +66,10 @@ def start_load(
     session.words = loading.words_of(path, file)
     session.dynamic = bool(dynamic)
     try:
-        size = file_path(task, session.words).stat().st_size
+        session.size = file_path(task, session.words).stat().st_size
     except (OSError, RapidError):
-        size = 0
-    session.ready_at = task.scheduler.now + size * 1_000_000_000 // _LOAD_RATE
+        session.size = 0
+    session.ready_at = task.scheduler.now + session.size * task.controller.costs.module_load
 
 
 @builtin("WaitLoad", cost="socket")
@@ -86,7 +83,9 @@ def wait_load(
     """Wait for an ordered module and link it; optionally unload another one."""
     if session.words is None:
         raise RapidError("ERR_LOADNO_NOUSE")
-    task.sleep(max(0, session.ready_at - task.scheduler.now) / 1e9)
+    linked_at = max(session.ready_at, task.scheduler.now)
+    linked_at += session.size * task.controller.costs.module_link
+    task.sleep((linked_at - task.scheduler.now) / 1e9)
     words, session.words = session.words, None
     if unload_path is not None:
         loading.unload(task, loading.words_of(unload_path, unload_file))
