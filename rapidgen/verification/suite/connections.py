@@ -211,6 +211,9 @@ def _second_stops(bench: Bench) -> None:
             for byte in (_PING + STOP)[:-1]:
                 new.send(bytes([byte]))
                 bench.run(0.003)
+            bench.run(0.3)
+            if bench.standing:
+                raise CheckFailed("a STOP of which the last byte is missing stops the robot")
             new.send(STOP[-1:])
         else:
             new.send(STOP)

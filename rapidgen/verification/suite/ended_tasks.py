@@ -109,7 +109,8 @@ def _halts(bench: Bench, module: str, situation: str) -> None:
     bench.run(halt_timeout(bench))
     if module != "ROS_stateServer":
         status, reply = bench.status(watcher), bench.progress(watcher)
-        if (status.motion_possible, status.error_code) != (0, RawReason.TASK_ENDED):
+        seen = status.motion_possible, status.in_error, status.error_code
+        if seen != (0, 1, RawReason.TASK_ENDED):
             raise CheckFailed(f"{what}: STATUS says {status}")
         if situation != "idle" and (reply.state, reply.reason) != (
             RawTrajectoryState.FAILED,
