@@ -272,6 +272,9 @@ egm-campaign: $(STAMP) ## 45 min: 20,000 runs of a guided robot with faults of i
 collision-trials: $(STAMP) ## 5 min: 10,000 moves of a needle past a thin plate, against 4,001 samples each
 	$(BIN)/python tools/collision_trials.py
 
+collision-programs: $(STAMP) ## 30 min: 500 random programs of three robots in random cells, against samples every millisecond
+	$(BIN)/python tools/collision_programs.py
+
 driver-frames: $(STAMP) ## 1 h: 200,000 hostile openings on all ports, half of them with boundary values, a good client after each
 	$(BIN)/python tools/driver_campaign.py frames --jobs 2 --results build/frames.jsonl
 

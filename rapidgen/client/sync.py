@@ -151,7 +151,8 @@ class Robot(RobotApi[SyncFlowRunner]):
     machine. `group` names the motion group if there are several. `watch` never opens the motion
     port. `plain` does not expect a rapidgen driver. `reconnect` is the time in s for which the next
     call tries a lost connection again; nothing is ever sent again. `feedback` requests joints with
-    the controller's own time and velocities.
+    the controller's own time and velocities. `cell` is a cell file: motions that do not keep its
+    clearances are rejected before a byte is sent.
 
     All methods may be called from any thread. Joints are rad and m in URDF order.
     """

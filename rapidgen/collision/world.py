@@ -187,6 +187,13 @@ def build_world(
         pairs += _zone_pairs(name, zone, first + index, draft)
     if any(d.severity is Severity.ERROR for d in draft.findings):
         raise DiagnosticError(draft.findings)
+    if not pairs:
+        draft.report(
+            "RG824",
+            "nothing can be checked: no two bodies with shapes can change their distance",
+            "give the robot's links or tools shapes, and the cell `things:`",
+        )
+        raise DiagnosticError(draft.findings)
     scene = Scene(tree, draft.bodies, pairs)
     starts = {robot.group.name: _home(keys[robot.group.name], robot.group) for robot in robots}
     world = World(

@@ -182,12 +182,21 @@ def test_overlap_at_home_is_reported_and_still_checked(cell):
     assert not report_of(world).is_free
 
 
-def test_links_without_shapes_are_a_warning(cell):
-    path = cell(POST, robots="robots:\n  T_ROB1: {model: irb120}")
+def test_links_without_shapes_are_a_warning_if_a_tool_has_some(cell):
+    """Drawing solids of shipped models are never used."""
+    tool = "tools:\n  tGrip: {load: {mass: 1}, shapes: [{sphere: 50}]}"
+    path = cell(f"{tool}\n{POST}", robots="robots:\n  T_ROB1: {model: irb120}")
     path.write_text(path.read_text().split("collision:")[0])
     world = world_of(path)
     assert [d.code for d in world.diagnostics] == ["RG824"]
-    assert not world.scene.pairs
+    assert [world.scene.names(i) for i in range(len(world.scene.pairs))] == [("tGrip", "post")]
+    assert any("links of rob1" in text for text in world.unchecked)
+
+
+def test_cell_without_anything_to_check_is_rejected(cell):
+    path = cell(POST, robots="robots:\n  T_ROB1: {model: irb120}")
+    path.write_text(path.read_text().split("collision:")[0])
+    assert codes(path) == ["RG824", "RG824"]
 
 
 def test_srdf_is_written_and_read(cell, folder):
