@@ -7,8 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
-from rapidgen._json import members, whole
+from rapidgen._json import items, members, whole
+from rapidgen._json import text as as_text
 from rapidgen.client.core.motion import fix_of
+from rapidgen.config.egm import OPTIONS
 from rapidgen.deploy.cfg import is_unconfirmed, keyed, name_of
 from rapidgen.deploy.driver_set import DriverSet
 from rapidgen.deploy.online.plan import OnlinePlan
@@ -71,7 +73,7 @@ def run_checks(
     """
     loaded = loaded_cfg(backup) if backup is not None else ()
     host = robot_host or target.host
-    checks = [*_running(host, desired, hello, text, timeout)]
+    checks = [*_running(host, desired, hello, text, timeout), *_guidance(desired)]
     try:
         transport = connect(target, access)
     except DiagnosticError as error:
@@ -151,6 +153,35 @@ def _driver_error(where: str, host: str, port: int, get_error: GetError) -> Iter
     fix = fix_of(reason, "")
     if reason is not None and fix:
         yield Check("driver", "fail", f"{where}: {reason.text}, no motion is possible", fix)
+
+
+def _guidance(desired: DriverSet) -> Iterator[Check]:
+    """Check what externally guided motion needs, as far as this computer can see it."""
+    configuration = members(desired.generated.get("configuration") or {})
+    for group in map(members, items(configuration.get("groups") or [])):
+        if not group.get("egm"):
+            continue
+        egm = members(group["egm"])
+        address, device = as_text(egm["address"]), as_text(egm["device"])
+        where = f"{as_text(group['name'])}, device {device}, partner {address}:{whole(egm['port'])}"
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as trial:
+            try:
+                trial.bind((address, 0))
+                yield Check("EGM", "ok", f"{where}: an address of this computer")
+            except OSError:
+                yield Check(
+                    "EGM",
+                    "warn",
+                    f"{where}: not an address of this computer",
+                    "the controller accepts datagrams from this address only: guide the robot "
+                    "from that computer, or change `egm.address` and deploy",
+                )
+        yield Check(
+            "EGM",
+            "unknown",
+            f"needed: {OPTIONS[desired.robotware[0]]} Externally Guided Motion",
+            "pendant: ABB menu > System Info > Options; without it the motion task has errors",
+        )
 
 
 def _default_login(target: Target, access: Access) -> Iterator[Check]:
