@@ -156,6 +156,8 @@ class Watch:
         self.speed, self.deviation = math.radians(speed), math.radians(deviation)
         self.before = self.group.positions()
         self.start = None
+        self.reached = 0.0
+        """Largest distance from the start while the motors were off, rad."""
 
     def run(self, seconds, standing=False):
         for _ in range(round(seconds / CYCLE)):
@@ -174,11 +176,14 @@ class Watch:
             if max(steps) > self.speed * CYCLE * 1.001 + AXES:
                 raise Broken(f"{math.degrees(max(steps)) / CYCLE:.1f} deg/s")
             far = max(abs(a - b) for a, b in zip(now, self.start, strict=True))
-            # Brakes stop the robot wherever it comes to rest, also beyond a limit of EGM.
-            if self.controller.motors_on and far > self.deviation + SETTLING:
+            if not self.controller.motors_on:
+                # Brakes stop the robot wherever it comes to rest, also beyond a limit of EGM; from
+                # there it may come back.
+                self.reached = max(self.reached, far)
+            elif far > max(self.deviation, self.reached) + SETTLING:
                 raise Broken(f"beyond the deviation: {math.degrees(far - self.deviation):.4f} deg")
         else:
-            self.start = None
+            self.start, self.reached = None, 0.0
         for joint, q in zip(self.group.config.joints, now, strict=True):
             if not joint.lower - AXES <= q <= joint.upper + AXES:
                 raise Broken(f"{joint.axis} beyond its range")
