@@ -191,6 +191,13 @@ program-campaign: $(STAMP) ## 5 min: random motion programs beside the same ones
 export-trials: $(STAMP) ## 4 min: 500 random programs as RAPID modules beside the same ones over the driver
 	$(BIN)/python -m tools.export_trials
 
+# CONFIG and options of `rapidgen export` in OPTIONS.
+toolpaths: $(STAMP) ## 2 min: toolpaths and plans of the folder FOREIGN exported, and what became of each
+	$(BIN)/python -m tools.toolpaths $(FOREIGN) --config $(CONFIG) $(OPTIONS)
+
+export-bench: $(STAMP) ## 3 min: 100,000 points written, checked and run
+	$(BIN)/python benchmarks/export.py
+
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tools.motion_campaign
 

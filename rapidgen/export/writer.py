@@ -150,9 +150,10 @@ def check_module(
     Raises DiagnosticError with the errors of all releases, each once.
     """
     findings: dict[tuple[str, str, int], Diagnostic] = {}
+    # The text has no syntax that only some releases know.
+    tree = parse(module.text, path=module.path)
     for release in releases:
         dialect = Dialect(release)
-        tree = parse(module.text, path=module.path, dialect=dialect)
         for found in check(tree, dialect=dialect):
             line = found.span.line if found.span else 0
             findings.setdefault((found.code, found.message, line), found)

@@ -103,6 +103,13 @@ def test_helix_becomes_lines_within_its_tolerance(tmp_path):
     assert places(lines)[-1] == (10, 0, -5)
 
 
+@pytest.mark.parametrize("arc", ["G2 X0.05 Y0.05 I0.05", "G3 X10 Y0 I5 J1000"])
+def test_short_and_flat_arcs_become_lines(tmp_path, arc):
+    """MoveC rejects them."""
+    _, *steps = gcode(tmp_path, f"G0 X0 Y0 Z0\nF100 {arc}\n")
+    assert {step.kind for step in steps} == {"line"}
+
+
 def test_work_offsets_keep_the_machine_in_place(tmp_path):
     options = replace(DOWN, offsets={"G54": (0.1, 0, 0), "G55": (0.2, 0, 0)})
     steps = gcode(tmp_path, "G0 X0 Y0 Z0\nG55 G91 X1\n", options)
@@ -165,6 +172,7 @@ def test_words_of_the_user_act_before_the_motion(tmp_path):
         ("X0\n", "RG760", 1, "without a motion"),
         ("G55 G0 X0\n", "RG761", 1, "work offset of G55"),
         ("G0 X0 Y0 Z0\nX30000\n", "RG761", 2, "30 m wide: wrong unit"),
+        ("G0 X0 Y0 Z0\nG80 X10\n", "RG760", 2, "without a motion"),
         ("G4\n", "RG760", 1, "without a time"),
         ("(nothing)\n%\n", "RG760", 1, "has no points"),
         ("G0 G1 X1\n", "RG760", 1, "two motions"),

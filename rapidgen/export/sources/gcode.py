@@ -15,13 +15,14 @@ Rules, with their source in RS274/NGC [NIST IR 6556 §3]:
 - A position is unknown until the program has given all three coordinates: moves by G1, G2, G3 and
   relative ones are rejected before.
 
-An arc becomes arcs of at most 120 degrees, which MoveC takes; a helix becomes lines.
+An arc becomes arcs of at most 120 degrees, which MoveC takes; helices and very short or flat arcs
+become lines that deviate by at most 0.02 mm.
 """
 
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import acos, atan2, ceil, cos, hypot, pi, sin, sqrt
+from math import acos, atan2, ceil, cos, hypot, pi, radians, sin, sqrt
 from pathlib import Path
 from typing import Literal
 
@@ -41,7 +42,7 @@ from rapidgen.export.sources.toolpath import (
 
 _WORD = re.compile(r"\s*([A-Za-z])\s*([-+]?(?:\d+\.?\d*|\.\d+))", re.ASCII)
 _COMMENT = re.compile(r"\([^()]*\)|;.*")
-_NO_EFFECT = frozenset(("G40", "G49", "G80", "G94", "G64", "G61", "G50"))
+_NO_EFFECT = frozenset(("G40", "G49", "G94", "G64", "G61"))
 """Cancellations and modes of a machine that change no path here."""
 _MOTIONS = {"G0": "rapid", "G1": "line", "G2": "clockwise", "G3": "counter-clockwise"}
 _PLANES = {"G17": (0, 1, 2), "G18": (2, 0, 1), "G19": (1, 2, 0)}
@@ -54,8 +55,9 @@ _PART = 2 * pi / 3
 """Largest arc of one MoveC, rad."""
 _CHORD = 20e-6
 """Largest distance of the lines of a helix from it, m."""
-_SHORT = 0.2e-3
-"""Arcs shorter than this (m) become lines: MoveC needs points 0.1 mm apart."""
+_SHORT, _FLAT = 0.3e-3, radians(5)
+"""Arcs that are shorter (m) or flatter become lines: the points of MoveC are at least 0.1 mm apart,
+and 1 degree as seen from the first one, which is a quarter of the arc."""
 _RADIUS = 20e-6, 0.001
 """Tolerance of an arc's two radii: m, and share of the radius."""
 
@@ -186,7 +188,7 @@ class _Interpreter:
             raise _unsupported("".join(arc), span)
 
     def _is_known(self, word: str) -> bool:
-        modes = ("G90", "G91", "G90.1", "G91.1", "G4")
+        modes = ("G90", "G91", "G90.1", "G91.1", "G4", "G80")
         return (
             word in _MOTIONS
             or word in _PLANES
@@ -217,6 +219,8 @@ class _Interpreter:
                 for at, old, now in zip(self._place, self._offset, new, strict=True)
             ]
             self._offset = new
+        elif code == "G80":
+            self._motion = ""
         elif code in ("G90", "G91"):
             self._absolute = code == "G90"
         elif code in ("G90.1", "G91.1"):
@@ -301,12 +305,12 @@ class _Interpreter:
         if sweep < 1e-9:
             sweep = 2 * pi
         rise = end[third] - begin[third]
-        if abs(rise) > 1e-9:
-            step = 2 * acos(max(0.0, 1 - _CHORD / radius)) if radius > _CHORD else pi / 2
+        count = ceil(sweep / _PART)
+        part = sweep / count
+        is_round = abs(rise) <= 1e-9 and part >= _FLAT and radius * part > _SHORT
+        if not is_round:
+            step = 2 * acos(1 - _CHORD / radius) if radius > _CHORD else pi / 2
             count = max(1, ceil(sweep / step))
-        else:
-            count = max(1, ceil(sweep / _PART))
-        is_flat = abs(rise) <= 1e-9 and radius * sweep > _SHORT
 
         def place(share: float) -> Vector:
             angle = start + sense * sweep * share
@@ -319,7 +323,7 @@ class _Interpreter:
         for number in range(1, count + 1):
             # The last point is the programmed one.
             goal = end if number == count else place(number / count)
-            if is_flat:
+            if is_round:
                 via = self._pose(place((number - 0.5) / count))
                 step_pose = self._pose(goal)
                 self.steps.append(PathStep("arc", span, pose=step_pose, via=via, speed=speed))
