@@ -60,6 +60,7 @@ def test_continue_and_back_in_time(client, recording):
     assert here(client) == (7, "2")
     client.ask("continue", threadId=1)
     assert client.event("stopped")["text"] == "end of the recording"
+    client.set_lines(recording.parent / "m.mod", 5, 7)
     client.ask("reverseContinue", threadId=1)
     assert here(client)[0] == 7
     client.value(":time 0.1", context="repl")
