@@ -19,6 +19,8 @@ from rapidgen.rapid.syntax.nodes import Parameter
 
 _ENDS: Final = frozenset((";", "THEN", "DO", "ELSE", ":"))
 """Tokens behind which a statement begins, unless a bracket is open."""
+_HEADERS: Final = frozenset(("PROC", "FUNC", "TRAP", "MODULE", "RECORD", "LOCAL"))
+"""Words before parentheses that are no call."""
 _MOST: Final = 400
 """Tokens of a statement that are looked at."""
 
@@ -137,6 +139,8 @@ def open_call(view: View, cursor: Cursor) -> OpenCall | None:
     tokens = view.source.tokens
     kinds = Kinds()
     depth = 0
+    if cursor.statement <= cursor.token and kinds[tokens[cursor.statement]] in _HEADERS:
+        return None
     for at in range(cursor.token, max(cursor.statement - 1, -1), -1):
         kind = kinds[tokens[at]]
         if kind in (")", "]", "}"):

@@ -20,7 +20,14 @@ from typing import Final
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error
 from rapidgen.editor import configuration
 from rapidgen.editor.configuration import kind_of
-from rapidgen.editor.documents import Document, Lines, decode_file, real_path
+from rapidgen.editor.documents import (
+    Document,
+    Lines,
+    decode_file,
+    is_file,
+    probable_encoding,
+    real_path,
+)
 from rapidgen.editor.project import Program, Settings, discover, is_module
 from rapidgen.rapid import parse
 from rapidgen.rapid.binding import BoundModule, ModuleScope
@@ -440,8 +447,38 @@ class Workspace:
             by_task.append((view.task.name, own))
         found = merge_tasks(by_task)
         notes = [d for d in program.program.notes if d.span and real_path(d.span.path) == real]
+        document = self.documents.get(real)
+        if document is not None:
+            notes += _wrong_encoding(document)
         ignored = program.program.ignored
         program.findings[real] = [d for d in (*notes, *found) if d.code not in ignored]
+
+
+def _wrong_encoding(document: Document) -> list[Diagnostic]:
+    """Report a document that the editor has read in another encoding than that of its file.
+
+    Its letters are lost: the editor shows U+FFFD for each, and would save that.
+    """
+    at = document.text.find("\ufffd")
+    if at < 0 or not is_file(document.path):
+        return []
+    try:
+        data = read_limited(Path(document.path))
+    except DiagnosticError:
+        return []
+    if "\ufffd".encode() in data:
+        return []
+    line, column = document.lines.position(at, "utf-32")
+    encoding = {"gbk": "GBK", "cp1252": "Windows-1252"}.get(probable_encoding(data), "UTF-8")
+    return [
+        error(
+            "RG338",
+            Span(document.path, line + 1, column + 1),
+            "letters of this file are lost: the editor has read it in a wrong encoding",
+            f"do not save; reopen it with the encoding {encoding}",
+            severity=Severity.WARNING,
+        )
+    ]
 
 
 def _too_large(path: str) -> Diagnostic:

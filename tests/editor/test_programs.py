@@ -215,6 +215,23 @@ def test_files_that_are_not_open_are_read_as_the_client_would(tmp_path, encoding
     assert found.span.column == data.split("\n")[1].index("far") + 1
 
 
+@pytest.mark.parametrize(
+    ("encoding", "name", "text"),
+    [("cp1252", "Windows-1252", "! gr\u00fcn"), ("gbk", "GBK", "! \u53d6\u6599 \u4f4d\u7f6e")],
+)
+def test_a_document_that_was_read_in_a_wrong_encoding(tmp_path, encoding, name, text):
+    path = tmp_path / "a.mod"
+    data = f"MODULE a\n{text}\nENDMODULE\n".encode(encoding)
+    path.write_bytes(data)
+    opened = Workspace()
+    opened.open(Document(str(path), data.decode("utf-8", "replace")))
+    (finding,) = opened.findings_of(str(path))
+    assert (finding.code, finding.span.line) == ("RG338", 2)
+    assert name in finding.help
+    opened.open(Document(str(path), data.decode(encoding)))
+    assert opened.findings_of(str(path)) == []
+
+
 def test_hover_shows_comments_and_values(tmp_path):
     path = tmp_path / "a.mod"
     path.write_text(
