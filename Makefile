@@ -306,6 +306,9 @@ rws-interruptions: $(STAMP) ## 1 h: deployments over the web services cut at eve
 image: $(STAMP) ## 5 min: the container image, built and tried by docker or podman
 	.ci/image
 
+egm-stop: $(STAMP) ## 1 min: STOP of a guided robot to EGMStop, and the angle until it stands
+	$(BIN)/python benchmarks/egm_stop.py
+
 stop-under-load: $(STAMP) ## 2 min: STOP to StopMove, idle and with both other ports flooded
 	$(BIN)/python benchmarks/stop_under_load.py
 
