@@ -6,10 +6,6 @@ const vscode = require("vscode");
 const report = {};
 const events = [];
 
-function save(path) {
-  fs.writeFileSync(path, JSON.stringify({ ...report, events }));
-}
-
 exports.activate = async () => {
   try {
     await main();
