@@ -1,8 +1,9 @@
 """Seconds of CPU to export 100,000 points: writing alone, then with check and run.
 
 `python benchmarks/export.py [--points N]`. Check and run take N points: a module of 100,000 is
-larger than the parser accepts, and `export --parts` splits it. The points are a dense path of joints, 0.2 mm to 1 mm
-apart at the TCP; the run is that of `rapidgen export`, on the virtual controller.
+larger than the parser accepts, and `export --parts` splits it. The points are a dense path of
+joints, 0.2 mm to 1 mm apart at the TCP; the run is that of `rapidgen export`, on the virtual
+controller.
 """
 
 import argparse
