@@ -1,23 +1,29 @@
 """Formatting of documents, ranges and lines, and quick fixes as edits.
 
 A range is formatted as whole lines: the result is that of the whole document, cut to the changed
-lines of the range. A text with syntax errors is not formatted as a whole; a line of it is, because
-that needs its own tokens only.
+lines of the range. A text with syntax errors is not formatted as a whole. A range of it is: each
+declaration that parses alone, and the statements of the range in a routine that does not, if they
+parse alone. A line needs its own tokens only.
 """
 
 import re
+from bisect import bisect_left
+from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Fix, Span
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Fix, Span
 from rapidgen.editor.documents import TextEdit
 from rapidgen.editor.workspace import View
 from rapidgen.rapid.syntax.format import INDENT, format_source
 from rapidgen.rapid.syntax.lexer import KEYWORDS, Kinds
+from rapidgen.rapid.syntax.nodes import RoutineDeclaration
 
 _OPENERS: Final = frozenset(("MODULE", "PROC", "FUNC", "TRAP", "RECORD", "FOR", "WHILE", "TEST"))
 _LINES: Final = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
+_ROUTINES: Final = frozenset(("PROC", "FUNC", "TRAP"))
+_ROUTINE_ENDS: Final = frozenset(("ENDPROC", "ENDFUNC", "ENDTRAP"))
 _DIVIDERS: Final = frozenset(("ELSE", "ELSEIF", "CASE", "DEFAULT"))
 _HANDLERS: Final = frozenset(("ERROR", "UNDO", "BACKWARD"))
 
@@ -25,11 +31,21 @@ _HANDLERS: Final = frozenset(("ERROR", "UNDO", "BACKWARD"))
 def format_document(view: View, lines: tuple[int, int] | None = None) -> list[TextEdit]:
     """Return the edits that format a module, or its lines first to last (from 1).
 
-    Raises DiagnosticError for a text with syntax errors.
+    Raises DiagnosticError for a text with syntax errors, unless parts of the lines are complete.
     """
     source = view.source
     before = _with_ends(source.text)
-    after = _with_ends(format_source(source.text, path=source.path))
+    try:
+        after = _with_ends(format_source(source.text, path=source.path))
+    except DiagnosticError:
+        parts = _complete_parts(view, before, *lines) if lines is not None else []
+        if not parts:
+            raise
+        after, done = [], 0
+        for first, last, text in parts:
+            after += before[done:first] + text
+            done = last
+        after += before[done:]
     matcher = SequenceMatcher(None, before, after, autojunk=False)
     edits = []
     for tag, i, j, k, m in matcher.get_opcodes():
@@ -52,6 +68,96 @@ def _line_span(path: str, lines: list[str], first: int, last: int) -> Span:
     if last < len(lines) or not lines or lines[-1].endswith(("\n", "\r")):
         return Span(path, first + 1, 1, last + 1, 1)
     return Span(path, first + 1, 1, last, len(lines[-1]) + 1)
+
+
+def _complete_parts(
+    view: View, lines: list[str], first: int, last: int
+) -> list[tuple[int, int, list[str]]]:
+    """Return formatted parts of a text with errors that meet lines first to last (from 1).
+
+    Each is the index of its first line, the one behind its last line, and its new lines.
+    """
+    source = view.source
+    count = len(source.tokens)
+    result: list[tuple[int, int, list[str]]] = []
+    tokens = [token.upper() for token in source.tokens]
+    done = 0
+    for node in view.module.tree.declarations:
+        # Data of a routine with a wrong header are not those of the module.
+        if not isinstance(node, RoutineDeclaration) and _open_routine(tokens, node.first) >= 0:
+            continue
+        end = min(node.last, count - 1)
+        start, stop = source.line(node.first) - 1, source.line(end)
+        # Whole lines only: another declaration on one of them would be cut.
+        is_shared = (node.first > 0 and source.line(node.first - 1) == start + 1) or (
+            end + 1 < count and source.line(end + 1) == stop
+        )
+        if is_shared or start < done or start >= last or stop < first:
+            continue
+        text = _formatted(lines[start:stop], "")
+        if text is not None:
+            result.append((start, stop, text))
+            done = stop
+    taken = {line for start, stop, _ in result for line in range(start, stop)}
+    rest = [line for line in range(first - 1, min(last, len(lines))) if line not in taken]
+    for start, stop in _runs(rest):
+        text = _statements(view, lines, start, stop)
+        if text is not None:
+            result.append((start, stop, text))
+    return sorted(result)
+
+
+def _runs(numbers: list[int]) -> Iterator[tuple[int, int]]:
+    """Yield runs of following numbers: the first, and the one behind the last."""
+    start = 0
+    for at in range(1, len(numbers) + 1):
+        if at == len(numbers) or numbers[at] != numbers[at - 1] + 1:
+            yield numbers[start], numbers[at - 1] + 1
+            start = at
+
+
+def _statements(view: View, lines: list[str], start: int, stop: int) -> list[str] | None:
+    """Return the statements of whole lines, indented; None if they are not complete."""
+    source = view.source
+    first = bisect_left(source.starts, source.offset(start + 1, 1))
+    behind = bisect_left(source.starts, source.offset(stop + 1, 1))
+    tokens = [token.upper() for token in source.tokens]
+    if first == behind or not _begins_statement(view, first) or tokens[behind - 1] == ":":
+        return None
+    head = _open_routine(tokens, first)
+    text = _formatted(lines[start:stop], "PROC p()") if head >= 0 else None
+    if text is None:
+        return None
+    # An error above the routine does not change the depth: it is counted from its head.
+    indent = INDENT * (_depth_before(view, first, head) + 1)
+    own = len(INDENT * 2)
+    if any(line[:own].strip() for line in text):
+        return None  # a handler, whose depth is not that of statements
+    return [indent + line[own:] if line.strip() else line for line in text]
+
+
+def _open_routine(tokens: list[str], token: int) -> int:
+    """Return the token that begins the routine around a token (upper case), or -1."""
+    for at in range(token - 1, -1, -1):
+        if tokens[at] in _ROUTINES:
+            return at
+        if tokens[at] in _ROUTINE_ENDS:
+            return -1
+    return -1
+
+
+def _formatted(lines: list[str], head: str) -> list[str] | None:
+    """Return lines in the style of `fmt`, as they are in a module; None if they do not parse."""
+    end = next((found for line in lines if (found := line[len(line.rstrip("\r\n")) :])), "\n")
+    tail = "ENDPROC" if head else ""
+    before, behind = ["MODULE m", *filter(None, [head])], [*filter(None, [tail]), "ENDMODULE"]
+    body = "".join(lines)
+    body += "" if body.endswith(("\r", "\n")) else end
+    try:
+        text = format_source(end.join([*before, ""]) + body + end.join([*behind, ""]))
+    except DiagnosticError:
+        return None
+    return _with_ends(text)[len(before) : -len(behind)]
 
 
 def format_line(view: View, line: int) -> list[TextEdit]:
@@ -90,9 +196,9 @@ def _begins_statement(view: View, token: int) -> bool:
     return before in _HANDLERS or Kinds()[view.source.tokens[token]] in KEYWORDS
 
 
-def _depth_before(view: View, token: int) -> int:
-    """Return the depth of the statement that begins with a token."""
-    tokens = [text.upper() for text in view.source.tokens[: token + 1]]
+def _depth_before(view: View, token: int, start: int = 0) -> int:
+    """Return the depth of the statement that begins with a token, from token `start` on."""
+    tokens = [text.upper() for text in view.source.tokens[start : token + 1]]
     depth = 0
     for at, word in enumerate(tokens[:-1]):
         if word in _OPENERS or (word == "THEN" and _opens_if(tokens, at)):

@@ -6,8 +6,8 @@ lines directly above it or behind it.
 
 import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Final
 
 from rapidgen.diagnostics import Span
@@ -25,10 +25,12 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.binding.constants import NotConstant, evaluate
 from rapidgen.rapid.binding.lookup import scope_at
+from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.builtins.signatures import Signature, Value
-from rapidgen.rapid.syntax.nodes import Parameter, RoutineDeclaration
+from rapidgen.rapid.syntax.nodes import Name, Parameter, ProcedureCall, RoutineDeclaration
 from rapidgen.rapid.syntax.source import Source
+from rapidgen.rapid.syntax.walk import walk
 
 _LONGEST: Final = 400
 """Characters of a declaration or a value."""
@@ -237,6 +239,9 @@ def _value(view: View, symbol: DataSymbol, token: int) -> list[str]:
         return []
     intro = "Initial: " if symbol.kind != "CONST" else ""
     lines = _target_lines(of, value)
+    if lines and of in ("robtarget", "jointtarget"):
+        reach = _reachability(view, of, value, token)
+        lines += [reach] if reach else []
     if lines:
         return [intro + "  \n".join(lines)]
     is_plain = symbol.module is not None and len(headline(symbol)) < _LONGEST
@@ -260,6 +265,60 @@ def initial_value(view: View, symbol: DataSymbol, token: int = -1) -> Value | No
         return evaluate(symbol.initial, inside, expected)
     except NotConstant:
         return None
+
+
+def _reachability(view: View, of: str, value: Value, token: int) -> str:
+    """Return whether the program's robot reaches a target; empty if that is unknown."""
+    # Kinematics and models are loaded for the first target only, not when the server starts.
+    from rapidgen.editor.reachability import Frames, reachability, robot_of
+
+    robot = robot_of(view.program.program)
+    if robot is None:
+        return ""
+    moved = Frames()
+    for of_data, name, data in _frames_of_move(view, token):
+        if data is None:
+            return ""
+        if of_data == "tooldata" and name.lower() != "tool0":
+            moved = replace(moved, tool=_escaped(name), tool_value=data)
+        elif of_data == "wobjdata" and name.lower() != "wobj0":
+            moved = replace(moved, work_object=_escaped(name), work_object_value=data)
+    return reachability(robot, of, value, moved)
+
+
+def _frames_of_move(view: View, token: int) -> Iterator[tuple[str, str, Value | None]]:
+    """Yield type, name and value of the tool and work object of the call around a token."""
+    if token < 0:
+        return
+    scope = scope_at(view.module, token)
+    for node in walk(view.module.tree):
+        if isinstance(node, ProcedureCall) and node.first <= token <= node.last:
+            routine = called(scope.find(node.name))
+            if isinstance(routine, RoutineSymbol):
+                yield from _frames_of_call(view, node, routine, token)
+
+
+def _frames_of_call(
+    view: View, call: ProcedureCall, routine: RoutineSymbol, token: int
+) -> Iterator[tuple[str, str, Value | None]]:
+    parameters = list(routine.parameters or ())
+    required = iter([p for p in parameters if not p.optional])
+    by_name = {p.name.lower(): p for p in parameters}
+    for argument in call.arguments:
+        if argument.kind == "required" and argument.name is None:
+            parameter = next(required, None)
+        else:
+            parameter = by_name.get((argument.name or "").lower())
+        if parameter is None or parameter.type.lower() not in ("tooldata", "wobjdata"):
+            continue
+        of, value = parameter.type.lower(), argument.value
+        symbol = None
+        if isinstance(value, Name):
+            symbol = scope_at(view.module, token).find(value.name)
+        if isinstance(value, Name) and isinstance(symbol, DataSymbol):
+            yield of, value.name, initial_value(view, symbol, token)
+        elif argument.kind != "switch":
+            yield of, "", None
 
 
 def value_text(value: Value) -> str:

@@ -85,6 +85,8 @@ class Program:
     notes: tuple[Diagnostic, ...] = ()
     ignored: frozenset[str] = frozenset()
     """Codes that the project file does not want to be reported."""
+    robot: str = ""
+    """Robot that the project file names."""
 
     @property
     def paths(self) -> frozenset[str]:
@@ -185,6 +187,7 @@ def _of_project(project: Project, settings: Settings) -> Program | None:
         bool(project.cfg),
         payloads,
         ignored=project.ignore,
+        robot=project.robot,
     )
 
 

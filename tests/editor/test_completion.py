@@ -2,6 +2,7 @@
 
 import pytest
 
+from rapidgen.diagnostics import DiagnosticError
 from rapidgen.editor import completion, formatting, tokens
 from rapidgen.editor.documents import Document
 from rapidgen.editor.workspace import Workspace
@@ -152,3 +153,54 @@ def test_hints_name_arguments_and_values():
     view, line, _ = at('work count, "x";$ MoveL p10, v500, z10, tool0; work amount, title;')
     hints = [hint.text for hint in tokens.inlay_hints(view, (line, line))]
     assert hints == ["amount:=", "title:=", "500 mm/s", "10 mm"]
+
+
+BROKEN = """MODULE b
+PROC good()
+count:=1;
+if ready then
+count:=2;
+endif
+ENDPROC
+PROC bad()
+count:=3;
+IF ready THEN
+count:=4;
+waittime 1;
+count:=(;
+ENDIF
+ENDPROC
+PROC headless(
+VAR num x;
+ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.mark.parametrize(
+    ("lines", "changes"),
+    [
+        ((4, 4), {4: "        IF ready THEN"}),
+        ((9, 9), {9: "        count := 3;"}),
+        ((11, 12), {11: "            count := 4;", 12: "            waittime 1;"}),
+        ((6, 9), {6: "        ENDIF", 7: "    ENDPROC"}),
+        ((12, 13), None),
+        ((16, 16), None),
+        ((17, 17), {17: "        VAR num x;"}),
+    ],
+)
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_a_range_beside_a_syntax_error_is_formatted(lines, changes, end):
+    workspace = Workspace()
+    workspace.open(Document("/nowhere/b.mod", BROKEN.replace("\n", end)))
+    (view,) = workspace.views("/nowhere/b.mod")
+    if changes is None:
+        with pytest.raises(DiagnosticError):
+            formatting.format_document(view, lines)
+        return
+    edits = formatting.format_document(view, lines)
+    written = {}
+    for edit in edits:
+        for number, line in enumerate(edit.text.split(end)[:-1], edit.span.line):
+            written[number] = line
+    assert {n: line for n, line in written.items() if lines[0] <= n <= lines[1]} == changes

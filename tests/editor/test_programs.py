@@ -1,5 +1,7 @@
 """Which modules belong together, and what tasks share: backups, folders, projects, lone files."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -248,3 +250,97 @@ def test_hover_shows_comments_and_values(tmp_path):
     text = hover.hover(view, 4, 17).text
     assert "rotation z 0.00\u00b0, y 90.00\u00b0, x 0.00\u00b0" in text
     assert "mass 2 kg" in text
+
+
+TARGETS = """MODULE Targets
+    CONST robtarget near := [[374,0,630],[0.707107,0,0.707107,0],[0,0,0,0],[{none}]];
+    CONST robtarget far := [[3740,0,630],[0.707107,0,0.707107,0],[0,0,0,0],[{none}]];
+    CONST robtarget turned := [[374,0,630],[0.707107,0,0.707107,0],[0,0,0,4],[{none}]];
+    CONST jointtarget out := [[0,0,500,0,0,0],[{none}]];
+    PERS tooldata long := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+    PERS tooldata fixed := [FALSE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+    PERS wobjdata away := [FALSE,TRUE,"",[[5000,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+    PROC moves(PERS tooldata given)
+        MoveL near, v100, fine, tool0;
+        MoveL near, v100, fine, long \\WObj:=wobj0;
+        MoveL near, v100, fine, tool0 \\WObj:=away;
+        MoveL near, v100, fine, fixed;
+        MoveL near, v100, fine, given;
+    ENDPROC
+ENDMODULE
+""".replace("{none}", "9E9,9E9,9E9,9E9,9E9,9E9")
+MOC = """MOC:CFG_1.0:6:0::
+#
+ROBOT:
+
+      -name "ROB_1" -use_robot_type "{type}" -base_frame_pos_x {x}
+"""
+
+
+def reach_at(opened, path, marker):
+    (view,) = opened.views(str(path))
+    text = hover.hover(view, *place(path, marker)).text
+    return [line.strip() for line in text.split("\n") if "reach" in line]
+
+
+def with_moc(backup, kind, x=0.0):
+    (backup / "SYSPAR/MOC.cfg").write_text(MOC.format(type=kind, x=x))
+    path = backup / "RAPID/TASK1/PROGMOD/Targets.mod"
+    path.write_text(TARGETS)
+    return workspace(path), path
+
+
+def test_hover_of_a_target_tells_if_the_robot_reaches_it(backup):
+    """An IRB 120 at zero has its flange at [374, 0, 630] mm, turned by 90 degrees about y."""
+    opened, path = with_moc(backup, "ROB1_120_0.58_3")
+    zero = "joints 0.00°, 0.00°, 0.00°, 0.00°, 0.00°, 0.00°"
+    (line,) = reach_at(opened, path, "near :=")
+    assert line == f"reachable with tool0 and wobj0: {zero}"
+    assert reach_at(opened, path, "far :=") == ["out of reach with tool0 and wobj0"]
+    (line,) = reach_at(opened, path, "turned :=")
+    assert line.startswith("out of reach with tool0 and wobj0 in its configuration; with [")
+    (line,) = reach_at(opened, path, "out :=")
+    assert line.startswith("out of reach: rax_3 (")
+
+
+def test_hover_of_a_target_uses_tool_and_work_object_of_the_move(backup):
+    opened, path = with_moc(backup, "ROB1_120_0.58_3")
+    (line,) = reach_at(opened, path, "near, v100, fine, tool0;")
+    assert line.startswith("reachable with tool0 and wobj0: joints 0.00°, 0.00°")
+    (line,) = reach_at(opened, path, "near, v100, fine, long")
+    assert line.startswith("reachable with long and wobj0: joints 0.00°, -")
+    assert reach_at(opened, path, "near, v100, fine, tool0 \\") == [
+        "out of reach with tool0 and away"
+    ]
+    # The robot holds neither, and a parameter has no value.
+    assert reach_at(opened, path, "near, v100, fine, fixed") == []
+    assert reach_at(opened, path, "near, v100, fine, given") == []
+
+
+def test_hover_of_a_target_uses_the_base_frame(backup):
+    opened, path = with_moc(backup, "ROB1_120_0.58_3", x=3.366)
+    assert reach_at(opened, path, "near :=") == ["out of reach with tool0 and wobj0"]
+    (line,) = reach_at(opened, path, "far :=")
+    assert line.startswith("reachable with tool0 and wobj0: joints 0.00°")
+
+
+def test_hover_of_a_target_of_an_unknown_robot_has_no_reachability(backup):
+    opened, path = with_moc(backup, "ROB1_99999_9.99_9")
+    assert reach_at(opened, path, "near :=") == []
+
+
+def test_hover_of_a_target_uses_the_robot_of_the_project(tmp_path):
+    (tmp_path / "rapidgen.toml").write_text('robot = "irb120"\n[tasks]\nT_ROB1 = ["t.mod"]\n')
+    path = tmp_path / "t.mod"
+    path.write_text(TARGETS)
+    (line,) = reach_at(workspace(path), path, "near :=")
+    assert line.startswith("reachable with tool0 and wobj0: joints 0.00°")
+
+
+def test_the_editor_loads_kinematics_for_the_first_target_only():
+    code = (
+        "import sys, rapidgen.lsp.methods; "
+        "print([n for n in sys.modules if n.startswith('rapidgen.axes.') or n == 'numpy'])"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ran.stdout.strip() == "[]"
