@@ -18,12 +18,15 @@ from dataclasses import dataclass
 class Simulator:
     """A running simulator.
 
-    `addresses` are HOST:MOTION,STATE[,CONTROL] by group.
+    `addresses` are HOST:MOTION,STATE[,CONTROL] by group; `web_services` is the address of its Robot
+    Web Services and `fingerprint` that of their certificate, both empty without.
     """
 
     name: str
     pid: int
     addresses: Mapping[str, str]
+    web_services: str = ""
+    fingerprint: str = ""
 
 
 def folder() -> str:
@@ -52,6 +55,8 @@ def published(simulator: Simulator) -> Iterator[bool]:
         "name": simulator.name,
         "pid": simulator.pid,
         "addresses": dict(simulator.addresses),
+        "web_services": simulator.web_services,
+        "fingerprint": simulator.fingerprint,
     }
     fresh = os.path.join(own, f"new-{simulator.pid}")
     with open(fresh, "w", encoding="utf-8") as file:
@@ -101,6 +106,8 @@ def _read(text: dict[str, object]) -> Simulator:
         str(text["name"]),
         int(str(text["pid"])),
         {str(group): str(address) for group, address in addresses.items()},
+        str(text.get("web_services", "")),
+        str(text.get("fingerprint", "")),
     )
 
 

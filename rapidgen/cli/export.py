@@ -416,7 +416,10 @@ def execute(
     module: Annotated[Path, typer.Argument(help="Module to execute.", metavar="NAME.mod")],
     to: Annotated[
         str,
-        typer.Option(help="Controller: HOST[:PORT], rws://HOST or rwss://HOST.", metavar="TARGET"),
+        typer.Option(
+            help="Controller: HOST[:PORT], rws://HOST or rwss://HOST; sim: the simulator here.",
+            metavar="TARGET",
+        ),
     ],
     task: Annotated[
         str, typer.Option(help="Motion task, if there are several.", metavar="NAME")
@@ -449,13 +452,20 @@ def execute(
     from rapidgen.client.address import Address
     from rapidgen.client.permission import need_confirmation
     from rapidgen.client.rws.address import parse_address
+    from rapidgen.client.sim_address import SIMULATOR, find_web_services
     from rapidgen.deploy.online.module_execution import execute_module, make_execution_plan
 
     data = read_foreign(module, 256 * _LARGEST)
     text = data.decode("latin-1")
-    at = parse_address(to)
-    asks = need_confirmation(Address(at.host, 0, 0), yes=yes, real_robot=move_real_robot)
-    with controller(to, user, secrets, fingerprint) as services:
+    where, asks = to, False
+    if to == SIMULATOR:
+        simulator = find_web_services()
+        where = simulator.web_services
+        fingerprint = fingerprint or simulator.fingerprint
+    else:
+        at = parse_address(to)
+        asks = need_confirmation(Address(at.host, 0, 0), yes=yes, real_robot=move_real_robot)
+    with controller(where, user, secrets, fingerprint) as services:
         plan = make_execution_plan(
             services,
             text,
@@ -465,7 +475,8 @@ def execute(
             replace_driver=replace_driver,
         )
         typer.echo(f"{services.where}: mode {plan.mode}, state {plan.state}", err=True)
-        typer.echo(f"{plan.task}: {plan.module}/{plan.routine} at {speed} % of the speed", err=True)
+        ratio = speed if plan.mode == "AUTO" else plan.speed
+        typer.echo(f"{plan.task}: {plan.module}/{plan.routine} at {ratio} % of the speed", err=True)
         for label, names in (
             ("stopped", plan.running),
             ("unloaded meanwhile", plan.displaced),

@@ -239,7 +239,10 @@ def _serve(
         if not target.driver:
             for place in controller.where():
                 typer.echo(place, err=True)
-        own = Simulator(target.name, os.getpid(), addresses)
+        # For clients on this computer, as in `_addresses`.
+        services = str(servers.get("rws", "")).replace("//0.0.0.0:", "//127.0.0.1:")
+        fingerprint = str(servers.get("fingerprint", ""))
+        own = Simulator(target.name, os.getpid(), addresses, services, fingerprint)
         with published(own):
             typer.echo(f"ready {json.dumps(result)}")
             runner.run(lambda: finished)

@@ -41,6 +41,23 @@ def find_simulator(name: str = "", group: str = "") -> Address:
     return parse_address(addresses[group])
 
 
+def find_web_services() -> Simulator:
+    """Return the only running simulator that serves Robot Web Services.
+
+    Raises InvalidTarget RG642.
+    """
+    result, _ = running()
+    own = [one for one in result if one.web_services]
+    if len(own) == 1:
+        return own[0]
+    if own or not result:
+        raise _unclear("", own, result)
+    displayed = tuple(f"{one.name} (process {one.pid})" for one in result)
+    message = "no simulator of yours serves Robot Web Services"
+    help = "add --rws 1 (RobotWare 6) or --rws 2 (RobotWare 7) to `rapidgen sim`"
+    raise InvalidTarget(fault("RG642", message, help, *displayed), exit_code=1)
+
+
 def _unclear(name: str, own: list[Simulator], result: list[Simulator]) -> InvalidTarget:
     displayed = tuple(f"{one.name} (process {one.pid}): {_places(one)}" for one in own or result)
     if own:

@@ -113,8 +113,8 @@ def test_running_simulator_is_suggested_if_no_driver_answers(capsys):
     assert "a simulator of" not in capsys.readouterr().err
 
 
-def test_the_verbs_find_it(start, capsys):
-    sim = start("irb120", "--ports", "auto")
+def test_the_verbs_find_it(start, capsys, tmp_path, monkeypatch):
+    sim = start("irb120", "--ports", "auto", "--rws", "1")
     assert sim.ready["address"]["rob1"] == "127.0.0.1:{motion},{state},{control}".format(
         **sim.ready["ports"]["rob1"]
     )
@@ -123,6 +123,12 @@ def test_the_verbs_find_it(start, capsys):
     capsys.readouterr()
     assert main(["stop", "sim"]) == 0
     assert "stopped at joint_1" in capsys.readouterr().out
+    (own,) = running()[0]
+    assert own.web_services == sim.ready["rws"]
+    (tmp_path / "part.mod").write_text("MODULE part\nPROC main()\nENDPROC\nENDMODULE\n")
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
+    assert main(["execute", str(tmp_path / "part.mod"), "--to", "sim"]) == 1
+    assert "the driver is active at" in capsys.readouterr().err
     sim.end()
     assert main(["stop", "irb120", "--to", "sim"]) == 1
     assert "error[RG642]" in capsys.readouterr().err

@@ -38,6 +38,8 @@ _ENABLING = 60.0
 """s for which the command waits for the enabling device in manual mode."""
 _STARTED = 10151
 """Event: program started."""
+_HALTED = 10125
+"""Event: program stopped from outside, by a person, an input or the enabling device."""
 _EVENTS = 50
 """Events of one look."""
 
@@ -245,7 +247,9 @@ def execute_module(
         _motors_on(services, plan, say)
         undo.callback(_stop, services)
         _start(services, last)
-        say(f"started {plan.module}/{plan.routine} at {percent if plan.mode == 'AUTO' else 100} %")
+        # In manual mode the speed ratio is the operator's.
+        ratio = percent if plan.mode == "AUTO" else plan.speed
+        say(f"started {plan.module}/{plan.routine} at {ratio} %")
         return _follow(services, plan, last, say)
 
 
@@ -302,8 +306,10 @@ def _restore_speed(services: "Controller", plan: ExecutionPlan, say: Callable[[s
 
 
 def _stop(services: "Controller") -> None:
-    if services.execution().running:
-        services.stop()
+    # The start has started background tasks too; none ran before, and modules load only into a
+    # controller where all stand.
+    if any(task.execution == "started" for task in services.tasks()):
+        services.stop(everything=True)
 
 
 def _motors_on(services: "Controller", plan: ExecutionPlan, say: Callable[[str], None]) -> None:
@@ -367,4 +373,9 @@ def _follow(
             ],
             exit_code=1,
         )
+    begun = max((event.number for event in events if event.code == _STARTED), default=0)
+    if any(event.code == _HALTED and event.number > begun for event in events):
+        message = f"{plan.module}/{plan.routine} was stopped before its end"
+        help = "it was a person, an input or the enabling device: look at the robot, then try again"
+        raise refusal("RG758", None, message, help, exit_code=1)
     return tuple(events)

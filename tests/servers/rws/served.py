@@ -40,11 +40,14 @@ STARTED = {
 }  # fmt: skip
 
 
-def make_runner(folder, generation=Generation.ONE, program=MAIN, **options) -> ControllerRunner:
+def make_runner(
+    folder, generation=Generation.ONE, program=MAIN, tasks=(), **options
+) -> ControllerRunner:
     """A controller with T_ROB1 and a main, and no driver: motors on, the program stands."""
     path = folder / "MainModule.mod"
     path.write_text(program)
     system = replace(read_files([path]), robotware=RELEASES[generation], signals=SIGNALS)
+    system = replace(system, tasks=(*system.tasks, *tasks))
     chosen = {"robots": load_config("irb120").groups, "autostart": False, **options}
     return ControllerRunner(system, **chosen)
 
