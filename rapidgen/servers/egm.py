@@ -95,7 +95,10 @@ class ProcessLoop:
 
     def cycle(self, inputs: Inputs, now: float) -> Sequence[Result]:
         """Send the state of the robot; return what has happened since the last call."""
-        self._post(inputs)
+        # Only the newest inputs count. A process that starts, or that is behind, reads none: a pipe
+        # that is full would let the whole controller wait.
+        if select.select([], [self._pipe], [], 0)[1]:
+            self._post(inputs)
         results = []
         try:
             while self._pipe.poll():

@@ -1,5 +1,7 @@
 """Datagrams of externally guided motion in real time, with a foreign client over UDP."""
 
+import os
+import signal
 import socket
 import threading
 
@@ -7,7 +9,8 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
-from rapidgen.servers.egm import UdpLink, serve_egm
+from rapidgen.motion.egm.exchange import Inputs
+from rapidgen.servers.egm import ProcessLoop, UdpLink, serve_egm
 
 abb = pytest.importorskip("abb_robot_client.egm")
 
@@ -123,3 +126,23 @@ def test_datagrams_of_other_addresses_are_dropped():
         received = link.receive()
     assert received == b"right"
     link.close()
+
+
+def test_a_process_that_reads_nothing_does_not_delay_the_controller():
+    """Its start takes hundreds of cycles; a full pipe must not stop the controller meanwhile."""
+    loop = ProcessLoop(None, ("127.0.0.1", free_port()), 0.0)
+    os.kill(loop._process.pid, signal.SIGSTOP)
+    inputs = Inputs((0.0,) * 6, (0.0,) * 6, motors_on=True, program_runs=True)
+
+    def cycles():
+        for _ in range(3000):
+            loop.cycle(inputs, 0.0)
+
+    thread = threading.Thread(target=cycles, daemon=True)
+    thread.start()
+    thread.join(30)
+    blocked = thread.is_alive()
+    loop._process.kill()
+    thread.join()
+    loop.close()
+    assert not blocked
