@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterable, Sequence
 from contextlib import asynccontextmanager
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy.typing as npt
@@ -318,7 +319,8 @@ class AsyncRobot(RobotApi[AsyncFlowRunner]):
             timeout=timeout,
         ) as session:
             beat = session.write if config.robotware >= flows.guidance.DATA_SINCE else None
-            await self._runner.run(flows.guidance.start(self._core, beat))
+            number = await self._runner.run(flows.guidance.start(self._core, beat))
+            session.explain = partial(flows.guidance.reason, self._core, number)
             try:
                 await session.wait_until_guided()
                 yield session

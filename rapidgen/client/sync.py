@@ -4,6 +4,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy.typing as npt
@@ -357,7 +358,8 @@ class Robot(RobotApi[SyncFlowRunner]):
             timeout=timeout,
         ) as session:
             beat = session.write if config.robotware >= flows.guidance.DATA_SINCE else None
-            self._runner.run(flows.guidance.start(self._core, beat))
+            number = self._runner.run(flows.guidance.start(self._core, beat))
+            session.explain = partial(flows.guidance.reason, self._core, number)
             try:
                 session.wait_until_guided()
                 yield session

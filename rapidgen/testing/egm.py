@@ -77,6 +77,9 @@ class _LockStepLoop:
         """Execute an order."""
         self._exchange.execute(order)
 
+    def wait_started(self) -> None:
+        """Answer from the beginning."""
+
     def close(self) -> None:
         """Answer no longer."""
         self._open = False

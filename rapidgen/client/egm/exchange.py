@@ -30,6 +30,8 @@ from rapidgen.wire.egm.values import (
 Guidance: TypeAlias = Literal["joints", "pose"]
 CYCLE = 0.004
 """s between two frames, nominally."""
+SILENCE = 0.5
+"""s without a frame after which guidance has ended: a controller does not announce that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +77,7 @@ class EgmState:
     reference: Joints
     """As the answer had them; guidance of the TCP repeats the measured ones."""
     guided: bool
-    """True while the controller executes answers."""
+    """True while the controller executes answers; False again at the end, see `ended`."""
     motors_on: bool
     program_runs: bool
     converged: bool
@@ -102,6 +104,8 @@ class EgmState:
     """Earliest RobotWare that sends the fields of the frame."""
     answer_time: float = 0.0
     """s from the arrival of the frame to the answer, in this computer."""
+    ended: str = ""
+    """Why guidance has ended; empty: it has not begun, or lasts."""
 
 
 @dataclass(slots=True)
@@ -120,6 +124,8 @@ class PartnerExchange:
     target: Target | None = None
     data: RapidData | None = None
     missed: int = 0
+    ended: str = ""
+    """Why guidance has ended; empty: it has not begun, or lasts."""
     _path: Path | None = None
     _path_time: float = 0.0
     _last: int = -1
@@ -153,12 +159,26 @@ class PartnerExchange:
             self._begin(joints)
         else:
             self.missed += message.sequence - self._last - 1
+        if guided:
+            self.ended = ""
+        elif self.is_guided:
+            self.ended = "the controller has ended the run"
         self._last, cycle = message.sequence, self._cycle(message)
         age = None if self.target is None else now - self.target.at
         if guided:
             self._advance(message, joints, cycle, age)
         self._message, self._joints, self._now, self._age = message, joints, now, age
         return self._encode(joints)
+
+    @property
+    def is_guided(self) -> bool:
+        """True while the controller executes answers, as far as the frames show it."""
+        message = self._message
+        return message is not None and message.state == "running" and not self.ended
+
+    def miss_frames(self) -> None:
+        """End guidance: no frame has come for `SILENCE`. A later one of the same run resumes it."""
+        self.ended = f"no frame for {SILENCE:g} s"
 
     def state(self, answer_time: float = 0.0) -> EgmState:
         """Return the state after the last answer; apart from it, so that answers are early."""
@@ -169,7 +189,7 @@ class PartnerExchange:
             joints=self._joints,
             planned=self._urdf(message.planned.joints, message.planned.external),
             reference=self._joints if reference is None else reference.positions,
-            guided=message.state == "running",
+            guided=self.is_guided,
             motors_on=message.motors_on,
             program_runs=message.program_runs,
             converged=message.converged,
@@ -185,6 +205,7 @@ class PartnerExchange:
             data=message.data,
             release=_release(message),
             answer_time=answer_time,
+            ended=self.ended,
         )
 
     def _begin(self, joints: Joints) -> None:

@@ -25,6 +25,9 @@ class Loop(Protocol):
     def post(self, order: "Order") -> None:
         """Send an order. OSError: the loop has ended."""
 
+    def wait_started(self) -> None:
+        """Wait until it can answer a frame at once, or has ended."""
+
     def close(self) -> None:
         """End it, and wait for its end."""
 
@@ -71,6 +74,7 @@ class LoopProcess:
             )
         self._pipe = Connection(ours.detach())
         self._pipe.send(exchange)
+        self._started = threading.Event()
         self._thread = threading.Thread(
             target=self._read, args=(receive, receive_end), name="EGM states", daemon=True
         )
@@ -78,14 +82,25 @@ class LoopProcess:
 
     def _read(self, receive: Callable[["EgmState"], None], receive_end: Callable[[], None]) -> None:
         try:
+            # The first message says that the loop has begun.
+            self._pipe.recv()
+            self._started.set()
             while True:
                 receive(self._pipe.recv())
         except (EOFError, OSError):
+            self._started.set()
             receive_end()
 
     def post(self, order: "Order") -> None:
         """Send an order. OSError: the process has ended."""
         self._pipe.send(order)
+
+    def wait_started(self) -> None:
+        """Wait until the process can answer a frame at once, or has ended.
+
+        Its start takes about as long as the time-out of EGMSetupUC.
+        """
+        self._started.wait()
 
     def close(self) -> None:
         """End the process; a second call does nothing."""

@@ -13,15 +13,17 @@ import sys
 import time
 from multiprocessing.connection import Connection
 
-from rapidgen.client.egm.exchange import PartnerExchange
+from rapidgen.client.egm.exchange import SILENCE, PartnerExchange
 from rapidgen.wire.egm.values import EgmMessageError
 
 
 def serve(pipe: Connection, link: socket.socket, exchange: PartnerExchange) -> None:
     """Answer frames until the caller closes the pipe."""
     link.setblocking(False)
+    due = 0.0
     while True:
-        ready = select.select([link.fileno(), pipe.fileno()], [], [])[0]
+        wait = max(0.0, due - time.monotonic()) if exchange.is_guided else None
+        ready = select.select([link.fileno(), pipe.fileno()], [], [], wait)[0]
         # Orders first: an answer contains the newest target.
         while pipe.poll():
             order = pipe.recv()
@@ -29,11 +31,16 @@ def serve(pipe: Connection, link: socket.socket, exchange: PartnerExchange) -> N
                 return
             exchange.execute(order)
         if link.fileno() not in ready:
+            # After a pause of this process there are frames: they come first.
+            if exchange.is_guided and time.monotonic() >= due:
+                exchange.miss_frames()
+                pipe.send(exchange.state())
             continue
         frame, source = _newest(link)
         if frame is None:
             continue
         arrived = time.monotonic()
+        due = arrived + SILENCE
         try:
             answer = exchange.answer(frame, arrived)
         except EgmMessageError:
@@ -68,6 +75,7 @@ def main() -> None:
     gc.disable()
     # The caller may end without a word.
     with link, pipe, contextlib.suppress(EOFError, BrokenPipeError, ConnectionResetError):
+        pipe.send(None)
         serve(pipe, link, exchange)
 
 

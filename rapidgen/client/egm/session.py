@@ -9,6 +9,7 @@ import contextlib
 import threading
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from math import isfinite
 from typing import TYPE_CHECKING
@@ -136,6 +137,8 @@ class _Session:
         self._changed = threading.Condition()
         self._listeners: list[Callable[[], object]] = []
         self._closed = False
+        self.explain: Callable[[], str] = str
+        """Return why guidance has ended, empty if unknown; `robot.egm` asks the driver."""
         self._loop = connect(self._receive, self._receive_end)
 
     @property
@@ -144,6 +147,8 @@ class _Session:
         return self._loop.port
 
     def _receive(self, state: EgmState) -> None:
+        if state.ended:
+            state = replace(state, ended=self.explain() or state.ended)
         with self._changed:
             self._state = state
             self._meter.add(state)
@@ -154,6 +159,9 @@ class _Session:
     def _receive_end(self) -> None:
         with self._changed:
             self._closed = True
+            if (state := self._state) is not None:
+                ended = state.ended or "the session is closed"
+                self._state = replace(state, guided=False, ended=ended)
             self._notify()
 
     def _notify(self) -> None:
@@ -281,7 +289,8 @@ class _Session:
     def _guided(self) -> EgmState:
         state = self._state
         if self._closed or state is None or not state.guided:
-            raise _rejected("the controller does not guide the robot")
+            reason = f": {state.ended}" if state is not None and state.ended else ""
+            raise _rejected(f"the controller does not guide the robot{reason}")
         if state.stopped:
             raise _rejected("the robot was stopped; a new EGMRun is needed")
         return state
@@ -350,6 +359,8 @@ class EgmSession(_Session):
             return state
 
     def __enter__(self) -> Self:
+        # A controller that sends frames before allows about a second until the first answer.
+        self._loop.wait_started()
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -418,6 +429,8 @@ class AsyncEgmSession(_Session):
                 self._listeners.remove(listener)
 
     async def __aenter__(self) -> Self:
+        # A controller that sends frames before allows about a second until the first answer.
+        await asyncio.to_thread(self._loop.wait_started)
         return self
 
     async def __aexit__(self, *_: object) -> None:

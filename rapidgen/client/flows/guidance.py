@@ -9,6 +9,7 @@ lost network all end in a stop.
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from rapidgen.client.core.motion import reason_text
 from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import NotSupported, RequestRefused, RobotError
 from rapidgen.client.flows.control import ask
@@ -72,6 +73,15 @@ def start(core: Core, beat: Beat | None) -> Flow[int]:
         core.end_guidance()
         raise
     return reply.trajectory
+
+
+def reason(core: Core, session: int) -> str:
+    """Return why the driver has ended a session; empty: it has not, or did not report it yet."""
+    progress = core.state_port.progress
+    if progress is None or not _has_ended(core, session):
+        return ""
+    state = TrajectoryState(progress.state).name
+    return f"the driver reports {state} ({reason_text(progress.reason)})"
 
 
 def end(core: Core) -> Flow[None]:

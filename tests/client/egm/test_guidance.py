@@ -93,9 +93,11 @@ def test_a_session_lasts_as_long_as_its_block(guide, name):
 
 def test_a_stop_ends_the_session_and_the_block_goes_on(guide):
     async def use(robot, partner):
-        async with robot.egm():
+        async with robot.egm() as session:
             await asyncio.sleep(0.5)
+            assert session.explain() == ""
             await robot.stop()
+            assert session.explain() == "the driver reports STOPPED (stopped on request)"
         assert progress(robot).reason == Reason.STOPPED
 
     guide("seven", use)

@@ -251,6 +251,40 @@ class Frames:
         return decode_sensor(self.socket.recv(65_536))
 
 
+def test_the_end_of_the_frames_ends_guidance():
+    """A controller does not announce its end [manual 3HAC073318, 3.3]; later frames resume it."""
+    states = []
+    with egm.listen("irb120", port=0, timeout=60.0) as session:
+        session._listeners.append(lambda: states.append(session.state))
+        session.explain = lambda: "the driver says why"
+        controller = Frames(session.port)
+        controller.exchange()
+        session._wait(lambda state: state.ended, 60, "guidance goes on")
+        with pytest.raises(TargetRejected, match="does not guide the robot: the driver says why"):
+            session.send(START)
+        controller.exchange()
+        session._wait(lambda state: state.sequence == 1, 60, "it is not resumed")
+        controller.socket.close()
+    found = [(state.sequence, state.guided, state.ended) for state in states]
+    assert found[:3] == [(0, True, ""), (0, False, "the driver says why"), (1, True, "")]
+    # The end of the session is one, too.
+    assert not session.state.guided
+    assert session.state.ended
+
+
+def test_a_frame_without_guidance_ends_it():
+    group = load_config("irb120").groups[0]
+    exchange = PartnerExchange(JointMap.of(group), egm.Envelope.of(group), 0.1)
+    axes = AxisPositions((0.0, 0.0, 0.0, 0.0, 30.0, 0.0))
+    found = []
+    for number, state in enumerate(("stopped", "running", "stopped", "running")):
+        message = RobotMessage(number, 4 * number, axes, axes, True, state, True, False)
+        exchange.answer(encode_robot(message, (7, 0)), number * 0.004)
+        found.append((exchange.state().guided, exchange.state().ended))
+    ended = "the controller has ended the run"
+    assert found == [(False, ""), (True, ""), (False, ended), (True, "")]
+
+
 def test_asyncio():
     """The same calls, awaited, and while another task runs."""
 
