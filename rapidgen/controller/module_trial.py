@@ -3,13 +3,15 @@
 The module runs alone on a virtual controller with the robot that it was made for. Signals,
 routines and data of the real controller are inferred. Everything that the event log reports about
 the path (reach, limits, singularities, configurations, corners) becomes a finding at the line of
-the module, and at the line of the source if that is known.
+the module, and at the line of the source if that is known. With SingArea \\Wrist each move is
+reported whose planned orientation leaves the programmed one.
 """
 
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import degrees
 
 from rapidgen.config.model import GroupConfig
 from rapidgen.controller.boot_targets import INFER, BootOptions, boot_modules
@@ -19,12 +21,16 @@ from rapidgen.diagnostics import Diagnostic, Label, Severity, Span, error
 from rapidgen.export.writer import WrittenModule
 from rapidgen.machine.event_log import Event, EventType
 from rapidgen.machine.event_table import ERROR_CODES, RAPID_ERROR
+from rapidgen.motion.cartesian import CartesianPath
+from rapidgen.motion.motion import Motion
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
 _LONGEST = 1e6
 """Largest duration of a program, s."""
 _SHOWN = 20
 """Findings of one trial that are worth reading."""
+_SLIGHT = 0.01
+"""deg of orientation that are not worth reading."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +63,9 @@ def run_module(
     with VirtualController.boot(target, cycle="once", autostart=False) as controller:
         events: list[Event] = []
         controller.log.subscribe(events.append)
+        turned: dict[Span, float] = {}
+        for each in controller.motion.groups.values():
+            each.observers.append(lambda motion: _note_orientation(turned, motion))
         controller.start_program()
         since = controller.now
         ended = run_past_stops(controller, max_time=_LONGEST)
@@ -74,7 +83,36 @@ def run_module(
         errors.append(error("RG754", None, message, "give it an end", notes=where))
     guessed = target.guessed
     inferred = tuple(one.name for one in guessed.named) if guessed is not None else ()
-    return ModuleTrial(seconds, inferred, tuple(_warnings(places, events))), errors
+    warnings = (*_warnings(places, events), *_turned(places, turned))
+    return ModuleTrial(seconds, inferred, warnings), errors
+
+
+def _note_orientation(turned: dict[Span, float], motion: Motion) -> None:
+    """Store the orientation error (deg) of each move of a motion by its place in the module."""
+    for leg in motion.legs:
+        place = leg.move.place() if leg.move.place is not None else None
+        if place is not None and place.span not in turned and isinstance(leg.way, CartesianPath):
+            turned[place.span] = degrees(leg.way.orientation_error)
+
+
+def _turned(places: Sequence[tuple[int, Span]], turned: dict[Span, float]) -> list[Diagnostic]:
+    """Return the largest orientation errors of SingArea \\Wrist, as warnings at their places."""
+    listed = sorted(turned.items(), key=lambda item: -item[1])
+    result = []
+    for place, angle in listed[:_SHOWN]:
+        if angle > _SLIGHT:
+            source = _source(places, place)
+            result.append(
+                error(
+                    "RG759",
+                    source or place,
+                    f"SingArea \\Wrist: the tool turns up to {angle:.2f} deg away on this move",
+                    "without --allow-singularities the orientation is kept",
+                    related=(Label(place, "in the module"),) if source is not None else (),
+                    severity=Severity.WARNING,
+                )
+            )
+    return result
 
 
 def _warnings(places: Sequence[tuple[int, Span]], events: Sequence[Event]) -> list[Diagnostic]:

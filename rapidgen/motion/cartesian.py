@@ -285,6 +285,19 @@ class CartesianPath:
         """Whether a corner may be made from poses: the orientation is that of the shape."""
         return self._wrist is None
 
+    @property
+    def orientation_error(self) -> float:
+        """Largest angle between planned and programmed orientation, rad; only SingArea has one."""
+        if self._wrist is None:
+            return 0.0
+        return max(
+            frames.angle_between(
+                self.carrier.at(node).pose(self._kinematics.forward(node))[1],
+                self.shape.orientation(share),
+            )
+            for share, node in zip(self._shares, self._nodes, strict=True)
+        )
+
     def _linear(self, fraction: float) -> Posture:
         first, last = self._external
         return tuple([a + (b - a) * fraction for a, b in zip(first, last, strict=True)])

@@ -1,5 +1,7 @@
 """`rapidgen export`: whole files or none."""
 
+import re
+
 import pytest
 
 from rapidgen.cli.app import main
@@ -75,3 +77,22 @@ def test_output_is_a_module(folder, capsys):
     assert export(*FRAME, output="part.txt") == 2
     assert export(*FRAME, output="7.mod", source="part.xyz") == 2
     assert "unknown kind of file" in capsys.readouterr().err
+
+
+def test_orientation_error_of_wrist_interpolation_is_reported(folder, capsys):
+    # The first line keeps the orientation, the second turns it about an oblique axis.
+    (folder / "poses.csv").write_text(
+        "x,y,z,q1,q2,q3,q4\n350,-20,300,0,0,1,0\n350,20,300,0,0,1,0\n"
+        "400,20,350,0.3213938,0.5416752,0.7660444,-0.1298\n"
+    )
+    options = ["--units", "mm", "--speed", "100"]
+    assert export(*options, source="poses.csv") in (0, 2)
+    assert "RG759" not in capsys.readouterr().err
+    assert export(*options, "--allow-singularities", source="poses.csv") == 0
+    report = capsys.readouterr().err
+    places = re.findall(
+        r"turns up to ([0-9.]+) deg away on this move\n *--> poses.csv:(\d)", report
+    )
+    assert [line for _, line in places] == ["4", "3"]
+    # At the ends the orientation is the programmed one: the error is less than the whole turn.
+    assert 0 < float(places[1][0]) < float(places[0][0]) < 40
