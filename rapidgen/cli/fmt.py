@@ -5,8 +5,18 @@ from typing import Annotated
 
 import typer
 
+from rapidgen._compat import StrEnum
 from rapidgen.cli.project import project_folders
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, refusal
+
+
+class FileEncoding(StrEnum):
+    """Encodings of files that are not UTF-8."""
+
+    LATIN_1 = "latin-1"
+    CP1252 = "cp1252"
+    GBK = "gbk"
+
 
 _SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
 
@@ -22,6 +32,13 @@ def fmt(
         bool, typer.Option("--check", help="Do not write; exit with 1 if a file would change.")
     ] = False,
     diff: Annotated[bool, typer.Option("--diff", help="Do not write; show the changes.")] = False,
+    encoding: Annotated[
+        FileEncoding | None,
+        typer.Option(help="Encoding of files that are not UTF-8; default: Latin-1."),
+    ] = None,
+    to_utf_8: Annotated[
+        bool, typer.Option("--to-utf-8", help="Write UTF-8 without byte order mark.")
+    ] = False,
 ) -> int:
     """Format RAPID source files.
 
@@ -30,7 +47,6 @@ def fmt(
     Files with syntax errors are not changed. Without a path: the folders of rapidgen.toml.
     """
     from rapidgen._atomic_write import write_whole
-    from rapidgen.rapid import format_source
     from rapidgen.system.paths import read_limited
 
     wrong: list[Diagnostic] = []
@@ -39,7 +55,7 @@ def fmt(
     for path in _files_to_format(paths):
         before = read_limited(path)
         try:
-            after = format_source(before, path=str(path))
+            after, is_like = _formatted(path, before, encoding, to_utf_8=to_utf_8)
         except DiagnosticError as fault:
             if any(d.severity is Severity.ERROR for d in fault.diagnostics):
                 wrong += fault.diagnostics
@@ -56,7 +72,7 @@ def fmt(
                 f"{path} mixes line ends ({displayed}): all changed to {ends[0][0]}", err=True
             )
         if diff:
-            typer.echo(_difference(path, before, after), nl=False)
+            typer.echo(_difference(path, before, after, is_like), nl=False)
         elif check:
             typer.echo(f"would format {path}", err=True)
         else:
@@ -94,11 +110,47 @@ def _files_to_format(paths: list[Path]) -> list[Path]:
     return result
 
 
-def _difference(path: Path, before: bytes, after: bytes) -> str:
+def _formatted(
+    path: Path, before: bytes, encoding: FileEncoding | None, *, to_utf_8: bool
+) -> tuple[bytes, str]:
+    """Return a formatted file, and the encoding that it had.
+
+    Raises DiagnosticError for a text that cannot be formatted, or is in another encoding.
+    """
+    from rapidgen.rapid import format_source
+    from rapidgen.rapid.syntax.lexer import decode
+    from rapidgen.rapid.syntax.text import refuse
+
+    text, known = decode(before)
+    if known != "latin-1" or refuse(before, str(path)) is not None:
+        after = format_source(before, path=str(path))
+        return (decode(after)[0].encode() if to_utf_8 else after), known
+    if encoding is None and to_utf_8:
+        from rapidgen.editor.documents import probable_encoding
+
+        # A wrong encoding gives wrong letters without any error: it is not guessed.
+        help = f"name it, such as `--encoding {probable_encoding(before)}`"
+        raise refusal("RG339", Span(str(path), 1, 1), "the encoding of the file is unknown", help)
+    own = str(encoding or known)
+    try:
+        text = before.decode(own)
+    except UnicodeDecodeError as fault:
+        line = before.count(b"\n", 0, fault.start) + 1
+        raise refusal(
+            "RG339", Span(str(path), line, 1), f"the file is not {own}", "name another `--encoding`"
+        ) from fault
+    return format_source(text, path=str(path)).encode("utf-8" if to_utf_8 else own), own
+
+
+def _difference(path: Path, before: bytes, after: bytes, encoding: str) -> str:
     from difflib import unified_diff
 
     from rapidgen.rapid.syntax.lexer import decode
 
-    old = [line + "\n" for line in decode(before)[0].splitlines()]
-    new = [line + "\n" for line in decode(after)[0].splitlines()]
+    def text(data: bytes) -> str:
+        own, known = decode(data)
+        return data.decode(encoding) if known == "latin-1" else own
+
+    old = [line + "\n" for line in text(before).splitlines()]
+    new = [line + "\n" for line in text(after).splitlines()]
     return "".join(unified_diff(old, new, f"a/{path}", f"b/{path}"))

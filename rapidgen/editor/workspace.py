@@ -32,6 +32,9 @@ from rapidgen.editor.project import Program, Settings, discover, is_module
 from rapidgen.rapid import parse
 from rapidgen.rapid.binding import BoundModule, ModuleScope
 from rapidgen.rapid.checks import TaskCheck, tasks_of
+from rapidgen.rapid.checks.task import encoding_findings
+from rapidgen.rapid.dialect import Dialect
+from rapidgen.rapid.syntax.lexer import decode
 from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.source import Source
 from rapidgen.system.paths import read_limited
@@ -230,6 +233,13 @@ class Workspace:
         self._changed.clear()
         for document in list(self.documents.values()):
             self.open(document)
+
+    def saved(self, path: str) -> None:
+        """Note that the client has written an open document: its encoding may be another one."""
+        real = real_path(path)
+        for program in self.programs:
+            if real in program.words:
+                program.stale[real] = None
 
     def file_changed(self, path: str) -> None:
         """Note that another program has written a module that is not open."""
@@ -450,6 +460,7 @@ class Workspace:
         document = self.documents.get(real)
         if document is not None:
             notes += _wrong_encoding(document)
+            notes += _file_encoding(document, program.program.dialect)
         ignored = program.program.ignored
         program.findings[real] = [d for d in (*notes, *found) if d.code not in ignored]
 
@@ -479,6 +490,17 @@ def _wrong_encoding(document: Document) -> list[Diagnostic]:
             severity=Severity.WARNING,
         )
     ]
+
+
+def _file_encoding(document: Document, dialect: Dialect) -> list[Diagnostic]:
+    """Report the encoding of an open document's file: its text in the editor has none."""
+    if not dialect.is_known or not is_file(document.path):
+        return []
+    try:
+        data = read_limited(Path(document.path))
+    except DiagnosticError:
+        return []
+    return encoding_findings(document.path, decode(data)[1], dialect)
 
 
 def _too_large(path: str) -> Diagnostic:

@@ -30,8 +30,11 @@ class Client:
     capabilities: Members = field(default_factory=dict)
 
     def can(self, *path: str) -> bool:
-        """Return True if the client has a capability, named by its path."""
-        return bool(self.value(*path))
+        """Return True if the client has a capability, named by its path.
+
+        An object without members is one: all its members are optional.
+        """
+        return self.value(*path) not in (None, False)
 
     def value(self, *path: str) -> Json:
         """Return a value of the client's capabilities; None without it."""

@@ -143,6 +143,10 @@ def _did_change_watched_files(session: Session, params: Members) -> None:
         session.workspace.reload()
 
 
+def _did_save(session: Session, params: Members) -> None:
+    session.workspace.saved(path_of(text(members(params["textDocument"])["uri"])))
+
+
 def _did_change_configuration(session: Session, params: Members) -> None:
     session.use_settings(params.get("settings"))
 
@@ -778,6 +782,7 @@ NOTIFICATIONS: Final[dict[str, Callable[[Session, Members], None]]] = {
     "textDocument/didOpen": _did_open,
     "textDocument/didChange": _did_change,
     "textDocument/didClose": _did_close,
+    "textDocument/didSave": _did_save,
     "workspace/didChangeWatchedFiles": _did_change_watched_files,
     "workspace/didChangeConfiguration": _did_change_configuration,
     "workspace/didChangeWorkspaceFolders": _did_change_folders,

@@ -305,3 +305,49 @@ def test_files_of_a_generated_folder_are_not_fixed(folder, capsys):
     assert main(["check", "good.mod", "--fix"]) == 1
     assert (folder / "good.mod").read_text() == text
     assert "not changed: good.mod is generated" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("data", "robotware", "codes"),
+    [
+        ("MODULE m\n! gr\u00fcn\nENDMODULE\n".encode("latin-1"), "7.1", ["RG339"]),
+        ("MODULE m\n! gr\u00fcn\nENDMODULE\n".encode("utf-8-sig"), "7.10", ["RG339"]),
+        ("MODULE m\n! gr\u00fcn\nENDMODULE\n".encode(), "7.1", []),
+        ("MODULE m\n! gr\u00fcn\nENDMODULE\n".encode("latin-1"), "7.0", []),
+        ("MODULE m\n! gr\u00fcn\nENDMODULE\n".encode("latin-1"), "6.15", []),
+    ],
+)
+def test_robotware_7_1_expects_utf_8(folder, capsys, data, robotware, codes):
+    """Technical reference manual, RAPID Overview, RobotWare 7: UTF-8 without byte order mark."""
+    (folder / "m.mod").write_bytes(data)
+    main(["check", "m.mod", "--robotware", robotware, "--format", "json"])
+    assert [found["code"] for found in json.loads(capsys.readouterr().out)] == codes
+
+
+@pytest.mark.parametrize(("encoding", "letters"), [("cp1252", "\u20ac"), ("gbk", "\u5939\u722a")])
+def test_fmt_converts_to_utf_8(folder, capsys, encoding, letters):
+    text = f'MODULE m\n    CONST string s := "{letters}";\nENDMODULE\n'
+    file = folder / "m.mod"
+    file.write_bytes(text.encode(encoding))
+    assert main(["fmt", "m.mod", "--to-utf-8"]) == 1
+    assert f"--encoding {encoding}" in capsys.readouterr().err
+    assert file.read_bytes() == text.encode(encoding)
+    assert main(["fmt", "m.mod", "--encoding", encoding, "--diff"]) == 0
+    assert main(["fmt", "m.mod", "--encoding", encoding, "--to-utf-8"]) == 0
+    assert file.read_bytes() == text.encode()
+
+
+def test_fmt_keeps_files_of_another_encoding(folder, capsys):
+    (folder / "m.mod").write_bytes(
+        "MODULE m\n! \u20ac \u0081\nENDMODULE\n".encode("gbk", "ignore") + b"!\xff"
+    )
+    before = (folder / "m.mod").read_bytes()
+    assert main(["fmt", "m.mod", "--encoding", "gbk", "--to-utf-8"]) == 1
+    assert "the file is not gbk" in capsys.readouterr().err
+    assert (folder / "m.mod").read_bytes() == before
+
+
+def test_fmt_removes_a_byte_order_mark(folder):
+    (folder / "m.mod").write_bytes("MODULE m\n    ! gr\u00fcn\nENDMODULE\n".encode("utf-8-sig"))
+    assert main(["fmt", "m.mod", "--to-utf-8"]) == 0
+    assert (folder / "m.mod").read_bytes() == "MODULE m\n    ! gr\u00fcn\nENDMODULE\n".encode()

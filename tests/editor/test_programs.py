@@ -344,3 +344,15 @@ def test_the_editor_loads_kinematics_for_the_first_target_only():
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert ran.stdout.strip() == "[]"
+
+
+def test_an_open_file_is_reported_until_it_is_saved_as_utf_8(tmp_path):
+    path = tmp_path / "a.mod"
+    text = "MODULE a\n! gr\u00fcn\nENDMODULE\n"
+    path.write_bytes(text.encode("cp1252"))
+    opened = Workspace((), Settings(robotware="7.6"))
+    opened.open(Document(str(path), text))
+    assert [d.code for d in opened.findings_of(str(path))] == ["RG339"]
+    path.write_bytes(text.encode())
+    opened.saved(str(path))
+    assert opened.findings_of(str(path)) == []

@@ -25,8 +25,10 @@ from rapidgen.rapid.checks.motion_tasks import moves_without_robot
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax.damage import Damage, damage_of
 from rapidgen.rapid.syntax.nodes import Module
+from rapidgen.rapid.syntax.source import Encoding
 from rapidgen.system import System, TaskSpec
 
+_UTF8_FROM = (7, 1)
 _LOADERS = frozenset(("load", "startload"))
 _SIGNAL_TYPES = {
     "DI": "signaldi",
@@ -141,7 +143,9 @@ class TaskCheck:
             for first, second in self.scope.clashes:
                 if second.module is module:
                     _clash(findings, first, second, "in this task", self.spec.entry)
-        return [*module.tree.diagnostics, *findings.found]
+        found = [*module.tree.diagnostics, *findings.found]
+        source = module.tree.source
+        return found + encoding_findings(source.path, source.encoding, self.context.dialect)
 
     def task_findings(self) -> list[Diagnostic]:
         """Return findings about the task as a whole: its entry, and moves without a robot."""
@@ -152,6 +156,24 @@ class TaskCheck:
             for one in moves_without_robot(self.spec, self.scope, self.context):
                 result += one.found
         return result
+
+
+def encoding_findings(path: str, encoding: Encoding, dialect: Dialect) -> list[Diagnostic]:
+    """Report a file that controllers from RobotWare 7.1 on expect to be converted.
+
+    They expect UTF-8 without byte order mark (Technical reference manual, RAPID Overview, RobotWare
+    7: files in .mod or .sys format). ASCII is UTF-8. Without a known release nothing is reported.
+    """
+    if not dialect.is_known or dialect.robotware < _UTF8_FROM or encoding == "utf-8":
+        return []
+    if encoding == "utf-8-sig":
+        message = "the file begins with a byte order mark, which RobotWare 7.1 does not expect"
+        command = f"rapidgen fmt --to-utf-8 {path}"
+    else:
+        message = "the file is not UTF-8, which RobotWare 7.1 and later expect"
+        command = f"rapidgen fmt --to-utf-8 --encoding cp1252 {path}"
+    help = f"convert it: `{command}`, with the encoding that the file has"
+    return [error("RG339", Span(path, 1, 1), message, help, severity=Severity.WARNING)]
 
 
 def tasks_of(
