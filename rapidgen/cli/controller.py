@@ -23,6 +23,9 @@ def status(
     secrets: options.Secrets = None,
     fingerprint: options.Fingerprint = "",
     as_json: Annotated[bool, typer.Option("--json", help="JSON object on stdout.")] = False,
+    modules: Annotated[
+        bool, typer.Option("--modules", help="Also the modules of each task.")
+    ] = False,
 ) -> int:
     """Show the mode, motors, speed and tasks of a controller.
 
@@ -33,7 +36,7 @@ def status(
     from rapidgen.cli.rws_session import controller
 
     with controller(host, user, secrets, fingerprint) as result:
-        text = controller_state(result)
+        text = controller_state(result, modules=modules)
     if as_json:
         typer.echo(json.dumps(text, indent=2))
     else:
@@ -41,15 +44,21 @@ def status(
     return 0
 
 
-def controller_state(result: "Controller") -> dict[str, object]:
-    """Return the state: nine requests and one for each task, with login and logout."""
+def controller_state(result: "Controller", *, modules: bool = False) -> dict[str, object]:
+    """Return the state: nine requests and one for each task, with login and logout.
+
+    `modules`: also the modules of each task, with one more request for each task.
+    """
     who, panel, execution = result.identity(), result.panel(), result.execution()
-    tasks = []
+    tasks: list[dict[str, object]] = []
     for task in result.tasks():
         at = result.pointer(task.name)
         place = f"{at.module}/{at.routine}:{at.row}" if at.module else ""
         text = {"name": task.name, "type": task.kind, "execution": task.execution}
         tasks.append({**text, "selected": task.active, "pointer": place})
+        if modules:
+            loaded = result.modules(task.name)
+            tasks[-1]["modules"] = [{"name": m.name, "system": m.is_system} for m in loaded]
     return {
         "host": result.where,
         "name": who.name,
@@ -108,6 +117,9 @@ def show_state(text: dict[str, object]) -> None:
             f"{marker} {task['name']:<{width}}  {task['type']:<11} {task['execution']:<13}"
             f" {task['pointer']}".rstrip()
         )
+        for module in task.get("modules", ()):
+            kind = "  system module" if module["system"] else ""
+            typer.echo(f"    {module['name']}{kind}")
     fixes = text["fixes"]
     assert isinstance(fixes, list)
     for fix in fixes:
@@ -404,6 +416,12 @@ def symbols(
         Literal["per", "var", "con", "any"],
         typer.Option(help="Persistents, variables, constants or all data."),
     ] = "per",
+    source: Annotated[
+        bool, typer.Option("--source", help="Source text of TASK/MODULE instead of its data.")
+    ] = False,
+    values: Annotated[
+        bool, typer.Option("--values", help="Also the values of the data of TASK/MODULE.")
+    ] = False,
     yes: options.Yes = False,
     user: options.User = "",
     secrets: options.Secrets = None,
@@ -412,7 +430,8 @@ def symbols(
 ) -> int:
     """Show or set RAPID data of a controller.
 
-    A write needs confirmation, unless the controller is virtual, and is read back.
+    With `--source` the source text of a module is shown instead. A write needs
+    confirmation, unless the controller is virtual, and is read back.
     """
     import json
     from dataclasses import asdict
@@ -428,12 +447,18 @@ def symbols(
         raise typer.BadParameter(f"'{value}' is not a RAPID literal") from fault
     if value and len(parts) < 2:
         raise typer.BadParameter(f"'{name}' is not TASK/MODULE/NAME")
+    if (source or values) and (value or len(parts) != 2):
+        raise typer.BadParameter("--source and --values take TASK/MODULE and no value")
     with controller(host, user, secrets, fingerprint) as result:
         if literal is not None:
             if not result.identity().is_virtual:
                 confirm_plan(f"set {name} to {value} at {host}?", yes=yes)
             ask_pendant(result, "modify", result.panel().mode)
             result.set_symbol(name, literal)
+        if source:
+            text = result.module_text(*parts)
+            typer.echo(json.dumps({"path": name, "source": text}) if as_json else text)
+            return 0
         if len(parts) == 3:
             text = result.symbol_text(name)
             typer.echo(json.dumps({"path": name, "value": text}) if as_json else text)
@@ -441,16 +466,32 @@ def symbols(
         tasks = parts[:1] or [task.name for task in result.tasks()]
         module = parts[1] if len(parts) == 2 else ""
         all_of = [s for t in tasks for s in result.symbols(t, module=module, kind=kind)]
+        read_values = {s.path: _value(result, s.path) for s in all_of} if values else {}
     if module and not all_of:
         hint = f"`rapidgen symbols {host} {parts[0]} --kind any` lists all data"
         raise typer.BadParameter(f"no data of kind {kind} in {name}: {hint}")
     if as_json:
-        typer.echo(json.dumps([asdict(one) for one in all_of], indent=2))
+        entries: list[dict[str, object]] = [asdict(one) for one in all_of]
+        if values:
+            entries = [{**asdict(one), "value": read_values[one.path]} for one in all_of]
+        typer.echo(json.dumps(entries, indent=2))
         return 0
     for one in all_of:
         dims = "{" + ",".join(map(str, one.dims)) + "}" if one.dims else ""
-        typer.echo(f"{one.path}  {one.kind}  {one.type}{dims}")
+        text = f"  {read_values[one.path] or '?'}" if values else ""
+        typer.echo(f"{one.path}  {one.kind}  {one.type}{dims}{text}")
     return 0
+
+
+def _value(result: "Controller", path: str) -> str | None:
+    """Return a datum as a RAPID literal; None if the controller does not give it."""
+    from rapidgen.client.rws.errors import NotConfirmed, RwsError
+
+    try:
+        return result.symbol_text(path)
+    except (NotConfirmed, RwsError):
+        # One datum that is too large or of a type without values does not hide the others.
+        return None
 
 
 def backup(

@@ -126,7 +126,9 @@ OperatorWait = Annotated[
 # Of the commands that use a controller's Robot Web Services.
 WebServices = Annotated[
     str,
-    typer.Argument(help="Controller: HOST[:PORT], rws://HOST or rwss://HOST.", metavar="HOST"),
+    typer.Argument(
+        help="Controller: HOST[:PORT], rws://HOST, rwss://HOST or `sim`.", metavar="HOST"
+    ),
 ]
 Fingerprint = Annotated[
     str, typer.Option(help="SHA-256 of the controller's certificate.", metavar="HEX")

@@ -21,11 +21,18 @@ _PROMPT = 10.0
 def controller(
     host: str, user: str, secrets: Path | None, fingerprint: str
 ) -> "Iterator[Controller]":
-    """Connect to a controller and log out at the end. Raises DiagnosticError."""
+    """Connect to a controller and log out at the end. Raises DiagnosticError.
+
+    The host `sim` is the running simulator of this user.
+    """
     from rapidgen.client.rws import Controller
     from rapidgen.client.rws.address import parse_address
+    from rapidgen.client.sim_address import SIMULATOR, find_web_services
     from rapidgen.deploy.secrets import Credentials, find_password
 
+    if host == SIMULATOR:
+        simulator = find_web_services()
+        host, fingerprint = simulator.web_services, fingerprint or simulator.fingerprint
     address = parse_address(host)
     login = find_password(
         Credentials(address.user or user), address.host, address.port, secrets=secrets, ask=True

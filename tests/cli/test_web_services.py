@@ -10,8 +10,9 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "servers" / "rws"))
 
-from served import make_runner
+from served import MAIN, make_runner
 
+from rapidgen._simulator_registry import Simulator, published
 from rapidgen.cli.app import main
 from rapidgen.cli.controller import controller_state, show_state
 from rapidgen.client.errors import ConnectionLost
@@ -78,6 +79,50 @@ def test_signals_and_symbols_are_shown_and_set(host, capsys):
     assert text["T_ROB1/MainModule/list"]["dims"] == [3]
     assert main(["symbols", host, "T_ROB1/MainModule/list", "--json"]) == 0
     assert json.loads(said(capsys))["value"] == "[4,5,6]"
+
+
+def test_modules_sources_and_values_are_read(host, capsys):
+    # The program of make_runner is the expected value: nothing is written in between.
+    assert main(["status", host, "--json", "--modules"]) == 0
+    (task,) = json.loads(said(capsys))["tasks"]
+    assert {"name": "MainModule", "system": False} in task["modules"]
+    assert main(["status", host, "--modules"]) == 0
+    assert "    MainModule\n" in said(capsys)
+    module = ["symbols", host, "T_ROB1/MainModule"]
+    assert main([*module, "--source", "--json"]) == 0
+    assert json.loads(said(capsys))["source"].split() == MAIN.split()
+    assert main(["symbols", host, "T_ROB1/MainModule/x", "7"]) == 0
+    said(capsys)
+    assert main([*module, "--values", "--json"]) == 0
+    values = {one["name"]: one["value"] for one in json.loads(said(capsys))}
+    assert (values["x"], values["list"], "c" in values) == ("7", "[1,2,3]", False)
+    assert main([*module, "--values"]) == 0
+    assert "T_ROB1/MainModule/x  per  num  7\n" in said(capsys)
+
+
+@pytest.mark.parametrize("option", ["--source", "--values"])
+@pytest.mark.parametrize("path", [[], ["T_ROB1"], ["T_ROB1/MainModule/x"], ["T_ROB1/Main", "5"]])
+def test_sources_and_values_need_a_module(option, path, capsys):
+    assert main(["symbols", "rws://127.0.0.1:1", *path, option]) == 2
+    assert "TASK/MODULE" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("generation", [Generation.ONE, Generation.TWO])
+def test_sim_is_the_simulator_that_serves_them(generation, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
+    with published(Simulator("other", 1, {})):
+        assert main(["status", "sim"]) == 1
+        assert "RG642" in capsys.readouterr().err
+        with make_runner(tmp_path, generation, clock="real", speed=60) as runner:
+            runner.start()
+            service = serve_rws(runner, generation)
+            where = f"rws://{service.host}:{service.port}"
+            with published(Simulator("cell", 2, {}, where, service.host_key)):
+                assert main(["status", "sim", "--json"]) == 0
+            service.close()
+    assert json.loads(said(capsys))["host"].endswith(str(service.port))
 
 
 @pytest.mark.parametrize(
