@@ -217,6 +217,22 @@ def test_tables_of_poses(tmp_path):
     assert np.allclose(frames.rotate(step.pose[1], (0, 0, 1)), (0, 0, -1))
 
 
+def test_quaternions_of_ros_have_the_scalar_last(tmp_path):
+    scalar_first = "x,y,z,q1,q2,q3,q4\n1,2,3,0.5,-0.5,0.1,0.7\n4,2,3,0.5,-0.5,0.1,0.7\n"
+    of_ros = "x,y,z,qx,qy,qz,qw\n1,2,3,-0.5,0.1,0.7,0.5\n4,2,3,-0.5,0.1,0.7,0.5\n"
+    first, second = (
+        [step.pose for step in read_table(file(tmp_path, name, text), DOWN).steps]
+        for name, text in (("a.csv", scalar_first), ("b.csv", of_ros))
+    )
+    assert first == second
+
+
+def test_time_is_time_in_any_case(tmp_path):
+    path = file(tmp_path, "a.csv", "Time, a\n0, 0.1\n1, 0.2\n")
+    result = read_table(path, SourceOptions())
+    assert (result.times, result.names) == ((0.0, 1.0), ("a",))
+
+
 def test_tables_of_joints(tmp_path):
     with_times = read_table(file(tmp_path, "a.csv", "time,a,b\n0,1,2\n1,3,4\n"), SourceOptions())
     assert isinstance(with_times, JointPath)

@@ -4,14 +4,15 @@ Columns have names, in a header or in `columns`:
 
 - `time` and joint names: a trajectory.
 - Joint names alone: moves to joints.
-- `x y z` with `q1 q2 q3 q4` (scalar first), with `nx ny nz` (the surface's normal: the tool's z
-  axis points against it), or alone; `speed` in units of length per s.
+- `x y z` with `q1 q2 q3 q4` (scalar first) or `qx qy qz qw` (names of ROS), with `nx ny nz` (the
+  surface's normal: the tool's z axis points against it), or alone; `speed` in units of length per
+  s.
 """
 
 import csv
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
 
@@ -37,6 +38,7 @@ from rapidgen.export.sources.toolpath import (
 )
 
 _PLACE, _TURN, _NORMAL = ("x", "y", "z"), ("q1", "q2", "q3", "q4"), ("nx", "ny", "nz")
+_ROS = {"qw": "q1", "qx": "q2", "qy": "q3", "qz": "q4"}
 _POSE = frozenset((*_PLACE, *_TURN, *_NORMAL, "speed"))
 _HEADER = "name the columns: `time,<joint names>`, `<joint names>` or `x,y,z,q1,q2,q3,q4`"
 _LARGEST = 256_000_000
@@ -63,12 +65,20 @@ def read_table(path: Path, options: SourceOptions) -> Toolpath | JointPath:
         table = _csv(path, options)
     if not table.rows:
         reject([bad_source(str(path), 1, f"{path} has no points", "add at least one")])
+    table = replace(table, columns=_known_names(table.columns))
     double = sorted({c for c in table.columns if table.columns.count(c) > 1})
     if double:
         reject([bad_source(str(path), 1, f"column '{double[0]}' is there twice")])
     if _PLACE[0] in table.columns:
         return _poses(table, options)
     return _joints(table, options)
+
+
+def _known_names(columns: tuple[str, ...]) -> tuple[str, ...]:
+    """Return columns with one spelling of time and of quaternions."""
+    if set(_ROS) <= set(columns):
+        columns = tuple(_ROS.get(name, name) for name in columns)
+    return tuple("time" if name.lower() == "time" else name for name in columns)
 
 
 def _csv(path: Path, options: SourceOptions) -> _Table:
