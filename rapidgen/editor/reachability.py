@@ -10,7 +10,7 @@ Values of tools and work objects are initial ones: a program may change them.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import degrees, hypot
+from math import degrees, hypot, isfinite, prod, tau
 from pathlib import Path
 
 from rapidgen.axes import frames
@@ -27,6 +27,8 @@ from rapidgen.rapid.builtins.signatures import Value
 from rapidgen.system.folder import read_manifest
 from rapidgen.system.mechanical_units import mount_of
 
+_MOST_TURNS = 2000.0
+"""Combinations of full turns within the ranges of all axes."""
 _UNIT_ERROR = 0.1
 """Allowed error of the sum of squares of an orientation (S4 datasys 1-orient-1)."""
 
@@ -74,6 +76,10 @@ def robot_of(program: Program) -> Robot | None:
             joints.append(replace(joint, lower=lower, upper=upper))
         group = replace(group, joints=tuple(joints))
         base = _pose(mount.base)
+    # The solver lists every turn of every axis: a cfg with huge ranges would stop the server.
+    turns = prod(max(1.0, (joint.upper - joint.lower) / tau) for joint in group.joints)
+    if not turns < _MOST_TURNS:
+        return None
     kinematics = Kinematics.of(group)
     if kinematics is None or not kinematics.is_closed_form:
         return None
@@ -231,4 +237,4 @@ def _numbers(value: Value, count: int) -> tuple[float, ...] | None:
     if not isinstance(value, tuple) or len(value) != count:
         return None
     numbers = tuple(float(v) for v in value if isinstance(v, int | float))
-    return numbers if len(numbers) == count else None
+    return numbers if len(numbers) == count and all(map(isfinite, numbers)) else None

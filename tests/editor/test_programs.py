@@ -356,3 +356,21 @@ def test_an_open_file_is_reported_until_it_is_saved_as_utf_8(tmp_path):
     path.write_bytes(text.encode())
     opened.saved(str(path))
     assert opened.findings_of(str(path)) == []
+
+
+def test_huge_ranges_and_values_have_no_reachability(backup):
+    opened, path = with_moc(backup, "ROB1_120_0.58_3")
+    moc = backup / "SYSPAR/MOC.cfg"
+    joints = " ".join(f'-use_joint_{n} "j{n}"' for n in range(6))
+    rows = [f'      -name "j{n}" -use_arm "a"\n' for n in range(6)]
+    arm = '      -name "a" -upper_joint_bound 1E9 -lower_joint_bound -1E9\n'
+    text = moc.read_text().rstrip() + f" {joints}\n#\nJOINT:\n\n{''.join(rows)}#\nARM:\n\n{arm}"
+    moc.write_text(text)
+    opened = workspace(path)
+    assert reach_at(opened, path, "near :=") == []
+    moc.write_text(MOC.format(type="ROB1_120_0.58_3", x=0))
+    path.write_text(TARGETS.replace("[0,0,0,4]", "[0,0,0,1E999]"))
+    opened = workspace(path)
+    assert reach_at(opened, path, "turned :=") == []
+    (line,) = reach_at(opened, path, "near :=")
+    assert line.startswith("reachable")
