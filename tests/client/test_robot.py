@@ -511,7 +511,7 @@ def test_recording(connected, tmp_path, comes):
 
 def test_connection_that_comes_with_the_end_is_closed():
     class Owner:
-        is_busy = False
+        core = SimpleNamespace(is_busy=False, tick=0.1)
 
     owner = Owner()
     reader = Reader(owner, "test")
