@@ -16,7 +16,6 @@ from pathlib import Path
 
 import pytest
 
-from rapidgen.cli.app import COMMANDS
 from tests.editors.node import BUILT, MODULES, node
 from tests.viewer.conftest import ARGUMENTS, absent
 
@@ -125,7 +124,7 @@ def report(tmp_path_factory):
         "PATH": f"{Path(node()[0]).parent}{os.pathsep}{os.environ['PATH']}",
         "HOME": str(folder),
         "RAPIDGEN_PROBE": str(seen),
-        "RAPIDGEN_PROBE_LSP": "1" if "lsp" in COMMANDS else "",
+        "RAPIDGEN_PROBE_LSP": "1",
     }
     places = ["--user-data-dir", str(folder / "data"), "--extensions-dir", str(folder / "ext")]
     entry = [*node(), str(SERVER / "entry.js"), *places]
@@ -191,7 +190,6 @@ def test_dialog_is_a_quick_pick(report):
     assert report["questionInConsole"] is False
 
 
-@pytest.mark.skipif("lsp" not in COMMANDS, reason="rapidgen has no language server yet")
 def test_language_server(report):
     assert any(one["line"] == 17 for one in report["findings"])
     assert report["definition"] == [12]
