@@ -242,7 +242,10 @@ def _no_reader() -> int:
 def _system_error(fault: OSError, as_json: bool) -> int:
     """Report an error of the operating system; return the exit code."""
     if fault.filename is not None:
-        message, help = f"cannot use {fault.filename}", "free it, or use another one"
+        message = f"cannot use {fault.filename}"
+        help = "free it, or use another one"
+        if fault.errno == errno.ENOENT:
+            help = "give the path of a file that exists"
     elif fault.errno in _MACHINE:
         # Python must not try to flush stdout again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
