@@ -1,13 +1,15 @@
 """The command `check`: findings in configurations and RAPID sources."""
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rapidgen.cli.project import project_folders, project_robots
+from rapidgen.cli.project import FileEncoding, project_folders, project_robots
 from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import (
     Diagnostic,
@@ -19,6 +21,7 @@ from rapidgen.diagnostics import (
     refusal,
     render,
 )
+from rapidgen.diagnostics.render import read_lines
 from rapidgen.system.project import find_project
 
 if TYPE_CHECKING:
@@ -47,6 +50,18 @@ class _Settings:
     payload: "Payload"
     strict: bool
     project: "Project | None"
+    encoding: FileEncoding = FileEncoding.LATIN_1
+
+    def dialect_of(self, system: "System | None" = None) -> "Dialect":
+        """Return the dialect that was asked for, else that of a system's release."""
+        from rapidgen.rapid import Dialect
+
+        if self.dialect is not None:
+            return self.dialect
+        other = self.encoding.value
+        if system is None:
+            return Dialect(encoding=other)
+        return Dialect(system.robotware, not system.is_robotware_known, other)
 
 
 def check(
@@ -97,6 +112,10 @@ def check(
     fix: Annotated[
         bool, typer.Option("--fix", help="Write safe corrections into RAPID files first.")
     ] = False,
+    encoding: Annotated[
+        FileEncoding | None,
+        typer.Option(help="Encoding of RAPID files that are not UTF-8; default: Latin-1."),
+    ] = None,
 ) -> int:
     """Check configurations and RAPID files.
 
@@ -116,22 +135,29 @@ def check(
         paths = [name for name in paths or () if Path(name) not in trajectories]
     cell = _cell(backup)
     names = paths or ([] if trajectories else _paths_of_project())
-    findings = _findings_of(names, cell, robotware, robot, strict, backup)
+    other = encoding or FileEncoding.LATIN_1
+
+    def settings_of(project: "Project | None") -> _Settings:
+        return _settings(project, robotware, robot, strict, other)
+
+    findings = _findings_of(names, cell, backup, settings_of)
     if fix:
         from rapidgen.cli.safe_fixes import apply_safe_fixes
 
         # A syntax error hides other findings of its routine, so that a fix may bring further ones.
         for _ in range(_MAX_ROUNDS):
-            if not apply_safe_fixes(findings):
+            if not apply_safe_fixes(findings, other):
                 break
-            findings = _findings_of(names, cell, robotware, robot, strict, backup)
+            findings = _findings_of(names, cell, backup, settings_of)
     if in_cell is not None and not any(d.severity is Severity.ERROR for d in findings):
         from rapidgen.cli.collisions import check_in_cell
 
         findings += check_in_cell([*trajectories, *map(Path, names)], in_cell, plot)
     import sys
 
-    typer.echo(render(findings, format, colour=use_colour(sys.stdout)), nl=False)
+    lines_of = partial(read_lines, otherwise=other.value)
+    colour = use_colour(sys.stdout)
+    typer.echo(render(findings, format, lines_of=lines_of, colour=colour), nl=False)
     errors = sum(d.severity is Severity.ERROR for d in findings)
     if format is Format.FULL:
         warnings = sum(d.severity is Severity.WARNING for d in findings)
@@ -142,10 +168,8 @@ def check(
 def _findings_of(
     names: "Sequence[str]",
     cell: "Cell | None",
-    robotware: str | None,
-    robot: str,
-    strict: bool | None,
     backup: Path | None,
+    settings_of: "Callable[[Project | None], _Settings]",
 ) -> list[Diagnostic]:
     """Return the findings of all that a command names, each with the settings of its project."""
     findings: list[Diagnostic] = []
@@ -157,7 +181,7 @@ def _findings_of(
         project = find_project(path)
         key = project.path if project is not None else None
         if key not in known:
-            known[key] = _settings(project, robotware, robot, strict)
+            known[key] = settings_of(project)
         settings = known[key]
         found: list[Diagnostic] = []
         try:
@@ -188,11 +212,16 @@ def _paths_of_project() -> list[str]:
 
 
 def _settings(
-    project: "Project | None", robotware: str | None, robot: str, strict: bool | None
+    project: "Project | None",
+    robotware: str | None,
+    robot: str,
+    strict: bool | None,
+    encoding: FileEncoding,
 ) -> _Settings:
     """Combine options and project file; options take precedence."""
     if project is None:
-        return _Settings(_dialect(robotware), _payload(robot), bool(strict), None)
+        dialect = _dialect(robotware, encoding)
+        return _Settings(dialect, _payload(robot), bool(strict), None, encoding)
     is_strict = project.strict if strict is None else strict
     if robotware is None:
         robotware = project.robotware or None
@@ -201,7 +230,8 @@ def _settings(
     else:
         known = _payload_of(project.robot, project_robots(project))
         payload = known or _payload("")
-    return _Settings(_dialect(robotware), payload, is_strict, project)
+    dialect = _dialect(robotware, encoding)
+    return _Settings(dialect, payload, is_strict, project, encoding)
 
 
 def _reported(findings: "Iterable[Diagnostic]", settings: _Settings) -> list[Diagnostic]:
@@ -256,13 +286,13 @@ def _also_in(count: int) -> str:
     return f"also in {count} equal file{'' if count == 1 else 's'}"
 
 
-def _dialect(robotware: str | None) -> "Dialect | None":
+def _dialect(robotware: str | None, encoding: FileEncoding) -> "Dialect | None":
     from rapidgen.rapid import Dialect
     from rapidgen.system.releases import release
 
     if robotware is None:
         return None
-    return Dialect(release(robotware))
+    return Dialect(release(robotware), encoding=encoding.value)
 
 
 def _payload(robot: str) -> "Payload":
@@ -350,7 +380,7 @@ def _modules(path: Path) -> list[Path]:
     return expand(path)
 
 
-def _parsed(paths: list[Path], dialect: "Dialect | None") -> "list[Module]":
+def _parsed(paths: list[Path], dialect: "Dialect") -> "list[Module]":
     from rapidgen.rapid import parse
     from rapidgen.system.paths import read_limited
 
@@ -371,12 +401,12 @@ def _files(paths: list[Path], settings: _Settings) -> list[Diagnostic]:
     findings: list[Diagnostic] = []
     for path in paths:
         try:
-            modules += _parsed([path], settings.dialect)
+            modules += _parsed([path], settings.dialect_of())
         except DiagnosticError as fault:
             findings += fault.diagnostics
     return findings + check_rapid(
         modules,
-        dialect=settings.dialect,
+        dialect=settings.dialect_of(),
         payloads={"": settings.payload},
         strict=settings.strict,
     )
@@ -399,7 +429,7 @@ def _in_tasks(paths: list[Path], settings: _Settings) -> tuple[list[Diagnostic],
         return [], paths
     found = check_rapid(
         system,
-        dialect=settings.dialect,
+        dialect=settings.dialect_of(system),
         gaps=not settings.strict,
         payloads={task.name.lower(): settings.payload for task in system.tasks if task.motion},
         strict=settings.strict,
@@ -427,13 +457,13 @@ def _folder(path: Path, backup: Path | None, settings: _Settings) -> list[Diagno
     in_tasks, remaining = _in_tasks([file for group in groups for file in group], settings)
     findings += in_tasks
     groups = [rest for group in groups if (rest := [f for f in group if f in remaining])]
-    parsed = [_rapid(_parsed(files, settings.dialect), findings) for files in groups]
+    parsed = [_rapid(_parsed(files, settings.dialect_of()), findings) for files in groups]
     declared = [{_name(d).lower() for m in modules for d in m.declarations} for modules in parsed]
     for k, modules in enumerate(parsed):
         elsewhere = frozenset().union(*declared[:k], *declared[k + 1 :])
         findings += check_rapid(
             modules,
-            dialect=settings.dialect,
+            dialect=settings.dialect_of(),
             elsewhere=elsewhere,
             payloads={"": settings.payload},
             strict=settings.strict,
@@ -463,24 +493,24 @@ def _name(declaration: "Declaration") -> str:
 
 def _system(path: Path, backup: Path | None, settings: _Settings) -> list[Diagnostic]:
     from rapidgen.config import from_manifest
-    from rapidgen.rapid import Dialect
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_generated, read_backup, read_folder, read_manifest
 
-    dialect, payload, strict = settings.dialect, settings.payload, settings.strict
+    payload, strict = settings.payload, settings.strict
     if is_generated(path):
         own = from_manifest(read_manifest(path)["configuration"]).groups
         carried = _payloads(own, payload)
         system = read_folder(path, backup)
+        dialect = settings.dialect_of(system)
         return check_rapid(system, dialect=dialect, payloads=carried, strict=strict)
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
     carried = _of_backup(system, payload)
+    dialect = settings.dialect_of(system)
     result = [
         *notes,
         *check_rapid(system, dialect=dialect, gaps=bool(notes), payloads=carried, strict=strict),
     ]
-    dialect = dialect or Dialect(system.robotware, some=not system.is_robotware_known)
     return [*result, *_not_loaded(system, replace(settings, dialect=dialect, strict=False))]
 
 

@@ -5,18 +5,8 @@ from typing import Annotated
 
 import typer
 
-from rapidgen._compat import StrEnum
-from rapidgen.cli.project import project_folders
+from rapidgen.cli.project import FileEncoding, project_folders
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, refusal
-
-
-class FileEncoding(StrEnum):
-    """Encodings of files that are not UTF-8."""
-
-    LATIN_1 = "latin-1"
-    CP1252 = "cp1252"
-    GBK = "gbk"
-
 
 _SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
 

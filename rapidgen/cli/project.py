@@ -1,8 +1,9 @@
-"""Folders and robot of the project file, for commands that name none."""
+"""What `check` and `fmt` read: folders and robot of the project file, encodings of files."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rapidgen._compat import StrEnum
 from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.system.project import PROJECT_FILE, Project, find_project
 
@@ -10,6 +11,14 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from rapidgen.config.model import GroupConfig
+
+
+class FileEncoding(StrEnum):
+    """Encodings of files that are not UTF-8."""
+
+    LATIN_1 = "latin-1"
+    CP1252 = "cp1252"
+    GBK = "gbk"
 
 
 def project_folders(verb: str, help: str) -> tuple[Path, ...]:

@@ -5,18 +5,20 @@ from pathlib import Path
 
 import typer
 
+from rapidgen.cli.project import FileEncoding
 from rapidgen.diagnostics import Diagnostic, Edit, apply_edits
 
 
-def apply_safe_fixes(findings: Iterable[Diagnostic]) -> int:
+def apply_safe_fixes(findings: Iterable[Diagnostic], encoding: FileEncoding) -> int:
     """Write files with all safe fixes of their findings; return the number of fixes.
 
     A fix is applied as a whole or not at all. Files keep their encoding and line ends. Files of a
-    generated folder are not changed, because the next build would write them again. Raises
-    DiagnosticError for a file that cannot be read or written.
+    generated folder are not changed, because the next build would write them again. A file that is
+    not UTF-8 has the given encoding. Raises DiagnosticError for a file that cannot be read or
+    written.
     """
     from rapidgen._atomic_write import write_whole
-    from rapidgen.rapid import parse
+    from rapidgen.rapid import Dialect, parse
     from rapidgen.system import is_generated
     from rapidgen.system.paths import read_limited
 
@@ -40,7 +42,7 @@ def apply_safe_fixes(findings: Iterable[Diagnostic]) -> int:
             counts[path] = 0
             continue
         data = read_limited(file)
-        source = parse(data, path=path).source
+        source = parse(data, path=path, dialect=Dialect(encoding=encoding.value)).source
         text = apply_edits(data.decode(source.encoding), changes, source.offset)
         write_whole(file, text.encode(source.encoding))
         typer.echo(f"fixed {counts[path]} finding(s) in {path}", err=True)

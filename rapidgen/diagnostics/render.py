@@ -29,17 +29,21 @@ class Format(StrEnum):
     GITHUB = "github"
 
 
-def read_lines(path: str) -> list[str]:
-    """Return lines of a file for display; none if unreadable."""
+def read_lines(path: str, otherwise: str = "latin-1") -> list[str]:
+    """Return lines of a file for display; none if unreadable.
+
+    A file that is not UTF-8 has the encoding `otherwise`, or Latin-1 if it does not fit.
+    """
     try:
         data = read_foreign(path, _LARGEST)
     except OSError:
         return []
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
-    return text.splitlines()
+    for encoding in ("utf-8-sig", otherwise):
+        try:
+            return data.decode(encoding).splitlines()
+        except UnicodeDecodeError:
+            continue
+    return data.decode("latin-1").splitlines()
 
 
 def render(

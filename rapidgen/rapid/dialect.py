@@ -1,4 +1,4 @@
-"""RobotWare version of a text."""
+"""RobotWare version of a text, and the encoding of its file."""
 
 from dataclasses import dataclass
 
@@ -12,6 +12,8 @@ class Dialect:
     robotware: tuple[int, int] = UNKNOWN_ROBOTWARE
     some: bool = False
     """Any release of that number, as of a backup without an exact version."""
+    encoding: str = "latin-1"
+    """Encoding of files that are not UTF-8; of a file that it does not fit: Latin-1."""
 
     @property
     def is_known(self) -> bool:

@@ -12,24 +12,27 @@ from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse
 from rapidgen.system.model import ModuleFile
+from rapidgen.system.releases import UNKNOWN_ROBOTWARE
 
 SMALL: Final = 64_000
 """Bytes of a module whose tree and code are kept for the next controller."""
-_LARGE: Final[WeakKeyDictionary[ModuleFile, dict[bool, Module]]] = WeakKeyDictionary()
-"""By the only property of a dialect that a tree depends on."""
+_LARGE: Final[WeakKeyDictionary[ModuleFile, dict[tuple[bool, str], Module]]] = WeakKeyDictionary()
+"""By the properties of a dialect that a tree depends on."""
 
 
 def tree_of(file: ModuleFile, dialect: Dialect) -> Module:
     """Return the tree of a module file."""
     if len(file.data) <= SMALL:
-        return _small(file.data, file.path, dialect.has_radix)
+        return _small(file.data, file.path, dialect.has_radix, dialect.encoding)
     known = _LARGE.setdefault(file, {})
-    tree = known.get(dialect.has_radix)
+    key = (dialect.has_radix, dialect.encoding)
+    tree = known.get(key)
     if tree is None:
-        tree = known[dialect.has_radix] = parse(file.data, path=file.path, dialect=dialect)
+        tree = known[key] = parse(file.data, path=file.path, dialect=dialect)
     return tree
 
 
 @lru_cache(maxsize=128)
-def _small(data: bytes, path: str, has_radix: bool) -> Module:
-    return parse(data, path=path, dialect=Dialect() if has_radix else Dialect((5, 0)))
+def _small(data: bytes, path: str, has_radix: bool, encoding: str) -> Module:
+    release = UNKNOWN_ROBOTWARE if has_radix else (5, 0)
+    return parse(data, path=path, dialect=Dialect(release, encoding=encoding))

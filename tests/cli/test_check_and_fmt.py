@@ -337,6 +337,26 @@ def test_fmt_converts_to_utf_8(folder, capsys, encoding, letters):
     assert file.read_bytes() == text.encode()
 
 
+@pytest.mark.parametrize("encoding", ["cp1252", "gbk"])
+def test_check_reads_and_fixes_files_in_an_encoding(folder, capsys, encoding):
+    letters = {"cp1252": "\u20ac", "gbk": "\u5939\u722a"}[encoding]
+    text = f'MODULE m\nPROC main()\nTPWrite "{letters}"; TPErase();\nENDPROC\nENDMODULE\n'
+    (folder / "m.mod").write_bytes(text.encode(encoding))
+    assert main(["check", "m.mod", "--format", "json", "--encoding", encoding]) == 1
+    (found,) = json.loads(capsys.readouterr().out)
+    assert found["column"] == text.splitlines()[2].index(")") + 1
+    assert main(["check", "m.mod", "--encoding", encoding]) == 1
+    assert f'TPWrite "{letters}"; TPErase();' in capsys.readouterr().out
+    assert main(["check", "m.mod", "--encoding", encoding, "--fix"]) == 0
+    assert (folder / "m.mod").read_bytes() == text.replace("();", ";").encode(encoding)
+
+
+def test_check_reports_files_that_are_in_no_named_encoding(folder, capsys):
+    (folder / "m.mod").write_bytes(b"MODULE m\n! \xb5\n! \xff\nENDMODULE\n")
+    assert main(["check", "m.mod", "--encoding", "gbk", "--format", "concise"]) == 0
+    assert "m.mod:1:1: warning[RG339]" in capsys.readouterr().out
+
+
 def test_fmt_keeps_files_of_another_encoding(folder, capsys):
     (folder / "m.mod").write_bytes(
         "MODULE m\n! \u20ac \u0081\nENDMODULE\n".encode("gbk", "ignore") + b"!\xff"

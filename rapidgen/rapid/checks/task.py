@@ -25,7 +25,6 @@ from rapidgen.rapid.checks.motion_tasks import moves_without_robot
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax.damage import Damage, damage_of
 from rapidgen.rapid.syntax.nodes import Module
-from rapidgen.rapid.syntax.source import Encoding
 from rapidgen.system import System, TaskSpec
 
 _UTF8_FROM = (7, 1)
@@ -158,12 +157,17 @@ class TaskCheck:
         return result
 
 
-def encoding_findings(path: str, encoding: Encoding, dialect: Dialect) -> list[Diagnostic]:
+def encoding_findings(path: str, encoding: str, dialect: Dialect) -> list[Diagnostic]:
     """Report a file that controllers from RobotWare 7.1 on expect to be converted.
 
     They expect UTF-8 without byte order mark (Technical reference manual, RAPID Overview, RobotWare
-    7: files in .mod or .sys format). ASCII is UTF-8. Without a known release nothing is reported.
+    7: files in .mod or .sys format). ASCII is UTF-8. Without a known release nothing is reported,
+    but for a file that is not in the encoding which the user has named.
     """
+    if encoding == "latin-1" != dialect.encoding:
+        message = f"the file is neither UTF-8 nor {dialect.encoding}; it was read as Latin-1"
+        help = "name the encoding of this file: `--encoding` latin-1, cp1252 or gbk"
+        return [error("RG339", Span(path, 1, 1), message, help, severity=Severity.WARNING)]
     if not dialect.is_known or dialect.robotware < _UTF8_FROM or encoding == "utf-8":
         return []
     if encoding == "utf-8-sig":

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from rapidgen.rapid.syntax.source import HEADER, LEAD, TOKENS, Encoding, Source
+from rapidgen.rapid.syntax.source import HEADER, LEAD, TOKENS, Source
 
 NAME: Final = "a name"
 NUMBER: Final = "a number"
@@ -97,23 +97,21 @@ class Tokens:
     """The text with them."""
 
 
-def decode(data: bytes) -> tuple[str, Encoding]:
-    """Return the text of a file: UTF-8 if valid, else Latin-1.
+def decode(data: bytes, otherwise: str = "latin-1") -> tuple[str, str]:
+    """Return the text of a file: UTF-8 if valid, else `otherwise` if that fits, else Latin-1.
 
     UTF-8 may have a BOM.
     """
-    if data.startswith(b"\xef\xbb\xbf"):
+    known = "utf-8-sig" if data.startswith(b"\xef\xbb\xbf") else "utf-8"
+    for encoding in (known, otherwise):
         try:
-            return data.decode("utf-8-sig"), "utf-8-sig"
+            return data.decode(encoding), encoding
         except UnicodeDecodeError:
-            return data.decode("latin-1"), "latin-1"
-    try:
-        return data.decode("utf-8"), "utf-8"
-    except UnicodeDecodeError:
-        return data.decode("latin-1"), "latin-1"
+            continue
+    return data.decode("latin-1"), "latin-1"
 
 
-def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens:
+def tokenize(text: str, path: str, encoding: str, *, radix: bool) -> Tokens:
     """Return all tokens of `text`; `radix` permits 0x, 0o and 0b."""
     header = HEADER.match(text)
     lead = LEAD.match(text, header.end() if header else 0)

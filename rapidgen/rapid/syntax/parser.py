@@ -348,9 +348,12 @@ def parse(
     refused = text.refuse(source, name)
     if refused:
         return _empty(refused, name)
-    decoded, encoding = lexer.decode(source) if isinstance(source, bytes) else (source, "utf-8")
+    dialect = dialect or Dialect()
+    encoding = "utf-8"
+    if isinstance(source, bytes):
+        source, encoding = lexer.decode(source, dialect.encoding)
     with _COLLECTOR.paused():
-        tokens = lexer.tokenize(decoded, name, encoding, radix=(dialect or Dialect()).has_radix)
+        tokens = lexer.tokenize(source, name, encoding, radix=dialect.has_radix)
         _COLLECTOR.promoted += len(tokens.source.tokens)
         parser = ModuleParser(tokens)
         return _run(parser, tokens)

@@ -5,7 +5,7 @@ import sys
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from itertools import accumulate, chain, islice
-from typing import Final, Literal
+from typing import Final
 
 from rapidgen.diagnostics import Span
 
@@ -56,9 +56,6 @@ _LINE_END: Final = re.compile(r"\r\n?|\n")
 # The text of one module: its encoding, its tokens, and places in it.
 
 
-Encoding = Literal["utf-8", "utf-8-sig", "latin-1"]
-
-
 @dataclass(slots=True, eq=False)
 class Source:
     """Decoded text with its tokens.
@@ -71,7 +68,7 @@ class Source:
 
     text: str
     path: str
-    encoding: Encoding
+    encoding: str
     lead: str = ""
     tokens: list[str] = field(default_factory=list)
     _gaps: list[str] = field(default_factory=list)
