@@ -13,6 +13,7 @@ from rapidgen._compat import Self, Unpack
 from rapidgen.controller.boot_targets import Bootable
 from rapidgen.controller.controller import ControllerOptions, VirtualController
 from rapidgen.controller.debugger.debugger import Debugger
+from rapidgen.controller.editor_link import EditorLink
 from rapidgen.controller.programs import Programs
 from rapidgen.controller.warm_start import PersistedState, boot
 from rapidgen.diagnostics import Diagnostic
@@ -60,6 +61,8 @@ class ControllerRunner:
         self.id = str(uuid.uuid5(uuid.NAMESPACE_DNS, system.name)).upper()
         """Identifier of this controller, equal in every run."""
         self.restarts = 0
+        self.editor = EditorLink()
+        """Between its page and editors, which debug it."""
         self._debugger: Debugger | None = None
         self.on_restart: list[Callable[[], None]] = []
         """Called on the controller's thread before a restart, to end all connections."""

@@ -10,6 +10,7 @@ from typing import TypeAlias
 from rapidgen._json import Json, Members
 from rapidgen.controller.debugger import NotPaused, PauseReason, StackFrame
 from rapidgen.controller.debugger.breakpoints import statements
+from rapidgen.controller.editor_link import EditorCursor, targets_at
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.dap.breakpoints import Breakpoints, statement_lines
 from rapidgen.dap.client import Client, RequestRefused, objects, text, texts, whole
@@ -49,6 +50,7 @@ class Session:
         self._unbind: list[Callable[[], None]] = []
         self._bind()
         self._breakpoints = Breakpoints(client, self._sources, self._debugger)
+        runner.editor.attach(self._open)
         runner.on_restart.append(self._release)
         runner.on_boot.append(self._rebind)
         self._handlers: Mapping[str, Handler] = {
@@ -76,6 +78,7 @@ class Session:
             "loadedSources": lambda _a: {"sources": [*self._loaded.values()]},
             "rapidgen/answer": self._answer,
             "rapidgen/runTo": self._run_to,
+            "rapidgen/showTarget": self._show_target,
             "rapidgen/runFor": self._run_for,
         }
 
@@ -118,6 +121,7 @@ class Session:
 
     def close(self) -> None:
         """End the session; the controller continues without its breakpoints."""
+        self._runner.editor.detach(self._open)
         self._runner.on_restart.remove(self._release)
         self._runner.on_boot.remove(self._rebind)
         self._release()
@@ -481,6 +485,28 @@ class Session:
     def _run_for(self, arguments: Members) -> None:
         """Let time pass and pause again: `seconds`."""
         self._console.command(f":run {arguments.get('seconds')}")
+
+    def _show_target(self, arguments: Members) -> Members:
+        """Show a place on the page: `source`, `line`, and `name`, which is under the cursor.
+
+        Returns the names of the targets of its moves; without one the page shows no target.
+        """
+        source = arguments.get("source")
+        found = self._sources.find(source if isinstance(source, dict) else {})
+        line, name = self._client.line_of(arguments), text(arguments, "name", "")
+        cursor = EditorCursor(found.name, line, name)
+        self._runner.editor.cursor = cursor
+        names = (target.name or "*" for _, _, target in targets_at(self._tasks, cursor))
+        return {"module": found.name, "targets": [*dict.fromkeys(names)], "doubt": found.doubt}
+
+    def _open(self, module: str, line: int) -> None:
+        """Let the client open a line, as the page asks."""
+        for _, loaded in self._sources.modules():
+            if loaded.name.lower() == module.lower():
+                shown = self._client.line(line)
+                source = self._sources.of(loaded)
+                self._client.event("rapidgen/open", {"source": source, "line": shown})
+                return
 
     def _answer(self, arguments: Members) -> None:
         """Answer a dialog: `number` and `value`."""

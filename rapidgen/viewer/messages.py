@@ -133,6 +133,19 @@ class Targets(MessageModel):
     targets: tuple[SeenTarget, ...]
 
 
+class EditorPlace(MessageModel):
+    """Place under the cursor of an editor that debugs this simulation."""
+
+    type: Literal["editor"] = "editor"
+    attached: bool
+    """True if there is an editor, which can open a line."""
+    module: str = ""
+    """Empty: no place."""
+    line: int = 0
+    targets: tuple[SeenTarget, ...] = ()
+    """Targets of the moves that the place names."""
+
+
 class PanelState(MessageModel):
     """State of the pendant's status bar."""
 
@@ -327,12 +340,21 @@ class Copy(MessageModel):
     form: Literal["jointtarget", "robtarget", "python"]
 
 
+class OpenInEditor(MessageModel):
+    """Open a line of a module in the editors that debug this simulation."""
+
+    do: Literal["open-in-editor"] = "open-in-editor"
+    module: p.Name
+    line: p.Line
+
+
 # -- both ways ------------------------------------------------------------------------------------
 
 ToPage: TypeAlias = (
     Scene
     | Positions
     | Targets
+    | EditorPlace
     | PanelState
     | Log
     | Screen
@@ -360,6 +382,7 @@ Request: TypeAlias = (
     | JogTo
     | Copy
     | SetSignal
+    | OpenInEditor
     | p.ResetConnection
     | p.InjectFault
     | p.Listen

@@ -1,8 +1,11 @@
 """Sessions of the debug adapter on small programs, with the client of `own_client.py`."""
 
+from contextlib import contextmanager
+
 import pytest
 
-from tests.dap.own_client import Refused
+from rapidgen.controller.editor_link import EditorCursor
+from tests.dap.own_client import OwnClient, Refused
 
 PROGRAM = """MODULE m
   PERS num total := 0;
@@ -265,3 +268,33 @@ def test_breakpoint_waits_for_its_module(client, program):
     client.ask("continue", threadId=1)
     assert client.event("loadedSource", reason="removed")["source"]["name"] == "extra.mod"
     client.event("exited")
+
+
+def test_show_target_and_lines_that_the_page_opens(program):
+    runners = []
+
+    @contextmanager
+    def page(runner, _target):
+        runners.append(runner)
+        yield "http://127.0.0.1:1/"
+
+    path = program(PROGRAM.replace('TPWrite "done";', "MoveJ p, v100, fine, tool0;"))
+    client = OwnClient(page)
+    try:
+        client.begin(path, [13], robot="irb120", view=True)
+        client.stopped()
+        source = {"path": str(path)}
+        shown = client.ask("rapidgen/showTarget", source=source, line=10, name="v100")
+        assert shown == {"module": "m", "targets": ["p"], "doubt": ""}
+        (runner,) = runners
+        assert runner.editor.cursor == EditorCursor("m", 10, "v100")
+        assert client.ask("rapidgen/showTarget", source=source, line=9)["targets"] == []
+        runner.post(lambda: runner.editor.open("M", 13))
+        client.ask("threads")  # lets the virtual clock take what was posted
+        opened = client.event("rapidgen/open")
+        assert (opened["source"]["path"], opened["line"]) == (str(path), 13)
+        # The page shows the breakpoints of the session: they have one debugger.
+        assert [placed.line for placed in runner.debugger.placed.values()] == [13]
+    finally:
+        client.close()
+    assert not runner.editor.is_attached

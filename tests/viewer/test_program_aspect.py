@@ -5,6 +5,7 @@ import json
 import pytest
 
 from rapidgen.controller.boot_targets import BootOptions, load_target
+from rapidgen.controller.editor_link import EditorCursor
 from rapidgen.controller.runner import ControllerRunner
 from rapidgen.viewer.broadcaster import Broadcaster
 from rapidgen.viewer.simulator.simulation import Simulation
@@ -184,3 +185,71 @@ def test_lines_are_counted_and_no_longer(viewer):
     assert 7 not in lines
     viewer.ask("cover", on=False)
     assert not viewer.runner.controller.statements.tracers
+
+
+TARGETS = """MODULE points
+  CONST robtarget p10 := [[300,100,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST robtarget unused := [[300,0,400],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  TASK PERS wobjdata table := [FALSE,TRUE,"",[[0,0,100],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+  PROC main()
+    MoveJ p10, v1000, fine, tool0;
+    MoveL p10, v1000, fine, tool0 \\WObj:=table;
+    MoveL Offs(p10, 0, 0, 50), v1000, fine, tool0;
+    TPWrite "no move";
+  ENDPROC
+ENDMODULE
+"""
+
+
+@pytest.fixture
+def points(tmp_path):
+    (tmp_path / "points.mod").write_text(TARGETS)
+    target = load_target([tmp_path / "points.mod"], BootOptions(robot="irb120"))
+    with ControllerRunner.boot(target, clock="virtual", autostart=False) as runner:
+        yield Viewer(runner)
+
+
+@pytest.mark.parametrize(
+    ("line", "name", "heights"),
+    [
+        (2, "", [0.4, 0.5]),  # the declaration: both moves to it
+        (6, "p10", [0.4, 0.5]),
+        (6, "v1000", [0.4]),  # the move itself
+        (8, "", [0.45]),
+        (3, "unused", []),  # without a move the work object is unknown
+        (9, "", []),
+    ],
+)
+def test_target_under_editor_cursor_in_the_work_object_of_its_moves(points, line, name, heights):
+    points.runner.editor.attach(lambda *_: None)
+    points.runner.editor.cursor = EditorCursor("POINTS", line, name)
+    points.hub.look()
+    seen = points.last["editor"]
+    assert (seen["attached"], seen["line"]) == (True, line)
+    assert [round(one["pose"]["position"][2], 6) for one in seen["targets"]] == heights
+
+
+def test_page_opens_a_line_in_all_attached_editors(points):
+    opened = []
+
+    def opener(*place):
+        opened.append(place)
+
+    refused = points.ask("open-in-editor", module="points", line=6)
+    assert (refused, points.last["editor"]["attached"]) == (
+        "no editor debugs this simulation",
+        False,
+    )
+    points.runner.editor.attach(opener)
+    points.runner.editor.cursor = EditorCursor("points", 6)
+    assert points.ask("open-in-editor", module="points", line=6) == ""
+    assert opened == [("points", 6)]
+    points.runner.editor.detach(opener)
+    points.hub.look()
+    assert points.last["editor"] == {
+        "type": "editor",
+        "attached": False,
+        "module": "",
+        "line": 0,
+        "targets": [],
+    }

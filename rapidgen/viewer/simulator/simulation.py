@@ -6,6 +6,7 @@ from rapidgen.controller.runner import ControllerRunner
 from rapidgen.viewer.appearance import PLAIN, Appearance
 from rapidgen.viewer.provider import StateProvider
 from rapidgen.viewer.simulator.connections import ConnectionsProvider
+from rapidgen.viewer.simulator.editor_place import EditorPlaceProvider
 from rapidgen.viewer.simulator.motion import MotionProvider
 from rapidgen.viewer.simulator.operator_output import OperatorOutputProvider
 from rapidgen.viewer.simulator.pendant import PendantProvider
@@ -22,6 +23,7 @@ ASPECTS: tuple[Callable[[ControllerRunner], StateProvider], ...] = (
     TrajectoryProvider,
     ProgramProvider,
     TargetsProvider,
+    EditorPlaceProvider,
 )
 """Providers of a virtual controller's state after the scene."""
 

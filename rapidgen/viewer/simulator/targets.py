@@ -56,14 +56,15 @@ class TargetsProvider:
             seen = set()
             for module in modules:
                 for target in () if module.installed else move_targets(module.scope):
-                    made = _seen(group, module.name, target)
+                    made = seen_target(group, module.name, target)
                     same = made and (made.name, made.pose)
                     if made is not None and same not in seen:
                         seen.add(same)
                         yield made
 
 
-def _seen(group: MotionGroup, module: str, target: MoveTarget) -> SeenTarget | None:
+def seen_target(group: MotionGroup, module: str, target: MoveTarget) -> SeenTarget | None:
+    """Return a target with its TCP in the world; None if the pose is unknown."""
     place = target.place
     if place is None and group.kinematics is not None:
         still = (0.0,) * len(group.config.joints)

@@ -2,6 +2,7 @@
 
 import "./page.css";
 import { h, say } from "./dom";
+import { EditorLink } from "./editor_link";
 import { Link, type Connection } from "./link";
 import type { JogTo, Positions, PanelState } from "./messages";
 import type { View, MakePanel } from "./panel";
@@ -59,7 +60,8 @@ const view: View = {
 const title = h("strong", {}, "rapidgen");
 const chips = { mode: chip(), motors: chip(), program: chip(), time: chip() };
 const theme = h("button", { type: "button", class: "quiet", onclick: turnTheme, title: "Light or dark" }, "◐");
-const bar = h("header", {}, title, ...Object.values(chips), h("span", { class: "space" }), theme);
+const editor = new EditorLink(view);
+const bar = h("header", {}, title, ...Object.values(chips), h("span", { class: "space" }), editor.element, theme);
 const banner = h("div", { class: "banner", role: "alert", hidden: true });
 
 function chip(): HTMLElement {
@@ -210,5 +212,5 @@ void link.open();
 
 // For tests and the browser's console.
 Object.assign(window, {
-  rapidgen: { link, stage, state: () => state, panels: Object.fromEntries(panels.map((panel) => [panel.id, panel])) },
+  rapidgen: { link, stage, editor, state: () => state, panels: Object.fromEntries(panels.map((panel) => [panel.id, panel])) },
 });

@@ -96,6 +96,15 @@ export interface Dialogs {
   readonly waiting: readonly Dialog[];
 }
 
+/** Place under the cursor of an editor that debugs this simulation. */
+export interface EditorPlace {
+  readonly type: "editor";
+  readonly attached: boolean;
+  readonly module: string;
+  readonly line: number;
+  readonly targets: readonly SeenTarget[];
+}
+
 /** The reply's text is the value of an expression in the selected frame. */
 export interface Evaluate {
   readonly do: "evaluate";
@@ -170,6 +179,13 @@ export interface LogEntry {
   readonly task: string;
 }
 
+/** Open a line of a module in the editors that debug this simulation. */
+export interface OpenInEditor {
+  readonly do: "open-in-editor";
+  readonly module: string;
+  readonly line: number;
+}
+
 /** The answer to a request; `error` is empty if it was executed. */
 export interface PageReply {
   readonly type: "reply";
@@ -181,7 +197,7 @@ export interface PageReply {
 /** A request and the number of its reply. */
 export interface PageRequest {
   readonly id: number;
-  readonly request: PendantAction | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | ResetConnection | InjectFault | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | DebugCommand | RunTo | RunFor | StopOnErrors | SelectFrame | Evaluate | Assign | SetWatch | CountLines | Seek | Play | ReadCurves | UploadTrajectory | RunTrajectory | RemoveTrajectory;
+  readonly request: PendantAction | SetMode | SetOverride | SetPace | AnswerQuestion | Jog | JogTo | Copy | SetSignal | OpenInEditor | ResetConnection | InjectFault | Listen | ReadSource | ReadOrigin | SetBreakpoint | RemoveBreakpoint | DebugCommand | RunTo | RunFor | StopOnErrors | SelectFrame | Evaluate | Assign | SetWatch | CountLines | Seek | Play | ReadCurves | UploadTrajectory | RunTrajectory | RemoveTrajectory;
 }
 
 /** State of the pendant's status bar. */
@@ -551,6 +567,6 @@ export interface UploadedTrajectory {
   readonly detail: string;
 }
 
-export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | FrameValues | LoadedPrograms | Log | PageReply | PanelState | Playback | Pointers | Positions | Scene | Screen | SignalValues | Targets | UploadedTrajectory;
+export type ToPage = AllSignals | Connections | Conversation | Covered | Debugging | Dialogs | EditorPlace | FrameValues | LoadedPrograms | Log | PageReply | PanelState | Playback | Pointers | Positions | Scene | Screen | SignalValues | Targets | UploadedTrajectory;
 
-export type Request = AnswerQuestion | Assign | Copy | CountLines | DebugCommand | Evaluate | InjectFault | Jog | JogTo | Listen | PendantAction | Play | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RemoveTrajectory | ResetConnection | RunFor | RunTo | RunTrajectory | Seek | SelectFrame | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors | UploadTrajectory;
+export type Request = AnswerQuestion | Assign | Copy | CountLines | DebugCommand | Evaluate | InjectFault | Jog | JogTo | Listen | OpenInEditor | PendantAction | Play | ReadCurves | ReadOrigin | ReadSource | RemoveBreakpoint | RemoveTrajectory | ResetConnection | RunFor | RunTo | RunTrajectory | Seek | SelectFrame | SetBreakpoint | SetMode | SetOverride | SetPace | SetSignal | SetWatch | StopOnErrors | UploadTrajectory;
