@@ -1,4 +1,4 @@
-"""rapidgen's YAML files and the cfg files of a controller, in an editor.
+"""rapidgen's YAML files in an editor, and the kinds of documents beside RAPID.
 
 A YAML document is ours if its keys at the left are all keys of a configuration, and it has at least
 one that decides: `model`, `joints`, `groups`, `urdf`. Its findings are those of `rapidgen check`,
@@ -17,14 +17,13 @@ from typing import Final, Literal, cast
 from rapidgen._json import Json, Members
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
 from rapidgen.editor.documents import is_file
+from rapidgen.system.project import PROJECT_FILE
 
-FileKind = Literal["rapid", "yaml", "cfg", ""]
+FileKind = Literal["rapid", "yaml", "cfg", "toml", ""]
 _DECIDING: Final = frozenset(("model", "joints", "groups", "urdf"))
 _KEY: Final = re.compile(r"^(\s*(?:-\s+)?)([\w-]+)\s*:(?:\s|$)")
 _TOP_KEY: Final = re.compile(r"^([\w-]+)\s*:", re.MULTILINE)
 _PATH: Final = re.compile(r"^(\s*(?:-\s+)?(?:urdf|file|mesh|xacro|base|cell)\s*:\s*)([^\s#{\[]+)")
-_SIGNAL: Final = re.compile(r'-Name\s+"([^"]{1,64})"')
-_SECTION: Final = re.compile(r"^([A-Z][A-Z0-9_]*):\s*$", re.MULTILINE)
 _MOST: Final = 1_000_000
 """Characters of a document that is looked at."""
 
@@ -34,6 +33,8 @@ def kind_of(path: str, language: str) -> FileKind:
     name = path.casefold()
     if name.endswith((".yaml", ".yml")):
         return "yaml"
+    if Path(path).name == PROJECT_FILE:
+        return "toml"
     if name.endswith(".cfg"):
         return "cfg" if Path(path).parent.name.upper() == "SYSPAR" else ""
     return "rapid" if language == "rapid" else ""
@@ -60,13 +61,17 @@ def _schema_keys() -> frozenset[str]:
 
 
 def findings(path: str, text: str, kind: FileKind) -> list[Diagnostic]:
-    """Return the findings of a YAML or cfg document; none for files that are not ours."""
+    """Return the findings of a YAML, TOML or cfg document; none for files that are not ours."""
     try:
         if kind == "cfg":
             from rapidgen.system.cfg import parse_cfg
 
             parse_cfg(text, path=path)
             return []
+        if kind == "toml":
+            from rapidgen.editor import project_file
+
+            return project_file.findings(path, text)
         if kind != "yaml" or not is_configuration(text):
             return []
         return _of_configuration(path, text)
@@ -112,12 +117,13 @@ def _here(path: str, found: "list[Diagnostic] | tuple[Diagnostic, ...]") -> list
 
 @dataclass(frozen=True, slots=True)
 class Key:
-    """A key of a configuration, as an editor shows it."""
+    """A key or word of a file, as an editor shows it."""
 
     name: str
     text: str
     """What it means and takes, as Markdown."""
-    is_mapping: bool = False
+    insert: str = ""
+    """What completion writes; empty: the name."""
 
 
 def keys_at(text: str, line: int, column: int) -> tuple[list[Key], int]:
@@ -223,10 +229,11 @@ def _key(name: str, value: Json) -> Key:
     default = data.get("default")
     if default not in (None, "", [], {}) and not isinstance(default, dict | list):
         lines.append(f"Default: `{default}`.")
-    return Key(name, "  \n".join(filter(None, lines)), "properties" in resolved)
+    insert = f"{name}:" if "properties" in resolved else f"{name}: "
+    return Key(name, "  \n".join(filter(None, lines)), insert)
 
 
-# -- links and names -----------------------------------------------------------------------------
+# -- links ---------------------------------------------------------------------------------------
 
 
 def links(path: str, text: str) -> Iterator[tuple[Span, str]]:
@@ -243,35 +250,3 @@ def links(path: str, text: str) -> Iterator[tuple[Span, str]]:
         if name and target.is_file():
             start = match.start(2) + 1
             yield Span(path, number, start, number, start + len(match[2])), str(target)
-
-
-def cfg_instances(text: str) -> list[tuple[str, str, int]]:
-    """Return section, name and line of all named instances of a cfg text."""
-    result = []
-    section = ""
-    for number, line in enumerate(text.splitlines(), 1):
-        match = _SECTION.match(line)
-        if match is not None:
-            section = match[1]
-            continue
-        named = _SIGNAL.search(line)
-        if named is not None and section:
-            result.append((section, named[1], number))
-    return result
-
-
-def installed_place(root: str, name: str) -> Span | None:
-    """Return where the cfg files of a backup declare a signal or mechanical unit."""
-    folder = Path(root) / "SYSPAR"
-    for file in ("EIO.cfg", "MOC.cfg", "SYS.cfg"):
-        path = folder / file
-        try:
-            text = path.read_bytes()[:_MOST].decode("latin-1")
-        except OSError:
-            continue
-        for number, line in enumerate(text.splitlines(), 1):
-            match = _SIGNAL.search(line)
-            if match is not None and match[1].casefold() == name.casefold():
-                start = match.start(1) + 1
-                return Span(str(path), number, start, number, start + len(name))
-    return None

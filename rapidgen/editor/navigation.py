@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from rapidgen.diagnostics import Span
-from rapidgen.editor.configuration import installed_place
+from rapidgen.editor.cfg_files import installed_place
 from rapidgen.editor.documents import Location
 from rapidgen.editor.workspace import LoadedTask, View, Workspace
 from rapidgen.rapid.binding import (

@@ -11,8 +11,18 @@ from typing import Final
 
 from rapidgen._json import Json, Members, items, members, text, whole
 from rapidgen.diagnostics import DiagnosticError, Edit, Fix, Severity, Span
+from rapidgen.editor import (
+    cfg_files,
+    configuration,
+    formatting,
+    hover,
+    navigation,
+    outline,
+    project_file,
+    rename,
+    tokens,
+)
 from rapidgen.editor import completion as completing
-from rapidgen.editor import configuration, formatting, hover, navigation, outline, rename, tokens
 from rapidgen.editor.documents import Document, Location, TextEdit, path_of, uri_of
 from rapidgen.editor.navigation import Call
 from rapidgen.editor.workspace import View, Workspace
@@ -237,22 +247,27 @@ def _workspace_edit(session: Session, convert: Converter, edits: list[TextEdit])
 # -- names ---------------------------------------------------------------------------------------
 
 
-def _yaml(session: Session, params: Members) -> tuple[Document, int, int] | None:
-    """Return an open configuration with the line and column of a request; None for RAPID."""
+_FILES: Final = {"yaml": configuration, "toml": project_file, "cfg": cfg_files}
+"""What answers about keys, by the kind of a document."""
+
+
+def _keyed(session: Session, params: Members) -> tuple[Document, str, int, int] | None:
+    """Return an open document with keys, its kind, line and column of a request; None for RAPID."""
     document = session.workspace.document(document_path(params))
-    if document is None or configuration.kind_of(document.path, document.language) != "yaml":
+    if document is None:
         return None
-    if not configuration.is_configuration(document.text):
+    kind = configuration.kind_of(document.path, document.language)
+    if kind not in _FILES or (kind == "yaml" and not configuration.is_configuration(document.text)):
         return None
     place = session.convert.point(document.path, position_of(params["position"]))
-    return (document, *place)
+    return (document, kind, *place)
 
 
 def _hover(session: Session, params: Members) -> Json:
-    yaml = _yaml(session, params)
-    if yaml is not None:
-        document, line, column = yaml
-        match = configuration.key_at(document.text, line, column)
+    keyed = _keyed(session, params)
+    if keyed is not None:
+        document, kind, line, column = keyed
+        match = _FILES[kind].key_at(document.text, line, column)
         if match is None:
             return None
         key, span = match
@@ -451,7 +466,7 @@ def _cfg_symbols(session: Session, params: Members) -> Json:
             "containerName": section,
             "location": convert.location(Location(Span(document.path, line, 1))),
         }
-        for section, name, line in configuration.cfg_instances(document.text)
+        for section, name, line in cfg_files.instances(document.text)
     ]
 
 
@@ -682,15 +697,19 @@ def _cached_item(item: completing.Item, with_snippets: bool) -> Members:
 
 
 def _completion(session: Session, params: Members) -> Json:
-    yaml = _yaml(session, params)
-    if yaml is not None:
-        document, line, column = yaml
-        keys, _ = configuration.keys_at(document.text, line, column)
+    keyed = _keyed(session, params)
+    if keyed is not None:
+        document, kind, line, column = keyed
+        keys, start = _FILES[kind].keys_at(document.text, line, column)
+        # The word has signs that clients do not count to it, such as the `-` of an attribute.
+        first = document.lines.point(line, start, session.client.units)
+        last = document.lines.point(line, column, session.client.units)
         return [
             {
                 "label": key.name,
                 "kind": 10,
-                "insertText": f"{key.name}:" + ("" if key.is_mapping else " "),
+                "filterText": key.insert or key.name,
+                "textEdit": {"range": range_json((first, last)), "newText": key.insert or key.name},
                 "documentation": {"kind": "markdown", "value": key.text},
             }
             for key in keys

@@ -67,15 +67,19 @@ def find_project(start: Path) -> Project | None:
     return None
 
 
-def read_project(path: Path) -> Project:
-    """Read a project file. Raises DiagnosticError with all its faults (RG730)."""
-    return _Reader(path).project()
+def read_project(path: Path, content: bytes | None = None) -> Project:
+    """Read a project file, or its text in an editor.
+
+    Raises DiagnosticError with all its faults (RG730).
+    """
+    return _Reader(path, content).project()
 
 
 def project_schema() -> Members:
     """Return the JSON schema of a project file."""
     properties: Members = {
-        name: {**key.schema, "description": key.description} for name, key in _KEYS.items()
+        name: {**key.schema, "description": key.description, "examples": [key.example]}
+        for name, key in _KEYS.items()
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -89,8 +93,9 @@ def project_schema() -> Members:
 class _Reader:
     """Reads one file and collects its faults."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, content: bytes | None = None) -> None:
         self.path = path
+        self.content = content
         self.lines: list[str] = []
         self.faults: list[Diagnostic] = []
 
@@ -127,7 +132,10 @@ class _Reader:
         else:
             import tomli as tomllib
 
-        data = self._bytes()
+        data = self._bytes() if self.content is None else self.content
+        if len(data) > _LARGEST:
+            message = f"the file has more than {_LARGEST // 1024} KB"
+            raise self._refused(Span(str(self.path), 1, 1), message)
         try:
             text = data.decode("utf-8-sig")
         except UnicodeDecodeError as fault:
@@ -150,14 +158,10 @@ class _Reader:
 
     def _bytes(self) -> bytes:
         try:
-            data = read_limited(self.path, below=self.path.parent)
+            return read_limited(self.path, below=self.path.parent)
         except DiagnosticError as fault:
             at = Span(str(self.path), 1, 1)
             raise self._refused(at, fault.diagnostics[0].message) from fault
-        if len(data) > _LARGEST:
-            message = f"the file has more than {_LARGEST // 1024} KB"
-            raise self._refused(Span(str(self.path), 1, 1), message)
-        return data
 
     def _refused(self, at: Span, message: str) -> DiagnosticError:
         help = f"write key = value; the keys are {', '.join(_KEYS)}"

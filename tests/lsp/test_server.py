@@ -344,3 +344,27 @@ def test_positions_count_utf16_units(folder):
         # The robot is two units: the edit behind it must not split it.
         client.change(folder / "M.mod", 2, (((2, 15), (2, 22)), '"x"'))
         assert client.findings(folder / "M.mod") == ()
+
+
+def test_files_with_keys_have_findings_hover_and_completion(tmp_path):
+    """The place of a completion covers the `-` of an attribute, which is no part of a word."""
+    (tmp_path / "SYSPAR").mkdir()
+    cfg, project = tmp_path / "SYSPAR" / "EIO.cfg", tmp_path / "rapidgen.toml"
+    cfg.write_text('EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n      -Name "do1" -SignalType "DO" -Ac\n')
+    project.write_text("strict = 1\nign\n")
+    with Client() as client:
+        client.start(tmp_path)
+        client.open(cfg, language="ini")
+        client.open(project, language="toml")
+        text = client.ask("hover", cfg, "-Signal|Type").contents.value
+        assert "`GO`" in text
+        items = client.ask("completion", cfg, "-Ac|\n")
+        (access,) = [item for item in items if item.label == "Access"]
+        assert access.text_edit.new_text == "-Access "
+        area = access.text_edit.range
+        assert (area.start.character, area.end.character) == (35, 38)
+        (fault,) = client.ask_all("diagnostic", project).items
+        assert (fault.code, fault.range.start.line) == ("RG730", 1)
+        items = client.ask("completion", project, "\nign|\n")
+        assert "ignore = []" in [item.text_edit.new_text for item in items]
+        assert "error" in client.ask("hover", project, "str|ict").contents.value

@@ -67,6 +67,7 @@ class Server {
           { scheme: "file", pattern: "**/SYSPAR/*.cfg" },
           { scheme: "file", pattern: "**/*.pgf" },
           { scheme: "file", language: "yaml" },
+          { scheme: "file", pattern: "**/rapidgen.toml" },
         ],
         outputChannel: this.log,
         initializationOptions: { ...vscode.workspace.getConfiguration("rapidgen") },
