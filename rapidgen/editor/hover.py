@@ -27,7 +27,7 @@ from rapidgen.rapid.binding.constants import NotConstant, evaluate
 from rapidgen.rapid.binding.lookup import scope_at
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.builtins import signatures
-from rapidgen.rapid.builtins.signatures import Signature, Value
+from rapidgen.rapid.builtins.signatures import Description, Signature, Value, Version
 from rapidgen.rapid.syntax.nodes import Name, Parameter, ProcedureCall, RoutineDeclaration
 from rapidgen.rapid.syntax.source import Source
 from rapidgen.rapid.syntax.walk import walk
@@ -63,11 +63,10 @@ def describe(view: View, symbol: Symbol, token: int = -1) -> str:
     if comment:
         parts.append(comment)
     if symbol.module is None:
-        text = signatures.description(symbol.name)
-        if text:
-            parts.append(text)
-    if isinstance(symbol, RoutineSymbol) and symbol.signature is not None:
-        parts += _releases(symbol.signature)
+        known = signatures.described(symbol.name)
+        parts += [known.text] if known.text else []
+        parts += [f"```rapid\n{known.example}\n```"] if known.example else []
+        parts += _releases(symbol, known)
     if isinstance(symbol, DataSymbol):
         parts += _value(view, symbol, token)
     where = _origin(view, symbol)
@@ -201,16 +200,32 @@ def _escaped(text: str) -> str:
     return re.sub(r"([\\`*_{}\[\]<>#|])", r"\\\1", text)
 
 
-def _releases(signature: Signature) -> list[str]:
-    """Return since and until when a built-in routine exists."""
-    parts = []
-    if signature.since is not None:
-        parts.append(f"from RobotWare {signature.since[0]}.{signature.since[1]}")
-    if signature.until is not None:
-        parts.append(f"before RobotWare {signature.until[0]}.{signature.until[1]}")
-    if not signature.everywhere and signature.since is None:
+def _releases(symbol: Symbol, known: Description) -> list[str]:
+    """Return the releases and the option that have a built-in name, and its changed arguments."""
+    signature = symbol.signature if isinstance(symbol, RoutineSymbol) else None
+    since, parts, arguments = known.since, [], []
+    if signature is not None:
+        since = signature.since or since
+        for parameter in signature.parameters:
+            came = signature.argument_version("came", parameter.name)
+            went = signature.argument_version("went", parameter.name)
+            for word, release in (("from", came), ("before", went)):
+                if release is not None:
+                    arguments.append(f"`\\{parameter.name}` {word} RobotWare {_release(release)}")
+    if since is not None:
+        parts.append(f"from RobotWare {_release(since)}")
+    if signature is not None and signature.until is not None:
+        parts.append(f"before RobotWare {_release(signature.until)}")
+    if known.option:
+        parts.append(f"with the option {known.option}")
+    elif signature is not None and not signature.everywhere and since is None:
         parts.append("only with an option of RobotWare")
-    return [f"Available {' and '.join(parts)}."] if parts else []
+    lines = [f"Available {' and '.join(parts)}."] if parts else []
+    return [*lines, f"Arguments: {', '.join(dict.fromkeys(arguments))}."] if arguments else lines
+
+
+def _release(version: Version) -> str:
+    return f"{version[0]}.{version[1]}"
 
 
 def _origin(view: View, symbol: Symbol) -> str:

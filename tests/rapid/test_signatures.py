@@ -1,10 +1,7 @@
 """The built-ins as data hold together."""
 
-from pathlib import Path
-
 import pytest
 
-from rapidgen.rapid.binding import builtin
 from rapidgen.rapid.builtins import signatures
 
 
@@ -124,20 +121,7 @@ def test_fully_known_names_are_in_no_option_list():
     assert set(signatures.predefined()) & listed("values") == set()
 
 
-# -- places and descriptions -----------------------------------------------------------------
-
-
-def test_descriptions_are_sentences_about_built_in_names():
-    lines = (Path(signatures.__file__).parent / "descriptions.txt").read_text().splitlines()
-    names = [line.partition(": ")[0] for line in lines]
-    assert len(set(names)) == len(names) >= 300
-    for line, name in zip(lines, names, strict=True):
-        symbol = builtin(name.lower())
-        assert symbol is not None, name
-        assert symbol.name == name or symbol.name == name.lower()
-        assert line.endswith("."), name
-        assert signatures.description(name.upper()) == line.partition(": ")[2]
-    assert signatures.description("nowhere") == ""
+# -- places ----------------------------------------------------------------------------------
 
 
 def test_every_built_in_routine_has_the_place_of_its_header():

@@ -27,8 +27,8 @@ Message | \\string MsgArray{*}`).
 """
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from types import MappingProxyType
@@ -199,7 +199,7 @@ def _marks(text: str) -> dict[str, tuple[str, ...]]:
     return result
 
 
-def _version(words: tuple[str, ...]) -> Version | None:
+def _version(words: Sequence[str]) -> Version | None:
     if not words:
         return None
     major, _, minor = words[0].partition(".")
@@ -372,16 +372,56 @@ def place(name: str) -> tuple[Path, int, int, int] | None:
     return _places().get(name.lower())
 
 
+@dataclass(frozen=True, slots=True)
+class Description:
+    """What an editor tells about a built-in name; what no source gives is empty.
+
+    Releases are in the marks of routines, and here for types. Sources of options: the README of
+    public programs and their backups, and ABB's file for externally guided motion.
+    """
+
+    text: str = ""
+    """One sentence."""
+    example: str = ""
+    """Statements, or a declaration."""
+    since: Version | None = None
+    option: str = ""
+    """Number and name of the option for IRC5 that contains it."""
+
+
+_NOTHING: Final = Description()
+
+
 @cache
-def _descriptions() -> Mapping[str, str]:
-    """Return the description of built-in names, by the lower-case name."""
-    result = {}
+def _descriptions() -> Mapping[str, Description]:
+    """Return the description of built-in names, by the lower-case name.
+
+    In the file a line `name: sentence` may have an example below it, with spaces before it.
+    `!since version: names` and `!option name: names` stand at its head.
+    """
+    result: dict[str, Description] = {}
+    since: dict[str, Version | None] = {}
+    option: dict[str, str] = {}
+    last = ""
     for line in (_FOLDER / "descriptions.txt").read_text("utf-8").splitlines():
         name, _, text = line.partition(": ")
-        result[name.lower()] = text
+        if line.startswith("!since "):
+            since.update(dict.fromkeys(text.lower().split(), _version(name.split()[1:])))
+        elif line.startswith("!option "):
+            option.update(dict.fromkeys(text.lower().split(), name.partition(" ")[2]))
+        elif line.startswith(" "):
+            result[last] = replace(result[last], example=line.strip())
+        else:
+            last = name.lower()
+            result[last] = Description(text, "", since.get(last), option.get(last, ""))
     return result
+
+
+def described(name: str) -> Description:
+    """Return what is known about a built-in name (any case); nothing for other names."""
+    return _descriptions().get(name.lower(), _NOTHING)
 
 
 def description(name: str) -> str:
     """Return one sentence about a built-in routine, type or datum; empty if there is none."""
-    return _descriptions().get(name.lower(), "")
+    return described(name).text
